@@ -1,0 +1,21 @@
+//! Readers and writers of the files of movement science. Bytes in, records out, and back.
+//!
+//! This crate knows no physics and opens no file: every reader takes bytes and returns a record that says what the
+//! file says, in the file's own names; every writer returns bytes. Units are converted to SI (metres, seconds) where
+//! the format states its unit; angles stay as the file has them, with a flag.
+//!
+//! | module | format | read | write |
+//! |---|---|---|---|
+//! | [`table`] | OpenSim `.mot` / `.sto` (versions 1-3), numeric CSV | yes | yes |
+//! | [`trc`] | marker trajectories `.trc` | yes | yes |
+//! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
+//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | - |
+
+pub mod error;
+pub mod external_loads;
+pub mod osim;
+pub mod table;
+pub mod trc;
+mod xml;
+
+pub use error::{Error, Remark};

@@ -1,0 +1,225 @@
+//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers and markers, as the document states them.
+//!
+//! Document versions 20303 to 40600 are read, in both layouts: joints nested in their child body with
+//! `location_in_parent` (to 30500), and joints in a `JointSet` with offset frames (from 30505), the frames named by
+//! connectors, by `..._connectee_name` or by `socket_...` elements. Other versions are tried and remarked upon.
+//!
+//! Lengths are metres, masses kg, inertias kg.m² about the mass centre, angles radians, as the format defines them.
+//! What plays no part in rigid-body dynamics (muscles, wrapping, geometry, controllers) is counted in
+//! [`OsimModel::ignored`], by the tag of its element.
+
+mod constraint;
+mod frame;
+mod function;
+mod joint;
+
+pub use constraint::OsimConstraint;
+pub use function::{Knots, OsimFunction};
+pub use joint::{OsimAxis, OsimCoordinate, OsimJoint, OsimJointKind};
+
+use crate::error::{Error, Remark, quoted};
+use crate::xml;
+use frame::Frames;
+use roxmltree::Node;
+use std::collections::BTreeMap;
+
+/// Oldest document version whose layout is known.
+const OLDEST_VERSION: u32 = 20303;
+/// Newest document version whose layout is known.
+const NEWEST_VERSION: u32 = 40600;
+
+/// A model as the document states it: names, numbers and frames, nothing checked for physics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OsimModel {
+    /// The model's `name` attribute.
+    pub name: String,
+    /// The document's `Version`, such as 40000.
+    pub document_version: u32,
+    /// Gravity in the model's ground frame [m/s²].
+    pub gravity: [f64; 3],
+    /// Bodies in document order; ground is not among them.
+    pub bodies: Vec<OsimBody>,
+    /// Joints in document order.
+    pub joints: Vec<OsimJoint>,
+    /// Constraints in document order.
+    pub constraints: Vec<OsimConstraint>,
+    /// Markers in document order.
+    pub markers: Vec<OsimMarker>,
+    /// Elements that were passed over, by tag, with their number.
+    pub ignored: BTreeMap<String, usize>,
+    /// What was odd in the document.
+    pub remarks: Vec<Remark>,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OsimBody {
+    /// Name of the body.
+    pub name: String,
+    /// Line of the element, counted from 1.
+    pub line: usize,
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Mass centre in the body frame [m].
+    pub mass_center_m: [f64; 3],
+    /// Inertia about the mass centre in body axes: xx, yy, zz, xy, xz, yz [kg.m²].
+    pub inertia: [f64; 6],
+}
+
+/// A frame fixed to a body (or to ground): where it sits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OsimFrame {
+    /// Name of the body, or `ground`.
+    pub body: String,
+    /// Rotation matrix, rows first: columns are the frame's axes in body axes.
+    pub rotation: [[f64; 3]; 3],
+    /// Origin in the body frame [m].
+    pub translation_m: [f64; 3],
+}
+
+/// A marker fixed to a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OsimMarker {
+    /// Name of the marker.
+    pub name: String,
+    /// Name of the body, or `ground`.
+    pub body: String,
+    /// Place in the body frame [m].
+    pub location_m: [f64; 3],
+}
+
+impl OsimModel {
+    /// Reads a model document.
+    ///
+    /// # Errors
+    /// XML that is not well formed, a document without a model, numbers that do not read, joints whose frames lead
+    /// nowhere, functions and joint types that are not known. Each names line and element.
+    pub fn read(bytes: &[u8]) -> Result<OsimModel, Error> {
+        let text = xml::decode(bytes);
+        if text.trim().is_empty() {
+            return Err(Error::Empty { expected: "an <OpenSimDocument>" });
+        }
+        let document = xml::parse(&text)?;
+        let root = document.root_element();
+        let mut remarks = Vec::new();
+        let document_version = document_version(root, &mut remarks)?;
+        let model = xml::child(root, "Model")
+            .ok_or_else(|| xml::error_at(root, found_children(root), "a <Model> inside <OpenSimDocument>"))?;
+        read_model(model, document_version, remarks)
+    }
+}
+
+fn document_version(root: Node<'_, '_>, remarks: &mut Vec<Remark>) -> Result<u32, Error> {
+    if !root.has_tag_name("OpenSimDocument") {
+        let found = format!("the root element <{}>", root.tag_name().name());
+        return Err(xml::error_at(root, found, "the root element <OpenSimDocument> of an .osim model"));
+    }
+    let stated = root.attribute("Version").unwrap_or_default();
+    let version = stated
+        .trim()
+        .parse()
+        .map_err(|_| xml::error_at(root, quoted(stated), "a Version attribute such as \"40000\""))?;
+    if !(OLDEST_VERSION..=NEWEST_VERSION).contains(&version) {
+        let message =
+            format!("document version {version} is outside the known {OLDEST_VERSION}-{NEWEST_VERSION}; read as it is");
+        remarks.push(Remark { line: Some(xml::line_of(root)), message });
+    }
+    Ok(version)
+}
+
+fn found_children(node: Node<'_, '_>) -> String {
+    let tags: Vec<_> = xml::elements(node).take(5).map(|c| format!("<{}>", c.tag_name().name())).collect();
+    if tags.is_empty() { "nothing".into() } else { tags.join(", ") }
+}
+
+fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) -> Result<OsimModel, Error> {
+    let body_nodes: Vec<_> = members(model, "BodySet").filter(|b| b.has_tag_name("Body")).collect();
+    let body_nodes: Vec<_> = body_nodes.into_iter().filter(|b| !is_ground(name_of(*b))).collect();
+    let bodies = body_nodes.iter().map(|b| read_body(*b)).collect::<Result<Vec<_>, _>>()?;
+    let frames = Frames::collect(model, &bodies)?;
+
+    let mut joints = Vec::new();
+    for body in &body_nodes {
+        let nested = xml::child(*body, "Joint").or_else(|| xml::child(*body, "joint"));
+        for node in nested.into_iter().flat_map(|n| xml::elements(n)) {
+            joints.push(joint::read_nested(node, name_of(*body))?);
+        }
+    }
+    for node in members(model, "JointSet") {
+        joints.push(joint::read_framed(node, &frames)?);
+    }
+    let constraints = members(model, "ConstraintSet").map(constraint::read).collect::<Result<_, _>>()?;
+    let markers = members(model, "MarkerSet").map(|m| read_marker(m, &frames)).collect::<Result<_, _>>()?;
+    Ok(OsimModel {
+        name: name_of(model).to_owned(),
+        document_version,
+        gravity: xml::triple(model, "gravity")?.unwrap_or([0.0, -9.80665, 0.0]),
+        bodies,
+        joints,
+        constraints,
+        markers,
+        ignored: count_ignored(model),
+        remarks,
+    })
+}
+
+/// The elements of a set's `<objects>`.
+fn members<'a, 'i>(model: Node<'a, 'i>, set: &str) -> impl Iterator<Item = Node<'a, 'i>> {
+    xml::child(model, set).and_then(|s| xml::child(s, "objects")).into_iter().flat_map(|o| xml::elements(o))
+}
+
+fn name_of<'a>(node: Node<'a, '_>) -> &'a str {
+    node.attribute("name").unwrap_or_default().trim()
+}
+
+fn is_ground(name: &str) -> bool {
+    name == "ground"
+}
+
+fn read_body(node: Node<'_, '_>) -> Result<OsimBody, Error> {
+    Ok(OsimBody {
+        name: name_of(node).to_owned(),
+        line: xml::line_of(node),
+        mass_kg: xml::number(node, "mass")?.ok_or_else(|| xml::error_at(node, "no <mass>".into(), "a mass in kg"))?,
+        mass_center_m: xml::triple(node, "mass_center")?.unwrap_or_default(),
+        inertia: read_inertia(node)?,
+    })
+}
+
+/// `<inertia>` with six numbers (from 30500), or six elements `inertia_xx`, ...
+fn read_inertia(body: Node<'_, '_>) -> Result<[f64; 6], Error> {
+    if let Some(values) = xml::numbers(body, "inertia")? {
+        let found = format!("{} numbers in <inertia>", values.len());
+        return values.try_into().map_err(|_| xml::error_at(body, found, "six numbers: xx yy zz xy xz yz"));
+    }
+    let mut inertia = [0.0; 6];
+    for (value, axes) in inertia.iter_mut().zip(["xx", "yy", "zz", "xy", "xz", "yz"]) {
+        *value = xml::number(body, &format!("inertia_{axes}"))?.unwrap_or(0.0);
+    }
+    Ok(inertia)
+}
+
+fn read_marker(node: Node<'_, '_>, frames: &Frames) -> Result<OsimMarker, Error> {
+    let location = xml::triple(node, "location")?.unwrap_or_default();
+    let frame = match xml::text(node, "body") {
+        Some(body) => frames.resolve(node, body)?,
+        None => frames.of_socket(node, "parent_frame")?,
+    };
+    Ok(OsimMarker { name: name_of(node).to_owned(), location_m: frame.place(location), body: frame.body })
+}
+
+/// Components with no part in the dynamics, counted by tag where they stand in their sets.
+fn count_ignored(model: Node<'_, '_>) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    let sets = ["ForceSet", "ControllerSet", "ProbeSet", "ContactGeometrySet", "ComponentSet"];
+    let listed = sets.iter().flat_map(|set| members(model, set));
+    let wrapped = model.descendants().filter(|n| n.tag_name().name().starts_with("Wrap") && is_wrap_object(*n));
+    for node in listed.chain(wrapped) {
+        *counts.entry(node.tag_name().name().to_owned()).or_insert(0) += 1;
+    }
+    counts
+}
+
+fn is_wrap_object(node: Node<'_, '_>) -> bool {
+    matches!(node.tag_name().name(), "WrapSphere" | "WrapCylinder" | "WrapEllipsoid" | "WrapTorus")
+}

@@ -1,0 +1,100 @@
+//! The few questions that the XML readers ask of a document, with errors that name line and element.
+
+use crate::error::{Error, quoted};
+use roxmltree::{Document, Node, ParsingOptions};
+
+/// More nodes than this is no model of a body; the bound keeps memory bounded on hostile input.
+const NODE_LIMIT: u32 = 4_000_000;
+
+/// Parses a document. Document type definitions, and so entity bombs, are refused.
+pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
+    let options = ParsingOptions { allow_dtd: false, nodes_limit: NODE_LIMIT, ..ParsingOptions::default() };
+    Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
+}
+
+/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old exporters wrote it.
+pub(crate) fn decode(bytes: &[u8]) -> String {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+    }
+}
+
+/// First child element with this tag.
+pub(crate) fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|c| c.has_tag_name(tag))
+}
+
+/// Child elements, comments and text left out.
+pub(crate) fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children().filter(Node::is_element)
+}
+
+/// Trimmed text of the child with this tag; nothing where the child is missing or empty.
+pub(crate) fn text<'a>(node: Node<'a, '_>, tag: &str) -> Option<&'a str> {
+    child(node, tag).and_then(|c| c.text()).map(str::trim).filter(|t| !t.is_empty())
+}
+
+/// Line of the element's opening tag, counted from 1.
+pub(crate) fn line_of(node: Node<'_, '_>) -> usize {
+    node.document().text_pos_at(node.range().start).row as usize
+}
+
+/// An error at this element.
+pub(crate) fn error_at(node: Node<'_, '_>, found: String, expected: impl Into<String>) -> Error {
+    let name = node.attribute("name").map(|n| format!(" name=\"{n}\"")).unwrap_or_default();
+    Error::Element {
+        line: line_of(node),
+        element: format!("{}{name}", node.tag_name().name()),
+        found,
+        expected: expected.into(),
+    }
+}
+
+/// The finite numbers in this element's own text.
+pub(crate) fn numbers_of(node: Node<'_, '_>) -> Result<Vec<f64>, Error> {
+    node.text()
+        .unwrap_or_default()
+        .split_whitespace()
+        .map(|word| match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(error_at(node, quoted(word), "finite numbers separated by spaces")),
+        })
+        .collect()
+}
+
+/// The numbers of the child with this tag, `None` where it is missing.
+pub(crate) fn numbers(node: Node<'_, '_>, tag: &str) -> Result<Option<Vec<f64>>, Error> {
+    child(node, tag).map(numbers_of).transpose()
+}
+
+/// One number of the child with this tag, `None` where it is missing or empty.
+pub(crate) fn number(node: Node<'_, '_>, tag: &str) -> Result<Option<f64>, Error> {
+    let Some(values) = numbers(node, tag)? else { return Ok(None) };
+    match values[..] {
+        [] => Ok(None),
+        [value] => Ok(Some(value)),
+        _ => Err(error_at(child(node, tag).unwrap_or(node), format!("{} numbers", values.len()), "one number")),
+    }
+}
+
+/// Three numbers of the child with this tag, `None` where it is missing or empty.
+pub(crate) fn triple(node: Node<'_, '_>, tag: &str) -> Result<Option<[f64; 3]>, Error> {
+    let Some(values) = numbers(node, tag)? else { return Ok(None) };
+    match values[..] {
+        [] => Ok(None),
+        [x, y, z] => Ok(Some([x, y, z])),
+        _ => Err(error_at(child(node, tag).unwrap_or(node), format!("{} numbers", values.len()), "three numbers")),
+    }
+}
+
+/// `true` or `false` of the child with this tag, `None` where it is missing or empty.
+pub(crate) fn boolean(node: Node<'_, '_>, tag: &str) -> Result<Option<bool>, Error> {
+    match text(node, tag) {
+        None => Ok(None),
+        Some(t) if t.eq_ignore_ascii_case("true") || t == "1" => Ok(Some(true)),
+        Some(t) if t.eq_ignore_ascii_case("false") || t == "0" => Ok(Some(false)),
+        Some(t) => Err(error_at(child(node, tag).unwrap_or(node), quoted(t), "`true` or `false`")),
+    }
+}
