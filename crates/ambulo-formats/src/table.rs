@@ -1,0 +1,127 @@
+//! Tables of named numeric columns: OpenSim storage (`.mot`, `.sto`) and CSV.
+//!
+//! A table says what the file says: names, numbers, and whether its header claims degrees. Which column is an angle, a
+//! force or a length is for the caller to know. Not-a-number and infinity are read as such; the caller decides.
+//!
+//! | file | read | written |
+//! |---|---|---|
+//! | storage | versions 1-3 with one number a cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
+//! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas |
+//!
+//! Written numbers are the shortest that read back as the same bits.
+//! Not handled, and refused: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
+//! Pinned by: tests/tables.rs, tests/malformed.rs, tests/real_files.rs
+
+mod csv;
+pub(crate) mod lines;
+mod storage;
+
+use crate::error::{Error, Remark, quoted};
+
+/// Named numeric columns of one length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What the header calls the table; empty where it has no name.
+    pub name: String,
+    /// Whether the header says that angles are in degrees; `None` where it says nothing.
+    pub in_degrees: Option<bool>,
+    names: Vec<String>,
+    data: Vec<Vec<f64>>,
+    lines: Vec<usize>,
+}
+
+impl Table {
+    /// A table of these columns, which must have one length and names that differ.
+    pub fn new(name: impl Into<String>, columns: Vec<(String, Vec<f64>)>) -> Result<Table, Error> {
+        let (names, data): (Vec<String>, Vec<Vec<f64>>) = columns.into_iter().unzip();
+        let Some(first) = data.first() else {
+            return Err(invalid("a table without columns", "one column or more"));
+        };
+        if let Some(odd) = data.iter().position(|column| column.len() != first.len()) {
+            let found = format!("{} values in column {}", data[odd].len(), quoted(&names[odd]));
+            return Err(invalid(found, format!("{}, as in column {}", first.len(), quoted(&names[0]))));
+        }
+        names.iter().try_for_each(|name| lines::check_name(name))?;
+        if let Some(twice) = lines::duplicate(names.iter().map(String::as_str)) {
+            return Err(invalid(format!("two columns {}", quoted(twice)), "names that differ"));
+        }
+        Ok(Table { name: name.into(), in_degrees: None, names, data, lines: Vec::new() })
+    }
+
+    /// Reads an OpenSim `.mot` or `.sto` file.
+    pub fn read_storage(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
+        storage::read(bytes)
+    }
+
+    /// Writes OpenSim storage of version 1, which OpenSim 2 to 4 load if the first column is `time`.
+    pub fn write_storage(&self) -> Vec<u8> {
+        storage::write(self)
+    }
+
+    /// Reads a CSV file with a header row. Its table has no name, and says nothing about degrees.
+    pub fn read_csv(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
+        csv::read(bytes)
+    }
+
+    /// Writes CSV: a header row, then numbers, separated by commas. Name and degrees flag are not written.
+    pub fn write_csv(&self) -> Vec<u8> {
+        csv::write(self)
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.data.first().map_or(0, Vec::len)
+    }
+
+    /// Column names as they stand in the file, the time column's among them.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Names with their values, from left to right.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.names.iter().map(String::as_str).zip(self.data.iter().map(Vec::as_slice))
+    }
+
+    /// Values of the column with exactly this name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns().find(|(n, _)| *n == name).map(|(_, values)| values)
+    }
+
+    /// Values of the first column where its name is `time`, in any case \[s\]. Every storage file has it, a CSV file may.
+    pub fn times(&self) -> Option<&[f64]> {
+        let (name, values) = self.columns().next()?;
+        name.eq_ignore_ascii_case("time").then_some(values)
+    }
+
+    /// Line of the file in which this row stands, counted from 1; `None` for a table made in memory.
+    pub fn line_of_row(&self, row: usize) -> Option<usize> {
+        self.lines.get(row).copied()
+    }
+}
+
+/// The coordinate whose value a column holds, read off the column's name.
+///
+/// OpenSim writes positions and speeds side by side. To pick the positions, ask this for every column but `time`:
+///
+/// | column name | answer |
+/// |---|---|
+/// | `/jointset/hip_r/hip_flexion_r/value` (OpenSim 4) | `hip_flexion_r` |
+/// | `hip_r/hip_flexion_r/value` (OpenSim 3.3) | `hip_flexion_r` |
+/// | `hip_flexion_r` (motion files) | `hip_flexion_r` |
+/// | `/jointset/hip_r/hip_flexion_r/speed`, `/forceset/soleus_r/activation` | none: another state variable |
+///
+/// A plain name may still be no coordinate (`hip_flexion_r_u`, `soleus_r.activation`, `hip_flexion_r_moment`): only
+/// the model knows.
+pub fn coordinate_of_state_path(column: &str) -> Option<&str> {
+    let mut parts = column.rsplit('/');
+    let last = parts.next().filter(|part| !part.is_empty())?;
+    match parts.next() {
+        None => Some(last),
+        Some(coordinate) => (last == "value" && !coordinate.is_empty()).then_some(coordinate),
+    }
+}
+
+fn invalid(found: impl Into<String>, expected: impl Into<String>) -> Error {
+    Error::Record { found: found.into(), expected: expected.into() }
+}

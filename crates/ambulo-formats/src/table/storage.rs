@@ -1,0 +1,259 @@
+//! OpenSim storage: a header that ends with `endheader`, a line of names, then rows of numbers.
+
+use super::Table;
+use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
+use crate::error::{Error, Remark, quoted};
+use std::io::Write;
+
+/// A header is ten lines long; comments of some programs take a few dozen.
+const MAX_HEADER_LINES: usize = 4096;
+
+const ENDHEADER: &str = "endheader";
+
+/// Reads a `.mot` or `.sto` file.
+pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
+    let mut lines = Lines::new(bytes, "an OpenSim storage file: a header that ends with `endheader`, names, rows")?;
+    let mut remarks = Vec::new();
+    let header = read_header(&mut lines, &mut remarks)?;
+    let (label_line, names) = read_names(&mut lines)?;
+    let width = names.len();
+    let mut table =
+        Table { name: header.name, in_degrees: header.in_degrees, names, data: vec![vec![]; width], lines: vec![] };
+    read_rows(&mut lines, &mut table, header.rows)?;
+    if let Some(stated) = header.columns.filter(|&stated| stated != width) {
+        let message = format!("the header states {}, the file has {width}; read {width}", counted(stated, "column"));
+        remarks.push(Remark { line: Some(label_line), message });
+    }
+    if let Some(stated) = header.rows.filter(|&stated| stated != table.rows()) {
+        remarks.push(Remark { line: None, message: row_count_message(stated, table.rows(), &lines) });
+    }
+    Ok((table, remarks))
+}
+
+fn row_count_message(stated: usize, rows: usize, lines: &Lines<'_>) -> String {
+    let cut = if rows < stated && !lines.last_is_ended() {
+        "; the last line is not ended, so its last number may be cut"
+    } else {
+        ""
+    };
+    format!("the header states {}, the file has {rows}; read {rows}{cut}", counted(stated, "row"))
+}
+
+#[derive(Default)]
+struct Header {
+    name: String,
+    in_degrees: Option<bool>,
+    /// "Angles are in degrees.", which files before version 1 have instead of a key.
+    angles_in_degrees: Option<bool>,
+    rows: Option<usize>,
+    columns: Option<usize>,
+}
+
+fn read_header(lines: &mut Lines<'_>, remarks: &mut Vec<Remark>) -> Result<Header, Error> {
+    let mut header = Header::default();
+    let mut first = true;
+    for _ in 0..MAX_HEADER_LINES {
+        let Some(line) = lines.next_line()? else {
+            return Err(lines.truncated(format!("a line `{ENDHEADER}` that closes the header")));
+        };
+        let text = line.text.trim();
+        if text.eq_ignore_ascii_case(ENDHEADER) {
+            settle_degrees(&mut header, remarks);
+            return Ok(header);
+        }
+        if text.is_empty() {
+            continue;
+        }
+        let known = header.take(&line, remarks)?;
+        if first && !known {
+            header.name = text.to_owned();
+        }
+        first = false;
+    }
+    let expected = format!("a line `{ENDHEADER}` among the first {MAX_HEADER_LINES} lines");
+    Err(Error::Line { line: MAX_HEADER_LINES, found: "a header without end".into(), expected })
+}
+
+fn settle_degrees(header: &mut Header, remarks: &mut Vec<Remark>) {
+    let (Some(key), Some(sentence)) = (header.in_degrees, header.angles_in_degrees) else {
+        header.in_degrees = header.in_degrees.or(header.angles_in_degrees);
+        return;
+    };
+    if key != sentence {
+        let unit = |degrees| if degrees { "degrees" } else { "radians" };
+        let message = format!(
+            "`inDegrees` says {}, but \"Angles are in {}.\" stands beside it; `inDegrees` was followed",
+            unit(key),
+            unit(sentence)
+        );
+        remarks.push(Remark { line: None, message });
+    }
+}
+
+impl Header {
+    /// Takes what one line states. False for a line without a key that we know.
+    fn take(&mut self, line: &Line<'_>, remarks: &mut Vec<Remark>) -> Result<bool, Error> {
+        let (key, value) = split_key(&line.text);
+        match key.to_ascii_lowercase().as_str() {
+            "name" => self.name = value.to_owned(),
+            "nrows" | "nr" | "datarows" => self.rows = Some(count(line, key, value)?),
+            "ncolumns" | "nc" | "datacolumns" => self.columns = Some(count(line, key, value)?),
+            "indegrees" => self.in_degrees = Some(yes_or_no(line, value)?),
+            "datatype" => check_data_type(line, value)?,
+            "version" => remarks.extend(unknown_version(line, value)),
+            "angles" => self.angles_in_degrees = angles_sentence(&line.text).or(self.angles_in_degrees),
+            "opensimversion" | "range" => {}
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}
+
+/// `nRows=5`, `nRows = 5` and `datarows 5` in key and value.
+fn split_key(text: &str) -> (&str, &str) {
+    let separator = |c: char| c.is_whitespace() || c == '=';
+    let text = text.trim();
+    match text.find(separator) {
+        Some(end) => (&text[..end], text[end..].trim_start_matches(separator)),
+        None => (text, ""),
+    }
+}
+
+fn count(line: &Line<'_>, key: &str, value: &str) -> Result<usize, Error> {
+    value.parse().map_err(|_| line.error(format!("{key} {}", quoted(value)), "a whole number of rows or columns"))
+}
+
+fn yes_or_no(line: &Line<'_>, value: &str) -> Result<bool, Error> {
+    match value.to_ascii_lowercase().as_str() {
+        "yes" | "y" | "true" | "1" => Ok(true),
+        "no" | "n" | "false" | "0" => Ok(false),
+        _ => Err(line.error(format!("inDegrees {}", quoted(value)), "`inDegrees=yes` or `inDegrees=no`")),
+    }
+}
+
+fn check_data_type(line: &Line<'_>, value: &str) -> Result<(), Error> {
+    if value.eq_ignore_ascii_case("double") {
+        return Ok(());
+    }
+    let expected = "`DataType=double`, one number a cell; export the table flattened, one column a component";
+    Err(line.error(format!("DataType {}", quoted(value)), expected))
+}
+
+fn unknown_version(line: &Line<'_>, value: &str) -> Option<Remark> {
+    if value.parse().is_ok_and(|version: u32| version <= 3) {
+        return None;
+    }
+    let message = format!("storage version {}; versions 1 to 3 are known, it was read as one of them", quoted(value));
+    Some(Remark { line: Some(line.number), message })
+}
+
+fn angles_sentence(text: &str) -> Option<bool> {
+    match text.trim().trim_end_matches('.').to_ascii_lowercase().as_str() {
+        "angles are in degrees" => Some(true),
+        "angles are in radians" => Some(false),
+        _ => None,
+    }
+}
+
+/// The line of names, with its number.
+fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), Error> {
+    let Some(line) = lines.next_filled()? else {
+        return Err(lines.truncated("a line of column names and rows of numbers"));
+    };
+    let Some(first_row) = lines.clone().next_filled()? else {
+        return Err(lines.truncated("rows of numbers below the column names"));
+    };
+    let names = split_names(&line.text, first_row.text.split_ascii_whitespace().count());
+    match names.first() {
+        Some(first) if first.eq_ignore_ascii_case("time") => {}
+        first => {
+            let found = format!("the first column {}", quoted(first.map_or("", |name| name)));
+            return Err(line.error(found, "a first column `time`"));
+        }
+    }
+    if let Some(twice) = duplicate(names.iter().map(String::as_str)) {
+        return Err(line.error(format!("two columns {}", quoted(twice)), "column names that differ"));
+    }
+    Ok((line.number, names))
+}
+
+/// Names stand between tabs, and may hold spaces, where that gives as many as the first row has numbers; otherwise
+/// between any white space.
+fn split_names(text: &str, width: usize) -> Vec<String> {
+    let between_tabs: Vec<&str> = text.split('\t').map(str::trim).filter(|name| !name.is_empty()).collect();
+    if between_tabs.len() == width {
+        return between_tabs.into_iter().map(str::to_owned).collect();
+    }
+    text.split_whitespace().map(str::to_owned).collect()
+}
+
+fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) -> Result<(), Error> {
+    while let Some(line) = lines.next_filled()? {
+        if let Err(error) = read_row(&line, &mut table.data) {
+            let may_miss = stated.is_none_or(|stated| table.lines.len() < stated);
+            let cut = may_miss && lines.is_at_end() && is_cut(&line, table.data.len(), lines.last_is_ended());
+            let expected = || format!("the rest of a row of {} numbers", table.data.len());
+            return Err(if cut { lines.truncated(expected()) } else { error });
+        }
+        table.lines.push(line.number);
+    }
+    Ok(())
+}
+
+/// Whether the file was cut in this row: numbers are missing, or the last one breaks off.
+fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
+    let words = || line.text.split_ascii_whitespace();
+    let count = words().count();
+    let whole = words().filter(|word| number(word).is_some()).count();
+    let last_is_broken = !ended && words().last().is_some_and(|word| number(word).is_none());
+    (count < width && whole == count) || (count <= width && whole + 1 == count && last_is_broken)
+}
+
+fn read_row(line: &Line<'_>, columns: &mut [Vec<f64>]) -> Result<(), Error> {
+    let mut words = line.text.split_ascii_whitespace();
+    let mut filled = 0;
+    for (column, word) in columns.iter_mut().zip(&mut words) {
+        column.push(number(word).ok_or_else(|| line.error(quoted(word), expected_number(word)))?);
+        filled += 1;
+    }
+    let extra = words.count();
+    if filled < columns.len() || extra > 0 {
+        let expected = format!("{}, one a column", columns.len());
+        return Err(line.error(counted(filled + extra, "number"), expected));
+    }
+    Ok(())
+}
+
+/// Writes version 1, tab separated.
+pub(super) fn write(table: &Table) -> Vec<u8> {
+    let mut out = name_line(&table.name).into_bytes();
+    let header = format!("version=1\nnRows={}\nnColumns={}\n", table.rows(), table.names.len());
+    out.extend_from_slice(header.as_bytes());
+    if let Some(in_degrees) = table.in_degrees {
+        out.extend_from_slice(if in_degrees { b"inDegrees=yes\n" } else { b"inDegrees=no\n" });
+    }
+    out.extend_from_slice(format!("{ENDHEADER}\n{}\n", table.names.join("\t")).as_bytes());
+    for row in 0..table.rows() {
+        for (k, column) in table.data.iter().enumerate() {
+            let separator = if k == 0 { "" } else { "\t" };
+            // `{:?}` is the shortest text that reads back as the same bits, with an exponent for very large and small.
+            write!(out, "{separator}{:?}", column[row]).expect("writing to memory does not fail");
+        }
+        out.push(b'\n');
+    }
+    out
+}
+
+/// The name stands alone on the first line, unless a reader would take it for something else.
+fn name_line(name: &str) -> String {
+    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let name = name.trim().trim_start_matches(|c: char| c.is_whitespace() || c == '=');
+    let (key, _) = split_key(name);
+    let line = Line { number: 1, text: key.into() };
+    let is_key = name.contains('=') || !matches!(Header::default().take(&line, &mut Vec::new()), Ok(false));
+    match name {
+        "" => String::new(),
+        _ if is_key || name.eq_ignore_ascii_case(ENDHEADER) => format!("name={name}\n"),
+        _ => format!("{name}\n"),
+    }
+}

@@ -1,0 +1,268 @@
+//! Reading TRC.
+
+use super::{LengthUnit, Marker, Trc};
+use crate::error::{Error, Remark, quoted};
+use crate::table::lines::{Line, Lines, counted, duplicate, expected_number, number};
+
+const FIRST_WORD: &str = "PathFileType";
+
+pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
+    let mut lines = Lines::new(bytes, "a TRC file, which begins with `PathFileType`")?;
+    let name = read_path_line(&mut lines)?;
+    let header = read_header(&mut lines)?;
+    let mut remarks = Vec::new();
+    let names = read_names(&mut lines, header.markers, &mut remarks)?;
+    let markers = names.into_iter().map(|name| Marker { name, positions_m: vec![] }).collect();
+    let Header { rate_hz, unit, orig_start_frame, .. } = header;
+    let (frames, times) = (vec![], vec![]);
+    let mut trc = Trc { name, rate_hz, unit, orig_start_frame, frames, times, markers, lines: vec![] };
+    let oddities = read_frames(&mut lines, &mut trc, header.frames)?;
+    remarks.extend(oddities.remarks());
+    if let Some(stated) = header.frames.filter(|&stated| stated != trc.times.len()) {
+        remarks.push(Remark { line: None, message: frame_count_message(stated, trc.times.len(), &lines) });
+    }
+    Ok((trc, remarks))
+}
+
+fn frame_count_message(stated: usize, frames: usize, lines: &Lines<'_>) -> String {
+    let cut = if frames < stated && !lines.last_is_ended() {
+        "; the last line is not ended, so its last number may be cut"
+    } else {
+        ""
+    };
+    format!("NumFrames states {stated}, the file has {frames}; read {frames}{cut}")
+}
+
+/// The first line; gives what follows `(X/Y/Z)`.
+fn read_path_line(lines: &mut Lines<'_>) -> Result<String, Error> {
+    let line = lines.next_filled()?.ok_or_else(|| lines.truncated(FIRST_WORD))?;
+    let first = line.text.split_whitespace().next().unwrap_or_default();
+    if !first.eq_ignore_ascii_case(FIRST_WORD) {
+        return Err(line.error(quoted(&line.text), format!("`{FIRST_WORD}`, as a TRC file begins")));
+    }
+    Ok(line.text.split_once("(X/Y/Z)").map_or("", |(_, name)| name).trim().to_owned())
+}
+
+struct Header {
+    rate_hz: f64,
+    unit: LengthUnit,
+    orig_start_frame: i64,
+    frames: Option<usize>,
+    markers: Option<usize>,
+}
+
+/// The line of keys and the line of values below it.
+fn read_header(lines: &mut Lines<'_>) -> Result<Header, Error> {
+    let keys = lines.next_filled()?.ok_or_else(|| lines.truncated("a line of keys: DataRate, CameraRate, ..."))?;
+    let values =
+        lines.next_filled()?.ok_or_else(|| lines.truncated("a line of values: data rate, camera rate, ..."))?;
+    let pairs = pair(&keys, &values)?;
+    let value = |key: &str| pairs.iter().find(|(k, _)| k.eq_ignore_ascii_case(key)).map(|&(_, value)| value);
+    let need = |key: &str| value(key).ok_or_else(|| keys.error(quoted(&keys.text), format!("a key `{key}`")));
+    let rate = need("DataRate")?;
+    let whole = |key: &str| value(key).map(|text| count(&values, key, text)).transpose();
+    Ok(Header {
+        rate_hz: number(rate).filter(|rate| rate.is_finite() && *rate > 0.0).ok_or_else(|| {
+            values.error(format!("DataRate {}", quoted(rate)), "frames a second, a finite number above zero")
+        })?,
+        unit: read_unit(&values, need("Units")?)?,
+        orig_start_frame: value("OrigDataStartFrame")
+            .map_or(Some(1), integer)
+            .ok_or_else(|| values.error(quoted(&values.text), "a whole number for OrigDataStartFrame"))?,
+        frames: whole("NumFrames")?,
+        markers: whole("NumMarkers")?,
+    })
+}
+
+/// Values stand between white space, or between tabs where one of them is empty.
+fn pair<'l>(keys: &'l Line<'_>, values: &'l Line<'_>) -> Result<Vec<(&'l str, &'l str)>, Error> {
+    let names: Vec<&str> = keys.text.split_whitespace().collect();
+    let words: Vec<&str> = values.text.split_whitespace().collect();
+    if words.len() == names.len() {
+        return Ok(names.into_iter().zip(words).collect());
+    }
+    let cells: Vec<&str> = values.text.split('\t').map(str::trim).collect();
+    let spare_is_empty = cells.iter().skip(names.len()).all(|cell| cell.is_empty());
+    if cells.len() < names.len() || !spare_is_empty || words.len() > names.len() {
+        return Err(
+            values.error(counted(words.len(), "value"), format!("{}, one a key of the line above", names.len()))
+        );
+    }
+    Ok(names.into_iter().zip(cells).filter(|(_, value)| !value.is_empty()).collect())
+}
+
+fn read_unit(line: &Line<'_>, symbol: &str) -> Result<LengthUnit, Error> {
+    LengthUnit::ALL
+        .into_iter()
+        .find(|unit| unit.symbol().eq_ignore_ascii_case(symbol))
+        .ok_or_else(|| line.error(format!("Units {}", quoted(symbol)), "`mm`, `cm` or `m`"))
+}
+
+fn count(line: &Line<'_>, key: &str, text: &str) -> Result<usize, Error> {
+    let value = integer(text).and_then(|value| usize::try_from(value).ok());
+    value.ok_or_else(|| line.error(format!("{key} {}", quoted(text)), "a whole number"))
+}
+
+/// A whole number, also when written `12.0`.
+fn integer(text: &str) -> Option<i64> {
+    let whole =
+        text.split_once('.').filter(|(_, tail)| tail.bytes().all(|b| b == b'0')).map_or(text, |(whole, _)| whole);
+    whole.parse().ok()
+}
+
+/// The line of marker names and the line of X1 Y1 Z1 below it.
+fn read_names(lines: &mut Lines<'_>, stated: Option<usize>, remarks: &mut Vec<Remark>) -> Result<Vec<String>, Error> {
+    let line = lines.next_filled()?.ok_or_else(|| lines.truncated("a line `Frame#`, `Time` and marker names"))?;
+    let mut words = words(&line.text);
+    let is = |word: Option<&&str>, wanted: &str| word.is_some_and(|w| w.eq_ignore_ascii_case(wanted));
+    if !(is(words.first(), "Frame#") || is(words.first(), "Frame")) || !is(words.get(1), "Time") {
+        return Err(line.error(quoted(&line.text), "`Frame#`, `Time`, then marker names"));
+    }
+    let names: Vec<String> = words.drain(2..).map(str::to_owned).collect();
+    if names.is_empty() {
+        return Err(line.error("no marker names", "`Frame#`, `Time`, then marker names"));
+    }
+    if let Some(twice) = duplicate(names.iter().map(String::as_str)) {
+        return Err(line.error(format!("two markers {}", quoted(twice)), "marker names that differ"));
+    }
+    check_axes(lines, names.len())?;
+    if let Some(stated) = stated.filter(|&stated| stated != names.len()) {
+        let message = format!("NumMarkers states {stated}, the file names {}; read {0}", names.len());
+        remarks.push(Remark { line: Some(line.number), message });
+    }
+    Ok(names)
+}
+
+/// Filled cells between tabs, which may hold spaces; words where there is no tab.
+fn words(text: &str) -> Vec<&str> {
+    if text.contains('\t') {
+        return text.split('\t').map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    }
+    text.split_whitespace().collect()
+}
+
+fn check_axes(lines: &mut Lines<'_>, markers: usize) -> Result<(), Error> {
+    let line = lines.next_filled()?.ok_or_else(|| lines.truncated("a line X1 Y1 Z1 X2 ..."))?;
+    let axes: Vec<&str> = line.text.split_whitespace().collect();
+    let expected = || format!("X, Y, Z for each of {}", counted(markers, "named marker"));
+    if axes.len() != 3 * markers {
+        return Err(line.error(counted(axes.len(), "axis name"), expected()));
+    }
+    let odd = axes
+        .iter()
+        .zip(["x", "y", "z"].iter().cycle())
+        .find(|(word, axis)| !word.get(..1).is_some_and(|letter| letter.eq_ignore_ascii_case(axis)));
+    odd.map_or(Ok(()), |(word, _)| Err(line.error(quoted(word), expected())))
+}
+
+/// What a person should know of the frames, counted.
+#[derive(Default)]
+struct Oddities {
+    partial: Count,
+    zero: Count,
+}
+
+#[derive(Default)]
+struct Count {
+    number: usize,
+    /// Line and marker of the first one.
+    first: Option<(usize, String)>,
+}
+
+impl Count {
+    fn add(&mut self, line: usize, marker: &str) {
+        self.number += 1;
+        self.first.get_or_insert_with(|| (line, marker.to_owned()));
+    }
+
+    fn remark(&self, what: &str) -> Option<Remark> {
+        let (line, marker) = self.first.as_ref()?;
+        let message = format!("{} {what} (first: marker {})", counted(self.number, "position"), quoted(marker));
+        Some(Remark { line: Some(*line), message })
+    }
+}
+
+impl Oddities {
+    fn remarks(&self) -> impl Iterator<Item = Remark> {
+        let partial = self.partial.remark("with one or two empty cells; read as a gap");
+        let zero = self.zero.remark("exactly 0 0 0, as some programs write a gap; kept as a position");
+        partial.into_iter().chain(zero)
+    }
+}
+
+fn read_frames(lines: &mut Lines<'_>, trc: &mut Trc, stated: Option<usize>) -> Result<Oddities, Error> {
+    let mut oddities = Oddities::default();
+    let width = 2 + 3 * trc.markers.len();
+    while let Some(line) = lines.next_filled()? {
+        let cells = cells(&line, width);
+        let read = cells.and_then(|cells| read_frame(&line, &cells, trc, &mut oddities));
+        if let Err(error) = read {
+            let may_miss = stated.is_none_or(|stated| trc.lines.len() < stated);
+            let cut = may_miss && lines.is_at_end() && is_cut(&line, width, lines.last_is_ended());
+            return Err(if cut { lines.truncated(format!("the rest of a row of {width} cells")) } else { error });
+        }
+        trc.lines.push(line.number);
+    }
+    if trc.times.is_empty() {
+        return Err(lines.truncated("rows of frame, time and positions"));
+    }
+    Ok(oddities)
+}
+
+/// Whether the file was cut in this row: cells are missing, or the last one breaks off.
+fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
+    let text = &line.text;
+    let count = if text.contains('\t') { text.split('\t').count() } else { text.split_ascii_whitespace().count() };
+    let last_is_broken = || text.split_ascii_whitespace().last().is_some_and(|word| number(word).is_none());
+    count < width || (count == width && !ended && last_is_broken())
+}
+
+/// The cells of one row; those between tabs may be empty. Tabs behind the last column are left out.
+fn cells<'l>(line: &'l Line<'_>, width: usize) -> Result<Vec<&'l str>, Error> {
+    let mut cells: Vec<&str> = match line.text.contains('\t') {
+        true => line.text.split('\t').map(str::trim).collect(),
+        false => line.text.split_ascii_whitespace().collect(),
+    };
+    while cells.len() > width && cells.last().is_some_and(|cell| cell.is_empty()) {
+        cells.pop();
+    }
+    if cells.len() != width {
+        let expected = format!("{width}: frame, time and three a marker, tabs between them, gaps empty");
+        return Err(line.error(counted(cells.len(), "cell"), expected));
+    }
+    Ok(cells)
+}
+
+/// Appends a frame. An error leaves the record ragged; it is given up then.
+fn read_frame(line: &Line<'_>, cells: &[&str], trc: &mut Trc, oddities: &mut Oddities) -> Result<(), Error> {
+    let [frame, time, positions @ ..] = cells else {
+        return Err(line.error(counted(cells.len(), "cell"), "frame and time"));
+    };
+    let frame = integer(frame).ok_or_else(|| line.error(quoted(frame), "a frame number"))?;
+    let value = number(time).filter(|time| time.is_finite());
+    let value = value.ok_or_else(|| line.error(format!("time {}", quoted(time)), expected_number(time)))?;
+    for (marker, triple) in trc.markers.iter_mut().zip(positions.chunks(3)) {
+        let position = read_position(line, triple)?;
+        let empty = triple.iter().filter(|cell| cell.is_empty()).count();
+        if empty == 1 || empty == 2 {
+            oddities.partial.add(line.number, &marker.name);
+        }
+        if position.iter().all(|value| value.abs() <= 0.0) {
+            oddities.zero.add(line.number, &marker.name);
+        }
+        marker.positions_m.push(position.map(|value| trc.unit.metres(value)));
+    }
+    trc.frames.push(frame);
+    trc.times.push(value);
+    Ok(())
+}
+
+/// A position in the file's unit; three times not-a-number if any of its cells is empty or not-a-number.
+fn read_position(line: &Line<'_>, cells: &[&str]) -> Result<[f64; 3], Error> {
+    let mut position = [f64::NAN; 3];
+    for (value, cell) in position.iter_mut().zip(cells).filter(|(_, cell)| !cell.is_empty()) {
+        let read = number(cell).filter(|number| !number.is_infinite());
+        *value = read.ok_or_else(|| line.error(quoted(cell), expected_number(cell)))?;
+    }
+    Ok(if position.iter().any(|value| value.is_nan()) { [f64::NAN; 3] } else { position })
+}

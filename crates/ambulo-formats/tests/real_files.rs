@@ -1,0 +1,178 @@
+//! Every recording we have is read, with the counts that its README states. Skipped where the data are not there.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::table::Table;
+use ambulo_formats::trc::{LengthUnit, Trc};
+use ambulo_formats::{Error, Remark};
+use std::path::{Path, PathBuf};
+
+/// The one file whose header is wrong.
+const COORDINATES_REMARK: &str = "line 9: the header states 40 columns, the file has 32; read 32";
+
+#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
+fn data() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no data");
+    None
+}
+
+/// All files below the folder whose name ends so, sorted.
+fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path, endings));
+        } else if endings.iter().any(|ending| path.to_string_lossy().ends_with(ending)) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+#[track_caller]
+fn read<T>(path: &Path, reader: impl Fn(&[u8]) -> Result<(T, Vec<Remark>), Error>) -> T {
+    let (record, remarks) = reader(&std::fs::read(path).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let remarks: Vec<String> = remarks.iter().map(ToString::to_string).collect();
+    let known = if path.ends_with("coordinates.sto") { vec![COORDINATES_REMARK] } else { vec![] };
+    assert_eq!(remarks, known, "{}", path.display());
+    record
+}
+
+#[test]
+fn every_storage_file_is_read_and_written_back_to_the_same_bits() {
+    let Some(folder) = data() else { return };
+    let files = files(&folder, &[".mot", ".sto"]);
+    assert_eq!(files.len(), 13);
+    for path in files {
+        let table = read(&path, Table::read_storage);
+        let times = table.times().unwrap();
+        assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{}", path.display());
+        assert!(table.columns().all(|(_, values)| values.iter().all(|value| value.is_finite())), "{}", path.display());
+        let (again, remarks) = Table::read_storage(&table.write_storage()).unwrap();
+        assert_eq!((again.in_degrees, remarks), (table.in_degrees, vec![]));
+        assert!(again.columns().eq(table.columns()), "{}", path.display());
+        let (again, _) = Table::read_csv(&table.write_csv()).unwrap();
+        assert!(again.columns().eq(table.columns()), "{}", path.display());
+    }
+}
+
+#[test]
+fn storage_files_have_the_stated_size_and_unit() {
+    let Some(folder) = data() else { return };
+    for (path, rows, columns, in_degrees) in [
+        ("opensim-gait2392-subject01/subject01_walk1_ik.mot", 211, 24, Some(true)),
+        ("opensim-gait2392-subject01/subject01_walk1_grf.mot", 1501, 19, Some(true)),
+        ("opensim-gait2392-subject01/core-id-test/subject01_walk1_grf.mot", 9009, 19, None),
+        ("opensim-gait2392-subject01/InverseDynamicsOutput.sto", 73, 24, Some(false)),
+        ("opensim-rajagopal-walk/coordinates.sto", 1350, 32, Some(false)),
+        ("opensim-rajagopal-run/grf_run.mot", 5091, 19, None),
+    ] {
+        let table = read(&folder.join(path), Table::read_storage);
+        assert_eq!((table.rows(), table.names().len(), table.in_degrees), (rows, columns, in_degrees), "{path}");
+    }
+}
+
+#[test]
+fn every_marker_file_is_read_and_written_back_to_the_same_bits() {
+    let Some(folder) = data() else { return };
+    let files = files(&folder, &[".trc"]);
+    assert_eq!(files.len(), 6);
+    for path in files {
+        let trc = read(&path, Trc::read);
+        assert_eq!(trc.unit, LengthUnit::Millimetre);
+        let (again, remarks) = Trc::read(&trc.write()).unwrap();
+        assert_eq!(remarks, vec![], "{}", path.display());
+        assert!(again.markers() == trc.markers() && again.times() == trc.times(), "{}", path.display());
+        assert_eq!((&again.name, again.frames()), (&trc.name, trc.frames()));
+    }
+}
+
+#[test]
+fn marker_files_have_the_stated_size_and_start() {
+    let Some(folder) = data() else { return };
+    for (path, frames, markers, start, time) in [
+        ("opensim-gait2392-subject01/subject01_walk1.trc", 151, 41, 1, 0.0),
+        ("opensim-gait2392-subject01/subject01_static.trc", 300, 49, 1, 0.0),
+        ("opensim-rajagopal-walk/markers_walk.trc", 238, 41, 1, 0.0),
+        ("opensim-rajagopal-walk/static_walk_1.trc", 287, 64, 1, 0.0),
+        ("opensim-rajagopal-run/motion_capture_run.trc", 510, 42, 23, 0.23),
+        ("opensim-rajagopal-run/static_run.trc", 397, 64, 1, 0.0),
+    ] {
+        let trc = read(&folder.join(path), Trc::read);
+        assert_eq!((trc.times().len(), trc.markers().len(), trc.orig_start_frame), (frames, markers, start), "{path}");
+        assert_eq!((trc.frames()[0], trc.times()[0].to_bits()), (start, f64::to_bits(time)), "{path}");
+    }
+}
+
+#[test]
+fn every_loads_document_names_two_feet_and_columns_that_its_data_file_has() {
+    let Some(folder) = data() else { return };
+    let files = files(&folder, &["grf.xml", "grf_run.xml", "grf_walk.xml"]);
+    assert_eq!(files.len(), 4);
+    for path in files {
+        let loads = read(&path, ExternalLoads::read);
+        let bodies: Vec<&str> = loads.forces.iter().map(|force| force.applied_to_body.as_str()).collect();
+        assert_eq!(bodies, ["calcn_r", "calcn_l"], "{}", path.display());
+        let table = read(
+            &path.with_file_name(Path::new(loads.datafile.as_ref().unwrap()).file_name().unwrap()),
+            Table::read_storage,
+        );
+        for force in &loads.forces {
+            assert!(
+                force.enabled && force.force_expressed_in_body == "ground" && force.point_expressed_in_body == "ground"
+            );
+            for start in [&force.force_identifier, &force.point_identifier, &force.torque_identifier] {
+                for axis in ["x", "y", "z"] {
+                    let column = format!("{}{axis}", start.as_ref().unwrap());
+                    assert!(table.column(&column).is_some(), "{}: {column}", path.display());
+                }
+            }
+        }
+        assert_eq!(ExternalLoads::read(&loads.write()).unwrap().0, loads);
+    }
+}
+
+#[test]
+fn documents_of_other_kinds_are_refused_as_loads() {
+    let Some(folder) = data() else { return };
+    for (path, message) in [
+        (
+            "opensim-rajagopal-run/id_setup_run.xml",
+            "line 2, element <OpenSimDocument>: found <InverseDynamicsTool>; expected an <ExternalLoads> document",
+        ),
+        (
+            "opensim-gait10dof-subject01/subject01.osim",
+            "line 2, element <OpenSimDocument>: found <Model>; expected an <ExternalLoads> document",
+        ),
+    ] {
+        let bytes = std::fs::read(folder.join(path)).unwrap();
+        assert_eq!(ExternalLoads::read(&bytes).unwrap_err().to_string(), message);
+    }
+}
+
+#[test]
+fn csv_with_words_in_its_cells_is_refused_by_line() {
+    let Some(folder) = data() else { return };
+    let bytes = std::fs::read(folder.join("normative/schwartz2008_grf.csv")).unwrap();
+    let message = Table::read_csv(&bytes).unwrap_err().to_string();
+    assert_eq!(message, "line 2: found `Anterior/Posterior`; expected a number");
+}
+
+#[test]
+fn real_files_cut_anywhere_do_not_panic() {
+    let Some(folder) = data() else { return };
+    for path in files(&folder, &[".mot", ".sto", ".trc", "grf.xml", "grf_run.xml", "grf_walk.xml", ".csv"]) {
+        let bytes = std::fs::read(&path).unwrap();
+        for end in (0..bytes.len()).step_by(if bytes.len() < 20_000 { 100 } else { 4001 }) {
+            let cut = &bytes[..end];
+            let _ = (Table::read_storage(cut), Table::read_csv(cut), Trc::read(cut), ExternalLoads::read(cut));
+        }
+    }
+}
