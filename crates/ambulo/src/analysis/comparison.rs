@@ -1,0 +1,103 @@
+//! How far two curves agree.
+//!
+//!   RMSE  = √(mean (a - b)²)
+//!   rRMSE = RMSE / ((range a + range b) / 2)          Ren, Jones, Howard 2008 (J Biomech 41:2750)
+//!   r     = Pearson's correlation
+//!
+//! Pinned by: tests/analysis.rs
+
+use crate::motion::interpolate;
+
+/// A named curve: rising instants [s] and values.
+#[derive(Debug, Clone, Copy)]
+pub struct Curve<'a> {
+    /// Instants [s], rising.
+    pub times: &'a [f64],
+    /// Values, as many.
+    pub values: &'a [f64],
+}
+
+/// Agreement of two curves over the instants of the second that both cover.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Agreement {
+    /// Root-mean-square difference, in the curves' unit.
+    pub rmse: f64,
+    /// RMSE over the mean of the two ranges; not a number if both are flat.
+    pub rrmse: f64,
+    /// Pearson's correlation; not a number if one curve is flat.
+    pub r: f64,
+    /// Largest difference, in the curves' unit.
+    pub max_difference: f64,
+    /// Number of instants.
+    pub samples: usize,
+}
+
+/// Why two curves cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ComparisonError {
+    /// They do not overlap.
+    #[error(
+        "no common time: one runs from {first_from} s to {first_to} s, the other from {second_from} s to {second_to} s; expected an overlap"
+    )]
+    NoOverlap {
+        /// Start of the first [s].
+        first_from: f64,
+        /// End of the first [s].
+        first_to: f64,
+        /// Start of the second [s].
+        second_from: f64,
+        /// End of the second [s].
+        second_to: f64,
+    },
+    /// A value that is no number.
+    #[error(
+        "a value that is not a finite number at {time_s:.4} s; expected finite curves. hint: cut the range with --from and --to"
+    )]
+    NotFinite {
+        /// The instant [s].
+        time_s: f64,
+    },
+}
+
+/// Compares `a` with `b` at the instants of `b`; `a` is read on straight lines between its samples.
+///
+/// # Errors
+/// No common instants, values that are not finite.
+pub fn compare(a: Curve<'_>, b: Curve<'_>) -> Result<Agreement, ComparisonError> {
+    let ends =
+        |c: Curve<'_>| (c.times.first().copied().unwrap_or(f64::NAN), c.times.last().copied().unwrap_or(f64::NAN));
+    let ((first_from, first_to), (second_from, second_to)) = (ends(a), ends(b));
+    let common = (0..b.times.len()).filter(|&i| b.times[i] >= first_from && b.times[i] <= first_to);
+    let mut pairs = Vec::new();
+    for i in common {
+        let pair = (interpolate(a.times, a.values, b.times[i]), b.values[i]);
+        if !(pair.0.is_finite() && pair.1.is_finite()) {
+            return Err(ComparisonError::NotFinite { time_s: b.times[i] });
+        }
+        pairs.push(pair);
+    }
+    if pairs.is_empty() {
+        return Err(ComparisonError::NoOverlap { first_from, first_to, second_from, second_to });
+    }
+    Ok(agreement(&pairs))
+}
+
+fn agreement(pairs: &[(f64, f64)]) -> Agreement {
+    let n = pairs.len() as f64;
+    let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
+    let (mean_a, mean_b) = (mean(&|p| p.0), mean(&|p| p.1));
+    let covariance = mean(&|p| (p.0 - mean_a) * (p.1 - mean_b));
+    let (spread_a, spread_b) = (mean(&|p| (p.0 - mean_a).powi(2)), mean(&|p| (p.1 - mean_b).powi(2)));
+    let rmse = mean(&|p| (p.0 - p.1).powi(2)).sqrt();
+    let range = |f: &dyn Fn(&(f64, f64)) -> f64| {
+        pairs.iter().map(f).fold(f64::NEG_INFINITY, f64::max) - pairs.iter().map(f).fold(f64::INFINITY, f64::min)
+    };
+    Agreement {
+        rmse,
+        rrmse: rmse / (0.5 * (range(&|p| p.0) + range(&|p| p.1))),
+        r: covariance / (spread_a * spread_b).sqrt(),
+        max_difference: pairs.iter().map(|p| (p.0 - p.1).abs()).fold(0.0, f64::max),
+        samples: pairs.len(),
+    }
+}

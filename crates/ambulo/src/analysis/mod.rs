@@ -1,0 +1,15 @@
+//! What a reader wants to know of a motion and its forces: events, cycles, peaks, agreement.
+
+mod comparison;
+mod cycles;
+mod events;
+mod peaks;
+mod recording;
+mod residual;
+
+pub use comparison::{Agreement, ComparisonError, Curve, compare};
+pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
+pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
+pub use peaks::{Peak, peak};
+pub use recording::{Analysis, AnalysisError, Mass, MassSource, Settings, analyse};
+pub use residual::{Residual, residual};

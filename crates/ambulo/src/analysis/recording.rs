@@ -1,0 +1,232 @@
+//! One recording, from observed coordinates and measured forces to joint forces, events and cycles.
+
+use super::cycles::{Cycle, cycles};
+use super::events::{Contact, Event, contacts, events};
+use super::residual::{Residual, residual};
+use crate::dynamics::{Forces, Workspace, inverse};
+use crate::findings::Findings;
+use crate::ground::{self, MeasuredGround};
+use crate::kinematics::{Trajectory, TrajectoryError, body_motion};
+use crate::model::{Model, Side};
+use crate::motion::filter::LowPass;
+use crate::motion::{ForceRecording, Motion, MotionError, Smoother, Window, interpolate, smooth};
+use crate::spatial::Vec3;
+
+/// How a recording is analysed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// How the motion is smoothed.
+    pub smoother: Smoother,
+    /// Low-pass of the measured forces; `None` leaves them as they are.
+    pub force_filter: Option<LowPass>,
+    /// The range of time to analyse.
+    pub window: Window,
+}
+
+/// Everything that was computed from one recording.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    /// The motion that was used.
+    pub trajectory: Trajectory,
+    /// The measured ground forces on its instants.
+    pub ground: MeasuredGround,
+    /// Joint forces, powers and reactions.
+    pub forces: Forces,
+    /// Strikes and toe-offs, in order of time.
+    pub events: Vec<Event>,
+    /// Whole gait cycles inside the trajectory.
+    pub cycles: Vec<Cycle>,
+    /// Body mass.
+    pub mass: Mass,
+    /// Walking speed relative to the ground that the feet stand on [m/s], where a foot stood still on it.
+    pub speed_m_s: Option<f64>,
+    /// What motion and measured forces disagree by.
+    pub residual: Option<Residual>,
+}
+
+/// Body mass and where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mass {
+    /// Mass [kg].
+    pub kg: f64,
+    /// Where it comes from.
+    pub source: MassSource,
+}
+
+/// Where a mass comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MassSource {
+    /// Mean vertical force over whole gait cycles.
+    Plates,
+    /// The model's own mass.
+    Model,
+}
+
+/// Why a recording could not be analysed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The recording itself.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// Its completion to a trajectory.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+}
+
+/// A mean vertical force within this share of the model's weight is believed to be the whole body's.
+const WHOLE_BODY_SHARE: f64 = 0.10;
+/// Above this difference between plates and model the reader is told (issue of scaling or of plates).
+const MASS_MISMATCH: f64 = 0.03;
+/// A foot carries enough to stand still on the ground above this share of the body's weight.
+const STANDING_SHARE: f64 = 0.5;
+
+/// Analyses a recording. `stage` is called with a name as each stage ends.
+///
+/// The window is cut to the time that the force recordings cover, which is a finding.
+///
+/// # Errors
+/// Recordings that cannot be used: see [`MotionError`], [`TrajectoryError`].
+pub fn analyse(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: Settings,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<Analysis, AnalysisError> {
+    let window = covered(motion, plates, settings.window, findings);
+    let smoothed = smooth(model, motion, settings.smoother, window, findings)?;
+    let trajectory = Trajectory::complete(model, &smoothed, findings)?;
+    stage("smooth");
+    let ground = ground::measured(model, &trajectory, plates, settings.force_filter, findings)?;
+    stage("ground");
+    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    stage("inverse_dynamics");
+    let up = ground::upward(model);
+    let vertical = vertical_by_side(model, plates, up);
+    let contacts: Vec<(Side, Vec<Contact>)> =
+        vertical.iter().map(|(side, (times, force))| (*side, contacts(times, force))).collect();
+    let events = events(&contacts);
+    let cycles = cycles(&events, trajectory.grid());
+    let mass = mass(model, &vertical, &cycles, findings);
+    let speed_m_s = walking_speed(model, &trajectory, &ground, up);
+    let residual = residual(model, &forces);
+    stage("analysis");
+    Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual })
+}
+
+/// The window, cut to what the plates recorded.
+fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings: &mut Findings) -> Window {
+    let mut covered = window;
+    for plate in plates {
+        covered = covered.overlap(Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() });
+    }
+    let end = |w: Window| w.to_s.or(motion.times.last().copied()).unwrap_or(f64::INFINITY);
+    let start = |w: Window| w.from_s.or(motion.times.first().copied()).unwrap_or(f64::NEG_INFINITY);
+    let motion_ends = motion.times.last().copied().unwrap_or(f64::INFINITY);
+    let motion_starts = motion.times.first().copied().unwrap_or(f64::NEG_INFINITY);
+    if end(covered) < end(window).min(motion_ends) || start(covered) > start(window).max(motion_starts) {
+        let message = format!(
+            "the forces were recorded from {:.3} s to {:.3} s only; the rest of the motion was left out",
+            start(covered),
+            end(covered)
+        );
+        findings.note("loads.shorter_than_motion", message);
+    }
+    covered
+}
+
+type TimedForce = (Vec<f64>, Vec<f64>);
+
+/// Instants and total vertical force [N] of each foot that was measured, as recorded.
+fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
+    let mut list = Vec::new();
+    for side in Side::BOTH {
+        let of_side = |p: &&ForceRecording| Side::of_name(&model.bodies()[p.body.index()].name) == Some(side);
+        let mut plates = plates.iter().filter(of_side);
+        let Some(first) = plates.next() else { continue };
+        let vertical = |p: &ForceRecording| p.force.iter().map(|f| zero_if_unknown(f.dot(&up))).collect::<Vec<f64>>();
+        let mut total = vertical(first);
+        for plate in plates {
+            let other = vertical(plate);
+            for (sum, &t) in total.iter_mut().zip(&first.times) {
+                *sum += interpolate(&plate.times, &other, t);
+            }
+        }
+        list.push((side, (first.times.clone(), total)));
+    }
+    list
+}
+
+fn zero_if_unknown(x: f64) -> f64 {
+    if x.is_finite() { x } else { 0.0 }
+}
+
+/// m = mean vertical force / g over whole cycles, where that is near the model's mass; else the model's.
+fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findings: &mut Findings) -> Mass {
+    let (stated, g) = (model.mass(), model.gravity().norm());
+    let weighed: Vec<f64> = cycles.iter().filter_map(|c| cycle_mean(vertical, c)).map(|f| f / g).collect();
+    let mean = weighed.iter().sum::<f64>() / weighed.len() as f64;
+    if weighed.is_empty() || !((mean / stated - 1.0).abs() <= WHOLE_BODY_SHARE) {
+        if !weighed.is_empty() {
+            let message = format!(
+                "the mean vertical force over whole cycles carries {mean:.1} kg, the model has {stated:.1} kg; a foot was off the plates, or the model is not scaled to this person. The model's mass was used"
+            );
+            findings.warn("mass.not_whole_body", message);
+        }
+        return Mass { kg: stated, source: MassSource::Model };
+    }
+    if (mean / stated - 1.0).abs() > MASS_MISMATCH {
+        let message = format!("the plates carry {mean:.1} kg over whole cycles, the model has {stated:.1} kg");
+        findings.warn("mass.mismatch", message);
+    }
+    Mass { kg: mean, source: MassSource::Plates }
+}
+
+/// Mean of the total vertical force over a cycle [N], by the trapezium rule on the recorded instants.
+fn cycle_mean(vertical: &[(Side, TimedForce)], cycle: &Cycle) -> Option<f64> {
+    let mut mean = 0.0;
+    for (_, (times, force)) in vertical {
+        let mut area = 0.0;
+        for (t, f) in times.windows(2).zip(force.windows(2)) {
+            let (from, to) = (t[0].max(cycle.start_s), t[1].min(cycle.end_s));
+            if to > from {
+                let at = |x: f64| f[0] + (f[1] - f[0]) * (x - t[0]) / (t[1] - t[0]);
+                area += 0.5 * (at(from) + at(to)) * (to - from);
+            }
+        }
+        mean += area / (cycle.end_s - cycle.start_s);
+    }
+    (!vertical.is_empty()).then_some(mean)
+}
+
+/// Speed of the body's mass centre against the feet while they carry it: on a treadmill the feet move back with the
+/// belt, so the speed over the belt comes out.
+fn walking_speed(model: &Model, trajectory: &Trajectory, ground: &MeasuredGround, up: Vec3) -> Option<f64> {
+    let weight = model.mass() * model.gravity().norm();
+    let (mut center, mut frames, mut feet) = (Vec3::zeros(), 0.0, Vec::new());
+    trajectory.for_each_posture(|frame, posture| {
+        let bodies = body_motion(model, posture);
+        let momentum: Vec3 = model.bodies().iter().zip(&bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
+        center += momentum / model.mass();
+        frames += 1.0;
+        for foot in &ground.bodies {
+            if foot.force[frame].dot(&up) > STANDING_SHARE * weight {
+                let motion = &bodies[foot.body.index()];
+                feet.push(motion.twist.velocity_at(motion.pose.translation - motion.center));
+            }
+        }
+    });
+    if feet.is_empty() {
+        return None;
+    }
+    let mut median = Vec3::zeros();
+    for k in 0..3 {
+        let mut along: Vec<f64> = feet.iter().map(|v| v[k]).collect();
+        along.sort_by(f64::total_cmp);
+        median[k] = along[along.len() / 2];
+    }
+    let relative = center / frames - median;
+    Some((relative - up * relative.dot(&up)).norm())
+}

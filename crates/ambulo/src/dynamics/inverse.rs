@@ -1,0 +1,356 @@
+//! Inverse dynamics: from a motion and the known loads to the forces in every joint.
+//!
+//! Newton and Euler for each body in absolute quantities, then one sweep from the leaves to the root. For body i with
+//! mass centre c and joint centre J:
+//!
+//!   f_i = m (a - g) - Σ f_load + Σ_children f_j
+//!   n_c = I α + ω × I ω - Σ (n_load + (p - c) × f_load) + Σ_children (n_j + (J_j - c) × f_j)
+//!   n_i = n_c + (c - J) × f_i
+//!
+//! (f_i, n_i) is what the parent does to body i at J. Its generalised forces are τ = Σ_axes (dθ/dq) a · n_i for
+//! rotations and (dd/dq) e · f_i for translations: each joint's share of the power is τ q̇. At the root, which nothing
+//! holds, (f, n) is the residual: what the measured loads and the motion disagree by.
+//!
+//! | code       | symbol | unit        | meaning                                              |
+//! | `force`    | f_i    | N           | of the parent on the body, world axes                |
+//! | `moment`   | n_i    | N.m         | about the joint centre, world axes                   |
+//! | `tau`      | τ      | N.m or N    | generalised force of a coordinate                    |
+//!
+//! Source: Luh, Walker, Paul 1980, "On-line computational scheme for mechanical manipulators", in world instead of body
+//! axes (unverified page); OpenSim's sign convention for generalised forces (`InverseDynamicsSolver`).
+//! Cost: linear in bodies; see `cargo xtask bench`.
+//! Pinned by: tests/independent.rs (recursive Newton-Euler in joint coordinates), tests/identities.rs,
+//! tests/opensim_parity.rs
+
+use super::load::{BodyLoad, LoadSeries};
+use crate::kinematics::lanes::{Lanes, M3, V3};
+use crate::kinematics::plan::{Plan, Segment};
+use crate::kinematics::sweep::{self, Scratch};
+use crate::kinematics::{BodyMotion, Posture, Trajectory};
+use crate::model::{BodyId, Model};
+use crate::spatial::{Vec3, Wrench};
+use pulp::{Arch, Simd, WithSimd};
+
+/// Frames that are computed side by side: eight doubles fill the widest vector register in use (512 bits).
+const SIDE_BY_SIDE: usize = 8;
+
+/// Scratch for one model. Made once; nothing is allocated per frame afterwards.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    plan: Plan,
+    arch: Arch,
+    one: Kernel<1>,
+    many: Kernel<SIDE_BY_SIDE>,
+}
+
+/// Forces of one frame, borrowed from the workspace.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameForces<'a> {
+    plan: &'a Plan,
+    kernel: &'a Kernel<1>,
+}
+
+/// What a joint carries at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointReaction {
+    /// Joint centre in the world [m]: the origin of the joint frame on the child.
+    pub center: Vec3,
+    /// Of the parent on the child: force [N], moment about the joint centre [N.m], world axes.
+    pub wrench: Wrench,
+}
+
+/// Forces of a whole trajectory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forces {
+    /// Generalised forces: one column a coordinate [N.m or N], one entry a frame.
+    pub generalized: Vec<Vec<f64>>,
+    /// Power that each coordinate's force delivers [W]: one column a coordinate.
+    pub powers: Vec<Vec<f64>>,
+    /// What each body's joint carries: one column a body.
+    pub reactions: Vec<Vec<JointReaction>>,
+}
+
+/// A load on N frames side by side.
+#[derive(Debug, Clone, Copy)]
+struct LoadLanes<const N: usize> {
+    body: usize,
+    point: V3<N>,
+    force: V3<N>,
+    moment: V3<N>,
+}
+
+/// All that N frames side by side need and yield.
+#[derive(Debug, Clone)]
+struct Kernel<const N: usize> {
+    scratch: Scratch<N>,
+    loads: Vec<LoadLanes<N>>,
+    force: Vec<V3<N>>,
+    moment: Vec<V3<N>>,
+    tau: Vec<[f64; N]>,
+    power: Vec<[f64; N]>,
+}
+
+impl Workspace {
+    /// Scratch for this model.
+    #[must_use]
+    pub fn new(model: &Model) -> Workspace {
+        let plan = Plan::new(model);
+        let (one, many) = (Kernel::new(&plan), Kernel::new(&plan));
+        Workspace { plan, arch: Arch::new(), one, many }
+    }
+}
+
+/// Inverse dynamics of one frame: generalised forces, reactions and body motions, read from the answer.
+///
+/// # Panics
+/// If a slice of `posture` has another length than the model has coordinates.
+pub fn inverse_frame<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, loads: &[BodyLoad]) -> FrameForces<'w> {
+    let Workspace { plan, arch, one: kernel, .. } = workspace;
+    kernel.loads.clear();
+    kernel.loads.extend(loads.iter().map(|load| LoadLanes {
+        body: load.body.index(),
+        point: V3::splat(load.point),
+        force: V3::splat(load.wrench.force),
+        moment: V3::splat(load.wrench.moment),
+    }));
+    kernel.scratch.load_posture(posture);
+    arch.dispatch(Solve { plan, kernel: &mut *kernel });
+    FrameForces { plan, kernel }
+}
+
+/// Generalised forces of all frames, several frames side by side; `store(coordinate, first_frame, values)` receives
+/// them in runs of at most eight. This is the form without allocation; [`inverse`] collects everything.
+pub fn inverse_frames(
+    workspace: &mut Workspace,
+    trajectory: &Trajectory,
+    loads: &[LoadSeries],
+    mut store: impl FnMut(usize, usize, &[f64]),
+) {
+    let frames = trajectory.grid().frames;
+    let Workspace { plan, arch, many: kernel, .. } = workspace;
+    let mut first = 0;
+    while first < frames {
+        let count = SIDE_BY_SIDE.min(frames - first);
+        kernel.solve_block(plan, *arch, trajectory, loads, first);
+        for (coordinate, tau) in kernel.tau.iter().enumerate() {
+            store(coordinate, first, &tau[..count]);
+        }
+        first += count;
+    }
+}
+
+/// Inverse dynamics of a whole trajectory under the given loads (one entry a frame each).
+#[must_use]
+pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
+    let Workspace { plan, arch, many: kernel, .. } = workspace;
+    let frames = trajectory.grid().frames;
+    let mut forces = Forces {
+        generalized: vec![Vec::with_capacity(frames); plan.coordinates],
+        powers: vec![Vec::with_capacity(frames); plan.coordinates],
+        reactions: vec![Vec::with_capacity(frames); plan.segments.len()],
+    };
+    for first in (0..frames).step_by(SIDE_BY_SIDE) {
+        let count = SIDE_BY_SIDE.min(frames - first);
+        kernel.solve_block(plan, *arch, trajectory, loads, first);
+        for (column, tau) in forces.generalized.iter_mut().zip(&kernel.tau) {
+            column.extend_from_slice(&tau[..count]);
+        }
+        kernel.fill_powers(plan);
+        for (column, power) in forces.powers.iter_mut().zip(&kernel.power) {
+            column.extend_from_slice(&power[..count]);
+        }
+        for (i, column) in forces.reactions.iter_mut().enumerate() {
+            column.extend((0..count).map(|lane| kernel.reaction(i, lane)));
+        }
+    }
+    forces
+}
+
+impl FrameForces<'_> {
+    /// Generalised forces [N.m or N], one a coordinate.
+    #[must_use]
+    pub fn generalized(&self) -> &[f64] {
+        self.kernel.tau.as_flattened()
+    }
+
+    /// What the joint of a body carries.
+    #[must_use]
+    pub fn reaction(&self, body: BodyId) -> JointReaction {
+        self.kernel.reaction(body.index(), 0)
+    }
+
+    /// How a body moves.
+    #[must_use]
+    pub fn body_motion(&self, body: BodyId) -> BodyMotion {
+        self.kernel.scratch.body_motion(self.plan, body, 0)
+    }
+}
+
+impl<const N: usize> Kernel<N> {
+    fn new(plan: &Plan) -> Kernel<N> {
+        let bodies = plan.segments.len();
+        Kernel {
+            scratch: Scratch::new(plan),
+            loads: Vec::new(),
+            force: vec![V3::ZERO; bodies + 1],
+            moment: vec![V3::ZERO; bodies + 1],
+            tau: vec![[0.0; N]; plan.coordinates],
+            power: vec![[0.0; N]; plan.coordinates],
+        }
+    }
+
+    /// Leaves to root: forces, moments and their projection on the coordinates.
+    #[inline(always)]
+    fn backward(&mut self, plan: &Plan) {
+        for (i, segment) in plan.segments.iter().enumerate() {
+            let (force, moment) = inertial(plan, segment, i, &self.scratch);
+            (self.force[i + 1], self.moment[i + 1]) = (force, moment);
+        }
+        for load in &self.loads {
+            let arm = load.point - self.scratch.states[load.body + 1].center;
+            self.force[load.body + 1] -= load.force;
+            self.moment[load.body + 1] -= load.moment + arm.cross(load.force);
+        }
+        self.tau.fill([0.0; N]);
+        for (i, segment) in plan.segments.iter().enumerate().rev() {
+            let state = &self.scratch.states[i + 1];
+            let force = self.force[i + 1];
+            let moment = self.moment[i + 1] + state.to_center.cross(force);
+            self.moment[i + 1] = moment;
+            let arm = state.to_joint;
+            self.force[segment.parent] += force;
+            self.moment[segment.parent] += moment + arm.cross(force);
+            self.project(plan, segment, i, force, moment);
+        }
+    }
+
+    /// τ of one joint's coordinates.
+    #[inline(always)]
+    fn project(&mut self, plan: &Plan, segment: &Segment, index: usize, force: V3<N>, moment: V3<N>) {
+        if let Some(spherical) = &segment.spherical {
+            let V3(about) = sweep::spherical_moment(spherical, index, &self.scratch, force, moment);
+            for (coordinate, tau) in spherical.coordinates.iter().zip(about) {
+                self.tau[*coordinate] = tau.0;
+            }
+        } else {
+            for k in segment.rotations.clone() {
+                self.add(plan, k, moment);
+            }
+        }
+        for k in segment.translations.clone() {
+            self.add(plan, k, force);
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, plan: &Plan, axis: usize, load: V3<N>) {
+        if let Some(coordinate) = plan.axes[axis].source.coordinate() {
+            let share = self.scratch.axes.direction[axis].dot(load) * self.scratch.axes.slope[axis];
+            self.tau[coordinate] = (Lanes(self.tau[coordinate]) + share).0;
+        }
+    }
+
+    fn reaction(&self, body: usize, lane: usize) -> JointReaction {
+        let state = &self.scratch.states[body + 1];
+        JointReaction {
+            center: state.center.lane(lane) - state.to_center.lane(lane),
+            wrench: Wrench { moment: self.moment[body + 1].lane(lane), force: self.force[body + 1].lane(lane) },
+        }
+    }
+
+    /// τ times the speed that it is dual to, into `power`: the coordinate's rate, or for ball-like joints the angular
+    /// velocity about F's axes.
+    fn fill_powers(&mut self, plan: &Plan) {
+        for (power, (tau, rate)) in self.power.iter_mut().zip(self.tau.iter().zip(&self.scratch.qd)) {
+            *power = (Lanes(*tau) * Lanes(*rate)).0;
+        }
+        for (i, segment) in plan.segments.iter().enumerate() {
+            if let Some(spherical) = &segment.spherical {
+                let V3(omega) = sweep::relative_omega(segment, i, &self.scratch);
+                for (&coordinate, omega) in spherical.coordinates.iter().zip(omega) {
+                    self.power[coordinate] = (Lanes(self.tau[coordinate]) * omega).0;
+                }
+            }
+        }
+    }
+}
+
+impl Kernel<SIDE_BY_SIDE> {
+    fn solve_block(&mut self, plan: &Plan, arch: Arch, trajectory: &Trajectory, loads: &[LoadSeries], first: usize) {
+        self.gather_loads(loads, first);
+        self.gather(trajectory, first);
+        arch.dispatch(Solve { plan, kernel: self });
+    }
+
+    /// Takes the coordinates of eight frames; past the end the last frame is repeated.
+    #[inline(always)]
+    fn gather(&mut self, trajectory: &Trajectory, first: usize) {
+        let Scratch { q, qd, qdd, .. } = &mut self.scratch;
+        for (c, [values, rates, accelerations]) in trajectory.columns().iter().enumerate() {
+            take(&mut q[c], values, first);
+            take(&mut qd[c], rates, first);
+            take(&mut qdd[c], accelerations, first);
+        }
+    }
+
+    fn gather_loads(&mut self, loads: &[LoadSeries], first: usize) {
+        self.loads.clear();
+        for series in loads {
+            let mut lanes = LoadLanes { body: series.body.index(), point: V3::ZERO, force: V3::ZERO, moment: V3::ZERO };
+            for lane in 0..SIDE_BY_SIDE {
+                let load = series.at((first + lane).min(series.points.len() - 1));
+                lanes.point.set_lane(lane, load.point);
+                lanes.force.set_lane(lane, load.wrench.force);
+                lanes.moment.set_lane(lane, load.wrench.moment);
+            }
+            self.loads.push(lanes);
+        }
+    }
+}
+
+#[inline(always)]
+fn take(lanes: &mut [f64; SIDE_BY_SIDE], series: &[f64], first: usize) {
+    match series.get(first..first + SIDE_BY_SIDE) {
+        Some(run) => lanes.copy_from_slice(run),
+        None => {
+            for (lane, x) in lanes.iter_mut().enumerate() {
+                *x = series[(first + lane).min(series.len() - 1)];
+            }
+        }
+    }
+}
+
+/// The two sweeps, compiled once for each generation of vector instructions and chosen at run time.
+struct Solve<'a, const N: usize> {
+    plan: &'a Plan,
+    kernel: &'a mut Kernel<N>,
+}
+
+impl<const N: usize> WithSimd for Solve<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        sweep::forward(self.plan, &mut self.kernel.scratch);
+        self.kernel.backward(self.plan);
+    }
+}
+
+/// What the body's own motion asks for: m (a - g) and I α + ω × I ω about the mass centre.
+#[inline(always)]
+fn inertial<const N: usize>(plan: &Plan, segment: &Segment, i: usize, s: &Scratch<N>) -> (V3<N>, V3<N>) {
+    let state = &s.states[i + 1];
+    let force = (state.a - V3::splat(plan.gravity)) * Lanes::splat(segment.mass);
+    // In M's axes the inertia is constant.
+    let omega = state.rotation.turn_back(state.omega);
+    let alpha = state.rotation.turn_back(state.alpha);
+    let moment = if segment.diagonal {
+        let [x, y, z] = [segment.inertia[(0, 0)], segment.inertia[(1, 1)], segment.inertia[(2, 2)]];
+        let resist = |v: V3<N>| V3([v.0[0] * x, v.0[1] * y, v.0[2] * z]);
+        resist(alpha) + omega.cross(resist(omega))
+    } else {
+        let inertia = M3::splat(&segment.inertia);
+        inertia.turn(alpha) + omega.cross(inertia.turn(omega))
+    };
+    (force, state.rotation.turn(moment))
+}

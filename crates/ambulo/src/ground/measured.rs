@@ -1,0 +1,248 @@
+//! Ground forces from force plates or other sensors, brought to the instants of a trajectory.
+//!
+//! Each sensor's wrench is first taken about the world's origin, M₀ = p × F + T, where it can be filtered, interpolated
+//! and added to that of other sensors; a centre of pressure cannot (it jumps, and is undefined without load). The
+//! centre of pressure and the free moment are found at the end, with u the upward unit vector and h the height of the
+//! plate's surface:
+//!
+//!   p = (u × M₀ + h F) / (u · F)            free moment = u · (M₀ - p × F)
+//!
+//! from M₀ = p × F + u T and p · u = h, as u × (p × F) = p (u · F) - F (u · p).
+//!
+//! | code             | symbol | unit | meaning                                  |
+//! | `force`          | F      | N    | of the ground on the body, world axes    |
+//! | `moment`         | M₀     | N.m  | about the world's origin                 |
+//! | `center`         | p      | m    | centre of pressure, on the surface       |
+//!
+//! Source: force-plate statics; derived above.
+//! Pinned by: tests/ground_measured.rs, tests/opensim_parity.rs
+
+use crate::dynamics::LoadSeries;
+use crate::findings::Findings;
+use crate::kinematics::{Trajectory, body_motion};
+use crate::model::{BodyId, Model};
+use crate::motion::filter::{LowPass, low_pass};
+use crate::motion::{ForceRecording, MotionError, TimeGrid, interpolate};
+use crate::spatial::{Pose, Vec3, Wrench};
+
+/// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
+pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
+
+/// The ground's action on one body over a trajectory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyForces {
+    /// The body that feels it.
+    pub body: BodyId,
+    /// Force [N], one entry a frame.
+    pub force: Vec<Vec3>,
+    /// Moment about the world's origin [N.m], one entry a frame.
+    pub moment: Vec<Vec3>,
+    /// Centre of pressure [m]; not a number below [`CENTER_OF_PRESSURE_LOAD_N`].
+    pub center_of_pressure: Vec<Vec3>,
+    /// Moment about the vertical through the centre of pressure [N.m]; not a number below the threshold.
+    pub free_moment: Vec<Vec3>,
+}
+
+/// Everything that was measured, by body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredGround {
+    /// One entry for each body that was pushed.
+    pub bodies: Vec<BodyForces>,
+}
+
+impl MeasuredGround {
+    /// As loads for [`crate::dynamics::inverse`].
+    #[must_use]
+    pub fn loads(&self) -> Vec<LoadSeries> {
+        self.bodies.iter().map(BodyForces::load).collect()
+    }
+}
+
+impl BodyForces {
+    fn load(&self) -> LoadSeries {
+        let wrench = |(force, moment): (&Vec3, &Vec3)| Wrench { moment: *moment, force: *force };
+        LoadSeries {
+            body: self.body,
+            points: vec![Vec3::zeros(); self.force.len()],
+            wrenches: self.force.iter().zip(&self.moment).map(wrench).collect(),
+        }
+    }
+}
+
+/// Wrench about the origin and the surface height that one sensor saw.
+struct Series {
+    body: BodyId,
+    /// Columns Fx Fy Fz Mx My Mz on the trajectory's instants.
+    columns: [Vec<f64>; 6],
+    surface_height: f64,
+}
+
+/// Filters the recordings (if asked), brings them to the trajectory's instants and adds those that act on one body.
+///
+/// Samples without a point (not a number) count as unloaded.
+///
+/// # Errors
+/// A force that is not a number, a cut-off that the sensor's rate does not allow.
+pub fn measured(
+    model: &Model,
+    trajectory: &Trajectory,
+    recordings: &[ForceRecording],
+    filter: Option<LowPass>,
+    findings: &mut Findings,
+) -> Result<MeasuredGround, MotionError> {
+    let up = upward(model);
+    let mut series = Vec::new();
+    for recording in recordings {
+        let recording = in_world(model, trajectory, recording);
+        series.push(bring(&recording, trajectory.grid(), filter, up, findings)?);
+    }
+    let mut bodies: Vec<BodyForces> = Vec::new();
+    for body in model.body_ids() {
+        let of_body: Vec<&Series> = series.iter().filter(|s| s.body == body).collect();
+        if !of_body.is_empty() {
+            bodies.push(combine(body, &of_body, up));
+        }
+    }
+    Ok(MeasuredGround { bodies })
+}
+
+/// The direction against gravity; world y without gravity.
+pub(crate) fn upward(model: &Model) -> Vec3 {
+    model.gravity().try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down)
+}
+
+/// The recording with force, moment and point in the world.
+fn in_world(model: &Model, trajectory: &Trajectory, recording: &ForceRecording) -> ForceRecording {
+    let mut out = recording.clone();
+    if recording.force_frame.is_none() && recording.point_frame.is_none() {
+        return out;
+    }
+    let frames = trajectory.grid();
+    let times = frames.times();
+    let nearest = |t: f64| times.partition_point(|x| x + 0.5 * frames.step_s <= t).min(times.len() - 1);
+    let poses = body_poses(model, trajectory);
+    let pose = |body: Option<BodyId>, t: f64| body.map_or(Pose::IDENTITY, |b| poses[nearest(t)][b.index()]);
+    for (i, &t) in recording.times.iter().enumerate() {
+        let turn = pose(recording.force_frame, t).rotation;
+        out.force[i] = turn * recording.force[i];
+        out.moment[i] = turn * recording.moment[i];
+        out.point[i] = pose(recording.point_frame, t).place(recording.point[i]);
+    }
+    out
+}
+
+fn body_poses(model: &Model, trajectory: &Trajectory) -> Vec<Vec<Pose>> {
+    let mut poses = Vec::with_capacity(trajectory.grid().frames);
+    trajectory.for_each_posture(|_, posture| poses.push(body_motion(model, posture).iter().map(|b| b.pose).collect()));
+    poses
+}
+
+fn bring(
+    recording: &ForceRecording,
+    grid: TimeGrid,
+    filter: Option<LowPass>,
+    up: Vec3,
+    findings: &mut Findings,
+) -> Result<Series, MotionError> {
+    let mut columns = about_origin(recording, findings)?;
+    if let Some(filter) = filter {
+        low_pass_all(recording, &mut columns, filter)?;
+    }
+    for column in &mut columns {
+        *column = (0..grid.frames).map(|i| interpolate(&recording.times, column, grid.time(i))).collect();
+    }
+    Ok(Series { body: recording.body, columns, surface_height: surface_height(recording, up) })
+}
+
+/// M₀ = p × F + T, beside F.
+fn about_origin(recording: &ForceRecording, findings: &mut Findings) -> Result<[Vec<f64>; 6], MotionError> {
+    let mut columns: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(recording.times.len()));
+    for (i, &time) in recording.times.iter().enumerate() {
+        let (mut force, point, mut torque) = (recording.force[i], recording.point[i], recording.moment[i]);
+        let mut moment = point.cross(&force) + torque;
+        if !is_finite(moment) && is_finite(force) && force.norm() <= CENTER_OF_PRESSURE_LOAD_N {
+            (force, torque, moment) = (Vec3::zeros(), Vec3::zeros(), Vec3::zeros());
+            let message = format!(
+                "the load `{}` has no point of application while it is unloaded; read as no load",
+                recording.name
+            );
+            findings.note("loads.point_undefined", message);
+        }
+        if !is_finite(force) || !is_finite(moment) || !is_finite(torque) {
+            return Err(MotionError::Gap { column: recording.name.clone(), from_s: time, to_s: time, longest_s: 0.0 });
+        }
+        for (column, x) in columns.iter_mut().zip(force.iter().chain(moment.iter())) {
+            column.push(*x);
+        }
+    }
+    Ok(columns)
+}
+
+fn is_finite(v: Vec3) -> bool {
+    v.iter().all(|x| x.is_finite())
+}
+
+fn low_pass_all(recording: &ForceRecording, columns: &mut [Vec<f64>; 6], filter: LowPass) -> Result<(), MotionError> {
+    let uniform = TimeGrid::through(&recording.times);
+    let Some(grid) = uniform.or_else(|| TimeGrid::spanning(&recording.times)) else { return Ok(()) };
+    for column in columns {
+        if uniform.is_none() {
+            *column = (0..grid.frames).map(|i| interpolate(&recording.times, column, grid.time(i))).collect();
+        }
+        let filtered = low_pass(column, grid.rate_hz(), filter)
+            .map_err(|source| MotionError::Filter { column: recording.name.clone(), source })?;
+        *column = match uniform {
+            Some(_) => filtered,
+            None => {
+                let times = grid.times();
+                recording.times.iter().map(|&t| interpolate(&times, &filtered, t)).collect()
+            }
+        };
+    }
+    Ok(())
+}
+
+/// Median height of the loaded points above the world's origin [m].
+fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
+    let loaded = recording.force.iter().zip(&recording.point).filter(|(f, _)| f.dot(&up) > CENTER_OF_PRESSURE_LOAD_N);
+    let mut heights: Vec<f64> = loaded.map(|(_, p)| p.dot(&up)).filter(|h| h.is_finite()).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.get(heights.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn combine(body: BodyId, series: &[&Series], up: Vec3) -> BodyForces {
+    let frames = series[0].columns[0].len();
+    let mut out = BodyForces {
+        body,
+        force: Vec::with_capacity(frames),
+        moment: Vec::with_capacity(frames),
+        center_of_pressure: Vec::with_capacity(frames),
+        free_moment: Vec::with_capacity(frames),
+    };
+    for i in 0..frames {
+        let part = |s: &Series, k: usize| Vec3::new(s.columns[k][i], s.columns[k + 1][i], s.columns[k + 2][i]);
+        let force: Vec3 = series.iter().map(|s| part(s, 0)).sum();
+        let moment: Vec3 = series.iter().map(|s| part(s, 3)).sum();
+        // Where several plates carry the foot, the surface is that of the most loaded one.
+        let height = series
+            .iter()
+            .max_by(|a, b| part(a, 0).dot(&up).total_cmp(&part(b, 0).dot(&up)))
+            .map_or(0.0, |s| s.surface_height);
+        let (center, free_moment) = center_of_pressure(force, moment, up, height);
+        out.force.push(force);
+        out.moment.push(moment);
+        out.center_of_pressure.push(center);
+        out.free_moment.push(free_moment);
+    }
+    out
+}
+
+/// Centre of pressure [m] and free moment [N.m] of a wrench about the origin; not a number below the threshold.
+fn center_of_pressure(force: Vec3, moment: Vec3, up: Vec3, height: f64) -> (Vec3, Vec3) {
+    let vertical = force.dot(&up);
+    if vertical < CENTER_OF_PRESSURE_LOAD_N {
+        return (Vec3::repeat(f64::NAN), Vec3::repeat(f64::NAN));
+    }
+    let center = (up.cross(&moment) + force * height) / vertical;
+    (center, up * up.dot(&(moment - center.cross(&force))))
+}

@@ -1,0 +1,68 @@
+//! Poses, twists and accelerations of bodies at one instant.
+
+use super::plan::Plan;
+use super::sweep::{self, Scratch};
+use crate::model::{BodyId, Model};
+use crate::spatial::{Pose, Twist, Vec3};
+
+/// How one body moves at one instant, in world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyMotion {
+    /// `world_from_body`.
+    pub pose: Pose,
+    /// Place of the mass centre [m].
+    pub center: Vec3,
+    /// Angular velocity [rad/s] and velocity of the mass centre [m/s].
+    pub twist: Twist,
+    /// Angular acceleration [rad/s²] and acceleration of the mass centre [m/s²].
+    pub acceleration: Twist,
+}
+
+/// Coordinates of a model with their rates and accelerations, in the model's order.
+#[derive(Debug, Clone, Copy)]
+pub struct Posture<'a> {
+    /// Values [rad or m].
+    pub q: &'a [f64],
+    /// Rates [rad/s or m/s].
+    pub qd: &'a [f64],
+    /// Accelerations [rad/s² or m/s²].
+    pub qdd: &'a [f64],
+}
+
+/// The motion of every body, in the model's order. Each slice of `posture` has one entry a coordinate.
+///
+/// # Panics
+/// If a slice has another length than the model has coordinates.
+#[must_use]
+pub fn body_motion(model: &Model, posture: Posture<'_>) -> Vec<BodyMotion> {
+    let plan = Plan::new(model);
+    let mut scratch = Scratch::<1>::new(&plan);
+    scratch.load_posture(posture);
+    sweep::forward(&plan, &mut scratch);
+    model.body_ids().map(|id| scratch.body_motion(&plan, id, 0)).collect()
+}
+
+impl Scratch<1> {
+    /// Takes the coordinates of one frame.
+    #[inline(always)]
+    pub(crate) fn load_posture(&mut self, posture: Posture<'_>) {
+        self.q.as_flattened_mut().copy_from_slice(posture.q);
+        self.qd.as_flattened_mut().copy_from_slice(posture.qd);
+        self.qdd.as_flattened_mut().copy_from_slice(posture.qdd);
+    }
+}
+
+impl<const N: usize> Scratch<N> {
+    /// The motion of one body in one of the N frames; `forward` has run.
+    pub(crate) fn body_motion(&self, plan: &Plan, body: BodyId, lane: usize) -> BodyMotion {
+        let state = &self.states[body.index() + 1];
+        let joint_center = state.center.lane(lane) - state.to_center.lane(lane);
+        let world_from_joint = Pose { rotation: state.rotation.lane(lane), translation: joint_center };
+        BodyMotion {
+            pose: world_from_joint * plan.segments[body.index()].joint_from_body,
+            center: state.center.lane(lane),
+            twist: Twist { angular: state.omega.lane(lane), linear: state.v.lane(lane) },
+            acceleration: Twist { angular: state.alpha.lane(lane), linear: state.a.lane(lane) },
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! From coordinates to moving bodies.
+//!
+//! A [`Trajectory`] holds every coordinate with its first two derivatives on a uniform time grid; poses, twists and
+//! accelerations of the bodies follow from it frame by frame ([`BodyMotion`]) or block by block inside
+//! [`crate::dynamics`].
+
+mod body_motion;
+pub(crate) mod lanes;
+pub(crate) mod plan;
+mod sin_cos;
+pub(crate) mod sweep;
+mod trajectory;
+
+pub use body_motion::{BodyMotion, Posture, body_motion};
+pub use trajectory::{Trajectory, TrajectoryError};

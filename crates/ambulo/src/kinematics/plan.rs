@@ -1,0 +1,175 @@
+//! A model prepared for the sweeps: offsets multiplied out, axes sorted by how cheaply they turn.
+//!
+//! The sweeps know only the joint frames M on the children: inertia, mass centre and the joints of the children are
+//! given in M's axes, so that a child offset costs nothing per frame.
+
+use crate::model::{Displacement, Function, Joint, JointAxis, Measure, Model};
+use crate::spatial::{Inertia, Mat3, Pose, Vec3};
+use std::ops::Range;
+
+/// A rotation closer to the identity than this changes no result by a rounding error.
+const IDENTITY_TOLERANCE: f64 = 1e-15;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Plan {
+    pub(crate) gravity: Vec3,
+    pub(crate) coordinates: usize,
+    pub(crate) segments: Vec<Segment>,
+    pub(crate) axes: Vec<Axis>,
+}
+
+/// One body and its joint.
+#[derive(Debug, Clone)]
+pub(crate) struct Segment {
+    /// State of the parent: 0 is ground, i + 1 is body i.
+    pub(crate) parent: usize,
+    /// From the parent's mass centre to F's origin, in the parent's M axes [m].
+    pub(crate) to_joint: Vec3,
+    /// F's axes in the parent's M axes, unless they are the same.
+    pub(crate) offset: Option<Mat3>,
+    /// Rotations, then translations, in [`Plan::axes`].
+    pub(crate) rotations: Range<usize>,
+    pub(crate) translations: Range<usize>,
+    /// Ball-like joints: their coordinates' forces are moments about F's axes.
+    pub(crate) spherical: Option<Spherical>,
+    /// From M's origin to the mass centre, in M axes [m].
+    pub(crate) to_center: Vec3,
+    pub(crate) mass: f64,
+    /// About the mass centre in M axes [kg.m²].
+    pub(crate) inertia: Mat3,
+    pub(crate) diagonal: bool,
+    /// From M to the body's own frame.
+    pub(crate) joint_from_body: Pose,
+}
+
+/// A joint with [`Measure::AngularVelocity`] or [`Measure::Ellipsoid`].
+#[derive(Debug, Clone)]
+pub(crate) struct Spherical {
+    /// Coordinates of the three rotations.
+    pub(crate) coordinates: [usize; 3],
+    /// Half axes of the ellipsoid on which M's origin slides [m].
+    pub(crate) radii: Option<Vec3>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    pub(crate) direction: Direction,
+    pub(crate) source: Source,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Direction {
+    /// Along x, y or z.
+    Principal(usize),
+    /// Any other unit vector.
+    General(Vec3),
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Source {
+    Fixed(f64),
+    Line { coordinate: usize, slope: f64, intercept: f64 },
+    Curve { coordinate: usize, function: Function },
+}
+
+impl Plan {
+    pub(crate) fn new(model: &Model) -> Plan {
+        let mut plan = Plan {
+            gravity: model.gravity(),
+            coordinates: model.coordinates().len(),
+            segments: Vec::new(),
+            axes: Vec::new(),
+        };
+        for body in model.bodies() {
+            let joint_from_body = body.joint.child_from_joint.inverse();
+            let inertia = body.inertia.seen_from(&joint_from_body);
+            plan.push(&body.joint, joint_from_body, &inertia);
+        }
+        plan
+    }
+
+    fn push(&mut self, joint: &Joint, joint_from_body: Pose, inertia: &Inertia) {
+        let (parent, parent_m_from_joint, parent_center) = match joint.parent {
+            None => (0, joint.parent_from_joint, Vec3::zeros()),
+            Some(id) => {
+                let parent = &self.segments[id.index()];
+                (id.index() + 1, parent.joint_from_body * joint.parent_from_joint, parent.to_center)
+            }
+        };
+        let (turn, about_center) = (parent_m_from_joint.rotation, inertia.about_center());
+        let rotations = self.push_axes(&joint.rotations);
+        let translations = self.push_axes(&joint.translations);
+        self.segments.push(Segment {
+            parent,
+            to_joint: parent_m_from_joint.translation - parent_center,
+            offset: ((turn - Mat3::identity()).amax() > IDENTITY_TOLERANCE).then_some(turn),
+            rotations,
+            translations,
+            spherical: spherical(joint),
+            to_center: inertia.center(),
+            mass: inertia.mass(),
+            inertia: about_center,
+            diagonal: (about_center - Mat3::from_diagonal(&about_center.diagonal())).amax() < f64::MIN_POSITIVE,
+            joint_from_body,
+        });
+    }
+
+    fn push_axes(&mut self, axes: &[JointAxis]) -> Range<usize> {
+        let start = self.axes.len();
+        let stays =
+            |axis: &&JointAxis| matches!(axis.displacement, Displacement::Fixed(v) if v.abs() < f64::MIN_POSITIVE);
+        self.axes.extend(axes.iter().filter(|a| !stays(a)).map(Axis::new));
+        start..self.axes.len()
+    }
+}
+
+fn spherical(joint: &Joint) -> Option<Spherical> {
+    let radii = match joint.measure {
+        Measure::Rates => return None,
+        Measure::AngularVelocity => None,
+        Measure::Ellipsoid(radii) => Some(radii),
+    };
+    let coordinates: Vec<usize> = joint.coordinates().iter().map(|c| c.index()).take(3).collect();
+    Some(Spherical { coordinates: coordinates.try_into().ok()?, radii })
+}
+
+impl Axis {
+    fn new(axis: &JointAxis) -> Axis {
+        let (direction, sign) = principal(&axis.direction);
+        let source = match &axis.displacement {
+            Displacement::Fixed(value) => Source::Fixed(sign * value),
+            Displacement::Follows(id, function) => match function.as_linear() {
+                Some((slope, intercept)) => {
+                    Source::Line { coordinate: id.index(), slope: sign * slope, intercept: sign * intercept }
+                }
+                None => Source::Curve {
+                    coordinate: id.index(),
+                    function: Function::Scaled(sign, Box::new(function.clone())),
+                },
+            },
+        };
+        Axis { direction, source }
+    }
+}
+
+impl Source {
+    /// The coordinate that moves the axis.
+    #[inline(always)]
+    pub(crate) fn coordinate(&self) -> Option<usize> {
+        match self {
+            Source::Fixed(_) => None,
+            Source::Line { coordinate, .. } | Source::Curve { coordinate, .. } => Some(*coordinate),
+        }
+    }
+}
+
+/// A principal direction and the sign of the vector along it; any other direction as it is.
+fn principal(direction: &Vec3) -> (Direction, f64) {
+    for k in 0..3 {
+        let along = direction[k];
+        if (direction - Vec3::ith(k, along)).amax() < IDENTITY_TOLERANCE {
+            return (Direction::Principal(k), along.signum());
+        }
+    }
+    (Direction::General(*direction), 1.0)
+}

@@ -1,0 +1,206 @@
+//! Every coordinate of a model, with two derivatives, on a uniform time grid.
+
+use super::body_motion::Posture;
+use crate::findings::Findings;
+use crate::model::{CoordinateId, CoordinateKind, Drive, Model};
+use crate::motion::{SmoothMotion, TimeGrid};
+
+/// A complete motion of a model. Numbers are finite, couplers and locks are obeyed.
+#[derive(Debug, Clone)]
+pub struct Trajectory {
+    grid: TimeGrid,
+    /// Per coordinate: value, rate, acceleration, one entry a frame.
+    columns: Vec<[Vec<f64>; 3]>,
+}
+
+/// Why a motion is no trajectory.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrajectoryError {
+    /// A number that is not finite.
+    #[error(
+        "coordinate `{coordinate}` is not a finite number at {time_s:.4} s; expected values without gaps. hint: cut the range with --from and --to, or fill the gap"
+    )]
+    NotFinite {
+        /// The coordinate.
+        coordinate: String,
+        /// The instant [s].
+        time_s: f64,
+    },
+    /// A column of the wrong length, or too few or too many columns.
+    #[error("found {found} {what}; expected {expected}")]
+    Shape {
+        /// Columns or frames.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+}
+
+/// A recorded follower may differ from its coupler by this much before it is called a mismatch [rad or m].
+const COUPLER_TOLERANCE: f64 = 0.02;
+
+impl Trajectory {
+    /// From columns that are already complete: per coordinate its value, rate and acceleration, one entry a frame.
+    ///
+    /// # Errors
+    /// Wrong shapes, numbers that are not finite.
+    pub fn new(model: &Model, grid: TimeGrid, columns: Vec<[Vec<f64>; 3]>) -> Result<Trajectory, TrajectoryError> {
+        let expected = model.coordinates().len();
+        if columns.len() != expected {
+            return Err(TrajectoryError::Shape { what: "columns", found: columns.len(), expected });
+        }
+        for (column, coordinate) in columns.iter().zip(model.coordinates()) {
+            for series in column {
+                if series.len() != grid.frames {
+                    return Err(TrajectoryError::Shape { what: "frames", found: series.len(), expected: grid.frames });
+                }
+                if let Some(i) = series.iter().position(|x| !x.is_finite()) {
+                    let coordinate = coordinate.name.clone();
+                    return Err(TrajectoryError::NotFinite { coordinate, time_s: grid.time(i) });
+                }
+            }
+        }
+        Ok(Trajectory { grid, columns })
+    }
+
+    /// Completes a smoothed recording: locked, prescribed and missing coordinates get their own values, coupled ones
+    /// follow their coupler, whatever was recorded for them (a mismatch is a finding).
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn complete(
+        model: &Model,
+        motion: &SmoothMotion,
+        findings: &mut Findings,
+    ) -> Result<Trajectory, TrajectoryError> {
+        let grid = motion.grid;
+        let mut columns: Vec<[Vec<f64>; 3]> =
+            model.coordinate_ids().map(|id| recorded_or_driven(model, motion, id, findings)).collect();
+        for id in model.coordinate_ids() {
+            if let Drive::Coupled(leader, function) = &model.coordinates()[id.index()].drive {
+                let follower = follow(&columns[leader.index()], |x| function.at(x));
+                report_mismatch(model, id, motion.column(id).map(|c| &c[0]), &follower[0], findings);
+                columns[id.index()] = follower;
+            }
+        }
+        Trajectory::new(model, grid, columns)
+    }
+
+    /// The instants.
+    #[must_use]
+    pub fn grid(&self) -> TimeGrid {
+        self.grid
+    }
+
+    /// Values of a coordinate [rad or m], one a frame.
+    #[must_use]
+    pub fn values(&self, id: CoordinateId) -> &[f64] {
+        &self.columns[id.index()][0]
+    }
+
+    /// Rates of a coordinate [rad/s or m/s], one a frame.
+    #[must_use]
+    pub fn rates(&self, id: CoordinateId) -> &[f64] {
+        &self.columns[id.index()][1]
+    }
+
+    /// Accelerations of a coordinate [rad/s² or m/s²], one a frame.
+    #[must_use]
+    pub fn accelerations(&self, id: CoordinateId) -> &[f64] {
+        &self.columns[id.index()][2]
+    }
+
+    /// The columns of all coordinates: value, rate, acceleration.
+    pub(crate) fn columns(&self) -> &[[Vec<f64>; 3]] {
+        &self.columns
+    }
+
+    /// Calls `visit` with the posture of every frame, in order.
+    pub fn for_each_posture(&self, mut visit: impl FnMut(usize, Posture<'_>)) {
+        let n = self.columns.len();
+        let (mut q, mut qd, mut qdd) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        for frame in 0..self.grid.frames {
+            for (c, [value, rate, acceleration]) in self.columns.iter().enumerate() {
+                (q[c], qd[c], qdd[c]) = (value[frame], rate[frame], acceleration[frame]);
+            }
+            visit(frame, Posture { q: &q, qd: &qd, qdd: &qdd });
+        }
+    }
+}
+
+fn recorded_or_driven(
+    model: &Model,
+    motion: &SmoothMotion,
+    id: CoordinateId,
+    findings: &mut Findings,
+) -> [Vec<f64>; 3] {
+    let coordinate = &model.coordinates()[id.index()];
+    let held = || [vec![coordinate.default_value; motion.grid.frames], zeros(motion), zeros(motion)];
+    match (&coordinate.drive, motion.column(id)) {
+        (Drive::Locked, recorded) => {
+            report_mismatch(model, id, recorded.map(|c| &c[0]), &held()[0], findings);
+            held()
+        }
+        (Drive::Prescribed(function), _) => {
+            let times = [motion.grid.times(), vec![1.0; motion.grid.frames], zeros(motion)];
+            follow(&times, |t| function.at(t))
+        }
+        (Drive::Coupled(..), _) => held(),
+        (Drive::Free, Some(recorded)) => recorded.clone(),
+        (Drive::Free, None) => {
+            let message = format!(
+                "the recording has no coordinate `{}`; its default value {} is used throughout",
+                coordinate.name, coordinate.default_value
+            );
+            findings.warn("motion.missing_coordinate", message);
+            held()
+        }
+    }
+}
+
+fn zeros(motion: &SmoothMotion) -> Vec<f64> {
+    vec![0.0; motion.grid.frames]
+}
+
+/// y = f(x), ẏ = f' ẋ, ÿ = f' ẍ + f'' ẋ².
+fn follow(leader: &[Vec<f64>; 3], f: impl Fn(f64) -> [f64; 3]) -> [Vec<f64>; 3] {
+    let mut out = leader.clone();
+    for frame in 0..leader[0].len() {
+        let (rate, acceleration) = (leader[1][frame], leader[2][frame]);
+        let [y, dy, ddy] = f(leader[0][frame]);
+        (out[0][frame], out[1][frame]) = (y, dy * rate);
+        out[2][frame] = dy * acceleration + ddy * rate * rate;
+    }
+    out
+}
+
+/// Says when a recorded column was set aside for a value that it contradicts.
+fn report_mismatch(
+    model: &Model,
+    id: CoordinateId,
+    recorded: Option<&Vec<f64>>,
+    used: &[f64],
+    findings: &mut Findings,
+) {
+    let Some(recorded) = recorded else { return };
+    let coordinate = &model.coordinates()[id.index()];
+    let worst = recorded.iter().zip(used).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    if worst <= COUPLER_TOLERANCE {
+        return;
+    }
+    let (source, unit) = match (&coordinate.drive, coordinate.kind) {
+        (Drive::Locked, CoordinateKind::Translation) => ("is locked in the model", "m"),
+        (Drive::Locked, _) => ("is locked in the model", "rad"),
+        _ => ("follows a coupler of the model", "rad or m"),
+    };
+    let in_degrees = recorded.iter().zip(used).all(|(a, b)| (a.to_radians() - b).abs() <= COUPLER_TOLERANCE);
+    let guess = if in_degrees { "; the recorded column is in degrees under a header that says radians" } else { "" };
+    let message = format!(
+        "coordinate `{}` {source}; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
+        coordinate.name
+    );
+    findings.warn("motion.coupled_mismatch", message);
+}

@@ -1,0 +1,26 @@
+//! Ambulo: motion in, forces out.
+//!
+//! The science of the project: a body ([`model`]), what was observed of it ([`motion`]), its poses, twists and
+//! accelerations ([`kinematics`]), the forces behind them ([`dynamics`], [`ground`]), and what a reader wants to know
+//! ([`analysis`], [`report`]). This crate opens no file, reads no clock, starts no thread and prints nothing.
+//!
+//! Conventions (docs/CONVENTIONS.md): SI units and radians; world x forward, y up, z right; body quantities at the
+//! centre of mass in world axes, angular part before linear; joint moments are those of the parent on the child with
+//! the sign of the model's own coordinate.
+
+pub mod findings;
+pub mod numerics;
+pub mod spatial;
+
+pub mod model;
+pub mod motion;
+
+pub mod kinematics;
+
+pub mod dynamics;
+
+pub mod ground;
+
+pub mod analysis;
+
+pub mod report;

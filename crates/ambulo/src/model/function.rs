@@ -1,0 +1,165 @@
+//! Functions of one variable with two derivatives: how a joint's axes follow its coordinates.
+
+use super::simm_spline::SimmSpline;
+use crate::numerics::NaturalSpline;
+
+/// y = f(x), with dy/dx and d²y/dx².
+#[derive(Debug, Clone)]
+pub enum Function {
+    /// y = value.
+    Constant(f64),
+    /// y = slope x + intercept.
+    Linear {
+        /// Slope.
+        slope: f64,
+        /// Value at zero.
+        intercept: f64,
+    },
+    /// Polynomial, highest power first.
+    Polynomial(Vec<f64>),
+    /// Cubic spline as the SIMM program and OpenSim's `SimmSpline` fit it.
+    SimmSpline(SimmSpline),
+    /// Natural spline of odd degree, interpolating or smoothing.
+    NaturalSpline(NaturalSpline),
+    /// Straight lines between rising knots, level beyond the ends.
+    PiecewiseLinear(Knots),
+    /// The ordinate of the last knot at or before x, the first one before all knots.
+    PiecewiseConstant(Knots),
+    /// A smooth step between two levels (quintic, level with zero curvature at both ends).
+    Step {
+        /// Abscissa and ordinate where the step begins.
+        start: (f64, f64),
+        /// Abscissa and ordinate where the step ends.
+        end: (f64, f64),
+    },
+    /// y = amplitude sin(omega x + phase) + offset.
+    Sine {
+        /// Amplitude.
+        amplitude: f64,
+        /// Angular frequency.
+        omega: f64,
+        /// Phase [rad].
+        phase: f64,
+        /// Mean.
+        offset: f64,
+    },
+    /// Another function times a factor.
+    Scaled(f64, Box<Function>),
+}
+
+/// Points with strictly rising abscissae.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Knots {
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl Knots {
+    /// As many ordinates as strictly rising, finite abscissae, at least one; `None` otherwise.
+    #[must_use]
+    pub fn new(x: Vec<f64>, y: Vec<f64>) -> Option<Knots> {
+        let finite = x.iter().chain(&y).all(|v| v.is_finite());
+        let rising = x.windows(2).all(|w| w[0] < w[1]);
+        (finite && rising && !x.is_empty() && x.len() == y.len()).then_some(Knots { x, y })
+    }
+
+    /// Abscissae.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Ordinates.
+    #[must_use]
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Index of the last knot at or before x; 0 before all of them.
+    pub(super) fn before(&self, x: f64) -> usize {
+        self.x.partition_point(|&knot| knot <= x).saturating_sub(1)
+    }
+}
+
+impl Function {
+    /// y, dy/dx and d²y/dx² at x.
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; 3] {
+        match self {
+            Function::Constant(value) => [*value, 0.0, 0.0],
+            Function::Linear { slope, intercept } => [slope * x + intercept, *slope, 0.0],
+            Function::Polynomial(coefficients) => polynomial(coefficients, x),
+            Function::SimmSpline(spline) => spline.at(x),
+            Function::NaturalSpline(spline) => spline.value_and_two_derivatives(x),
+            Function::PiecewiseLinear(knots) => piecewise_linear(knots, x),
+            Function::PiecewiseConstant(knots) => [knots.y[knots.before(x)], 0.0, 0.0],
+            Function::Step { start, end } => step(*start, *end, x),
+            Function::Sine { amplitude, omega, phase, offset } => {
+                let (s, c) = (omega * x + phase).sin_cos();
+                [amplitude * s + offset, amplitude * omega * c, -amplitude * omega * omega * s]
+            }
+            Function::Scaled(scale, function) => function.at(x).map(|y| scale * y),
+        }
+    }
+
+    /// The value where the function does not depend on x.
+    #[must_use]
+    pub fn as_constant(&self) -> Option<f64> {
+        match self {
+            Function::Constant(value) => Some(*value),
+            Function::Scaled(scale, function) => function.as_constant().map(|value| scale * value),
+            _ => None,
+        }
+    }
+
+    /// Slope and intercept of a straight line; `None` for a constant or a curve.
+    #[must_use]
+    pub fn as_linear(&self) -> Option<(f64, f64)> {
+        match self {
+            Function::Linear { slope, intercept } => Some((*slope, *intercept)),
+            Function::Scaled(scale, function) => function.as_linear().map(|(a, b)| (scale * a, scale * b)),
+            _ => None,
+        }
+    }
+}
+
+/// Horner's scheme for a polynomial and its first two derivatives.
+fn polynomial(coefficients: &[f64], x: f64) -> [f64; 3] {
+    let (mut y, mut dy, mut half_ddy) = (0.0, 0.0, 0.0);
+    for c in coefficients {
+        half_ddy = half_ddy * x + dy;
+        dy = dy * x + y;
+        y = y * x + c;
+    }
+    [y, dy, 2.0 * half_ddy]
+}
+
+fn piecewise_linear(knots: &Knots, x: f64) -> [f64; 3] {
+    let Knots { x: xs, y: ys } = knots;
+    let last = xs.len() - 1;
+    if x < xs[0] {
+        return [ys[0], 0.0, 0.0];
+    }
+    if x >= xs[last] {
+        return [ys[last], 0.0, 0.0];
+    }
+    let i = knots.before(x);
+    let slope = (ys[i + 1] - ys[i]) / (xs[i + 1] - xs[i]);
+    [ys[i] + slope * (x - xs[i]), slope, 0.0]
+}
+
+/// 10 u³ - 15 u⁴ + 6 u⁵ between the two levels, u from 0 to 1.
+fn step((x0, y0): (f64, f64), (x1, y1): (f64, f64), x: f64) -> [f64; 3] {
+    let (width, height) = (x1 - x0, y1 - y0);
+    let u = (x - x0) / width;
+    if u <= 0.0 {
+        return [y0, 0.0, 0.0];
+    }
+    if u >= 1.0 {
+        return [y1, 0.0, 0.0];
+    }
+    let s = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+    let ds = 30.0 * u * u * (1.0 - u) * (1.0 - u);
+    let dds = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u);
+    [y0 + height * s, height * ds / width, height * dds / (width * width)]
+}

@@ -1,0 +1,338 @@
+//! From an OpenSim document to a [`Model`].
+
+use super::{
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Knots,
+    Marker, Measure, Model, ModelError, SimmSpline,
+};
+use crate::findings::{Finding, Findings, Severity};
+use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
+use crate::spatial::{Inertia, Mat3, Pose, Vec3};
+use ambulo_formats::osim::{
+    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimModel,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Why a document, though it reads, describes no body that can be computed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// A body that hangs in the air.
+    #[error(
+        "body `{body}` (line {line}) is not joined to ground; expected a joint whose child it is. hint: a FreeJoint to ground lets it move freely"
+    )]
+    Unjoined {
+        /// The body.
+        body: String,
+        /// Its line.
+        line: usize,
+    },
+    /// A body with two joints to a parent.
+    #[error(
+        "body `{body}` is the child of two joints, `{first}` and `{second}` (line {line}); expected a tree. hint: closed loops are not computed; remove one of the two joints"
+    )]
+    Loop {
+        /// The body.
+        body: String,
+        /// The joint that came first.
+        first: String,
+        /// The joint that came second.
+        second: String,
+        /// Line of the second.
+        line: usize,
+    },
+    /// A function that no curve can follow.
+    #[error("joint `{joint}` (line {line}): {reason}")]
+    Function {
+        /// The joint or constraint.
+        joint: String,
+        /// Its line.
+        line: usize,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A coupler or prescribed motion that names a coordinate which is not there.
+    #[error(
+        "constraint `{constraint}` (line {line}) names the coordinate `{coordinate}`; expected one of the model's coordinates"
+    )]
+    UnknownCoordinate {
+        /// The constraint.
+        constraint: String,
+        /// Its line.
+        line: usize,
+        /// The name.
+        coordinate: String,
+    },
+    /// Parts that do not fit.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+/// A model from an OpenSim document. What plays no part in the dynamics is noted once, with counts; odd inertias,
+/// massless bodies and constraints that close loops are warned about.
+///
+/// # Errors
+/// Bodies outside the tree, negative masses, names that lead nowhere: see [`ImportError`].
+pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model, ImportError> {
+    for remark in &document.remarks {
+        findings.warn("model.document", remark.to_string());
+    }
+    note_ignored(document, findings);
+    let order = tree_order(document)?;
+    let body_ids: BTreeMap<&str, BodyId> =
+        order.iter().enumerate().map(|(i, (body, _))| (body.name.as_str(), BodyId(i))).collect();
+
+    let mut coordinates = Vec::new();
+    let mut bodies = Vec::new();
+    for (body, joint) in &order {
+        let joint = import_joint(joint, &body_ids, &mut coordinates)?;
+        bodies.push(Body { name: body.name.clone(), inertia: import_inertia(body, findings)?, joint });
+    }
+    for constraint in &document.constraints {
+        couple(constraint, &mut coordinates, findings)?;
+    }
+    let markers = document.markers.iter().map(|m| Marker {
+        name: m.name.clone(),
+        body: body_ids.get(m.body.as_str()).copied(),
+        location: Vec3::from(m.location_m),
+    });
+    let gravity = Vec3::from(document.gravity);
+    Ok(Model::new(document.name.clone(), gravity, bodies, coordinates, markers.collect())?)
+}
+
+fn note_ignored(document: &OsimModel, findings: &mut Findings) {
+    if document.ignored.is_empty() {
+        return;
+    }
+    let kinds: Vec<_> = document.ignored.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    findings.add(Finding {
+        code: "model.ignored",
+        severity: Severity::Note,
+        message: format!("the model's forces and geometry play no part in inverse dynamics: {}", kinds.join(", ")),
+        count: document.ignored.values().sum(),
+    });
+}
+
+/// Each body with its joint, parents first; among those that are ready, in the order of the document's joints.
+fn tree_order(document: &OsimModel) -> Result<Vec<(&OsimBody, &OsimJoint)>, ImportError> {
+    let mut joint_of: BTreeMap<&str, &OsimJoint> = BTreeMap::new();
+    for joint in &document.joints {
+        if let Some(first) = joint_of.insert(&joint.child.body, joint) {
+            return Err(ImportError::Loop {
+                body: joint.child.body.clone(),
+                first: first.name.clone(),
+                second: joint.name.clone(),
+                line: joint.line,
+            });
+        }
+    }
+    let mut children: BTreeMap<&str, Vec<&OsimJoint>> = BTreeMap::new();
+    for joint in &document.joints {
+        children.entry(&joint.parent.body).or_default().push(joint);
+    }
+    let body_of = |name: &str| document.bodies.iter().find(|b| b.name == name);
+    let mut order = Vec::new();
+    let mut waiting: Vec<&OsimJoint> = children.get("ground").cloned().unwrap_or_default();
+    waiting.reverse();
+    while let Some(joint) = waiting.pop() {
+        if let Some(body) = body_of(&joint.child.body) {
+            order.push((body, joint));
+        }
+        waiting.extend(children.get(joint.child.body.as_str()).into_iter().flatten().rev());
+    }
+    let reached: BTreeSet<&str> = order.iter().map(|(body, _)| body.name.as_str()).collect();
+    match document.bodies.iter().find(|b| !reached.contains(b.name.as_str())) {
+        Some(body) => Err(ImportError::Unjoined { body: body.name.clone(), line: body.line }),
+        None => Ok(order),
+    }
+}
+
+fn import_inertia(body: &OsimBody, findings: &mut Findings) -> Result<Inertia, ImportError> {
+    let [xx, yy, zz, xy, xz, yz] = body.inertia;
+    let about_center = Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let inertia = Inertia::new(body.mass_kg, Vec3::from(body.mass_center_m), about_center)
+        .map_err(|source| ModelError::Inertia { body: body.name.clone(), source })?;
+    if body.mass_kg < f64::MIN_POSITIVE {
+        findings.warn("model.massless", format!("body `{}` (line {}) has no mass", body.name, body.line));
+    }
+    if let Some(defect) = inertia.defect() {
+        let message =
+            format!("body `{}` (line {}) has an inertia that no rigid body has: {defect}", body.name, body.line);
+        findings.warn("model.inertia", message);
+    }
+    Ok(inertia)
+}
+
+fn pose(frame: &OsimFrame) -> Pose {
+    let [a, b, c] = frame.rotation;
+    let rotation = Mat3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
+    Pose { rotation, translation: Vec3::from(frame.translation_m) }
+}
+
+/// The joint, its coordinates appended to the model's list.
+fn import_joint(
+    joint: &OsimJoint,
+    bodies: &BTreeMap<&str, BodyId>,
+    coordinates: &mut Vec<Coordinate>,
+) -> Result<Joint, ImportError> {
+    let first = coordinates.len();
+    let (rotations, translations, measure) = import_axes(joint, first)?;
+    let imported = Joint {
+        name: joint.name.clone(),
+        parent: bodies.get(joint.parent.body.as_str()).copied(),
+        parent_from_joint: pose(&joint.parent),
+        child_from_joint: pose(&joint.child),
+        rotations,
+        translations,
+        measure,
+    };
+    for (i, coordinate) in joint.coordinates.iter().enumerate() {
+        let kind = coordinate_kind(&imported, CoordinateId(first + i));
+        coordinates.push(import_coordinate(joint, coordinate, kind)?);
+    }
+    Ok(imported)
+}
+
+type Axes = (Vec<JointAxis>, Vec<JointAxis>, Measure);
+
+fn import_axes(joint: &OsimJoint, first: usize) -> Result<Axes, ImportError> {
+    let axis = |direction: Vec3, i: usize| JointAxis {
+        direction,
+        displacement: Displacement::Follows(CoordinateId(first + i), Function::Linear { slope: 1.0, intercept: 0.0 }),
+    };
+    let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
+    let xyz = |from: usize| vec![axis(x, from), axis(y, from + 1), axis(z, from + 2)];
+    let none = Vec::new;
+    Ok(match &joint.kind {
+        OsimJointKind::Weld => (none(), none(), Measure::Rates),
+        OsimJointKind::Pin => (vec![axis(z, 0)], none(), Measure::Rates),
+        OsimJointKind::Slider => (none(), vec![axis(x, 0)], Measure::Rates),
+        OsimJointKind::Universal => (vec![axis(x, 0), axis(y, 1)], none(), Measure::Rates),
+        OsimJointKind::Gimbal => (xyz(0), none(), Measure::Rates),
+        OsimJointKind::Planar => (vec![axis(z, 0)], vec![axis(x, 1), axis(y, 2)], Measure::Rates),
+        OsimJointKind::Ball => (xyz(0), none(), Measure::AngularVelocity),
+        OsimJointKind::Free => (xyz(0), xyz(3), Measure::AngularVelocity),
+        OsimJointKind::Ellipsoid { radii_m } => (xyz(0), none(), Measure::Ellipsoid(Vec3::from(*radii_m))),
+        OsimJointKind::Custom(axes) => {
+            let import = |a: &OsimAxis| import_axis(joint, a, first);
+            let rotations = axes[..3].iter().map(import).collect::<Result<_, _>>()?;
+            let translations = axes[3..].iter().map(import).collect::<Result<_, _>>()?;
+            (rotations, translations, Measure::Rates)
+        }
+    })
+}
+
+fn import_axis(joint: &OsimJoint, axis: &OsimAxis, first: usize) -> Result<JointAxis, ImportError> {
+    let direction = Vec3::from(axis.axis);
+    let function = import_function(&joint.name, joint.line, &axis.function)?;
+    let leader = axis.coordinate.as_ref().and_then(|name| joint.coordinates.iter().position(|c| c.name == *name));
+    let displacement = match (function.as_constant(), leader) {
+        (Some(value), _) => Displacement::Fixed(value),
+        (None, Some(i)) => Displacement::Follows(CoordinateId(first + i), function),
+        (None, None) => Displacement::Fixed(function.at(0.0)[0]),
+    };
+    Ok(JointAxis { direction: direction / direction.norm(), displacement })
+}
+
+fn import_function(joint: &str, line: usize, function: &OsimFunction) -> Result<Function, ImportError> {
+    let error = |reason: String| ImportError::Function { joint: joint.to_owned(), line, reason };
+    let points = |knots: &ambulo_formats::osim::Knots| {
+        Knots::new(knots.x.clone(), knots.y.clone()).ok_or_else(|| error("its knots do not rise".into()))
+    };
+    Ok(match function {
+        OsimFunction::Constant(value) => Function::Constant(*value),
+        OsimFunction::Linear { slope, intercept } => Function::Linear { slope: *slope, intercept: *intercept },
+        OsimFunction::Polynomial(coefficients) => Function::Polynomial(coefficients.clone()),
+        OsimFunction::SimmSpline(knots) => Function::SimmSpline(
+            SimmSpline::new(points(knots)?).ok_or_else(|| error("a spline needs two points".into()))?,
+        ),
+        OsimFunction::PiecewiseLinear(knots) => Function::PiecewiseLinear(points(knots)?),
+        OsimFunction::PiecewiseConstant(knots) => Function::PiecewiseConstant(points(knots)?),
+        OsimFunction::Step { start, end } => Function::Step { start: *start, end: *end },
+        OsimFunction::Sine { amplitude, omega, phase, offset } => {
+            Function::Sine { amplitude: *amplitude, omega: *omega, phase: *phase, offset: *offset }
+        }
+        OsimFunction::Multiplier { scale, function } => {
+            Function::Scaled(*scale, Box::new(import_function(joint, line, function)?))
+        }
+        OsimFunction::GcvSpline { degree, knots, error_variance } => {
+            let smoothing =
+                if *error_variance > 0.0 { Smoothing::ErrorVariance(*error_variance) } else { Smoothing::Interpolate };
+            let degree = match degree {
+                1 => SplineDegree::Linear,
+                3 => SplineDegree::Cubic,
+                7 => SplineDegree::Heptic,
+                _ => SplineDegree::Quintic,
+            };
+            let fitter = SplineFitter::new(degree, &knots.x).map_err(|e| error(e.to_string()))?;
+            Function::NaturalSpline(fitter.fit(&knots.y, smoothing).map_err(|e| error(e.to_string()))?)
+        }
+    })
+}
+
+/// Rotation or translation where some axis follows the coordinate with slope one, else coupled (OpenSim's rule,
+/// `CustomJoint.cpp`); the last such axis decides.
+fn coordinate_kind(joint: &Joint, id: CoordinateId) -> CoordinateKind {
+    const SLOPE_TOLERANCE: f64 = 1e-12;
+    let follows = |axis: &&JointAxis| match &axis.displacement {
+        Displacement::Follows(c, f) if *c == id => {
+            f.as_linear().is_some_and(|(slope, _)| (slope.abs() - 1.0).abs() < SLOPE_TOLERANCE)
+        }
+        _ => false,
+    };
+    if joint.translations.iter().any(|a| follows(&a)) {
+        CoordinateKind::Translation
+    } else if joint.rotations.iter().any(|a| follows(&a)) {
+        CoordinateKind::Rotation
+    } else {
+        CoordinateKind::Coupled
+    }
+}
+
+fn import_coordinate(
+    joint: &OsimJoint,
+    coordinate: &OsimCoordinate,
+    kind: CoordinateKind,
+) -> Result<Coordinate, ImportError> {
+    let drive = match &coordinate.prescribed {
+        _ if coordinate.locked => Drive::Locked,
+        Some(function) => Drive::Prescribed(import_function(&joint.name, coordinate.line, function)?),
+        None => Drive::Free,
+    };
+    Ok(Coordinate {
+        name: coordinate.name.clone(),
+        kind,
+        default_value: coordinate.default_value,
+        range: coordinate.range,
+        drive,
+    })
+}
+
+fn couple(
+    constraint: &OsimConstraint,
+    coordinates: &mut [Coordinate],
+    findings: &mut Findings,
+) -> Result<(), ImportError> {
+    match constraint {
+        OsimConstraint::Off { .. } => Ok(()),
+        OsimConstraint::Other { kind, name, line } => {
+            let message = format!(
+                "the {kind} `{name}` (line {line}) is not enforced: forces through it are reported at the joints of the tree"
+            );
+            findings.warn("model.constraint", message);
+            Ok(())
+        }
+        OsimConstraint::CoordinateCoupler { name, line, independent, dependent, function } => {
+            let find = |wanted: &String| {
+                coordinates.iter().position(|c| c.name == *wanted).ok_or_else(|| ImportError::UnknownCoordinate {
+                    constraint: name.clone(),
+                    line: *line,
+                    coordinate: wanted.clone(),
+                })
+            };
+            let (leader, follower) = (find(independent)?, find(dependent)?);
+            let function = import_function(name, *line, function)?;
+            coordinates[follower].drive = Drive::Coupled(CoordinateId(leader), function);
+            Ok(())
+        }
+    }
+}

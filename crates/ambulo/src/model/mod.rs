@@ -1,0 +1,331 @@
+//! The body as a description: segments, joints, coordinates, markers. Never changes once made.
+//!
+//! A [`Model`] is a tree: every body has one joint to its parent or to ground, parents stand before their children.
+//! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
+
+mod function;
+mod import;
+mod joint;
+mod side;
+mod simm_spline;
+
+pub use function::{Function, Knots};
+pub use import::{ImportError, from_osim};
+pub use joint::{Displacement, Joint, JointAxis, Measure};
+pub use side::Side;
+pub use simm_spline::SimmSpline;
+
+use crate::spatial::{Inertia, InertiaError, Vec3};
+
+/// Names a body of one model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub(crate) usize);
+
+/// Names a coordinate of one model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CoordinateId(pub(crate) usize);
+
+impl BodyId {
+    /// Position in [`Model::bodies`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+impl CoordinateId {
+    /// Position in [`Model::coordinates`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// A rigid segment and the joint that carries it.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Name of the body.
+    pub name: String,
+    /// Mass, mass centre and inertia in the body frame.
+    pub inertia: Inertia,
+    /// The joint to the parent.
+    pub joint: Joint,
+}
+
+/// One number of the body's configuration.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    /// Name of the coordinate.
+    pub name: String,
+    /// What it measures.
+    pub kind: CoordinateKind,
+    /// Value when a recording says nothing [rad or m].
+    pub default_value: f64,
+    /// Range that the model's author allows [rad or m], if stated.
+    pub range: Option<[f64; 2]>,
+    /// What else decides its value.
+    pub drive: Drive,
+}
+
+/// What a coordinate measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// An angle about an axis [rad]; its generalised force is a moment [N.m].
+    Rotation,
+    /// A distance along an axis [m]; its generalised force is a force [N].
+    Translation,
+    /// A parameter of curves in several axes; OpenSim reports its generalised force as a force.
+    Coupled,
+}
+
+impl CoordinateKind {
+    /// The ending of the generalised force's column name, as OpenSim has it.
+    #[must_use]
+    pub fn force_suffix(self) -> &'static str {
+        match self {
+            CoordinateKind::Rotation => "moment",
+            CoordinateKind::Translation | CoordinateKind::Coupled => "force",
+        }
+    }
+}
+
+/// What decides a coordinate's value when it is not the recording.
+#[derive(Debug, Clone)]
+pub enum Drive {
+    /// The recording decides.
+    Free,
+    /// Held at the default value.
+    Locked,
+    /// Follows a function of time [s].
+    Prescribed(Function),
+    /// Follows another coordinate.
+    Coupled(CoordinateId, Function),
+}
+
+/// A point fixed to a body, seen by cameras.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Marker {
+    /// Name of the marker.
+    pub name: String,
+    /// The body; `None` is ground.
+    pub body: Option<BodyId>,
+    /// Place in the body frame [m].
+    pub location: Vec3,
+}
+
+/// A tree of bodies, its coordinates and markers.
+#[derive(Debug, Clone)]
+pub struct Model {
+    name: String,
+    gravity: Vec3,
+    bodies: Vec<Body>,
+    coordinates: Vec<Coordinate>,
+    markers: Vec<Marker>,
+}
+
+/// Why parts make no model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// No body at all.
+    #[error("the model has no body; expected at least one")]
+    NoBody,
+    /// A parent that does not stand before its child.
+    #[error("body `{body}` stands before its parent; expected parents first")]
+    ParentAfterChild {
+        /// The child.
+        body: String,
+    },
+    /// A coordinate number that the model does not have, or that two joints use.
+    #[error("joint `{joint}` uses coordinate {index}; expected one of {count} that no other joint uses")]
+    Coordinate {
+        /// The joint.
+        joint: String,
+        /// What it asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two things with one name.
+    #[error("two {what} are named `{name}`; expected different names")]
+    Duplicate {
+        /// Bodies or coordinates.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// Too many axes, or an axis that is no direction.
+    #[error("joint `{joint}`: {found}; expected at most three rotations and three translations about unit axes")]
+    Axis {
+        /// The joint.
+        joint: String,
+        /// What was found.
+        found: String,
+    },
+    /// Couplers that lead in a circle, or to a coordinate that follows another.
+    #[error("coordinate `{coordinate}` follows a coordinate that itself follows another; expected a free one")]
+    CouplerChain {
+        /// The follower.
+        coordinate: String,
+    },
+    /// A mass that was refused.
+    #[error("body `{body}`: {source}")]
+    Inertia {
+        /// The body.
+        body: String,
+        /// Why.
+        source: InertiaError,
+    },
+}
+
+impl Model {
+    /// Puts a model together. Gravity in world axes [m/s²]; bodies parent first.
+    ///
+    /// # Errors
+    /// Parts that do not fit: see [`ModelError`].
+    pub fn new(
+        name: impl Into<String>,
+        gravity: Vec3,
+        bodies: Vec<Body>,
+        coordinates: Vec<Coordinate>,
+        markers: Vec<Marker>,
+    ) -> Result<Model, ModelError> {
+        let model = Model { name: name.into(), gravity, bodies, coordinates, markers };
+        model.check()?;
+        Ok(model)
+    }
+
+    fn check(&self) -> Result<(), ModelError> {
+        if self.bodies.is_empty() {
+            return Err(ModelError::NoBody);
+        }
+        unique("bodies", self.bodies.iter().map(|b| &b.name))?;
+        unique("coordinates", self.coordinates.iter().map(|c| &c.name))?;
+        let mut used = vec![false; self.coordinates.len()];
+        for (i, body) in self.bodies.iter().enumerate() {
+            if body.joint.parent.is_some_and(|p| p.0 >= i) {
+                return Err(ModelError::ParentAfterChild { body: body.name.clone() });
+            }
+            check_axes(&body.joint)?;
+            for CoordinateId(index) in body.joint.coordinates() {
+                match used.get_mut(index) {
+                    Some(seen) if !*seen => *seen = true,
+                    _ => {
+                        let (joint, count) = (body.joint.name.clone(), used.len());
+                        return Err(ModelError::Coordinate { joint, index, count });
+                    }
+                }
+            }
+        }
+        for coordinate in &self.coordinates {
+            if let Drive::Coupled(leader, _) = &coordinate.drive
+                && !self.coordinates.get(leader.0).is_some_and(|l| !matches!(l.drive, Drive::Coupled(..)))
+            {
+                return Err(ModelError::CouplerChain { coordinate: coordinate.name.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Name of the model.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Gravity in world axes [m/s²].
+    #[must_use]
+    pub fn gravity(&self) -> Vec3 {
+        self.gravity
+    }
+
+    /// Bodies, parents first.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Coordinates, in the order of the bodies that they move.
+    #[must_use]
+    pub fn coordinates(&self) -> &[Coordinate] {
+        &self.coordinates
+    }
+
+    /// Markers.
+    #[must_use]
+    pub fn markers(&self) -> &[Marker] {
+        &self.markers
+    }
+
+    /// Total mass [kg].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.bodies.iter().map(|b| b.inertia.mass()).sum()
+    }
+
+    /// The body with this name.
+    #[must_use]
+    pub fn body(&self, name: &str) -> Option<BodyId> {
+        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+    }
+
+    /// The coordinate with this name.
+    #[must_use]
+    pub fn coordinate(&self, name: &str) -> Option<CoordinateId> {
+        self.coordinates.iter().position(|c| c.name == name).map(CoordinateId)
+    }
+
+    /// All bodies, by id.
+    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + use<> {
+        (0..self.bodies.len()).map(BodyId)
+    }
+
+    /// All coordinates, by id.
+    pub fn coordinate_ids(&self) -> impl Iterator<Item = CoordinateId> + use<> {
+        (0..self.coordinates.len()).map(CoordinateId)
+    }
+
+    /// The same model with a point mass [kg] fixed to a body at a place in its frame [m]: a shoe, a battery, a load.
+    ///
+    /// # Errors
+    /// A negative mass, or numbers that are not finite.
+    pub fn with_point_mass(&self, body: BodyId, mass: f64, place: Vec3) -> Result<Model, ModelError> {
+        let mut model = self.clone();
+        let Body { inertia, name, .. } = &mut model.bodies[body.0];
+        *inertia = inertia
+            .with_point_mass(mass, place)
+            .map_err(|source| ModelError::Inertia { body: name.clone(), source })?;
+        Ok(model)
+    }
+
+    /// Names of the generalised forces, one for each coordinate: `<coordinate>_moment` or `<coordinate>_force`.
+    #[must_use]
+    pub fn force_names(&self) -> Vec<String> {
+        self.coordinates.iter().map(|c| format!("{}_{}", c.name, c.kind.force_suffix())).collect()
+    }
+}
+
+fn unique<'a>(what: &'static str, names: impl Iterator<Item = &'a String>) -> Result<(), ModelError> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            return Err(ModelError::Duplicate { what, name: name.clone() });
+        }
+    }
+    Ok(())
+}
+
+fn check_axes(joint: &Joint) -> Result<(), ModelError> {
+    const UNIT_TOLERANCE: f64 = 1e-9;
+    let error = |found: String| Err(ModelError::Axis { joint: joint.name.clone(), found });
+    if joint.rotations.len() > 3 || joint.translations.len() > 3 {
+        return error(format!("{} rotations and {} translations", joint.rotations.len(), joint.translations.len()));
+    }
+    for axis in joint.rotations.iter().chain(&joint.translations) {
+        let length = axis.direction.norm();
+        if !((length - 1.0).abs() < UNIT_TOLERANCE) {
+            return error(format!("an axis of length {length}"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! Right and left.
+
+use std::fmt;
+
+/// A side of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// Right.
+    Right,
+    /// Left.
+    Left,
+}
+
+impl Side {
+    /// Both sides, right first.
+    pub const BOTH: [Side; 2] = [Side::Right, Side::Left];
+
+    /// `r` or `l`, as column names have it.
+    #[must_use]
+    pub fn letter(self) -> &'static str {
+        match self {
+            Side::Right => "r",
+            Side::Left => "l",
+        }
+    }
+
+    /// The side that a name ends with (`calcn_r`) or carries inside (`knee_angle_r_beta`).
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Side> {
+        Side::split_name(name).map(|(side, _)| side)
+    }
+
+    /// The side and the name without it: `knee_angle_r_beta` is right and `knee_angle_beta`.
+    #[must_use]
+    pub fn split_name(name: &str) -> Option<(Side, String)> {
+        for side in Side::BOTH {
+            let letter = side.letter();
+            if let Some(stem) = name.strip_suffix(&format!("_{letter}")) {
+                return Some((side, stem.to_owned()));
+            }
+            if let Some((before, after)) = name.split_once(&format!("_{letter}_")) {
+                return Some((side, format!("{before}_{after}")));
+            }
+        }
+        None
+    }
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Side::Right => "right",
+            Side::Left => "left",
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! What force plates or other sensors measured: a force, where it acts, and a moment about that place.
+
+use super::import::rows_with_rising_time;
+use super::recording::MotionError;
+use crate::findings::Findings;
+use crate::model::{BodyId, Model};
+use crate::spatial::Vec3;
+use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
+use ambulo_formats::table::Table;
+
+/// A measured load on one body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceRecording {
+    /// Name of the load.
+    pub name: String,
+    /// The body that feels it.
+    pub body: BodyId,
+    /// The body whose axes the force and the moment are given in; `None` is the world.
+    pub force_frame: Option<BodyId>,
+    /// The body in whose frame the point is given; `None` is the world.
+    pub point_frame: Option<BodyId>,
+    /// Instants [s], strictly rising.
+    pub times: Vec<f64>,
+    /// Force [N], one entry an instant.
+    pub force: Vec<Vec3>,
+    /// Where it acts [m]; not a number where the sensor says nothing.
+    pub point: Vec<Vec3>,
+    /// Moment about the point [N.m].
+    pub moment: Vec<Vec3>,
+}
+
+/// A loaded point further from the origin than this [m] is probably in millimetres.
+const FARTHEST_PLAUSIBLE_POINT_M: f64 = 60.0;
+/// A load is worth judging above this [N].
+const LOADED_N: f64 = 20.0;
+
+/// The loads that an external-loads document describes, with their numbers from `table`.
+///
+/// # Errors
+/// Bodies or columns that are not there, times that do not rise.
+pub fn force_recordings(
+    model: &Model,
+    loads: &ExternalLoads,
+    table: &Table,
+    findings: &mut Findings,
+) -> Result<Vec<ForceRecording>, MotionError> {
+    let kept = rows_with_rising_time(table, findings)?;
+    let times = table.times().unwrap_or_default();
+    let times: Vec<f64> = kept.iter().map(|&row| times[row]).collect();
+    let mut recordings = Vec::new();
+    for load in &loads.forces {
+        if !load.enabled {
+            findings.note("loads.switched_off", format!("the load `{}` is switched off in its file", load.name));
+            continue;
+        }
+        let recording = ForceRecording {
+            name: load.name.clone(),
+            body: find_body(model, load, &load.applied_to_body)?
+                .ok_or_else(|| unknown_body(model, load, &load.applied_to_body))?,
+            force_frame: find_body(model, load, &load.force_expressed_in_body)?,
+            point_frame: find_body(model, load, &load.point_expressed_in_body)?,
+            times: times.clone(),
+            force: triple(table, &kept, load, load.force_identifier.as_deref(), "the force")?,
+            point: triple(table, &kept, load, load.point_identifier.as_deref(), "the point")?,
+            moment: triple(table, &kept, load, load.torque_identifier.as_deref(), "the torque")?,
+        };
+        report_millimetres(&recording, findings);
+        recordings.push(recording);
+    }
+    Ok(recordings)
+}
+
+/// The body, or `None` for ground.
+fn find_body(model: &Model, load: &ExternalForce, name: &str) -> Result<Option<BodyId>, MotionError> {
+    if name == "ground" {
+        return Ok(None);
+    }
+    model.body(name).map(Some).ok_or_else(|| unknown_body(model, load, name))
+}
+
+fn unknown_body(model: &Model, load: &ExternalForce, name: &str) -> MotionError {
+    let known: Vec<_> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+    MotionError::UnknownBody { load: load.name.clone(), body: name.to_owned(), known: known.join(", ") }
+}
+
+/// Columns `<identifier>x`, `y`, `z`; zeros without an identifier.
+fn triple(
+    table: &Table,
+    rows: &[usize],
+    load: &ExternalForce,
+    identifier: Option<&str>,
+    what: &str,
+) -> Result<Vec<Vec3>, MotionError> {
+    let Some(identifier) = identifier else { return Ok(vec![Vec3::zeros(); rows.len()]) };
+    let column = |axis: &str| {
+        let column = format!("{identifier}{axis}");
+        table.column(&column).ok_or_else(|| MotionError::NoColumn {
+            column,
+            purpose: format!("{what} of the load `{}`", load.name),
+            found: table.names().join(", "),
+        })
+    };
+    let (x, y, z) = (column("x")?, column("y")?, column("z")?);
+    Ok(rows.iter().map(|&i| Vec3::new(x[i], y[i], z[i])).collect())
+}
+
+fn report_millimetres(recording: &ForceRecording, findings: &mut Findings) {
+    let loaded =
+        recording.force.iter().zip(&recording.point).filter(|(f, p)| f.norm() > LOADED_N && p.norm().is_finite());
+    let farthest = loaded.map(|(_, p)| p.norm()).fold(0.0, f64::max);
+    if farthest > FARTHEST_PLAUSIBLE_POINT_M {
+        let message = format!(
+            "the load `{}` acts up to {farthest:.0} m from the origin; its points look like millimetres. hint: divide the points by 1000, and the moments too if they are N.mm",
+            recording.name
+        );
+        findings.warn("loads.millimetres", message);
+    }
+}

@@ -1,0 +1,150 @@
+//! From a table of numbers to a recording of a model's coordinates.
+
+use super::recording::{Motion, MotionError};
+use crate::findings::Findings;
+use crate::model::{Coordinate, CoordinateKind, Model};
+use ambulo_formats::table::{Table, coordinate_of_state_path};
+
+/// A rotation outside ±this [rad] under a header that says radians was written in degrees.
+const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
+/// Rotations that all stay within ±this [deg] under a header that says degrees were written in radians.
+const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
+/// The test for radians under a degrees header needs at least this many moving rotations.
+const ENOUGH_ROTATIONS: usize = 4;
+
+/// The coordinates of `model` that a table records. Columns are coordinate names or absolute state paths
+/// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees where the header says so.
+///
+/// Columns that the model does not know, repeated rows and angles in the wrong unit are findings.
+///
+/// # Errors
+/// Times that do not rise, two different rows at one instant, no known column.
+pub fn coordinates_from_table(
+    model: &Model,
+    table: &Table,
+    origin: &str,
+    findings: &mut Findings,
+) -> Result<Motion, MotionError> {
+    let kept = rows_with_rising_time(table, findings)?;
+    let times = table.times().unwrap_or_default();
+    let in_degrees = table.in_degrees.unwrap_or_else(|| {
+        findings.warn("motion.unit_unstated", "the motion's header has no `inDegrees`; its angles are read as radians");
+        false
+    });
+    let mut motion = Motion {
+        origin: origin.to_owned(),
+        times: kept.iter().map(|&row| times[row]).collect(),
+        columns: vec![None; model.coordinates().len()],
+    };
+    let mut unknown = Vec::new();
+    for (name, values) in table.columns().skip(1) {
+        let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
+        match plain.and_then(|n| model.coordinate(n)) {
+            Some(id) => {
+                let turn = in_degrees && model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+                let convert = |x: f64| if turn { x.to_radians() } else { x };
+                motion.columns[id.index()] = Some(kept.iter().map(|&row| convert(values[row])).collect());
+            }
+            None if plain.is_some() => unknown.push(name),
+            None => {}
+        }
+    }
+    if motion.columns.iter().all(Option::is_none) {
+        return Err(no_coordinate(model, table));
+    }
+    report_unknown(model, &unknown, &motion, findings);
+    report_wrong_unit(model, &motion, in_degrees, findings);
+    Ok(motion)
+}
+
+fn no_coordinate(model: &Model, table: &Table) -> MotionError {
+    let join = |names: Vec<&str>| names.into_iter().take(6).collect::<Vec<_>>().join(", ");
+    MotionError::NoCoordinate {
+        model: model.name().to_owned(),
+        found: join(table.names().iter().map(String::as_str).collect()),
+        known: join(model.coordinates().iter().map(|c| c.name.as_str()).collect()),
+    }
+}
+
+/// Rows to keep: a row that repeats its predecessor to the last digit is dropped and counted.
+pub(super) fn rows_with_rising_time(table: &Table, findings: &mut Findings) -> Result<Vec<usize>, MotionError> {
+    let first_name = table.names().first().cloned().unwrap_or_default();
+    let Some(times) = table.times() else { return Err(MotionError::NoTime { found: first_name }) };
+    let place = |row: usize| match table.line_of_row(row) {
+        Some(line) => format!("line {line}"),
+        None => format!("row {}", row + 1),
+    };
+    let mut kept: Vec<usize> = Vec::with_capacity(times.len());
+    for (row, &time) in times.iter().enumerate() {
+        if !time.is_finite() {
+            return Err(MotionError::TimeNotFinite { place: place(row), found: time });
+        }
+        let Some(&before) = kept.last() else {
+            kept.push(row);
+            continue;
+        };
+        let earlier = times[before];
+        if time > earlier {
+            kept.push(row);
+        } else if time < earlier {
+            return Err(MotionError::TimeNotRising { place: place(row), earlier, later: time });
+        } else if let Some(column) = first_difference(table, before, row) {
+            return Err(MotionError::TwoRows { place: place(row), time, column });
+        } else {
+            findings.warn("motion.repeated_row", "rows that repeat the one before them were dropped");
+        }
+    }
+    Ok(kept)
+}
+
+fn first_difference(table: &Table, a: usize, b: usize) -> Option<String> {
+    let differ = |values: &[f64]| values[a].to_bits() != values[b].to_bits();
+    table.columns().find(|(_, values)| differ(values)).map(|(name, _)| name.to_owned())
+}
+
+fn report_unknown(model: &Model, unknown: &[&str], motion: &Motion, findings: &mut Findings) {
+    if unknown.is_empty() {
+        return;
+    }
+    let unmatched: Vec<&str> = model
+        .coordinates()
+        .iter()
+        .zip(&motion.columns)
+        .filter(|(_, c)| c.is_none())
+        .map(|(c, _)| c.name.as_str())
+        .collect();
+    let unmatched = if unmatched.is_empty() { "none".to_owned() } else { unmatched.join(", ") };
+    let message = format!(
+        "the model has no coordinate {}; these columns were not used (coordinates of the model without a column: {unmatched})",
+        unknown.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
+    );
+    findings.warn("motion.unknown_coordinate", message);
+}
+
+fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mut Findings) {
+    let recorded = model.coordinates().iter().zip(&motion.columns);
+    let rotations: Vec<(&Coordinate, f64)> = recorded
+        .filter(|(c, _)| c.kind == CoordinateKind::Rotation)
+        .filter_map(|(c, column)| {
+            let largest = column.as_ref()?.iter().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
+            Some((c, largest))
+        })
+        .collect();
+    if !in_degrees {
+        if let Some((c, largest)) = rotations.iter().find(|(_, largest)| *largest > LARGEST_PLAUSIBLE_ANGLE) {
+            let message = format!(
+                "`{}` reaches {largest:.1} where the header says radians; it looks like degrees. hint: set inDegrees=yes in the header",
+                c.name
+            );
+            findings.warn("motion.degrees_as_radians", message);
+        }
+        return;
+    }
+    let moving: Vec<f64> = rotations.iter().map(|(_, largest)| largest.to_degrees()).filter(|x| *x > 0.0).collect();
+    if moving.len() >= ENOUGH_ROTATIONS && moving.iter().all(|x| *x < SMALLEST_PLAUSIBLE_SPAN_DEG) {
+        let message = format!(
+            "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} where the header says degrees; they look like radians. hint: set inDegrees=no in the header"
+        );
+        findings.warn("motion.radians_as_degrees", message);
+    }
+}

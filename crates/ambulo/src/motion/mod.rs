@@ -1,0 +1,17 @@
+//! What was observed: named sampled series, their gaps, filters and derivatives.
+//!
+//! A [`Motion`] is a recording of coordinates as it stands in a file, in SI units. [`smooth`] puts it on a uniform
+//! [`TimeGrid`], filters it and differentiates it. A [`ForceRecording`] is what force plates or other sensors measured.
+
+pub mod filter;
+mod force_recording;
+mod import;
+mod recording;
+mod smooth;
+mod time_grid;
+
+pub use force_recording::{ForceRecording, force_recordings};
+pub use import::coordinates_from_table;
+pub use recording::{Motion, MotionError};
+pub use smooth::{SmoothMotion, Smoother, smooth};
+pub use time_grid::{TimeGrid, Window, interpolate};

@@ -1,0 +1,117 @@
+//! Instants: uniform grids, windows, and values between samples.
+
+/// Instants at a constant step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeGrid {
+    /// First instant [s].
+    pub start_s: f64,
+    /// Time from one frame to the next [s].
+    pub step_s: f64,
+    /// Number of instants.
+    pub frames: usize,
+}
+
+/// A range of time; an open end is a `None`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Window {
+    /// Earliest instant [s].
+    pub from_s: Option<f64>,
+    /// Latest instant [s].
+    pub to_s: Option<f64>,
+}
+
+/// Clocks that print four decimals miss the grid by this share of a step at 1 kHz; instants closer than this are the
+/// grid's own.
+const GRID_TOLERANCE: f64 = 0.06;
+
+impl TimeGrid {
+    /// The instant of a frame [s].
+    #[must_use]
+    pub fn time(&self, frame: usize) -> f64 {
+        self.start_s + self.step_s * frame as f64
+    }
+
+    /// All instants [s].
+    #[must_use]
+    pub fn times(&self) -> Vec<f64> {
+        (0..self.frames).map(|i| self.time(i)).collect()
+    }
+
+    /// Frames a second [Hz].
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        1.0 / self.step_s
+    }
+
+    /// Last instant [s].
+    #[must_use]
+    pub fn end_s(&self) -> f64 {
+        self.time(self.frames.saturating_sub(1))
+    }
+
+    /// The grid that these rising instants lie on to within a rounded clock, if there is one; at least two instants.
+    #[must_use]
+    pub fn through(times: &[f64]) -> Option<TimeGrid> {
+        let grid = TimeGrid::spanning(times)?;
+        let near = |(i, t): (usize, &f64)| (t - grid.time(i)).abs() <= GRID_TOLERANCE * grid.step_s;
+        times.iter().enumerate().all(near).then_some(grid)
+    }
+
+    /// A uniform grid with as many instants and the same ends; at least two instants.
+    #[must_use]
+    pub fn spanning(times: &[f64]) -> Option<TimeGrid> {
+        let (&first, &last) = (times.first()?, times.last()?);
+        let frames = times.len();
+        (frames >= 2 && last > first).then(|| TimeGrid {
+            start_s: first,
+            step_s: (last - first) / (frames - 1) as f64,
+            frames,
+        })
+    }
+
+    /// Frames inside a window, ends included, as first frame and number.
+    #[must_use]
+    pub fn inside(&self, window: Window) -> (usize, usize) {
+        let slack = 1e-6 * self.step_s;
+        let first = match window.from_s {
+            Some(from) => (0..self.frames).find(|&i| self.time(i) >= from - slack).unwrap_or(self.frames),
+            None => 0,
+        };
+        let end = match window.to_s {
+            Some(to) => (0..self.frames).rev().find(|&i| self.time(i) <= to + slack).map_or(0, |i| i + 1),
+            None => self.frames,
+        };
+        (first, end.saturating_sub(first))
+    }
+}
+
+impl Window {
+    /// The instants that lie in both.
+    #[must_use]
+    pub fn overlap(self, other: Window) -> Window {
+        let later = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+        let earlier = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        Window { from_s: later(self.from_s, other.from_s), to_s: earlier(self.to_s, other.to_s) }
+    }
+}
+
+/// Value at `t` on straight lines between samples; the end values beyond the ends. `times` rise.
+#[must_use]
+pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
+    let after = times.partition_point(|&x| x <= t);
+    if after == 0 {
+        return values.first().copied().unwrap_or(f64::NAN);
+    }
+    if after == times.len() {
+        return values[after - 1];
+    }
+    let (t0, t1) = (times[after - 1], times[after]);
+    let share = (t - t0) / (t1 - t0);
+    values[after - 1] * (1.0 - share) + values[after] * share
+}

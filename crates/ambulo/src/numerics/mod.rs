@@ -1,0 +1,12 @@
+//! Numerical tools without mechanics: natural splines and the banded solver under them.
+//!
+//! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
+//! [`NaturalSpline`], which gives values and derivatives at any time.
+
+mod banded;
+mod natural_spline;
+mod spline_fitter;
+mod spline_grid;
+
+pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
+pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};

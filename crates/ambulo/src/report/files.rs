@@ -1,0 +1,69 @@
+//! The files of a run, as names and bytes.
+
+use super::cycle_table::{self, cycle_rows};
+use super::figure::{FigureError, moments_figure};
+use super::tables;
+use crate::analysis::Analysis;
+use crate::model::Model;
+use ambulo_formats::Error;
+
+/// A file to be written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputFile {
+    /// Name, relative to the output folder.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+/// What a worn device contributes: one column a coordinate [N.m or N], one entry a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Device {
+    /// Generalised forces of the device.
+    pub generalized: Vec<Vec<f64>>,
+}
+
+/// Why a file could not be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// A table with columns that no file can hold.
+    #[error(transparent)]
+    Table(#[from] Error),
+    /// A figure that could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+/// Every file but `summary.json`.
+///
+/// # Errors
+/// Column names that no table can hold, a figure that could not be drawn.
+pub fn output_files(
+    model: &Model,
+    analysis: &Analysis,
+    device: Option<&Device>,
+) -> Result<Vec<OutputFile>, OutputError> {
+    let file = |name: &str, bytes: Vec<u8>| OutputFile { name: name.to_owned(), bytes };
+    let rows = cycle_rows(model, analysis);
+    let mut files = vec![
+        file("kinematics.mot", tables::kinematics(model, analysis)?.write_storage()),
+        file("moments.sto", tables::moments(model, analysis, None)?.write_storage()),
+        file("powers.sto", tables::powers(model, analysis)?.write_storage()),
+        file("reactions.sto", tables::reactions(model, analysis)?.write_storage()),
+    ];
+    if let Some(device) = device {
+        let biological = tables::moments(model, analysis, Some(&device.generalized))?;
+        files.push(file("moments_biological.sto", biological.write_storage()));
+    }
+    if !analysis.ground.bodies.is_empty() {
+        files.push(file("grf.mot", tables::ground(model, analysis)?.write_storage()));
+        files.push(file("external_loads.xml", tables::external_loads(model, analysis).write()));
+        files.push(file("events.csv", tables::events_csv(analysis).into_bytes()));
+    }
+    if !rows.is_empty() {
+        files.push(file("cycles.csv", cycle_table::csv(&rows).into_bytes()));
+        files.push(file("figures/moments.svg", moments_figure(&rows, analysis.mass.kg)?.into_bytes()));
+    }
+    Ok(files)
+}

@@ -1,0 +1,46 @@
+//! Place and orientation of a frame.
+
+use super::{Mat3, Vec3};
+use std::ops::Mul;
+
+/// The transform `a_from_b`: rotation whose columns are the axes of b in a, and the origin of b in a [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Rotation matrix; columns are the axes of the inner frame.
+    pub rotation: Mat3,
+    /// Origin of the inner frame [m].
+    pub translation: Vec3,
+}
+
+impl Pose {
+    /// The frame itself.
+    pub const IDENTITY: Pose =
+        Pose { rotation: Mat3::new(1., 0., 0., 0., 1., 0., 0., 0., 1.), translation: Vec3::new(0., 0., 0.) };
+
+    /// A frame with the same axes and its origin at `translation` [m].
+    #[must_use]
+    pub fn at(translation: Vec3) -> Pose {
+        Pose { translation, ..Pose::IDENTITY }
+    }
+
+    /// `b_from_a` of an `a_from_b`.
+    #[must_use]
+    pub fn inverse(&self) -> Pose {
+        let rotation = self.rotation.transpose();
+        Pose { rotation, translation: -(rotation * self.translation) }
+    }
+
+    /// A point given in the inner frame, seen from the outer one [m].
+    #[must_use]
+    pub fn place(&self, point: Vec3) -> Vec3 {
+        self.translation + self.rotation * point
+    }
+}
+
+impl Mul for Pose {
+    type Output = Pose;
+    /// `a_from_c = a_from_b * b_from_c`.
+    fn mul(self, inner: Pose) -> Pose {
+        Pose { rotation: self.rotation * inner.rotation, translation: self.place(inner.translation) }
+    }
+}
