@@ -108,7 +108,7 @@ fn note_ignored(document: &OsimModel, findings: &mut Findings) {
         code: "model.ignored",
         severity: Severity::Note,
         message: format!("the model's forces and geometry play no part in inverse dynamics: {}", kinds.join(", ")),
-        count: document.ignored.values().sum(),
+        count: 1,
     });
 }
 

@@ -91,6 +91,14 @@ pub enum MotionError {
         /// The model's bodies.
         known: String,
     },
+    /// A device that helps no coordinate of the model.
+    #[error("no column of the device names a generalised force of the model; found {found}; expected some of {known}")]
+    NoDeviceColumn {
+        /// The first columns.
+        found: String,
+        /// The model's generalised forces.
+        known: String,
+    },
     /// A gap that is too long to fill, or that touches the end.
     #[error(
         "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most {longest_s} s. hint: cut the range with --from and --to"

@@ -16,13 +16,6 @@ pub struct OutputFile {
     pub bytes: Vec<u8>,
 }
 
-/// What a worn device contributes: one column a coordinate [N.m or N], one entry a frame.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Device {
-    /// Generalised forces of the device.
-    pub generalized: Vec<Vec<f64>>,
-}
-
 /// Why a file could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -35,14 +28,15 @@ pub enum OutputError {
     Figure(#[from] FigureError),
 }
 
-/// Every file but `summary.json`.
+/// Every file but `summary.json`. `device`, if worn, is its generalised forces: one column a coordinate [N.m or N], one
+/// entry a frame; what remains for the body is written beside the total.
 ///
 /// # Errors
 /// Column names that no table can hold, a figure that could not be drawn.
 pub fn output_files(
     model: &Model,
     analysis: &Analysis,
-    device: Option<&Device>,
+    device: Option<&[Vec<f64>]>,
 ) -> Result<Vec<OutputFile>, OutputError> {
     let file = |name: &str, bytes: Vec<u8>| OutputFile { name: name.to_owned(), bytes };
     let rows = cycle_rows(model, analysis);
@@ -53,7 +47,7 @@ pub fn output_files(
         file("reactions.sto", tables::reactions(model, analysis)?.write_storage()),
     ];
     if let Some(device) = device {
-        let biological = tables::moments(model, analysis, Some(&device.generalized))?;
+        let biological = tables::moments(model, analysis, Some(device))?;
         files.push(file("moments_biological.sto", biological.write_storage()));
     }
     if !analysis.ground.bodies.is_empty() {

@@ -8,5 +8,5 @@ mod tables;
 
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, moments_figure};
-pub use files::{Device, OutputError, OutputFile, output_files};
+pub use files::{OutputError, OutputFile, output_files};
 pub use summary::{FilterSummary, Filters, Ground, Input, PeakSummary, ResidualSummary, Summary, summary};

@@ -7,6 +7,7 @@ use crate::model::Model;
 use crate::motion::Smoother;
 use crate::motion::filter::LowPass;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The summary of one run. Keys that a run cannot fill are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,7 +49,7 @@ pub struct Summary {
     /// Prediction against plates; filled when forces are predicted.
     pub comparison: Option<()>,
     /// Time that each stage took [ms].
-    pub timing_ms: Vec<(String, f64)>,
+    pub timing_ms: BTreeMap<String, f64>,
 }
 
 /// What went in.
@@ -154,7 +155,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         findings: findings.as_slice().to_vec(),
         verdict: None,
         comparison: None,
-        timing_ms: Vec::new(),
+        timing_ms: BTreeMap::new(),
     }
 }
 

@@ -1,0 +1,224 @@
+//! What the user may type.
+
+use ambulo::spatial::Vec3;
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Forces behind human walking: motion in, forces out.
+#[derive(Debug, Parser)]
+#[command(version, about, disable_help_subcommand = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// A recording in, joint moments, powers, reactions and ground forces out.
+    Forces(ForcesArgs),
+    /// The main job on built-in input: no file needed.
+    Demo(DemoArgs),
+    /// What a file holds.
+    Info(InfoArgs),
+    /// How far two tables agree, column by column.
+    Compare(CompareArgs),
+}
+
+/// How much a command says, and in which form.
+#[derive(Debug, Clone, Copy, ClapArgs)]
+pub(crate) struct Voice {
+    /// Print JSON on standard output instead of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Examples:
+  ambulo forces walk_ik.mot --model subject.osim --grf walk_grf.mot --loads walk_grf.xml -o out
+  ambulo forces walk_ik.mot --model subject.osim --grf walk_grf.mot \\
+      --right calcn_r:ground_force_ --left calcn_l:1_ground_force_ --cutoff 6 --force-cutoff off
+
+Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
+events.csv, cycles.csv, summary.json, figures/moments.svg. docs/OUTPUTS.md describes them.")]
+pub(crate) struct ForcesArgs {
+    /// Recorded coordinates: .mot or .sto.
+    pub(crate) input: PathBuf,
+    /// The body: an OpenSim model (.osim).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: PathBuf,
+    /// Measured ground forces: .mot, .sto or .csv.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) grf: Option<PathBuf>,
+    /// Which columns act on which body: OpenSim's external loads (.xml).
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["right", "left"])]
+    pub(crate) loads: Option<PathBuf>,
+    /// Right foot: body and column prefix, such as calcn_r:ground_force_
+    #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
+    pub(crate) right: Option<FootColumns>,
+    /// Left foot: body and column prefix, such as calcn_l:1_ground_force_
+    #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
+    pub(crate) left: Option<FootColumns>,
+    /// Compute without ground forces (a swinging leg, a flight); the whole weight then stands in the root's residual.
+    #[arg(long, conflicts_with_all = ["grf", "loads"])]
+    pub(crate) no_ground: bool,
+    /// First instant to analyse [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Last instant to analyse [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) to: Option<f64>,
+    /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
+    #[arg(long, value_name = "HZ|off", default_value = "6")]
+    pub(crate) cutoff: Cutoff,
+    /// Low-pass of the measured forces [default: the same as the motion's].
+    #[arg(long, value_name = "HZ|off")]
+    pub(crate) force_cutoff: Option<Cutoff>,
+    /// Order of one pass of the Butterworth filters (1 to 8).
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub(crate) order: usize,
+    /// How the motion is smoothed; spline: quintic, stiffness by generalised cross-validation, --cutoff then goes for the forces only.
+    #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
+    pub(crate) filter: Filter,
+    /// What a worn device contributes: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) device: Option<PathBuf>,
+    /// A point mass fixed to a body, place in the body's frame in metres; may be repeated.
+    #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
+    pub(crate) add_mass: Vec<AddedMass>,
+    /// Folder for the results.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example:
+  ambulo demo -o demo
+
+The input (a figure of 19 coordinates, two strides and their ground forces, all made by this project) is written to
+DIR/input, so that the same run can be repeated with `ambulo forces`.")]
+pub(crate) struct DemoArgs {
+    /// Folder for the results.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example:
+  ambulo info subject.osim
+
+Knows .osim models, .mot/.sto tables, .csv tables, .trc markers and external-loads .xml.")]
+pub(crate) struct InfoArgs {
+    /// The file.
+    pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example:
+  ambulo compare out/moments.sto reference.sto --from 0.5 --to 1.6 --columns knee_angle_r_moment,ankle_angle_r_moment --limit 0.1
+
+The instants of B inside the range are compared; A is read between its samples. Exit code 1 if --limit is exceeded.")]
+pub(crate) struct CompareArgs {
+    /// A table: .mot, .sto or .csv.
+    pub(crate) a: PathBuf,
+    /// The reference: .mot, .sto or .csv.
+    pub(crate) b: PathBuf,
+    /// Largest allowed root-mean-square difference of any column, in the columns' unit.
+    #[arg(long, value_name = "X")]
+    pub(crate) limit: Option<f64>,
+    /// Columns to compare [default: all that both have].
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+    /// First instant [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Last instant [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+/// A filter family.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Filter {
+    /// Zero-phase low-pass.
+    Butterworth,
+    /// Smoothing spline.
+    Spline,
+}
+
+/// A cut-off frequency, or none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cutoff(pub(crate) Option<f64>);
+
+impl FromStr for Cutoff {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Cutoff, String> {
+        if text.eq_ignore_ascii_case("off") {
+            return Ok(Cutoff(None));
+        }
+        match text.parse::<f64>() {
+            Ok(hz) if hz.is_finite() && hz > 0.0 => Ok(Cutoff(Some(hz))),
+            _ => Err("expected a frequency above 0 in Hz, or `off`".into()),
+        }
+    }
+}
+
+/// A body and the prefix of the columns that act on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct FootColumns {
+    pub(crate) body: String,
+    pub(crate) prefix: String,
+}
+
+impl FromStr for FootColumns {
+    type Err = String;
+    fn from_str(text: &str) -> Result<FootColumns, String> {
+        match text.split_once(':') {
+            Some((body, prefix)) if !body.is_empty() && prefix.contains("force") => {
+                Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
+            }
+            _ => Err("expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
+                      PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
+                .into()),
+        }
+    }
+}
+
+/// A mass that the subject carries.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AddedMass {
+    pub(crate) body: String,
+    pub(crate) mass_kg: f64,
+    pub(crate) place_m: Vec3,
+}
+
+impl FromStr for AddedMass {
+    type Err = String;
+    fn from_str(text: &str) -> Result<AddedMass, String> {
+        let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
+        let mut parts = text.split(':');
+        let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
+        let mass_kg = mass.trim().parse().map_err(|_| expected())?;
+        let place: Vec<f64> = match parts.next() {
+            None => vec![0.0; 3],
+            Some(place) => place.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?,
+        };
+        match (place[..].try_into(), parts.next()) {
+            (Ok::<[f64; 3], _>(place), None) if !body.is_empty() => {
+                Ok(AddedMass { body: body.to_owned(), mass_kg, place_m: Vec3::from(place) })
+            }
+            _ => Err(expected()),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! `ambulo compare`: how far two tables agree, column by column.
+
+use crate::args::CompareArgs;
+use crate::{Verdict, files, printer};
+use ambulo::analysis::{Agreement, Curve, compare};
+use ambulo_formats::table::Table;
+use anyhow::{Context, Result, bail};
+use serde::Serialize;
+
+/// Agreement of one column.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Row {
+    pub(crate) column: String,
+    /// In the column's unit.
+    pub(crate) rmse: f64,
+    /// RMSE over the mean range; `null` if both are flat.
+    pub(crate) rrmse: Option<f64>,
+    /// Pearson's correlation; `null` if one is flat.
+    pub(crate) r: Option<f64>,
+    pub(crate) max_difference: f64,
+    pub(crate) samples: usize,
+    /// Whether the limit was kept; `null` without a limit.
+    pub(crate) within_limit: Option<bool>,
+}
+
+pub(crate) fn run(args: &CompareArgs) -> Result<Verdict> {
+    let (a, _) = files::read_table(&args.a)?;
+    let (b, _) = files::read_table(&args.b)?;
+    let columns = columns(args, &a, &b)?;
+    let rows = columns.iter().map(|name| row(args, &a, &b, name)).collect::<Result<Vec<_>>>()?;
+    printer::compare(&rows, args.limit, args.voice)?;
+    let refused = rows.iter().any(|row| row.within_limit == Some(false));
+    Ok(if refused { Verdict::Refused } else { Verdict::Accepted })
+}
+
+fn columns(args: &CompareArgs, a: &Table, b: &Table) -> Result<Vec<String>> {
+    let in_both = |name: &str| a.column(name).is_some() && b.column(name).is_some();
+    if let Some(missing) = args.columns.iter().find(|name| !in_both(name)) {
+        let file = if a.column(missing).is_none() { &args.a } else { &args.b };
+        let table = if a.column(missing).is_none() { a } else { b };
+        bail!("{}: there is no column `{missing}`; expected one of {}", file.display(), table.names().join(", "));
+    }
+    if !args.columns.is_empty() {
+        return Ok(args.columns.clone());
+    }
+    let time = b.names().first().map(String::as_str);
+    let common: Vec<String> =
+        b.names().iter().filter(|name| Some(name.as_str()) != time && in_both(name)).cloned().collect();
+    if common.is_empty() {
+        bail!(
+            "{} and {} have no column in common; found {} and {}",
+            args.a.display(),
+            args.b.display(),
+            a.names().join(", "),
+            b.names().join(", ")
+        );
+    }
+    Ok(common)
+}
+
+fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<Row> {
+    let no_time = "no column `time`; expected it first";
+    let a_times = a.times().with_context(|| format!("{}: {no_time}", args.a.display()))?;
+    let b_times = b.times().with_context(|| format!("{}: {no_time}", args.b.display()))?;
+    let inside = |t: f64| args.from.is_none_or(|from| t >= from) && args.to.is_none_or(|to| t <= to);
+    let kept: Vec<usize> = (0..b_times.len()).filter(|&i| inside(b_times[i])).collect();
+    if kept.is_empty() {
+        let (first, last) = (b_times.first().unwrap_or(&f64::NAN), b_times.last().unwrap_or(&f64::NAN));
+        bail!("{}: no row between --from and --to; it runs from {first} s to {last} s", args.b.display());
+    }
+    let pick = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
+    let (times, values) = (pick(b_times), pick(b.column(name).unwrap_or_default()));
+    let first = Curve { times: a_times, values: a.column(name).unwrap_or_default() };
+    let agreement = compare(first, Curve { times: &times, values: &values }).with_context(|| format!("column `{name}`"))?;
+    Ok(Row::new(name, agreement, args.limit))
+}
+
+impl Row {
+    fn new(column: &str, agreement: Agreement, limit: Option<f64>) -> Row {
+        let known = |x: f64| x.is_finite().then_some(x);
+        Row {
+            column: column.to_owned(),
+            rmse: agreement.rmse,
+            rrmse: known(agreement.rrmse),
+            r: known(agreement.r),
+            max_difference: agreement.max_difference,
+            samples: agreement.samples,
+            within_limit: limit.map(|limit| agreement.rmse <= limit),
+        }
+    }
+}

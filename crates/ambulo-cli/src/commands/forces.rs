@@ -1,0 +1,176 @@
+//! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
+
+use super::ground_input::{self, GroundTable};
+use crate::args::{AddedMass, Filter, ForcesArgs, Voice};
+use crate::{Verdict, files, printer};
+use ambulo::analysis::{Settings, analyse};
+use ambulo::findings::Findings;
+use ambulo::model::{Model, from_osim};
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{
+    DeviceRecording, ForceRecording, Motion, Smoother, Window, coordinates_from_table, device_from_table,
+    force_recordings,
+};
+use ambulo::report::{Input, Summary, output_files, summary};
+use ambulo_formats::osim::OsimModel;
+use ambulo_formats::Remark;
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+use std::time::Instant;
+
+pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
+    refuse_other_inputs(&args.input)?;
+    let mut findings = Findings::default();
+    let mut clock = Stopwatch::new();
+    let model = read_model(args, &mut findings)?;
+    clock.lap("read_model");
+    let motion = read_motion(&model, &args.input, &mut findings)?;
+    clock.lap("read_motion");
+    let (ground, plates) = read_ground(args, &model, &mut findings)?;
+    let device = read_device(args, &model, &mut findings)?;
+    clock.lap("read_forces");
+    let input = Input {
+        motion: args.input.display().to_string(),
+        model: args.model.display().to_string(),
+        ground: ground.as_ref().map(|g| g.path.display().to_string()),
+        loads: args.loads.as_ref().map(|p| p.display().to_string()),
+    };
+    let recording = Recording { model, motion, plates, device, settings: settings(args), input };
+    compute(&recording, findings, clock, &args.output, args.voice)
+}
+
+/// Everything that was read.
+pub(super) struct Recording {
+    pub(super) model: Model,
+    pub(super) motion: Motion,
+    pub(super) plates: Vec<ForceRecording>,
+    pub(super) device: Option<DeviceRecording>,
+    pub(super) settings: Settings,
+    pub(super) input: Input,
+}
+
+/// Computes, writes and reports: what `forces` and `demo` share.
+pub(super) fn compute(
+    recording: &Recording,
+    mut findings: Findings,
+    mut clock: Stopwatch,
+    output: &Path,
+    voice: Voice,
+) -> Result<Verdict> {
+    let Recording { model, motion, plates, device, settings, input } = recording;
+    let analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
+        .with_context(|| input.motion.clone())?;
+    let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
+    for file in output_files(model, &analysis, device.as_deref())? {
+        files::write(&output.join(&file.name), &file.bytes)?;
+    }
+    clock.lap("write");
+    let mut summary = summary(model, &analysis, settings, input.clone(), &findings);
+    summary.timing_ms = clock.laps.into_iter().collect();
+    write_summary(output, &summary)?;
+    printer::forces(&summary, output, voice)?;
+    Ok(Verdict::Accepted)
+}
+
+fn write_summary(output: &Path, summary: &Summary) -> Result<()> {
+    let mut json = serde_json::to_vec_pretty(summary)?;
+    json.push(b'\n');
+    files::write(&output.join("summary.json"), &json)
+}
+
+/// Measures how long each stage took.
+pub(super) struct Stopwatch {
+    last: Instant,
+    laps: Vec<(String, f64)>,
+}
+
+impl Stopwatch {
+    pub(super) fn new() -> Stopwatch {
+        Stopwatch { last: Instant::now(), laps: Vec::new() }
+    }
+
+    pub(super) fn lap(&mut self, stage: &str) {
+        let now = Instant::now();
+        self.laps.push((stage.to_owned(), 1e3 * (now - self.last).as_secs_f64()));
+        self.last = now;
+    }
+}
+
+fn refuse_other_inputs(input: &Path) -> Result<()> {
+    let ending = input.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ["trc", "c3d", "bvh"].contains(&ending.as_str()) {
+        bail!(
+            "{}: markers (.{ending}) are not fitted yet; expected recorded coordinates (.mot or .sto). hint: OpenSim's inverse kinematics writes them",
+            input.display()
+        );
+    }
+    Ok(())
+}
+
+fn read_model(args: &ForcesArgs, findings: &mut Findings) -> Result<Model> {
+    let shown = || args.model.display().to_string();
+    let document = OsimModel::read(&files::read(&args.model)?).with_context(shown)?;
+    let mut model = from_osim(&document, findings).with_context(shown)?;
+    for added in &args.add_mass {
+        model = carry(&model, added)?;
+    }
+    Ok(model)
+}
+
+fn carry(model: &Model, added: &AddedMass) -> Result<Model> {
+    let Some(body) = model.body(&added.body) else {
+        let known: Vec<_> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+        bail!("--add-mass: the model has no body `{}`; expected one of {}", added.body, known.join(", "));
+    };
+    model.with_point_mass(body, added.mass_kg, added.place_m).context("--add-mass")
+}
+
+fn read_motion(model: &Model, path: &Path, findings: &mut Findings) -> Result<Motion> {
+    let shown = path.display().to_string();
+    let (table, remarks) = files::read_table(path)?;
+    note_remarks(&shown, &remarks, findings);
+    coordinates_from_table(model, &table, &shown, findings).context(shown)
+}
+
+fn read_ground(
+    args: &ForcesArgs,
+    model: &Model,
+    findings: &mut Findings,
+) -> Result<(Option<GroundTable>, Vec<ForceRecording>)> {
+    if args.no_ground {
+        return Ok((None, Vec::new()));
+    }
+    let ground = ground_input::read(args, model, findings)?;
+    let shown = || match &args.loads {
+        Some(loads) => format!("{} with {}", ground.path.display(), loads.display()),
+        None => ground.path.display().to_string(),
+    };
+    let plates = force_recordings(model, &ground.loads, &ground.table, findings).with_context(shown)?;
+    Ok((Some(ground), plates))
+}
+
+fn read_device(args: &ForcesArgs, model: &Model, findings: &mut Findings) -> Result<Option<DeviceRecording>> {
+    let Some(path) = &args.device else { return Ok(None) };
+    let shown = path.display().to_string();
+    let (table, remarks) = files::read_table(path)?;
+    note_remarks(&shown, &remarks, findings);
+    device_from_table(model, &table, findings).map(Some).context(shown)
+}
+
+/// What was odd in a file becomes findings.
+pub(super) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
+    for remark in remarks {
+        findings.warn("file.odd", format!("{path}: {remark}"));
+    }
+}
+
+fn settings(args: &ForcesArgs) -> Settings {
+    let low_pass = |cutoff_hz: Option<f64>| cutoff_hz.map(|cutoff_hz| LowPass { order: args.order, cutoff_hz });
+    let smoother = match (args.filter, low_pass(args.cutoff.0)) {
+        (Filter::Spline, _) => Smoother::Spline,
+        (Filter::Butterworth, Some(filter)) => Smoother::Butterworth(filter),
+        (Filter::Butterworth, None) => Smoother::Off,
+    };
+    let force_filter = low_pass(args.force_cutoff.unwrap_or(args.cutoff).0);
+    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to } }
+}

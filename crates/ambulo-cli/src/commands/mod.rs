@@ -1,0 +1,7 @@
+//! One file a verb.
+
+pub(crate) mod compare;
+pub(crate) mod demo;
+pub(crate) mod forces;
+mod ground_input;
+pub(crate) mod info;

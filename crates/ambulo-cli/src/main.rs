@@ -1,0 +1,41 @@
+//! The `ambulo` command: reads files, calls the library, writes files and messages.
+
+mod args;
+mod commands;
+mod files;
+mod printer;
+
+use args::{Args, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let done = match args.command {
+        None => {
+            printer::guide();
+            Ok(Verdict::Accepted)
+        }
+        Some(Command::Forces(args)) => commands::forces::run(&args),
+        Some(Command::Demo(args)) => commands::demo::run(&args),
+        Some(Command::Info(args)) => commands::info::run(&args),
+        Some(Command::Compare(args)) => commands::compare::run(&args),
+    };
+    match done {
+        Ok(Verdict::Accepted) => ExitCode::SUCCESS,
+        Ok(Verdict::Refused) => ExitCode::from(1),
+        Err(error) => {
+            printer::error(&error);
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether what was done also passed what was asked of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// Exit code 0.
+    Accepted,
+    /// Done, but a limit was missed: exit code 1.
+    Refused,
+}
