@@ -37,10 +37,9 @@ pub(crate) struct Voice {
 }
 
 #[derive(Debug, ClapArgs)]
-#[command(after_help = "Examples:
-  ambulo forces walk_ik.mot --model subject.osim --grf walk_grf.mot --loads walk_grf.xml -o out
-  ambulo forces walk_ik.mot --model subject.osim --grf walk_grf.mot \\
-      --right calcn_r:ground_force_ --left calcn_l:1_ground_force_ --cutoff 6 --force-cutoff off
+#[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, cycles.csv, summary.json, figures/moments.svg. docs/OUTPUTS.md describes them.")]
@@ -111,8 +110,8 @@ pub(crate) struct DemoArgs {
 }
 
 #[derive(Debug, ClapArgs)]
-#[command(after_help = "Example:
-  ambulo info subject.osim
+#[command(after_help = "Example (after `ambulo demo -o demo`):
+  ambulo info demo/input/figure.osim
 
 Knows .osim models, .mot/.sto tables, .csv tables, .trc markers and external-loads .xml.")]
 pub(crate) struct InfoArgs {
@@ -123,8 +122,8 @@ pub(crate) struct InfoArgs {
 }
 
 #[derive(Debug, ClapArgs)]
-#[command(after_help = "Example:
-  ambulo compare out/moments.sto reference.sto --from 0.5 --to 1.6 --columns knee_angle_r_moment,ankle_angle_r_moment --limit 0.1
+#[command(after_help = "Example (after `ambulo demo -o demo` and the example of `ambulo forces --help`):
+  ambulo compare out/moments.sto demo/moments.sto --from 0.5 --to 2.5 --columns knee_angle_r_moment,ankle_angle_r_moment --limit 10
 
 The instants of B inside the range are compared; A is read between its samples. Exit code 1 if --limit is exceeded.")]
 pub(crate) struct CompareArgs {
@@ -188,9 +187,11 @@ impl FromStr for FootColumns {
             Some((body, prefix)) if !body.is_empty() && prefix.contains("force") => {
                 Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
             }
-            _ => Err("expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
+            _ => Err(
+                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
                       PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
-                .into()),
+                    .into(),
+            ),
         }
     }
 }
@@ -212,7 +213,9 @@ impl FromStr for AddedMass {
         let mass_kg = mass.trim().parse().map_err(|_| expected())?;
         let place: Vec<f64> = match parts.next() {
             None => vec![0.0; 3],
-            Some(place) => place.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?,
+            Some(place) => {
+                place.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?
+            }
         };
         match (place[..].try_into(), parts.next()) {
             (Ok::<[f64; 3], _>(place), None) if !body.is_empty() => {

@@ -16,7 +16,9 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
         Err(e) if e.kind() == ErrorKind::NotFound => {
-            bail!("{shown}: there is no such file. hint: check the path; the current folder is where you typed the command")
+            bail!(
+                "{shown}: there is no such file. hint: check the path; the current folder is where you typed the command"
+            )
         }
         Err(e) => return Err(e).with_context(|| format!("{shown}: cannot be opened")),
     };

@@ -12,10 +12,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let args = Args::parse();
     let done = match args.command {
-        None => {
-            printer::guide();
-            Ok(Verdict::Accepted)
-        }
+        None => printer::guide().map(|()| Verdict::Accepted),
         Some(Command::Forces(args)) => commands::forces::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),

@@ -1,17 +1,26 @@
 //! What the user reads: text or JSON on standard output, everything else on standard error.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is the one place that prints")]
+#![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 use crate::args::Voice;
 use crate::commands::compare::Row;
 use ambulo::report::{FilterSummary, Summary};
 use anyhow::Result;
 use serde_json::Value;
+use std::io::{ErrorKind, Write, stdout};
 use std::path::Path;
 
+/// A line on standard output. A reader that has gone away (`ambulo ... | head`) is no error.
+fn say(line: &str) -> Result<()> {
+    match writeln!(stdout(), "{line}") {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e.into()),
+        _ => Ok(()),
+    }
+}
+
 /// Printed by `ambulo` alone.
-pub(crate) fn guide() {
-    println!(
+pub(crate) fn guide() -> Result<()> {
+    say(&format!(
         "Ambulo {}: motion in, forces out.
 
   ambulo demo -o demo                                        try it, no file needed
@@ -21,7 +30,7 @@ pub(crate) fn guide() {
 
 `ambulo <verb> --help` shows every option with an example that runs.",
         env!("CARGO_PKG_VERSION")
-    );
+    ))
 }
 
 /// An error: what and where on the first line, what to do on the second.
@@ -44,38 +53,42 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         eprintln!("{severity}: {}{times}", finding.message.replace(" hint: ", "\n  hint: "));
     }
     if voice.json {
-        println!("{}", serde_json::to_string_pretty(summary)?);
+        say(&format!("{}", serde_json::to_string_pretty(summary)?))?;
         return Ok(());
     }
-    println!("{}, {}", summary.model, summary.input.motion);
-    println!("  mass      {:.2} kg ({})", summary.mass_kg, summary.mass_source);
+    say(&format!("{}, {}", summary.model, summary.input.motion))?;
+    say(&format!("  mass      {:.2} kg ({})", summary.mass_kg, summary.mass_source))?;
     if let Some(speed) = summary.speed_m_s {
-        println!("  speed     {speed:.2} m/s");
+        say(&format!("  speed     {speed:.2} m/s"))?;
     }
     let [from, to] = summary.window_s;
-    println!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz);
-    println!("  filter    motion {}, forces {}", filter(&summary.filter.motion), filter(&summary.filter.force));
-    println!("  ground    {} (a foot counts as unloaded below {} N)", summary.ground.source, summary.ground.threshold_n);
+    say(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
+    say(&format!("  filter    motion {}, forces {}", filter(&summary.filter.motion), filter(&summary.filter.force)))?;
+    say(&format!(
+        "  ground    {} (a foot counts as unloaded below {} N)",
+        summary.ground.source, summary.ground.threshold_n
+    ))?;
     if let Some(r) = &summary.residual {
-        println!(
+        say(&format!(
             "  residual  {:.1} N rms ({:.1} %BW), {:.1} N peak; {:.1} N.m rms, {:.1} N.m peak",
             r.force_rms_n,
             100.0 * r.force_rms_bw,
             r.force_peak_n,
             r.moment_rms_nm,
             r.moment_peak_nm
-        );
+        ))?;
     }
-    print_peaks(summary);
-    println!("  written   {}", output.display());
+    print_peaks(summary)?;
+    say(&format!("  written   {}", output.display()))?;
     Ok(())
 }
 
-fn print_peaks(summary: &Summary) {
-    println!("  peaks                               min          max");
+fn print_peaks(summary: &Summary) -> Result<()> {
+    say(&format!("  peaks                               min          max"))?;
     for peak in summary.peaks.iter().filter(|p| p.unit == "N.m") {
-        println!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit);
+        say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
+    Ok(())
 }
 
 fn filter(filter: &FilterSummary) -> String {
@@ -88,13 +101,13 @@ fn filter(filter: &FilterSummary) -> String {
 /// The outcome of `compare`.
 pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<()> {
     if voice.json {
-        println!("{}", serde_json::to_string_pretty(rows)?);
+        say(&format!("{}", serde_json::to_string_pretty(rows)?))?;
     }
     if voice.json || voice.quiet {
         return Ok(());
     }
     let width = rows.iter().map(|r| r.column.len()).max().unwrap_or(0).max(6);
-    println!("{:<width$}  {:>12}  {:>8}  {:>8}  {:>12}  samples", "column", "RMSE", "rRMSE", "r", "max");
+    say(&format!("{:<width$}  {:>12}  {:>8}  {:>8}  {:>12}  samples", "column", "RMSE", "rRMSE", "r", "max"))?;
     for row in rows {
         let share = row.rrmse.map_or("-".into(), |x| format!("{x:.4}"));
         let r = row.r.map_or("-".into(), |x| format!("{x:.5}"));
@@ -102,14 +115,14 @@ pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<
             Some(false) => "  over the limit",
             _ => "",
         };
-        println!(
+        say(&format!(
             "{:<width$}  {:>12.6}  {share:>8}  {r:>8}  {:>12.6}  {}{verdict}",
             row.column, row.rmse, row.max_difference, row.samples
-        );
+        ))?;
     }
     if let Some(limit) = limit {
         let over = rows.iter().filter(|r| r.within_limit == Some(false)).count();
-        println!("{over} of {} columns over the limit of {limit}", rows.len());
+        say(&format!("{over} of {} columns over the limit of {limit}", rows.len()))?;
     }
     Ok(())
 }
@@ -117,7 +130,7 @@ pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<
 /// The outcome of `info`.
 pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
     if voice.json {
-        println!("{}", serde_json::to_string_pretty(info)?);
+        say(&format!("{}", serde_json::to_string_pretty(info)?))?;
     }
     if voice.json || voice.quiet {
         return Ok(());
@@ -128,13 +141,13 @@ pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
         match value {
             Value::Null => {}
             Value::Array(items) if items.iter().all(Value::is_string) => {
-                println!("{label}: {}", items.len());
+                say(&format!("{label}: {}", items.len()))?;
                 for item in items {
-                    println!("  {}", item.as_str().unwrap_or_default());
+                    say(&format!("  {}", item.as_str().unwrap_or_default()))?;
                 }
             }
-            Value::String(text) => println!("{label}: {text}"),
-            other => println!("{label}: {other}"),
+            Value::String(text) => say(&format!("{label}: {text}"))?,
+            other => say(&format!("{label}: {other}"))?,
         }
     }
     Ok(())

@@ -71,7 +71,8 @@ fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<Row> {
     let pick = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
     let (times, values) = (pick(b_times), pick(b.column(name).unwrap_or_default()));
     let first = Curve { times: a_times, values: a.column(name).unwrap_or_default() };
-    let agreement = compare(first, Curve { times: &times, values: &values }).with_context(|| format!("column `{name}`"))?;
+    let agreement =
+        compare(first, Curve { times: &times, values: &values }).with_context(|| format!("column `{name}`"))?;
     Ok(Row::new(name, agreement, args.limit))
 }
 

@@ -11,9 +11,9 @@ use ambulo::motion::{
     DeviceRecording, ForceRecording, Motion, Smoother, Window, coordinates_from_table, device_from_table,
     force_recordings,
 };
-use ambulo::report::{Input, Summary, output_files, summary};
-use ambulo_formats::osim::OsimModel;
+use ambulo::report::{GroundSource, Input, Summary, output_files, summary};
 use ambulo_formats::Remark;
+use ambulo_formats::osim::OsimModel;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 use std::time::Instant;
@@ -34,6 +34,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
         model: args.model.display().to_string(),
         ground: ground.as_ref().map(|g| g.path.display().to_string()),
         loads: args.loads.as_ref().map(|p| p.display().to_string()),
+        ground_source: if args.no_ground { GroundSource::None } else { GroundSource::Measured },
     };
     let recording = Recording { model, motion, plates, device, settings: settings(args), input };
     compute(&recording, findings, clock, &args.output, args.voice)

@@ -64,7 +64,10 @@ fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     let candidates = [Some(folder.join(named)), beside];
     match candidates.into_iter().flatten().find(|path| path.is_file()) {
         Some(path) => Ok(path),
-        None => bail!("the external loads name the data file `{}`, which is not there. hint: give it with --grf", named.display()),
+        None => bail!(
+            "the external loads name the data file `{}`, which is not there. hint: give it with --grf",
+            named.display()
+        ),
     }
 }
 

@@ -63,6 +63,23 @@ pub struct Input {
     pub ground: Option<String>,
     /// The description of the loads.
     pub loads: Option<String>,
+    /// How the ground forces came about; reported under `ground`.
+    #[serde(skip)]
+    pub ground_source: GroundSource,
+}
+
+/// How ground forces came about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GroundSource {
+    /// By force plates or other sensors.
+    Measured,
+    /// From the motion itself; `rule` says how double support was split.
+    Simulated {
+        /// The rule, in words.
+        rule: &'static str,
+    },
+    /// There are none.
+    None,
 }
 
 /// The filters in words and numbers.
@@ -132,7 +149,11 @@ pub struct PeakSummary {
 #[must_use]
 pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: Input, findings: &Findings) -> Summary {
     let grid = analysis.trajectory.grid();
-    let source = if analysis.ground.bodies.is_empty() { "none" } else { "measured" };
+    let (source, rule) = match input.ground_source {
+        GroundSource::Measured => ("measured", None),
+        GroundSource::Simulated { rule } => ("simulated", Some(rule)),
+        GroundSource::None => ("none", None),
+    };
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         input,
@@ -148,7 +169,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(settings),
-        ground: Ground { source, rule: None, threshold_n: UNLOADED_N },
+        ground: Ground { source, rule, threshold_n: UNLOADED_N },
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
         convergence: None,
