@@ -16,7 +16,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// A recording in, joint moments, powers, reactions and ground forces out.
-    Forces(ForcesArgs),
+    Forces(Box<ForcesArgs>),
     /// The main job on built-in input: no file needed.
     Demo(DemoArgs),
     /// What a file holds.

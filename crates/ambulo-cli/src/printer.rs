@@ -53,7 +53,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         eprintln!("{severity}: {}{times}", finding.message.replace(" hint: ", "\n  hint: "));
     }
     if voice.json {
-        say(&format!("{}", serde_json::to_string_pretty(summary)?))?;
+        say(&serde_json::to_string_pretty(summary)?)?;
         return Ok(());
     }
     say(&format!("{}, {}", summary.model, summary.input.motion))?;
@@ -84,7 +84,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
 }
 
 fn print_peaks(summary: &Summary) -> Result<()> {
-    say(&format!("  peaks                               min          max"))?;
+    say("  peaks                               min          max")?;
     for peak in summary.peaks.iter().filter(|p| p.unit == "N.m") {
         say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
@@ -101,7 +101,7 @@ fn filter(filter: &FilterSummary) -> String {
 /// The outcome of `compare`.
 pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<()> {
     if voice.json {
-        say(&format!("{}", serde_json::to_string_pretty(rows)?))?;
+        say(&serde_json::to_string_pretty(rows)?)?;
     }
     if voice.json || voice.quiet {
         return Ok(());
@@ -130,7 +130,7 @@ pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<
 /// The outcome of `info`.
 pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
     if voice.json {
-        say(&format!("{}", serde_json::to_string_pretty(info)?))?;
+        say(&serde_json::to_string_pretty(info)?)?;
     }
     if voice.json || voice.quiet {
         return Ok(());

@@ -103,10 +103,7 @@ fn read(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
         "PiecewiseLinearFunction" => OsimFunction::PiecewiseLinear(knots(node, 2)?),
         "PiecewiseConstantFunction" => OsimFunction::PiecewiseConstant(knots(node, 1)?),
         "GCVSpline" => read_gcv(node)?,
-        "StepFunction" => OsimFunction::Step {
-            start: (number("start_time", 0.0)?, number("start_value", 0.0)?),
-            end: (number("end_time", 1.0)?, number("end_value", 1.0)?),
-        },
+        "StepFunction" => read_step(node)?,
         "Sine" => OsimFunction::Sine {
             amplitude: number("amplitude", 1.0)?,
             omega: number("omega", 1.0)?,
@@ -129,6 +126,17 @@ fn read_linear(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
             Err(xml::error_at(node, found, "two coefficients: slope and intercept of one coordinate"))
         }
     }
+}
+
+fn read_step(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
+    let number = |tag: &str, default: f64| Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(default));
+    let start = (number("start_time", 0.0)?, number("start_value", 0.0)?);
+    let end = (number("end_time", 1.0)?, number("end_value", 1.0)?);
+    if start.0 >= end.0 {
+        let found = format!("a step from {} to {}", start.0, end.0);
+        return Err(xml::error_at(node, found, "an <end_time> after <start_time>"));
+    }
+    Ok(OsimFunction::Step { start, end })
 }
 
 fn read_gcv(node: Node<'_, '_>) -> Result<OsimFunction, Error> {

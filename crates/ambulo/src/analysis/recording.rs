@@ -167,14 +167,15 @@ fn zero_if_unknown(x: f64) -> f64 {
 fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findings: &mut Findings) -> Mass {
     let (stated, g) = (model.mass(), model.gravity().norm());
     let weighed: Vec<f64> = cycles.iter().filter_map(|c| cycle_mean(vertical, c)).map(|f| f / g).collect();
+    if weighed.is_empty() {
+        return Mass { kg: stated, source: MassSource::Model };
+    }
     let mean = weighed.iter().sum::<f64>() / weighed.len() as f64;
-    if weighed.is_empty() || !((mean / stated - 1.0).abs() <= WHOLE_BODY_SHARE) {
-        if !weighed.is_empty() {
-            let message = format!(
-                "the mean vertical force over whole cycles carries {mean:.1} kg, the model has {stated:.1} kg; a foot was off the plates, or the model is not scaled to this person. The model's mass was used"
-            );
-            findings.warn("mass.not_whole_body", message);
-        }
+    if (mean / stated - 1.0).abs() > WHOLE_BODY_SHARE {
+        let message = format!(
+            "the mean vertical force over whole cycles carries {mean:.1} kg, the model has {stated:.1} kg; a foot was off the plates, or the model is not scaled to this person. The model's mass was used"
+        );
+        findings.warn("mass.not_whole_body", message);
         return Mass { kg: stated, source: MassSource::Model };
     }
     if (mean / stated - 1.0).abs() > MASS_MISMATCH {

@@ -10,7 +10,8 @@
 
 #![expect(clippy::excessive_precision, reason = "the constants are quoted as their source prints them")]
 
-const TWO_OVER_PI: f64 = 6.366_197_723_675_813_824_33e-01;
+use std::f64::consts::FRAC_2_PI;
+
 const PI_2_HIGH: f64 = 1.570_796_326_734_125_614_17e+00;
 const PI_2_MIDDLE: f64 = 6.077_100_506_303_965_976_60e-11;
 const PI_2_LOW: f64 = 2.022_266_248_795_950_631_54e-21;
@@ -55,7 +56,7 @@ pub(crate) fn sin_cos(angle: &[f64], sin: &mut [f64], cos: &mut [f64]) {
 
 #[inline(always)]
 fn sin_cos_small(x: f64) -> (f64, f64) {
-    let shifted = x * TWO_OVER_PI + ROUND;
+    let shifted = x * FRAC_2_PI + ROUND;
     let quadrant = shifted.to_bits();
     let k = shifted - ROUND;
     let r = ((x - k * PI_2_HIGH) - k * PI_2_MIDDLE) - k * PI_2_LOW;

@@ -21,7 +21,8 @@ pub enum Function {
     SimmSpline(SimmSpline),
     /// Natural spline of odd degree, interpolating or smoothing.
     NaturalSpline(NaturalSpline),
-    /// Straight lines between rising knots, level beyond the ends.
+    /// Straight lines between rising knots; the outer ones go on beyond the ends (as OpenSim's
+    /// `PiecewiseLinearFunction`).
     PiecewiseLinear(Knots),
     /// The ordinate of the last knot at or before x, the first one before all knots.
     PiecewiseConstant(Knots),
@@ -136,14 +137,10 @@ fn polynomial(coefficients: &[f64], x: f64) -> [f64; 3] {
 
 fn piecewise_linear(knots: &Knots, x: f64) -> [f64; 3] {
     let Knots { x: xs, y: ys } = knots;
-    let last = xs.len() - 1;
-    if x < xs[0] {
+    if xs.len() == 1 {
         return [ys[0], 0.0, 0.0];
     }
-    if x >= xs[last] {
-        return [ys[last], 0.0, 0.0];
-    }
-    let i = knots.before(x);
+    let i = knots.before(x).min(xs.len() - 2);
     let slope = (ys[i + 1] - ys[i]) / (xs[i + 1] - xs[i]);
     [ys[i] + slope * (x - xs[i]), slope, 0.0]
 }

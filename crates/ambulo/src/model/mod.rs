@@ -315,15 +315,28 @@ fn unique<'a>(what: &'static str, names: impl Iterator<Item = &'a String>) -> Re
     Ok(())
 }
 
+/// Three rotations, each by a coordinate of its own with slope one.
+fn is_ball_like(joint: &Joint) -> bool {
+    let leader = |axis: &JointAxis| match &axis.displacement {
+        Displacement::Follows(id, Function::Linear { slope: 1.0, .. }) => Some(*id),
+        _ => None,
+    };
+    let leaders: Vec<_> = joint.rotations.iter().filter_map(leader).collect();
+    leaders.len() == 3 && leaders[0] != leaders[1] && leaders[1] != leaders[2] && leaders[0] != leaders[2]
+}
+
 fn check_axes(joint: &Joint) -> Result<(), ModelError> {
     const UNIT_TOLERANCE: f64 = 1e-9;
     let error = |found: String| Err(ModelError::Axis { joint: joint.name.clone(), found });
     if joint.rotations.len() > 3 || joint.translations.len() > 3 {
         return error(format!("{} rotations and {} translations", joint.rotations.len(), joint.translations.len()));
     }
+    if joint.measure != Measure::Rates && !is_ball_like(joint) {
+        return error("a ball-like measure without three rotations that each follow a coordinate of their own".into());
+    }
     for axis in joint.rotations.iter().chain(&joint.translations) {
         let length = axis.direction.norm();
-        if !((length - 1.0).abs() < UNIT_TOLERANCE) {
+        if (length - 1.0).abs() > UNIT_TOLERANCE || !length.is_finite() {
             return error(format!("an axis of length {length}"));
         }
     }

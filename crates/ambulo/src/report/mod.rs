@@ -9,4 +9,6 @@ mod tables;
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
-pub use summary::{FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary};
+pub use summary::{
+    FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
+};
