@@ -1,0 +1,103 @@
+//! Nothing is allocated per frame after the first: counted by an allocator of this process.
+#![expect(unsafe_code, reason = "an allocator is unsafe by its trait; this one counts and forwards")]
+
+mod common;
+
+use ambulo::dynamics::{self, BodyLoad, Workspace};
+use ambulo::model::Model;
+use common::random::{self, Curves, KINDS, Random};
+use common::{State, load_series, trajectory};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::hint::black_box;
+
+struct Counting;
+
+thread_local! {
+    /// Per thread, so that the test harness on its own threads does not disturb the count.
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count_one() {
+    ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+}
+
+// SAFETY: every call is forwarded unchanged to the system's allocator; the counter is a constant-initialised cell
+// without a destructor, so counting allocates nothing.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count_one();
+        // SAFETY: the caller's promise about `layout` is passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: `pointer` came from `System` with this layout.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count_one();
+        // SAFETY: `pointer` came from `System` with this layout.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of this thread while `work` runs.
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    work();
+    ALLOCATIONS.get() - before
+}
+
+/// A chain of every joint kind, twenty-one postures (no multiple of eight), two loads each.
+fn evidence() -> (Model, Vec<State>, Vec<Vec<BodyLoad>>) {
+    let mut r = Random::new(1);
+    let model = random::chain_of(&mut r, &KINDS, Curves::Any);
+    let states = (0..21).map(|_| random::state(&mut r, &model)).collect();
+    let loaded: Vec<_> = model.body_ids().skip(3).step_by(4).collect();
+    let loads = (0..21).map(|_| loaded.iter().map(|&body| random::load_on(&mut r, body)).collect()).collect();
+    (model, states, loads)
+}
+
+fn read_all_bodies(model: &Model, workspace: &mut Workspace, state: &State, loads: &[BodyLoad]) {
+    let forces = dynamics::inverse_frame(workspace, state.posture(), loads);
+    black_box(forces.generalized());
+    for body in model.body_ids() {
+        black_box((forces.reaction(body), forces.body_motion(body)));
+    }
+}
+
+#[test]
+fn frames_after_the_first_allocate_nothing() {
+    let (model, states, loads) = evidence();
+    let (path, series) = (trajectory(&model, &states), load_series(&loads));
+    let mut workspace = Workspace::new(&model);
+
+    // The counter works: a box is one allocation, its growth another, and the first frame makes room for the loads.
+    assert_eq!(allocations(|| drop(black_box(Box::new(1)))), 1, "one box");
+    let mut list = black_box(Vec::<u64>::with_capacity(1));
+    assert_eq!(allocations(|| list.reserve_exact(black_box(1000))), 1, "one list that grows");
+    let first = allocations(|| read_all_bodies(&model, &mut workspace, &states[0], &loads[0]));
+    assert!(first > 0, "the first frame found room for its loads");
+
+    let later = allocations(|| {
+        for (state, loads) in states.iter().zip(&loads) {
+            read_all_bodies(&model, &mut workspace, state, loads);
+        }
+    });
+    assert_eq!(later, 0, "inverse_frame");
+
+    let mut columns = vec![vec![0.0; states.len()]; model.coordinates().len()];
+    let mut solve = || {
+        dynamics::inverse_frames(&mut workspace, &path, &series, |coordinate, first, values| {
+            columns[coordinate][first..first + values.len()].copy_from_slice(values);
+        });
+    };
+    assert!(allocations(&mut solve) > 0, "the first block found room for its loads");
+    assert_eq!(allocations(&mut solve), 0, "inverse_frames");
+    assert!(columns.iter().flatten().any(|tau| tau.abs() > 1.0), "no forces: {columns:?}");
+}
