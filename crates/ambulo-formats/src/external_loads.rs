@@ -47,6 +47,23 @@ pub struct ExternalForce {
 
 const GROUND: &str = "ground";
 
+impl ExternalForce {
+    /// A force on a body, force and point given in ground axes, in columns that share a prefix: `ground_force_r_` stands
+    /// for `ground_force_r_vx`, `ground_force_r_px`, `ground_torque_r_x` and their like.
+    pub fn with_prefix(name: &str, body: &str, prefix: &str) -> ExternalForce {
+        ExternalForce {
+            name: name.to_owned(),
+            enabled: true,
+            applied_to_body: body.to_owned(),
+            force_expressed_in_body: "ground".to_owned(),
+            point_expressed_in_body: "ground".to_owned(),
+            force_identifier: Some(format!("{prefix}v")),
+            point_identifier: Some(format!("{prefix}p")),
+            torque_identifier: Some(prefix.replacen("force", "torque", 1)),
+        }
+    }
+}
+
 impl ExternalLoads {
     /// Reads an `ExternalLoads` document.
     pub fn read(bytes: &[u8]) -> Result<(ExternalLoads, Vec<Remark>), Error> {

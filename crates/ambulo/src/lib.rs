@@ -24,3 +24,8 @@ pub mod ground;
 pub mod analysis;
 
 pub mod report;
+
+/// The code in README.md is compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -73,22 +73,10 @@ fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
 
 fn named(args: &ForcesArgs) -> ExternalLoads {
     let feet = [("right", &args.right), ("left", &args.left)];
-    let forces = feet.into_iter().filter_map(|(side, foot)| foot.as_ref().map(|foot| load(side, foot)));
+    let forces = feet.into_iter().filter_map(|(side, foot)| {
+        foot.as_ref().map(|FootColumns { body, prefix }| ExternalForce::with_prefix(side, body, prefix))
+    });
     ExternalLoads { name: "feet".into(), datafile: None, forces: forces.collect() }
-}
-
-fn load(side: &str, foot: &FootColumns) -> ExternalForce {
-    let FootColumns { body, prefix } = foot;
-    ExternalForce {
-        name: side.to_owned(),
-        enabled: true,
-        applied_to_body: body.clone(),
-        force_expressed_in_body: "ground".into(),
-        point_expressed_in_body: "ground".into(),
-        force_identifier: Some(format!("{prefix}v")),
-        point_identifier: Some(format!("{prefix}p")),
-        torque_identifier: Some(prefix.replacen("force", "torque", 1)),
-    }
 }
 
 /// Usual prefixes on usual feet; what was taken is a finding.
@@ -103,13 +91,13 @@ fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> 
             table.names().join(", ")
         );
     };
-    let foot = |side: &str, body: &str, prefix: &str| {
-        load(side, &FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
-    };
     let message = format!(
         "taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot} (override with --right, --left or --loads)"
     );
     findings.note("loads.guessed", message);
-    let forces = vec![foot("right", right_foot, right_prefix), foot("left", left_foot, left_prefix)];
+    let forces = vec![
+        ExternalForce::with_prefix("right", right_foot, right_prefix),
+        ExternalForce::with_prefix("left", left_foot, left_prefix),
+    ];
     Ok(ExternalLoads { name: "feet".into(), datafile: None, forces })
 }

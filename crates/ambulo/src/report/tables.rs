@@ -105,17 +105,8 @@ pub(super) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error>
 /// `external_loads.xml`: how OpenSim's tools apply `grf.mot`.
 pub(super) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoads {
     let force = |(side, foot): (Side, &BodyForces)| {
-        let letter = side.letter();
-        ExternalForce {
-            name: format!("{side}_ground_reaction"),
-            enabled: true,
-            applied_to_body: body_name(model, foot.body).to_owned(),
-            force_expressed_in_body: "ground".into(),
-            point_expressed_in_body: "ground".into(),
-            force_identifier: Some(format!("ground_force_{letter}_v")),
-            point_identifier: Some(format!("ground_force_{letter}_p")),
-            torque_identifier: Some(format!("ground_torque_{letter}_")),
-        }
+        let prefix = format!("ground_force_{}_", side.letter());
+        ExternalForce::with_prefix(&format!("{side}_ground_reaction"), body_name(model, foot.body), &prefix)
     };
     ExternalLoads {
         name: "ground_reactions".into(),
