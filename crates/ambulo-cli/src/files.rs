@@ -1,5 +1,6 @@
 //! Files in and out, with errors that name them.
 
+use ambulo::findings::Findings;
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
@@ -46,4 +47,11 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("{}: cannot make this folder", folder.display()))?;
     }
     fs::write(path, bytes).with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+/// What was odd in a file becomes findings.
+pub(crate) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
+    for remark in remarks {
+        findings.warn("file.odd", format!("{path}: {remark}"));
+    }
 }

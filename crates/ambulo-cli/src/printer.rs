@@ -3,9 +3,10 @@
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 use crate::args::Voice;
-use crate::commands::compare::Row;
+use ambulo::analysis::Agreement;
 use ambulo::report::{FilterSummary, Summary};
 use anyhow::Result;
+use serde::Serialize;
 use serde_json::Value;
 use std::io::{ErrorKind, Write, stdout};
 use std::path::Path;
@@ -98,8 +99,39 @@ fn filter(filter: &FilterSummary) -> String {
     }
 }
 
+/// Agreement of one column.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ComparedColumn {
+    pub(crate) column: String,
+    /// In the column's unit.
+    pub(crate) rmse: f64,
+    /// RMSE over the mean range; `null` if both are flat.
+    pub(crate) rrmse: Option<f64>,
+    /// Pearson's correlation; `null` if one is flat.
+    pub(crate) r: Option<f64>,
+    pub(crate) max_difference: f64,
+    pub(crate) samples: usize,
+    /// Whether the limit was kept; `null` without a limit.
+    pub(crate) within_limit: Option<bool>,
+}
+
+impl ComparedColumn {
+    pub(crate) fn new(column: &str, agreement: Agreement, limit: Option<f64>) -> ComparedColumn {
+        let known = |x: f64| x.is_finite().then_some(x);
+        ComparedColumn {
+            column: column.to_owned(),
+            rmse: agreement.rmse,
+            rrmse: known(agreement.rrmse),
+            r: known(agreement.r),
+            max_difference: agreement.max_difference,
+            samples: agreement.samples,
+            within_limit: limit.map(|limit| agreement.rmse <= limit),
+        }
+    }
+}
+
 /// The outcome of `compare`.
-pub(crate) fn compare(rows: &[Row], limit: Option<f64>, voice: Voice) -> Result<()> {
+pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice) -> Result<()> {
     if voice.json {
         say(&serde_json::to_string_pretty(rows)?)?;
     }

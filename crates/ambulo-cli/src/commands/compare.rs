@@ -1,27 +1,11 @@
 //! `ambulo compare`: how far two tables agree, column by column.
 
 use crate::args::CompareArgs;
+use crate::printer::ComparedColumn;
 use crate::{Verdict, files, printer};
-use ambulo::analysis::{Agreement, Curve, compare};
+use ambulo::analysis::{Curve, compare};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
-use serde::Serialize;
-
-/// Agreement of one column.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Row {
-    pub(crate) column: String,
-    /// In the column's unit.
-    pub(crate) rmse: f64,
-    /// RMSE over the mean range; `null` if both are flat.
-    pub(crate) rrmse: Option<f64>,
-    /// Pearson's correlation; `null` if one is flat.
-    pub(crate) r: Option<f64>,
-    pub(crate) max_difference: f64,
-    pub(crate) samples: usize,
-    /// Whether the limit was kept; `null` without a limit.
-    pub(crate) within_limit: Option<bool>,
-}
 
 pub(crate) fn run(args: &CompareArgs) -> Result<Verdict> {
     let (a, _) = files::read_table(&args.a)?;
@@ -58,7 +42,7 @@ fn columns(args: &CompareArgs, a: &Table, b: &Table) -> Result<Vec<String>> {
     Ok(common)
 }
 
-fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<Row> {
+fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<ComparedColumn> {
     let no_time = "no column `time`; expected it first";
     let a_times = a.times().with_context(|| format!("{}: {no_time}", args.a.display()))?;
     let b_times = b.times().with_context(|| format!("{}: {no_time}", args.b.display()))?;
@@ -73,20 +57,5 @@ fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<Row> {
     let first = Curve { times: a_times, values: a.column(name).unwrap_or_default() };
     let agreement =
         compare(first, Curve { times: &times, values: &values }).with_context(|| format!("column `{name}`"))?;
-    Ok(Row::new(name, agreement, args.limit))
-}
-
-impl Row {
-    fn new(column: &str, agreement: Agreement, limit: Option<f64>) -> Row {
-        let known = |x: f64| x.is_finite().then_some(x);
-        Row {
-            column: column.to_owned(),
-            rmse: agreement.rmse,
-            rrmse: known(agreement.rrmse),
-            r: known(agreement.r),
-            max_difference: agreement.max_difference,
-            samples: agreement.samples,
-            within_limit: limit.map(|limit| agreement.rmse <= limit),
-        }
-    }
+    Ok(ComparedColumn::new(name, agreement, args.limit))
 }

@@ -12,7 +12,6 @@ use ambulo::motion::{
     force_recordings,
 };
 use ambulo::report::{GroundSource, Input, Summary, output_files, summary};
-use ambulo_formats::Remark;
 use ambulo_formats::osim::OsimModel;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -129,7 +128,7 @@ fn carry(model: &Model, added: &AddedMass) -> Result<Model> {
 fn read_motion(model: &Model, path: &Path, findings: &mut Findings) -> Result<Motion> {
     let shown = path.display().to_string();
     let (table, remarks) = files::read_table(path)?;
-    note_remarks(&shown, &remarks, findings);
+    files::note_remarks(&shown, &remarks, findings);
     coordinates_from_table(model, &table, &shown, findings).context(shown)
 }
 
@@ -154,15 +153,8 @@ fn read_device(args: &ForcesArgs, model: &Model, findings: &mut Findings) -> Res
     let Some(path) = &args.device else { return Ok(None) };
     let shown = path.display().to_string();
     let (table, remarks) = files::read_table(path)?;
-    note_remarks(&shown, &remarks, findings);
+    files::note_remarks(&shown, &remarks, findings);
     device_from_table(model, &table, findings).map(Some).context(shown)
-}
-
-/// What was odd in a file becomes findings.
-pub(super) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
-    for remark in remarks {
-        findings.warn("file.odd", format!("{path}: {remark}"));
-    }
 }
 
 fn settings(args: &ForcesArgs) -> Settings {

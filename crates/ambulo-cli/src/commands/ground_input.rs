@@ -1,6 +1,5 @@
 //! Which columns of which file are the ground forces, from what the user typed.
 
-use super::forces::note_remarks;
 use crate::args::{FootColumns, ForcesArgs};
 use crate::files;
 use ambulo::findings::Findings;
@@ -37,7 +36,7 @@ pub(super) fn read(args: &ForcesArgs, model: &Model, findings: &mut Findings) ->
         ),
     };
     let (table, remarks) = files::read_table(&path)?;
-    note_remarks(&path.display().to_string(), &remarks, findings);
+    files::note_remarks(&path.display().to_string(), &remarks, findings);
     let loads = match loads {
         Some(loads) => loads,
         None if args.right.is_some() || args.left.is_some() => named(args),
@@ -49,7 +48,7 @@ pub(super) fn read(args: &ForcesArgs, model: &Model, findings: &mut Findings) ->
 fn read_loads(path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
     let shown = path.display().to_string();
     let (loads, remarks) = ExternalLoads::read(&files::read(path)?).with_context(|| shown.clone())?;
-    note_remarks(&shown, &remarks, findings);
+    files::note_remarks(&shown, &remarks, findings);
     Ok(loads)
 }
 

@@ -1,5 +1,6 @@
 //! Functions of one variable with two derivatives: how a joint's axes follow its coordinates.
 
+use super::knots::Knots;
 use super::simm_spline::SimmSpline;
 use crate::numerics::NaturalSpline;
 
@@ -48,40 +49,6 @@ pub enum Function {
     Scaled(f64, Box<Function>),
 }
 
-/// Points with strictly rising abscissae.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Knots {
-    x: Vec<f64>,
-    y: Vec<f64>,
-}
-
-impl Knots {
-    /// As many ordinates as strictly rising, finite abscissae, at least one; `None` otherwise.
-    #[must_use]
-    pub fn new(x: Vec<f64>, y: Vec<f64>) -> Option<Knots> {
-        let finite = x.iter().chain(&y).all(|v| v.is_finite());
-        let rising = x.windows(2).all(|w| w[0] < w[1]);
-        (finite && rising && !x.is_empty() && x.len() == y.len()).then_some(Knots { x, y })
-    }
-
-    /// Abscissae.
-    #[must_use]
-    pub fn x(&self) -> &[f64] {
-        &self.x
-    }
-
-    /// Ordinates.
-    #[must_use]
-    pub fn y(&self) -> &[f64] {
-        &self.y
-    }
-
-    /// Index of the last knot at or before x; 0 before all of them.
-    pub(super) fn before(&self, x: f64) -> usize {
-        self.x.partition_point(|&knot| knot <= x).saturating_sub(1)
-    }
-}
-
 impl Function {
     /// y, dy/dx and d²y/dx² at x.
     #[must_use]
@@ -93,7 +60,7 @@ impl Function {
             Function::SimmSpline(spline) => spline.at(x),
             Function::NaturalSpline(spline) => spline.value_and_two_derivatives(x),
             Function::PiecewiseLinear(knots) => piecewise_linear(knots, x),
-            Function::PiecewiseConstant(knots) => [knots.y[knots.before(x)], 0.0, 0.0],
+            Function::PiecewiseConstant(knots) => [knots.y()[knots.before(x)], 0.0, 0.0],
             Function::Step { start, end } => step(*start, *end, x),
             Function::Sine { amplitude, omega, phase, offset } => {
                 let (s, c) = (omega * x + phase).sin_cos();
@@ -136,7 +103,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> [f64; 3] {
 }
 
 fn piecewise_linear(knots: &Knots, x: f64) -> [f64; 3] {
-    let Knots { x: xs, y: ys } = knots;
+    let (xs, ys) = (knots.x(), knots.y());
     if xs.len() == 1 {
         return [ys[0], 0.0, 0.0];
     }

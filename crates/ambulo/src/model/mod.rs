@@ -6,12 +6,14 @@
 mod function;
 mod import;
 mod joint;
+mod knots;
 mod side;
 mod simm_spline;
 
-pub use function::{Function, Knots};
+pub use function::Function;
 pub use import::{ImportError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
+pub use knots::Knots;
 pub use side::Side;
 pub use simm_spline::SimmSpline;
 

@@ -9,7 +9,7 @@
 //! hᵢ₋₁ Mᵢ₋₁ + 2 (hᵢ₋₁ + hᵢ) Mᵢ + hᵢ Mᵢ₊₁ = 6 (sᵢ - sᵢ₋₁), s the secants; the end rows state M₁ - M₀ = h₀ y''' and
 //! its mirror.
 
-use super::function::Knots;
+use super::knots::Knots;
 
 /// Cubic through rising knots.
 #[derive(Debug, Clone)]
