@@ -32,7 +32,7 @@ pub struct Analysis {
     pub ground: MeasuredGround,
     /// Joint forces, powers and reactions.
     pub forces: Forces,
-    /// Strikes and toe-offs, in order of time.
+    /// Strikes and toe-offs inside the trajectory, in order of time.
     pub events: Vec<Event>,
     /// Whole gait cycles inside the trajectory.
     pub cycles: Vec<Cycle>,
@@ -107,8 +107,10 @@ pub fn analyse(
     let vertical = vertical_by_side(model, plates, up);
     let contacts: Vec<(Side, Vec<Contact>)> =
         vertical.iter().map(|(side, (times, force))| (*side, contacts(times, force))).collect();
-    let events = events(&contacts);
-    let cycles = cycles(&events, trajectory.grid());
+    let grid = trajectory.grid();
+    let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
+    let events: Vec<Event> = events(&contacts).into_iter().filter(inside).collect();
+    let cycles = cycles(&events, grid);
     let mass = mass(model, &vertical, &cycles, findings);
     let speed_m_s = walking_speed(model, &trajectory, &ground, up);
     let residual = residual(model, &forces);

@@ -46,9 +46,11 @@ struct Panel {
 /// in the Gait2392 family and positive in Rajagopal's; the direction in which the knee turns most during the cycle is
 /// flexion.
 ///
+/// `caption` says whose walk it is.
+///
 /// # Errors
 /// A canvas that the plotting library refuses.
-pub fn moments_figure(rows: &[CycleRow], mass_kg: f64) -> Result<String, FigureError> {
+pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str) -> Result<String, FigureError> {
     let error = |reason: String| FigureError { name: "moments.svg", reason };
     let knee_sign = -knee_flexion_sign(rows);
     let panels = [
@@ -62,7 +64,7 @@ pub fn moments_figure(rows: &[CycleRow], mass_kg: f64) -> Result<String, FigureE
         let root = SVGBackend::with_string(&mut svg, (FINE * width, FINE * height)).into_drawing_area();
         root.fill(&WHITE).map_err(|e| error(e.to_string()))?;
         let (title, body) = root.split_vertically(FINE * TITLE);
-        draw_title(&title).map_err(|e| error(e.to_string()))?;
+        draw_title(&title, caption).map_err(|e| error(e.to_string()))?;
         for (panel, area) in panels.iter().zip(body.split_evenly((1, 3))) {
             draw_panel(&area, panel, rows, mass_kg).map_err(|e| error(e.to_string()))?;
         }
@@ -85,9 +87,10 @@ fn font(size: u32) -> TextStyle<'static> {
     ("sans-serif", FINE * size).into_font().color(&RGBColor(40, 40, 40))
 }
 
-fn draw_title(area: &Area<'_>) -> DrawResult {
+fn draw_title(area: &Area<'_>, caption: &str) -> DrawResult {
     let at = |x: u32, y: u32| ((FINE * x) as i32, (FINE * y) as i32);
-    area.draw_text("Net joint moments over the gait cycle", &font(15), at(14, 14))?;
+    area.draw_text("Net joint moments over the gait cycle", &font(15), at(14, 10))?;
+    area.draw_text(caption, &font(11), at(14, 30))?;
     for (side, x) in [(Side::Right, 780), (Side::Left, 880)] {
         let line = [at(x, 22), at(x + 24, 22)];
         area.draw(&PathElement::new(line.to_vec(), color(side).stroke_width(2 * FINE)))?;
@@ -108,7 +111,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64) -
         .margin(FINE * 8)
         .margin_right(FINE * 16)
         .x_label_area_size(FINE * 34)
-        .y_label_area_size(FINE * 48)
+        .y_label_area_size(FINE * 44)
         .build_cartesian_2d(0.0..100.0, low..high)?;
     chart
         .configure_mesh()

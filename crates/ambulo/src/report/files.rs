@@ -57,7 +57,16 @@ pub fn output_files(
     }
     if !rows.is_empty() {
         files.push(file("cycles.csv", cycle_table::csv(&rows).into_bytes()));
-        files.push(file("figures/moments.svg", moments_figure(&rows, analysis.mass.kg)?.into_bytes()));
+        files.push(file(
+            "figures/moments.svg",
+            moments_figure(&rows, analysis.mass.kg, &caption(model, analysis))?.into_bytes(),
+        ));
     }
     Ok(files)
+}
+
+/// Whose walk a figure shows: `subject01, 72.8 kg, 1.12 m/s`.
+fn caption(model: &Model, analysis: &Analysis) -> String {
+    let speed = analysis.speed_m_s.map(|v| format!(", {v:.2} m/s")).unwrap_or_default();
+    format!("{}, {:.1} kg{speed}", model.name(), analysis.mass.kg)
 }
