@@ -92,8 +92,11 @@ fn draw_title(area: &Area<'_>, caption: &str) -> DrawResult {
     area.draw_text("Net joint moments over the gait cycle", &font(15), at(14, 10))?;
     area.draw_text(caption, &font(11), at(14, 30))?;
     for (side, x) in [(Side::Right, 780), (Side::Left, 880)] {
-        let line = [at(x, 22), at(x + 24, 22)];
-        area.draw(&PathElement::new(line.to_vec(), color(side).stroke_width(2 * FINE)))?;
+        let dashes: &[(u32, u32)] = if side == Side::Right { &[(0, 25)] } else { &[(0, 7), (9, 16), (18, 25)] };
+        for (from, to) in dashes {
+            let line = [at(x + from, 22), at(x + to, 22)];
+            area.draw(&PathElement::new(line.to_vec(), color(side).stroke_width(2 * FINE)))?;
+        }
         area.draw_text(&side.to_string(), &font(12), at(x + 30, 15))?;
     }
     Ok(())
@@ -139,13 +142,18 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64) -
         }
         if !of_side.is_empty() {
             let mean = mean(of_side.iter().map(|(_, v)| v.as_slice()));
-            chart.draw_series(LineSeries::new(points(&mean), color(side).stroke_width(2 * FINE)))?;
+            let style = color(side).stroke_width(2 * FINE);
+            match side {
+                Side::Right => chart.draw_series(LineSeries::new(points(&mean), style))?,
+                // Dashed, so that the right shows through where the two agree.
+                Side::Left => chart.draw_series(DashedLineSeries::new(points(&mean), 7 * FINE, 4 * FINE, style))?,
+            };
         }
     }
     Ok(())
 }
 
-fn points(values: &[f64]) -> impl Iterator<Item = (f64, f64)> + '_ {
+fn points(values: &[f64]) -> impl Iterator<Item = (f64, f64)> + Clone + '_ {
     values.iter().enumerate().map(|(percent, y)| (percent as f64, *y))
 }
 
