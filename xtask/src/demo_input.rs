@@ -253,19 +253,8 @@ fn ground_table(grid: &TimeGrid, feet: &[[FootLoad; 2]]) -> Result<Table, ambulo
 }
 
 fn external_loads() -> ExternalLoads {
-    let force = |name: &str, letter: &str| ExternalForce {
-        name: name.into(),
-        enabled: true,
-        applied_to_body: format!("calcn_{letter}"),
-        force_expressed_in_body: "ground".into(),
-        point_expressed_in_body: "ground".into(),
-        force_identifier: Some(format!("ground_force_{letter}_v")),
-        point_identifier: Some(format!("ground_force_{letter}_p")),
-        torque_identifier: Some(format!("ground_torque_{letter}_")),
-    };
-    ExternalLoads {
-        name: "demo".into(),
-        datafile: Some("walk_grf.mot".into()),
-        forces: vec![force("right", "r"), force("left", "l")],
-    }
+    let forces = [("right", "r"), ("left", "l")].map(|(name, letter)| {
+        ExternalForce::with_prefix(name, &format!("calcn_{letter}"), &format!("ground_force_{letter}_"))
+    });
+    ExternalLoads { name: "demo".into(), datafile: Some("walk_grf.mot".into()), forces: forces.to_vec() }
 }

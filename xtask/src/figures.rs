@@ -1,0 +1,171 @@
+//! Pictures of the documents, drawn anew from the `ambulo` command's own output: `cargo xtask figures`.
+//!
+//! `ambulo forces` on the recording beside the workspace (`ambulo demo` without it) writes SVG into `target/figures`; a
+//! headless Chromium turns what the documents show into PNG in `docs/images`.
+
+use crate::workspace::{self, Walk};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Pictures that the documents show, by name without ending.
+const PICTURES: [&str; 1] = ["moments"];
+/// Names under which Chromium is installed, in the order in which they are tried.
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+/// Chromium takes about a second; after this it hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Pause between two looks at whether Chromium has ended.
+const PAUSE: Duration = Duration::from_millis(20);
+/// Quiet, offline, no sandbox (containers forbid it), two picture points for each SVG unit.
+const FLAGS: [&str; 8] = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--hide-scrollbars",
+    "--force-device-scale-factor=2",
+];
+
+/// Draws every picture and says where it is.
+#[expect(clippy::print_stdout, reason = "the written files are the command's result")]
+pub(crate) fn run() -> Result<(), String> {
+    let browser = find_browser()?;
+    let folder = workspace::root().join("target/figures");
+    let program = workspace::build_program()?;
+    let mut command = match Walk::find() {
+        Some(walk) => walk.command(&program, &folder),
+        None => demo(&program, &folder),
+    };
+    // 1 is a finished run whose findings refuse the motion; its figures are there.
+    let status =
+        command.stdout(Stdio::null()).status().map_err(|e| format!("{}: cannot start: {e}", program.display()))?;
+    if !matches!(status.code(), Some(0 | 1)) {
+        return Err(format!("`ambulo` failed ({status}), see above"));
+    }
+    let images = workspace::root().join("docs/images");
+    fs::create_dir_all(&images).map_err(|e| format!("{}: cannot create: {e}", images.display()))?;
+    for name in PICTURES {
+        let svg = folder.join("figures").join(name).with_extension("svg");
+        let png = images.join(name).with_extension("png");
+        draw(browser, &svg, &png)?;
+        println!("written: {}", png.display());
+    }
+    Ok(())
+}
+
+fn demo(program: &Path, folder: &Path) -> Command {
+    let mut command = Command::new(program);
+    command.arg("demo").arg("-o").arg(folder);
+    command
+}
+
+fn find_browser() -> Result<&'static str, String> {
+    let starts = |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|o| o.status.success());
+    BROWSERS.into_iter().find(starts).ok_or_else(|| {
+        format!("none of {} is installed\nhint: on Debian, `apt-get install chromium`", BROWSERS.join(", "))
+    })
+}
+
+/// One SVG file as PNG.
+fn draw(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
+    let at = svg.display();
+    let text = fs::read_to_string(svg).map_err(|e| format!("{at}: cannot read: {e}"))?;
+    let [width, height] = size(&text).map_err(|e| format!("{at}: {e}"))?;
+    let address = file_address(svg)?;
+    // A profile of its own: a running Chromium would otherwise take the request and draw nothing.
+    let profile = std::env::temp_dir().join(format!("ambulo-figures-{}", std::process::id()));
+    let written_before = modified(png);
+    let mut command = Command::new(browser);
+    command.args(FLAGS).arg(format!("--user-data-dir={}", profile.display()));
+    command.arg(format!("--window-size={width},{height}"));
+    command.arg(format!("--screenshot={}", png.display())).arg(address);
+    let done = run_with_patience(command.stdout(Stdio::null()).stderr(Stdio::null()), browser);
+    // A profile left in the temporary files harms nobody.
+    let _ = fs::remove_dir_all(&profile);
+    done?;
+    let written = modified(png);
+    if written.is_some() && written != written_before {
+        return Ok(());
+    }
+    Err(format!("{browser} ended without writing {}", png.display()))
+}
+
+fn modified(path: &Path) -> Option<std::time::SystemTime> {
+    fs::metadata(path).and_then(|m| m.modified()).ok()
+}
+
+fn run_with_patience(command: &mut Command, name: &str) -> Result<(), String> {
+    let mut child = command.spawn().map_err(|e| format!("{name}: cannot start: {e}"))?;
+    let start = Instant::now();
+    loop {
+        match child.try_wait().map_err(|e| format!("{name}: cannot wait for it: {e}"))? {
+            Some(status) if status.success() => return Ok(()),
+            Some(status) => return Err(format!("{name}: {status}")),
+            None if start.elapsed() > PATIENCE => {
+                // It may have ended by itself in between; either way it is reported as hanging.
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!("{name}: no picture within {} s, stopped", PATIENCE.as_secs()));
+            }
+            None => sleep(PAUSE),
+        }
+    }
+}
+
+/// `file://` address of a file; every byte but plain letters and path signs is written as %XX.
+fn file_address(path: &Path) -> Result<String, String> {
+    let path: PathBuf = path.canonicalize().map_err(|e| format!("{}: {e}", path.display()))?;
+    let mut address = "file://".to_owned();
+    for byte in path.to_string_lossy().bytes() {
+        match byte {
+            b'/' | b'.' | b'-' | b'_' | b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => address.push(char::from(byte)),
+            _ => address.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    Ok(address)
+}
+
+/// Width and height of an SVG document in its units, rounded up.
+fn size(svg: &str) -> Result<[u32; 2], String> {
+    let begin = svg.find("<svg").ok_or("no <svg> element")?;
+    let tag = svg[begin..].split('>').next().unwrap_or_default();
+    Ok([length(tag, "width")?, length(tag, "height")?])
+}
+
+fn length(tag: &str, name: &str) -> Result<u32, String> {
+    let after = tag.split_once(&format!(" {name}=\"")).ok_or_else(|| format!("<svg> has no {name}"))?.1;
+    let value = after.split('"').next().unwrap_or_default();
+    let number: f64 = value.trim_end_matches("px").parse().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
+    if !(number > 0.0 && number < 1e5) {
+        return Err(format!("<svg {name}=\"{value}\">, expected a length above 0"));
+    }
+    Ok(number.ceil() as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_size_is_that_of_the_svg_element_alone() {
+        let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect width=\"5\"/></svg>";
+        assert_eq!(size(svg), Ok([990, 316]));
+        let message = size("<svg stroke-width=\"2\"><rect width=\"5\" height=\"5\"/></svg>").unwrap_err();
+        assert_eq!(message, "<svg> has no width");
+        assert!(size("<svg width=\"100%\" height=\"5\">").unwrap_err().starts_with("<svg width=\"100%\">"));
+        assert!(size("<svg width=\"-1\" height=\"5\">").unwrap_err().ends_with("expected a length above 0"));
+    }
+
+    #[test]
+    fn addresses_have_no_sign_that_a_browser_would_read_otherwise() {
+        let path = std::env::temp_dir().join(format!("xtask figures #{}.svg", std::process::id()));
+        fs::write(&path, "<svg/>").unwrap();
+        let address = file_address(&path).unwrap();
+        fs::remove_file(&path).unwrap();
+        assert!(address.starts_with("file:///") && address.contains("xtask%20figures%20%23"), "{address}");
+    }
+}

@@ -1,0 +1,62 @@
+//! Automation of the workspace: `cargo xtask <command>`. Each command is a file of this folder.
+
+mod bench;
+mod check;
+mod demo_input;
+mod figures;
+
+mod npz;
+mod peers;
+mod workspace;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+usage: cargo xtask <command>
+
+  check       what CI runs: format, lints, tests, documentation; stops at the first failure
+  bench       time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
+  peers       time other engines on the same model and motion  [--env DIR] [--scripts DIR]
+  figures     draw docs/images/ anew with the `ambulo` command and a headless Chromium
+  demo-input  make the built-in walk of `ambulo demo` anew, beside its figure
+  help        this text
+
+environment:
+  AMBULO_DATA       folder that holds `data` and `reference`; without it ../shared beside this workspace
+  AMBULO_PEERS_ENV  folder of the other engines' virtual environments; see `cargo xtask peers`
+";
+
+/// Built-in input of `ambulo demo`, relative to the workspace root.
+const DEMO: &str = "crates/ambulo-cli/assets/demo";
+
+/// The command line could not be understood.
+const MISUSED: u8 = 2;
+
+#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the shell of the automation: help and errors")]
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
+    let done = match (command, rest) {
+        ("peers", _) => peers::run(rest),
+        ("check", []) => check::run(),
+        ("bench", []) => bench::run(),
+        ("figures", []) => figures::run(),
+        ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
+
+        ("help" | "--help" | "-h", []) => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => {
+            eprint!("error: unknown command `{}`\n\n{HELP}", words.join(" "));
+            return ExitCode::from(MISUSED);
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
