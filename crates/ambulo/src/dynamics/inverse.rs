@@ -212,7 +212,8 @@ impl<const N: usize> Kernel<N> {
             self.moment[load.body + 1] -= load.moment + arm.cross(load.force);
         }
         self.tau.fill([0.0; N]);
-        for (i, segment) in plan.segments.iter().enumerate().rev() {
+        for &i in plan.outwards.iter().rev() {
+            let segment = &plan.segments[i];
             let state = &self.scratch.states[i + 1];
             let force = self.force[i + 1];
             let moment = self.moment[i + 1] + state.to_center.cross(force);

@@ -156,9 +156,14 @@ impl<const N: usize> M3<N> {
         M3(array::from_fn(|j| V3::splat(m.column(j).into_owned())))
     }
 
+    /// Column j; written out for the same reason as `turn_about`.
     #[inline(always)]
     pub(crate) fn col(&self, j: usize) -> V3<N> {
-        self.0[j]
+        match j {
+            0 => self.0[0],
+            1 => self.0[1],
+            _ => self.0[2],
+        }
     }
 
     /// R v.
@@ -185,17 +190,24 @@ impl<const N: usize> M3<N> {
         M3(array::from_fn(|j| self.turn_fixed(&s.column(j).into_owned())))
     }
 
-    /// R becomes R times a rotation about axis k (0 = x) of the turned frame.
+    /// R becomes R times a rotation about axis k (0 = x) of the turned frame; yields that axis, R's column k.
+    ///
+    /// Columns are named by constants, not by a running index, which would force the matrix out of the registers.
     #[inline(always)]
-    pub(crate) fn turn_about(&mut self, k: usize, sin: Lanes<N>, cos: Lanes<N>) {
-        let (i, j) = match k {
-            0 => (1, 2),
-            1 => (2, 0),
-            _ => (0, 1),
-        };
-        let (u, v) = (self.0[i], self.0[j]);
-        self.0[i] = u * cos + v * sin;
-        self.0[j] = v * cos - u * sin;
+    pub(crate) fn turn_about(&mut self, k: usize, sin: Lanes<N>, cos: Lanes<N>) -> V3<N> {
+        match k {
+            0 => self.turn_columns::<0, 1, 2>(sin, cos),
+            1 => self.turn_columns::<1, 2, 0>(sin, cos),
+            _ => self.turn_columns::<2, 0, 1>(sin, cos),
+        }
+    }
+
+    #[inline(always)]
+    fn turn_columns<const K: usize, const I: usize, const J: usize>(&mut self, sin: Lanes<N>, cos: Lanes<N>) -> V3<N> {
+        let (u, v) = (self.0[I], self.0[J]);
+        self.0[I] = u * cos + v * sin;
+        self.0[J] = v * cos - u * sin;
+        self.0[K]
     }
 
     /// The matrix of one frame.

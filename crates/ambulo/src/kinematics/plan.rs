@@ -15,6 +15,9 @@ pub(crate) struct Plan {
     pub(crate) gravity: Vec3,
     pub(crate) coordinates: usize,
     pub(crate) segments: Vec<Segment>,
+    /// Segments by their distance from the root. A child that follows its parent at once would wait for the parent's
+    /// numbers to reach the cache; between siblings and cousins there is other work to do.
+    pub(crate) outwards: Vec<usize>,
     pub(crate) axes: Vec<Axis>,
 }
 
@@ -78,6 +81,7 @@ impl Plan {
             gravity: model.gravity(),
             coordinates: model.coordinates().len(),
             segments: Vec::new(),
+            outwards: Vec::new(),
             axes: Vec::new(),
         };
         for body in model.bodies() {
@@ -85,6 +89,7 @@ impl Plan {
             let inertia = body.inertia.seen_from(&joint_from_body);
             plan.push(&body.joint, joint_from_body, &inertia);
         }
+        plan.outwards = plan.by_depth();
         plan
     }
 
@@ -112,6 +117,16 @@ impl Plan {
             diagonal: (about_center - Mat3::from_diagonal(&about_center.diagonal())).amax() < f64::MIN_POSITIVE,
             joint_from_body,
         });
+    }
+
+    fn by_depth(&self) -> Vec<usize> {
+        let mut depth = vec![0; self.segments.len() + 1];
+        for (i, segment) in self.segments.iter().enumerate() {
+            depth[i + 1] = depth[segment.parent] + 1;
+        }
+        let mut order: Vec<usize> = (0..self.segments.len()).collect();
+        order.sort_by_key(|&i| depth[i + 1]);
+        order
     }
 
     fn push_axes(&mut self, axes: &[JointAxis]) -> Range<usize> {

@@ -104,7 +104,8 @@ impl<const N: usize> Scratch<N> {
 pub(crate) fn forward<const N: usize>(plan: &Plan, scratch: &mut Scratch<N>) {
     follow_coordinates(plan, scratch);
     let Scratch { axes, states, joint_frames, .. } = scratch;
-    for (i, segment) in plan.segments.iter().enumerate() {
+    for &i in &plan.outwards {
+        let segment = &plan.segments[i];
         let (before, after) = states.split_at_mut(i + 1);
         place(plan, segment, &before[segment.parent], axes, &mut after[0], &mut joint_frames[i]);
     }
@@ -203,11 +204,7 @@ fn place<const N: usize>(
 #[inline(always)]
 fn rotate<const N: usize>(frame: &mut M3<N>, axis: &Axis, sin: Lanes<N>, cos: Lanes<N>) -> V3<N> {
     match &axis.direction {
-        Direction::Principal(k) => {
-            let along = frame.col(*k);
-            frame.turn_about(*k, sin, cos);
-            along
-        }
+        Direction::Principal(k) => frame.turn_about(*k, sin, cos),
         Direction::General(d) => {
             let along = frame.turn_fixed(d);
             *frame = turned_about_general(frame, d, sin, cos);

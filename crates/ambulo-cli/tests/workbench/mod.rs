@@ -1,0 +1,179 @@
+//! A folder of its own for each test, holding the demo's input, and the program run in it with a limit of time.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
+use ambulo_formats::table::Table;
+use serde_json::Value;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// The built-in input.
+pub(crate) const INPUT: [&str; 4] = ["figure.osim", "walk.mot", "walk_grf.mot", "walk_grf.xml"];
+
+/// What `forces` is given to read, as a rule.
+pub(crate) const FORCES: [&str; 8] =
+    ["forces", "walk.mot", "--model", "figure.osim", "--grf", "walk_grf.mot", "--loads", "walk_grf.xml"];
+
+/// No filter: what comes out is what went in.
+pub(crate) const RAW: [&str; 4] = ["--cutoff", "off", "--force-cutoff", "off"];
+
+/// A run that takes longer than this hangs. The slowest, on 100 MB, takes a second or two.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A fresh folder.
+pub(crate) struct Workbench {
+    pub(crate) folder: PathBuf,
+    runs: AtomicUsize,
+}
+
+/// What a run left behind.
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+    pub(crate) took: Duration,
+}
+
+/// The bytes of a file of the built-in input.
+pub(crate) fn demo_input(name: &str) -> Vec<u8> {
+    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/demo").join(name)).unwrap()
+}
+
+impl Workbench {
+    /// A folder with this name, emptied, with the built-in input in it.
+    pub(crate) fn new(name: &str) -> Workbench {
+        let bench = Workbench::empty(name);
+        for file in INPUT {
+            bench.write(file, demo_input(file));
+        }
+        bench
+    }
+
+    pub(crate) fn empty(name: &str) -> Workbench {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program").join(name);
+        if folder.exists() {
+            fs::remove_dir_all(&folder).unwrap();
+        }
+        fs::create_dir_all(&folder).unwrap();
+        Workbench { folder, runs: AtomicUsize::new(0) }
+    }
+
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.folder.join(name), content).unwrap();
+    }
+
+    pub(crate) fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    pub(crate) fn text(&self, name: &str) -> String {
+        String::from_utf8(self.read(name)).unwrap()
+    }
+
+    pub(crate) fn table(&self, name: &str) -> Table {
+        Table::read_storage(&self.read(name)).unwrap_or_else(|e| panic!("{name}: {e}")).0
+    }
+
+    pub(crate) fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&self.read(name)).unwrap()
+    }
+
+    /// Replaces text in a file; what is replaced must be there.
+    pub(crate) fn edit(&self, name: &str, old: &str, new: &str) {
+        let text = self.text(name);
+        assert!(text.contains(old), "`{old}` is not in {name}");
+        self.write(name, text.replace(old, new));
+    }
+
+    /// Replaces the rows of a storage file below its line of names.
+    pub(crate) fn edit_rows(&self, name: &str, edit: impl Fn(Vec<Vec<String>>) -> Vec<Vec<String>>) {
+        let text = self.text(name);
+        let rows_begin = text.lines().position(|l| l.trim() == "endheader").unwrap() + 2;
+        let head: Vec<&str> = text.lines().take(rows_begin).filter(|l| !l.starts_with("nRows")).collect();
+        let rows = text.lines().skip(rows_begin).map(|l| l.split_whitespace().map(str::to_owned).collect()).collect();
+        let rows: Vec<String> = edit(rows).iter().map(|cells| cells.join("\t")).collect();
+        self.write(name, format!("{}\n{}\n", head.join("\n"), rows.join("\n")));
+    }
+
+    /// Runs the program in this folder.
+    pub(crate) fn run(&self, args: &[&str]) -> Run {
+        self.wait(Command::new(env!("CARGO_BIN_EXE_ambulo")).args(args), args)
+    }
+
+    /// Runs the program with at most a gigabyte of address space.
+    pub(crate) fn run_in_a_gigabyte(&self, args: &[&str]) -> Run {
+        if !cfg!(target_os = "linux") {
+            return self.run(args);
+        }
+        let limited = ["-c", "ulimit -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_ambulo")];
+        self.wait(Command::new("sh").args(limited).args(args), args)
+    }
+
+    fn wait(&self, command: &mut Command, args: &[&str]) -> Run {
+        let number = self.runs.fetch_add(1, Ordering::Relaxed);
+        let [out, err] = ["stdout", "stderr"].map(|s| self.folder.join(format!("{s}.{number}")));
+        command.current_dir(&self.folder).stdin(Stdio::null()).env("RUST_BACKTRACE", "0");
+        command.stdout(File::create(&out).unwrap()).stderr(File::create(&err).unwrap());
+        let start = Instant::now();
+        let mut child = command.spawn().unwrap();
+        let status = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status;
+            }
+            if start.elapsed() > PATIENCE {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                panic!("`ambulo {}` hangs", args.join(" "));
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        let text = |path: &Path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
+        let run = Run { code: status.code(), stdout: text(&out), stderr: text(&err), took: start.elapsed() };
+        let calm = !run.stderr.contains("panicked") && !run.stderr.contains("overflow");
+        assert!(run.code.is_some() && calm, "`ambulo {}` ended with {status}: {}", args.join(" "), run.stderr);
+        fs::remove_file(out).unwrap();
+        fs::remove_file(err).unwrap();
+        run
+    }
+
+    /// Runs `forces` on the input as it stands, with more options, into `out`.
+    pub(crate) fn forces(&self, more: &[&str]) -> Run {
+        self.run(&[&FORCES[..], more].concat())
+    }
+}
+
+impl Run {
+    /// Asserts that the run went through, and hands it on.
+    #[track_caller]
+    pub(crate) fn done(self) -> Run {
+        assert_eq!(self.code, Some(0), "{}", self.stderr);
+        self
+    }
+
+    /// Asserts an error, exit code 2, with these words, and nothing on standard output.
+    #[track_caller]
+    pub(crate) fn refused(&self, words: &[&str]) {
+        assert_eq!(self.code, Some(2), "{}{}", self.stdout, self.stderr);
+        assert!(self.stderr.starts_with("error: "), "{}", self.stderr);
+        assert!(self.stdout.is_empty(), "{}", self.stdout);
+        self.says(words);
+    }
+
+    /// Asserts that the run went through with a warning of these words.
+    #[track_caller]
+    pub(crate) fn warned(&self, words: &[&str]) {
+        assert_eq!(self.code, Some(0), "{}", self.stderr);
+        assert!(self.stderr.contains("warning: "), "{}", self.stderr);
+        self.says(words);
+    }
+
+    #[track_caller]
+    pub(crate) fn says(&self, words: &[&str]) {
+        for word in words {
+            assert!(self.stderr.contains(word), "`{word}` is missing in: {}", self.stderr);
+        }
+    }
+}
