@@ -1,9 +1,10 @@
-//! Against OpenSim: the same recordings, the same settings, the generalised forces that its inverse dynamics tool wrote.
+//! Against OpenSim: same recordings, same settings, and the generalised forces that its inverse dynamics tool wrote.
 //!
 //! The recordings are not part of the repository. They are looked for in `shared/data` beside it, or in
 //! `$AMBULO_DATA/data`; without them each test says `skipped` and passes.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 use ambulo::analysis::{Agreement, Analysis, Curve, Settings, analyse, compare};
 use ambulo::findings::Findings;
@@ -167,8 +168,8 @@ fn assert_tells_mistakes_apart(label: &str, subject: &Subject, reference: &Table
     }
 }
 
-// OpenSim 4.5 and 4.6, run on these inputs, miss the stored reference by 0.55 N.m RMS at the hip, 0.02 at knee and ankle,
-// 0.9 at the pelvis (an older OpenSim wrote it): that is the floor, and what is seen here too.
+// OpenSim 4.5 and 4.6, run on these inputs, miss the stored reference by 0.55 N.m RMS at the hip, 0.02 at knee and
+// ankle, 0.9 at the pelvis (an older OpenSim wrote it): that is the floor, and what is seen here too.
 const GAIT2392_LIMITS: Limits<'_> = &[
     ("knee_angle", 0.1, 0.9999),
     ("ankle_angle", 0.1, 0.9999),
@@ -238,7 +239,7 @@ fn rajagopal_gives_the_stored_moments_of_opensim() {
     let reference = table(&data.join("opensim-rajagopal-walk/id_walk.sto"));
     let subject = rajagopal(&data);
     assert_agrees("rajagopal", &subject, &reference, RAJAGOPAL_WINDOW, ONE_NEWTON_METRE);
-    // These coordinates are smooth already: OpenSim's own unfiltered run misses its filtered one by 1.3 N.m at the knee.
+    // These coordinates are smooth already: OpenSim's own unfiltered run misses the filtered by 1.3 N.m at the knee.
     let least = [5.0, 25.0, 100.0, 1.0];
     assert_tells_mistakes_apart("rajagopal", &subject, &reference, RAJAGOPAL_WINDOW, least);
 }
@@ -305,7 +306,7 @@ fn coupled_columns_in_degrees_are_reported_and_the_coupler_decides() {
     assert!(trapped > 20.0, "the trap is worth {trapped} N.m");
 }
 
-// Golden numbers: OpenSim 4.6 InverseDynamicsTool, these setups (6 Hz on the coordinates, forces raw, muscles excluded).
+// Golden numbers: OpenSim 4.6 InverseDynamicsTool, these setups: 6 Hz on the coordinates, forces raw, no muscles.
 const GAIT2392_COLUMNS: [&str; 11] = [
     "pelvis_tilt_moment",
     "pelvis_tx_force",

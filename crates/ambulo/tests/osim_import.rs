@@ -1,6 +1,7 @@
-//! From OpenSim documents to models: every layout of the format says the same, and what is wrong is said with its place.
+//! From OpenSim documents to models: every layout says the same, and what is wrong is said with its place.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::findings::Findings;
@@ -47,7 +48,8 @@ const KNEE_COORDINATE: &str = r#"<Coordinate name="knee_angle"><default_value>-0
 fn spatial_transform(spline: &str, wrap: impl Fn(&str) -> String) -> String {
     let axis = |name: &str, coordinates: &str, axis: &str, function: &str| {
         format!(
-            "<TransformAxis name=\"{name}\"><coordinates>{coordinates}</coordinates><axis>{axis}</axis>{}</TransformAxis>\n",
+            "<TransformAxis name=\"{name}\"><coordinates>{coordinates}</coordinates><axis>{axis}</axis>{}\
+             </TransformAxis>\n",
             wrap(function)
         )
     };
@@ -109,7 +111,8 @@ fn nested(version: u32, spline: &str) -> String {
          <PinJoint name=\"hip\"><parent_body>ground</parent_body><location_in_parent>{HIP_PLACE}</location_in_parent>\
          <orientation_in_parent>{HIP_TURN}</orientation_in_parent><location>{THIGH_PLACE}</location>\
          <orientation>{THIGH_TURN}</orientation>{}</PinJoint>\n</Joint></Body>\n<Body name=\"shank\">{shank}<Joint>\n\
-         <CustomJoint name=\"knee\"><parent_body>thigh</parent_body><location_in_parent>{KNEE_PLACE}</location_in_parent>\
+         <CustomJoint name=\"knee\"><parent_body>thigh</parent_body>\
+         <location_in_parent>{KNEE_PLACE}</location_in_parent>\
          <orientation_in_parent>{KNEE_TURN}</orientation_in_parent><location>0 0 0</location>\
          <orientation>0 0 0</orientation>{}{knee}</CustomJoint>\n</Joint></Body>\n</objects></BodySet>",
         set(HIP_COORDINATE),
@@ -132,9 +135,12 @@ fn framed(version: u32, socket: impl Fn(&str, &str) -> String, roots: [&str; 2])
     let [ground, bodies] = roots;
     let of = |body: &str| format!("{bodies}{body}");
     let inside = format!(
-        "<BodySet><objects>\n<Body name=\"thigh\">{thigh}</Body>\n<Body name=\"shank\">{shank}</Body>\n</objects></BodySet>\n\
-         <JointSet><objects>\n<PinJoint name=\"hip\">{}{}<coordinates>{HIP_COORDINATE}</coordinates><frames>{}{}</frames>\
-         </PinJoint>\n<CustomJoint name=\"knee\">{}{}<coordinates>{KNEE_COORDINATE}</coordinates><frames>{}</frames>{knee}\
+        "<BodySet><objects>\n<Body name=\"thigh\">{thigh}</Body>\n\
+         <Body name=\"shank\">{shank}</Body>\n</objects></BodySet>\n\
+         <JointSet><objects>\n<PinJoint name=\"hip\">{}{}\
+         <coordinates>{HIP_COORDINATE}</coordinates><frames>{}{}</frames>\
+         </PinJoint>\n<CustomJoint name=\"knee\">{}{}\
+         <coordinates>{KNEE_COORDINATE}</coordinates><frames>{}</frames>{knee}\
          </CustomJoint>\n</objects></JointSet>",
         socket("parent_frame", "ground_offset"),
         socket("child_frame", "thigh_offset"),
@@ -221,7 +227,8 @@ fn single(joint: &str, more: &str) -> String {
         40000,
         &format!(
             "<BodySet><objects>\n<Body name=\"stone\"><mass>2</mass><mass_center>0 0 0</mass_center>\
-             <inertia>0.1 0.1 0.1 0 0 0</inertia></Body>\n</objects></BodySet>\n<JointSet><objects>\n{open}>{sockets}{rest}\n\
+             <inertia>0.1 0.1 0.1 0 0 0</inertia></Body>\n</objects></BodySet>\n<JointSet><objects>\n\
+             {open}>{sockets}{rest}\n\
              </objects></JointSet>\n{more}"
         ),
     )
@@ -245,7 +252,8 @@ fn custom(follows: &str, function: &str, more: &str) -> String {
     let axis = |name: &str, axis: &str| {
         let (coordinate, held) = if name == "translation2" { (follows, function) } else { ("", "") };
         format!(
-            "<TransformAxis name=\"{name}\"><coordinates>{coordinate}</coordinates><axis>{axis}</axis>{held}</TransformAxis>\n"
+            "<TransformAxis name=\"{name}\"><coordinates>{coordinate}</coordinates><axis>{axis}</axis>{held}\
+             </TransformAxis>\n"
         )
     };
     let axes = [("rotation1", "1 0 0"), ("rotation2", "0 1 0"), ("rotation3", "0 0 1")].into_iter().chain([
@@ -317,19 +325,22 @@ fn joints_move_along_the_axes_that_the_format_defines() {
 #[test]
 fn each_function_gives_its_value() {
     let points = "<x>0 1 2 3 4 5 6 7</x><y>0 1 4 9 16 25 36 49</y>";
+    let line = "<LinearFunction><coefficients>2 1</coefficients></LinearFunction>";
+    let step = "<StepFunction><start_time>1</start_time><end_time>3</end_time><end_value>4</end_value></StepFunction>";
+    let sine = "<Sine><amplitude>2</amplitude><omega>3</omega><phase>0.5</phase><offset>1</offset></Sine>";
     let table: [(String, f64, f64); 12] = [
         ("<Constant><value>0.25</value></Constant>".into(), 9.0, 0.25),
-        ("<LinearFunction><coefficients>2 1</coefficients></LinearFunction>".into(), 3.0, 7.0),
+        (line.into(), 3.0, 7.0),
         ("<PolynomialFunction><coefficients>1 0 -2</coefficients></PolynomialFunction>".into(), 3.0, 7.0),
         (format!("<SimmSpline>{points}</SimmSpline>"), 3.0, 9.0),
         (format!("<GCVSpline><half_order>3</half_order>{points}</GCVSpline>"), 4.0, 16.0),
         (format!("<PiecewiseLinearFunction>{points}</PiecewiseLinearFunction>"), 2.5, 6.5),
         (format!("<PiecewiseLinearFunction>{points}</PiecewiseLinearFunction>"), 99.0, 49.0 + 92.0 * 13.0),
         (format!("<PiecewiseConstantFunction>{points}</PiecewiseConstantFunction>"), 2.5, 4.0),
-        ("<StepFunction><start_time>1</start_time><end_time>3</end_time><end_value>4</end_value></StepFunction>".into(), 2.0, 2.0),
-        ("<StepFunction><start_time>1</start_time><end_time>3</end_time><end_value>4</end_value></StepFunction>".into(), 9.0, 4.0),
-        ("<Sine><amplitude>2</amplitude><omega>3</omega><phase>0.5</phase><offset>1</offset></Sine>".into(), 0.25, 1.0 + 2.0 * 1.25_f64.sin()),
-        ("<MultiplierFunction><function><LinearFunction><coefficients>2 1</coefficients></LinearFunction></function><scale>-3</scale></MultiplierFunction>".into(), 1.0, -9.0),
+        (step.into(), 2.0, 2.0),
+        (step.into(), 9.0, 4.0),
+        (sine.into(), 0.25, 1.0 + 2.0 * 1.25_f64.sin()),
+        (format!("<MultiplierFunction><function>{line}</function><scale>-3</scale></MultiplierFunction>"), 1.0, -9.0),
     ];
     for (function, q, expected) in table {
         let found = place(&rising(&function), &[q, 0.0]).y;
@@ -389,7 +400,8 @@ fn a_constraint_that_closes_a_loop_is_not_enforced_and_said() {
 #[test]
 fn locked_and_prescribed_coordinates_are_driven() {
     let text = custom("q", "", "");
-    let line = "<prescribed_function><LinearFunction><coefficients>0.5 1</coefficients></LinearFunction></prescribed_function>";
+    let line = "<prescribed_function><LinearFunction><coefficients>0.5 1</coefficients></LinearFunction>\
+        </prescribed_function>";
     let with = |inside: &str| {
         let old = "<Coordinate name=\"q\">";
         let (model, _) = import(&text.replace(old, &format!("{old}<default_value>0.7</default_value>{inside}")));
@@ -410,12 +422,15 @@ fn locked_and_prescribed_coordinates_are_driven() {
 fn markers_sit_on_bodies_on_frames_and_on_ground() {
     let more = "<MarkerSet><objects>\n\
         <Marker name=\"old\"><body>stone</body><location>0.1 0.2 0.3</location></Marker>\n\
-        <Marker name=\"new\"><socket_parent_frame>/bodyset/stone</socket_parent_frame><location>1 2 3</location></Marker>\n\
+        <Marker name=\"new\">\
+        <socket_parent_frame>/bodyset/stone</socket_parent_frame><location>1 2 3</location></Marker>\n\
         <Marker name=\"fixed\"><socket_parent_frame>/ground</socket_parent_frame><location>4 5 6</location></Marker>\n\
-        <Marker name=\"turned\"><socket_parent_frame>/bodyset/stone/patch</socket_parent_frame><location>1 0 0</location></Marker>\n\
+        <Marker name=\"turned\">\
+        <socket_parent_frame>/bodyset/stone/patch</socket_parent_frame><location>1 0 0</location></Marker>\n\
         </objects></MarkerSet>";
     let patch = "<components><PhysicalOffsetFrame name=\"patch\"><socket_parent>..</socket_parent>\
-        <translation>0 0 1</translation><orientation>0 0 1.5707963267948966</orientation></PhysicalOffsetFrame></components>";
+        <translation>0 0 1</translation><orientation>0 0 1.5707963267948966</orientation>\
+        </PhysicalOffsetFrame></components>";
     let text = custom("q", "", more).replacen("<inertia>", &format!("{patch}<inertia>"), 1);
     let (model, _) = import(&text);
     let stone = model.body("stone");
@@ -436,7 +451,8 @@ fn markers_sit_on_bodies_on_frames_and_on_ground() {
 
 #[test]
 fn what_plays_no_part_is_counted_in_one_note() {
-    let more = "<ForceSet><objects>\n<Thelen2003Muscle name=\"a\"/><Thelen2003Muscle name=\"b\"/><CoordinateActuator name=\"c\"/>\n\
+    let more = "<ForceSet><objects>\n<Thelen2003Muscle name=\"a\"/><Thelen2003Muscle name=\"b\"/>\
+        <CoordinateActuator name=\"c\"/>\n\
         </objects></ForceSet>";
     let (_, findings) = import(&custom("q", "", more));
     assert_eq!(findings.as_slice().len(), 1);

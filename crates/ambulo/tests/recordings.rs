@@ -134,7 +134,8 @@ fn a_repeated_row_is_dropped_and_counted_and_a_contradiction_is_an_error() {
     assert_eq!(codes(&findings), [("motion.repeated_row", 3)]);
     let text = message(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t1\t2\n0.1\t1\t2\n0.1\t1\t2.5\n")));
     // Three header lines, names, and the third row: line 8.
-    let expected = "line 8: a second row for time 0.1 s with other numbers in `pelvis_tx`; expected one row an instant. \
+    let expected = "line 8: a second row for time 0.1 s with other numbers in `pelvis_tx`; \
+                    expected one row an instant. \
                     hint: delete one of the two";
     assert_eq!(text, expected);
 }

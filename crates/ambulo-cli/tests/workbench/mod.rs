@@ -27,6 +27,16 @@ const PATIENCE: Duration = Duration::from_secs(30);
 pub(crate) struct Workbench {
     pub(crate) folder: PathBuf,
     runs: AtomicUsize,
+    removed_at_the_end: bool,
+}
+
+impl Drop for Workbench {
+    fn drop(&mut self) {
+        if self.removed_at_the_end {
+            // A folder that cannot be removed is no reason to fail.
+            let _ = fs::remove_dir_all(&self.folder);
+        }
+    }
 }
 
 /// What a run left behind.
@@ -58,7 +68,13 @@ impl Workbench {
             fs::remove_dir_all(&folder).unwrap();
         }
         fs::create_dir_all(&folder).unwrap();
-        Workbench { folder, runs: AtomicUsize::new(0) }
+        Workbench { folder, runs: AtomicUsize::new(0), removed_at_the_end: false }
+    }
+
+    /// Large files do not outlive the test, whether it fails or not.
+    pub(crate) fn removed_at_the_end(mut self) -> Workbench {
+        self.removed_at_the_end = true;
+        self
     }
 
     pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {

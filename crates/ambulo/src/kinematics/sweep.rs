@@ -149,11 +149,25 @@ fn place<const N: usize>(
     state: &mut BodyState<N>,
     joint_frame: &mut M3<N>,
 ) {
-    let frame = match &segment.offset {
+    let mut rotation = match &segment.offset {
         None => parent.rotation,
         Some(offset) => parent.rotation.times_fixed(offset),
     };
-    let (mut rotation, mut omega, mut alpha) = (frame, parent.omega, parent.alpha);
+    // While the axes are still those of F: the translations.
+    let mut to_joint = parent.rotation.turn_fixed(&segment.to_joint);
+    let mut slide = [V3::ZERO; 2];
+    for k in segment.translations.clone() {
+        let axis = along(&rotation, &plan.axes[k]);
+        to_joint += axis * Lanes(s.value[k]);
+        slide[0] += axis * s.rate[k];
+        slide[1] += axis * s.acceleration[k];
+        s.direction[k] = axis;
+    }
+    if segment.spherical.is_some() {
+        *joint_frame = rotation;
+    }
+
+    let (mut omega, mut alpha) = (parent.omega, parent.alpha);
     for k in segment.rotations.clone() {
         let axis = rotate(&mut rotation, &plan.axes[k], Lanes(s.sin[k]), Lanes(s.cos[k]));
         let spin = axis * s.rate[k];
@@ -161,24 +175,11 @@ fn place<const N: usize>(
         omega += spin;
         s.direction[k] = axis;
     }
-
-    let mut to_joint = parent.rotation.turn_fixed(&segment.to_joint);
-    let mut slide = [V3::ZERO; 2];
-    for k in segment.translations.clone() {
-        let axis = along(&frame, &plan.axes[k]);
-        to_joint += axis * Lanes(s.value[k]);
-        slide[0] += axis * s.rate[k];
-        slide[1] += axis * s.acceleration[k];
-        s.direction[k] = axis;
-    }
-    if let Some(spherical) = &segment.spherical {
-        *joint_frame = frame;
-        if let Some(radii) = spherical.radii {
-            let on_ellipsoid = slide_on_ellipsoid(radii, &frame, &rotation, parent, omega, alpha);
-            to_joint += on_ellipsoid[0];
-            slide[0] += on_ellipsoid[1];
-            slide[1] += on_ellipsoid[2];
-        }
+    if let Some(radii) = segment.spherical.as_ref().and_then(|spherical| spherical.radii) {
+        let on_ellipsoid = slide_on_ellipsoid(radii, joint_frame, &rotation, parent, omega, alpha);
+        to_joint += on_ellipsoid[0];
+        slide[0] += on_ellipsoid[1];
+        slide[1] += on_ellipsoid[2];
     }
 
     let carry = parent.omega.cross(to_joint);
