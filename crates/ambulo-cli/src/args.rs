@@ -32,7 +32,7 @@ pub(crate) struct Voice {
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "json")]
     pub(crate) quiet: bool,
 }
 
@@ -132,7 +132,7 @@ pub(crate) struct CompareArgs {
     /// The reference: .mot, .sto or .csv.
     pub(crate) b: PathBuf,
     /// Largest allowed root-mean-square difference of any column, in the columns' unit.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = limit)]
     pub(crate) limit: Option<f64>,
     /// Columns to compare [default: all that both have].
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
@@ -145,6 +145,13 @@ pub(crate) struct CompareArgs {
     pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) voice: Voice,
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(limit) if limit.is_finite() && limit >= 0.0 => Ok(limit),
+        _ => Err("expected a number, zero or more".into()),
+    }
 }
 
 /// A filter family.

@@ -5,7 +5,7 @@ use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// Larger files are refused before they are read: no recording of walking needs more, and memory stays bounded.
@@ -30,7 +30,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
         let (found, allowed) = (metadata.len() >> 20, LARGEST_FILE_BYTES >> 20);
         bail!("{shown}: {found} MB; expected at most {allowed} MB. hint: is this really a motion or a model?");
     }
-    fs::read(path).with_context(|| format!("{shown}: cannot be read"))
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).with_context(|| format!("{shown}: cannot be opened"))?;
+    // The size that was stated may be wrong (a device, a growing file).
+    file.take(LARGEST_FILE_BYTES).read_to_end(&mut bytes).with_context(|| format!("{shown}: cannot be read"))?;
+    Ok(bytes)
 }
 
 /// A table, as CSV or as OpenSim storage, by the ending of its name.

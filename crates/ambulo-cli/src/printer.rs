@@ -37,8 +37,8 @@ pub(crate) fn guide() -> Result<()> {
 /// An error: what and where on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
     let message = error.chain().map(ToString::to_string).collect::<Vec<_>>().join(": ");
-    match message.split_once(" hint: ") {
-        Some((what, hint)) => eprintln!("error: {what}\n  hint: {hint}"),
+    match message.split_once("hint: ") {
+        Some((what, hint)) => eprintln!("error: {}\n  hint: {hint}", what.trim_end()),
         None => eprintln!("error: {message}"),
     }
 }

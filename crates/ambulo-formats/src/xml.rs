@@ -3,11 +3,24 @@
 use crate::error::{Error, quoted};
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// More nodes than this is no model of a body; the bound keeps memory bounded on hostile input.
-const NODE_LIMIT: u32 = 4_000_000;
+/// More nodes than this is no model of a body; a full-body model has some 10,000. The bound keeps memory bounded on
+/// hostile input.
+const NODE_LIMIT: u32 = 1_000_000;
 
 /// Parses a document. Document type definitions, and so entity bombs, are refused.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
+    if !text.trim_start().starts_with('<') {
+        let found = quoted(text.trim_start().lines().next().unwrap_or_default());
+        return Err(Error::Line { line: 1, found, expected: "an XML document, which begins with `<`".into() });
+    }
+    // The parser makes room for what it counts here before it looks at the limit.
+    for (mark, most) in [(b'<', 2 * NODE_LIMIT as usize), (b'=', NODE_LIMIT as usize)] {
+        let found = text.bytes().filter(|b| *b == mark).count();
+        if found > most {
+            let reason = format!("{found} times `{}`; expected at most {most}", char::from(mark));
+            return Err(Error::Xml { reason });
+        }
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: NODE_LIMIT, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
 }
@@ -59,7 +72,7 @@ pub(crate) fn numbers_of(node: Node<'_, '_>) -> Result<Vec<f64>, Error> {
         .split_whitespace()
         .map(|word| match word.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(error_at(node, quoted(word), "finite numbers separated by spaces")),
+            _ => Err(error_at(node, quoted(word), "finite numbers separated by spaces, with a point as decimal mark")),
         })
         .collect()
 }

@@ -24,8 +24,14 @@ fn import(text: &str) -> (Model, Findings) {
 fn refusal(text: &str) -> String {
     match OsimModel::read(text.as_bytes()) {
         Err(error) => error.to_string(),
-        Ok(document) => from_osim(&document, &mut Findings::default()).unwrap_err().to_string(),
+        Ok(document) => with_causes(&from_osim(&document, &mut Findings::default()).unwrap_err()),
     }
+}
+
+/// The message and what caused it, as a shell prints them.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |e| e.source());
+    causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }
 
 /// Asserts that the document is refused with the line of `place` (the beginning of an element) and these words.
@@ -558,7 +564,10 @@ fn a_joint_in_the_old_layout_whose_parent_is_no_body_names_that_parent() {
 #[test]
 fn no_document_and_no_xml_are_refused() {
     assert_eq!(refusal(" \n"), "the file is empty; expected an <OpenSimDocument>");
-    for text in ["<", "no xml", "<a>", "<OpenSimDocument Version=\"40000\">", "\u{0}\u{1}"] {
+    for text in ["no xml", "\u{0}\u{1}"] {
+        assert!(refusal(text).contains("expected an XML document, which begins with `<`"), "{}", refusal(text));
+    }
+    for text in ["<", "<a>", "<OpenSimDocument Version=\"40000\">"] {
         assert!(refusal(text).starts_with("not a readable XML document:"), "{}", refusal(text));
     }
     let bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE z [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]>\n\

@@ -283,7 +283,7 @@ fn too_few_frames_are_an_error_that_says_how_long_the_recording_is() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let window = |from: f64, to: f64| Window { from_s: Some(from), to_s: Some(to) };
     let text = |motion, window| smoothed(motion, Smoother::Off, window).0.unwrap_err().to_string();
-    let hint = "hint: widen --from and --to; the recording runs from 0 s to 3 s";
+    let hint = "hint: widen --from and --to; what was recorded of motion and forces runs from 0 s to 3 s";
     assert_eq!(text(&motion, window(1.0, 1.04)), format!("5 frames from 1 s to 1.04 s; expected at least 6. {hint}"));
     assert_eq!(text(&motion, window(5.0, 6.0)), format!("0 frames from 5 s to 6 s; expected at least 6. {hint}"));
     assert_eq!(text(&motion, window(2.0, 1.0)), format!("0 frames from 2 s to 1 s; expected at least 6. {hint}"));
@@ -364,7 +364,9 @@ fn the_spline_finds_the_derivatives_of_a_noisy_sine_and_the_size_of_the_noise() 
 fn a_cutoff_beyond_half_the_rate_is_refused_with_the_column_and_the_limit() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let filter = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 60.0 });
-    let text = smoothed(&motion, filter, Window::default()).0.unwrap_err().to_string();
+    let error = smoothed(&motion, filter, Window::default()).0.unwrap_err();
+    let cause = std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default();
+    let text = format!("{error}: {cause}");
     assert!(text.contains("`pelvis_rx`") && text.contains("60 Hz") && text.contains("below 50 Hz"), "{text}");
 }
 

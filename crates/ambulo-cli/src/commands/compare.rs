@@ -55,7 +55,7 @@ fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<ComparedC
     let pick = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
     let (times, values) = (pick(b_times), pick(b.column(name).unwrap_or_default()));
     let first = Curve { times: a_times, values: a.column(name).unwrap_or_default() };
-    let agreement =
-        compare(first, Curve { times: &times, values: &values }).with_context(|| format!("column `{name}`"))?;
+    let agreement = compare(first, Curve { times: &times, values: &values })
+        .with_context(|| format!("{} and {}: column `{name}`", args.a.display(), args.b.display()))?;
     Ok(ComparedColumn::new(name, agreement, args.limit))
 }

@@ -3,7 +3,7 @@
 use super::ground_input::{self, GroundTable};
 use crate::args::{AddedMass, Filter, ForcesArgs, Voice};
 use crate::{Verdict, files, printer};
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisError, Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -59,7 +59,7 @@ pub(super) fn compute(
 ) -> Result<Verdict> {
     let Recording { model, motion, plates, device, settings, input } = recording;
     let analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
-        .with_context(|| input.motion.clone())?;
+        .map_err(|error| name_the_file(error, input))?;
     let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
     for file in output_files(model, &analysis, device.as_deref())? {
         files::write(&output.join(&file.name), &file.bytes)?;
@@ -70,6 +70,15 @@ pub(super) fn compute(
     write_summary(output, &summary)?;
     printer::forces(&summary, output, voice)?;
     Ok(Verdict::Accepted)
+}
+
+/// The error with the file that it is about.
+fn name_the_file(error: AnalysisError, input: &Input) -> anyhow::Error {
+    let file = match error {
+        AnalysisError::Ground(_) => input.ground.clone().unwrap_or_default(),
+        _ => input.motion.clone(),
+    };
+    anyhow::Error::new(error).context(file)
 }
 
 fn write_summary(output: &Path, summary: &Summary) -> Result<()> {

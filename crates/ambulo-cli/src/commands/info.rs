@@ -13,21 +13,21 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<Verdict> {
-    let info = describe(&args.file).with_context(|| args.file.display().to_string())?;
+    let bytes = files::read(&args.file)?;
+    let info = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
     printer::info(&info, args.voice)?;
     Ok(Verdict::Accepted)
 }
 
 /// What the file holds, as a flat list of keys; the same for text and JSON.
-fn describe(path: &Path) -> Result<Value> {
-    let bytes = files::read(path)?;
+fn describe(path: &Path, bytes: &[u8]) -> Result<Value> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match ending.as_str() {
-        "osim" => model(&bytes),
-        "mot" | "sto" => Ok(table("OpenSim storage", &Table::read_storage(&bytes)?.0)),
-        "csv" => Ok(table("CSV", &Table::read_csv(&bytes)?.0)),
-        "trc" => Ok(markers(&Trc::read(&bytes)?.0)),
-        "xml" => Ok(loads(&ExternalLoads::read(&bytes)?.0)),
+        "osim" => model(bytes),
+        "mot" | "sto" => Ok(table("OpenSim storage", &Table::read_storage(bytes)?.0)),
+        "csv" => Ok(table("CSV", &Table::read_csv(bytes)?.0)),
+        "trc" => Ok(markers(&Trc::read(bytes)?.0)),
+        "xml" => Ok(loads(&ExternalLoads::read(bytes)?.0)),
         _ => bail!("unknown kind of file `.{ending}`; expected .osim, .mot, .sto, .csv, .trc or .xml (external loads)"),
     }
 }

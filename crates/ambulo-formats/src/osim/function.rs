@@ -72,12 +72,23 @@ pub struct Knots {
 const KNOWN: &str = "Constant, LinearFunction, PolynomialFunction, SimmSpline, NaturalCubicSpline, GCVSpline, \
                      PiecewiseLinearFunction, PiecewiseConstantFunction, StepFunction, Sine or MultiplierFunction";
 
+/// A function may scale a function that scales a function; deeper than this is no model.
+const DEEPEST: usize = 32;
+
 /// The function held by a component: directly, under `<function>`, or as `<... name="function">`. `None` if empty.
 pub(super) fn held_by(node: Node<'_, '_>) -> Result<Option<OsimFunction>, Error> {
+    held_at_depth(node, 0)
+}
+
+fn held_at_depth(node: Node<'_, '_>, depth: usize) -> Result<Option<OsimFunction>, Error> {
+    if depth > DEEPEST {
+        let found = format!("functions nested more than {DEEPEST} deep");
+        return Err(xml::error_at(node, found, format!("at most {DEEPEST} levels")));
+    }
     let holder = xml::child(node, "function").unwrap_or(node);
     let known = |n: &Node<'_, '_>| is_function_tag(n.tag_name().name());
     if let Some(function) = xml::elements(holder).find(known) {
-        return read(function).map(Some);
+        return read(function, depth).map(Some);
     }
     match xml::elements(holder).find(|n| !matches!(n.tag_name().name(), "coordinates" | "axis")) {
         Some(unknown) => Err(unknown_function(unknown)),
@@ -93,7 +104,7 @@ fn unknown_function(node: Node<'_, '_>) -> Error {
     xml::error_at(node, format!("the function type `{}`", node.tag_name().name()), KNOWN)
 }
 
-fn read(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
+fn read(node: Node<'_, '_>, depth: usize) -> Result<OsimFunction, Error> {
     let number = |tag: &str, default: f64| Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(default));
     Ok(match node.tag_name().name() {
         "Constant" => OsimFunction::Constant(number("value", 0.0)?),
@@ -111,7 +122,8 @@ fn read(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
             offset: number("offset", 0.0)?,
         },
         "MultiplierFunction" => {
-            let function = held_by(node)?.ok_or_else(|| xml::error_at(node, "no function".into(), KNOWN))?;
+            let function =
+                held_at_depth(node, depth + 1)?.ok_or_else(|| xml::error_at(node, "no function".into(), KNOWN))?;
             OsimFunction::Multiplier { scale: number("scale", 1.0)?, function: Box::new(function) }
         }
         _ => return Err(unknown_function(node)),

@@ -50,6 +50,14 @@ pub enum ComparisonError {
         /// End of the second [s].
         second_to: f64,
     },
+    /// Time that runs backwards or stands still.
+    #[error("time {later} s comes after {earlier} s; expected rising times in both")]
+    TimeNotRising {
+        /// The instant before.
+        earlier: f64,
+        /// The instant that follows it.
+        later: f64,
+    },
     /// A value that is no number.
     #[error(
         "a value that is not a finite number at {time_s:.4} s; expected finite curves. hint: cut the range with --from and --to"
@@ -63,8 +71,13 @@ pub enum ComparisonError {
 /// Compares `a` with `b` at the instants of `b`; `a` is read on straight lines between its samples.
 ///
 /// # Errors
-/// No common instants, values that are not finite.
+/// Times that do not rise, no common instants, values that are not finite.
 pub fn compare(a: Curve<'_>, b: Curve<'_>) -> Result<Agreement, ComparisonError> {
+    for times in [a.times, b.times] {
+        if let Some(pair) = times.windows(2).find(|w| w[0] >= w[1] || w[0].is_nan() || w[1].is_nan()) {
+            return Err(ComparisonError::TimeNotRising { earlier: pair[0], later: pair[1] });
+        }
+    }
     let ends =
         |c: Curve<'_>| (c.times.first().copied().unwrap_or(f64::NAN), c.times.last().copied().unwrap_or(f64::NAN));
     let ((first_from, first_to), (second_from, second_to)) = (ends(a), ends(b));

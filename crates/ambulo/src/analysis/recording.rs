@@ -66,9 +66,12 @@ pub enum MassSource {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
-    /// The recording itself.
+    /// The recorded motion.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Motion(MotionError),
+    /// The recorded forces.
+    #[error(transparent)]
+    Ground(MotionError),
     /// Its completion to a trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
@@ -96,10 +99,13 @@ pub fn analyse(
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
-    let smoothed = smooth(model, motion, settings.smoother, window, findings)?;
+    let smoothed = smooth(model, motion, settings.smoother, window, findings)
+        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");
-    let ground = ground::measured(model, &trajectory, plates, settings.force_filter, findings)?;
+    let ground =
+        ground::measured(model, &trajectory, plates, settings.force_filter, findings).map_err(AnalysisError::Ground)?;
+    report_sides(model, &ground, findings);
     stage("ground");
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
     stage("inverse_dynamics");
@@ -116,6 +122,41 @@ pub fn analyse(
     let residual = residual(model, &forces);
     stage("analysis");
     Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual })
+}
+
+/// A range that holds too little is named as the user gave it, not as it was cut to the forces.
+fn in_the_users_words(error: MotionError, asked: Window) -> MotionError {
+    match error {
+        MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s } => MotionError::TooShort {
+            found,
+            expected,
+            from_s: asked.from_s.unwrap_or(from_s),
+            to_s: asked.to_s.unwrap_or(to_s),
+            first_s: from_s.max(first_s).min(last_s),
+            last_s: to_s.min(last_s),
+        },
+        other => other,
+    }
+}
+
+/// What `grf.mot`, which has one foot a side, cannot show as it was measured.
+fn report_sides(model: &Model, ground: &MeasuredGround, findings: &mut Findings) {
+    let names = ground.bodies.iter().map(|b| model.bodies()[b.body.index()].name.as_str());
+    let (sided, other): (Vec<&str>, Vec<&str>) = names.partition(|name| Side::of_name(name).is_some());
+    for name in other {
+        let message = format!("the load on `{name}`, which is of no side, is used but not written to grf.mot");
+        findings.warn("loads.no_side", message);
+    }
+    for side in Side::BOTH {
+        let bodies: Vec<&str> = sided.iter().filter(|n| Side::of_name(n) == Some(side)).copied().collect();
+        if bodies.len() > 1 {
+            let message = format!(
+                "{} are pushed on the {side}; grf.mot holds their sum, on the one that carried most",
+                bodies.join(" and ")
+            );
+            findings.note("loads.several_bodies", message);
+        }
+    }
 }
 
 /// The window, cut to what the plates recorded.

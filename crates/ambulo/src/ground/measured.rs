@@ -20,9 +20,10 @@
 use crate::dynamics::LoadSeries;
 use crate::findings::Findings;
 use crate::kinematics::{Trajectory, body_motion};
-use crate::model::{BodyId, Model};
+use crate::model::{BodyId, Model, Side};
 use crate::motion::filter::{LowPass, low_pass};
-use crate::motion::{ForceRecording, MotionError, TimeGrid, interpolate};
+use crate::motion::gaps::rows_around;
+use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
 
 /// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
@@ -41,6 +42,8 @@ pub struct BodyForces {
     pub center_of_pressure: Vec<Vec3>,
     /// Moment about the vertical through the centre of pressure [N.m]; not a number below the threshold.
     pub free_moment: Vec<Vec3>,
+    /// Height of the surface that carries the body above the world's origin [m], one entry a frame.
+    surface_height: Vec<f64>,
 }
 
 /// Everything that was measured, by body.
@@ -58,6 +61,21 @@ impl MeasuredGround {
     }
 }
 
+/// What the ground does to each side's foot: the sum over the bodies of that side, on the one that carried most.
+#[must_use]
+pub fn feet(model: &Model, ground: &MeasuredGround) -> Vec<(Side, BodyForces)> {
+    let up = upward(model);
+    let side_of = |b: &BodyForces| Side::of_name(&model.bodies()[b.body.index()].name);
+    let sum = |side: Side| {
+        let bodies: Vec<&BodyForces> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).collect();
+        let carried = |b: &&&BodyForces| b.force.iter().map(Vec3::norm).sum::<f64>();
+        let body = bodies.iter().max_by(|a, b| carried(a).total_cmp(&carried(b)))?.body;
+        let parts = bodies.iter().map(|b| (b.force.as_slice(), b.moment.as_slice(), b.surface_height.as_slice()));
+        Some((side, combine(body, &parts.collect::<Vec<_>>(), up)))
+    };
+    Side::BOTH.into_iter().filter_map(sum).collect()
+}
+
 impl BodyForces {
     fn load(&self) -> LoadSeries {
         let wrench = |(force, moment): (&Vec3, &Vec3)| Wrench { moment: *moment, force: *force };
@@ -69,12 +87,15 @@ impl BodyForces {
     }
 }
 
-/// Wrench about the origin and the surface height that one sensor saw.
+/// What one sensor saw, on the trajectory's instants.
 struct Series {
     body: BodyId,
-    /// Columns Fx Fy Fz Mx My Mz on the trajectory's instants.
-    columns: [Vec<f64>; 6],
-    surface_height: f64,
+    /// Force [N].
+    force: Vec<Vec3>,
+    /// Moment about the world's origin [N.m].
+    moment: Vec<Vec3>,
+    /// Height of its surface [m].
+    surface_height: Vec<f64>,
 }
 
 /// Filters the recordings (if asked), brings them to the trajectory's instants and adds those that act on one body.
@@ -93,17 +114,38 @@ pub fn measured(
     let up = upward(model);
     let mut series = Vec::new();
     for recording in recordings {
-        let recording = in_world(model, trajectory, recording);
+        let recording = in_world(model, trajectory, &usable(recording, trajectory.grid()));
         series.push(bring(&recording, trajectory.grid(), filter, up, findings)?);
     }
     let mut bodies: Vec<BodyForces> = Vec::new();
     for body in model.body_ids() {
-        let of_body: Vec<&Series> = series.iter().filter(|s| s.body == body).collect();
-        if !of_body.is_empty() {
-            bodies.push(combine(body, &of_body, up));
+        let of_body = series.iter().filter(|s| s.body == body);
+        let parts: Vec<Part<'_>> =
+            of_body.map(|s| (s.force.as_slice(), s.moment.as_slice(), s.surface_height.as_slice())).collect();
+        if !parts.is_empty() {
+            bodies.push(combine(body, &parts, up));
         }
     }
     Ok(MeasuredGround { bodies })
+}
+
+/// The recording as far around the trajectory as it has its numbers.
+fn usable(recording: &ForceRecording, grid: TimeGrid) -> ForceRecording {
+    let window = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
+    let complete = |row: usize| {
+        let (force, moment) = (recording.force[row], recording.moment[row]);
+        is_finite(force)
+            && (is_finite(recording.point[row].cross(&force) + moment) || force.norm() <= CENTER_OF_PRESSURE_LOAD_N)
+    };
+    let rows = rows_around(&recording.times, window, complete);
+    let mut out = recording.clone();
+    out.times = recording.times[rows.clone()].to_vec();
+    for (cut, whole) in
+        [(&mut out.force, &recording.force), (&mut out.point, &recording.point), (&mut out.moment, &recording.moment)]
+    {
+        *cut = whole[rows.clone()].to_vec();
+    }
+    out
 }
 
 /// The direction against gravity; world y without gravity.
@@ -151,7 +193,10 @@ fn bring(
     for column in &mut columns {
         *column = (0..grid.frames).map(|i| interpolate(&recording.times, column, grid.time(i))).collect();
     }
-    Ok(Series { body: recording.body, columns, surface_height: surface_height(recording, up) })
+    let vector =
+        |k: usize| (0..grid.frames).map(|i| Vec3::new(columns[k][i], columns[k + 1][i], columns[k + 2][i])).collect();
+    let surface_height = vec![surface_height(recording, up); grid.frames];
+    Ok(Series { body: recording.body, force: vector(0), moment: vector(3), surface_height })
 }
 
 /// M₀ = p × F + T, beside F.
@@ -210,29 +255,32 @@ fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
     heights.get(heights.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn combine(body: BodyId, series: &[&Series], up: Vec3) -> BodyForces {
-    let frames = series[0].columns[0].len();
+/// Force, moment about the origin and surface height of one part, one entry a frame each.
+type Part<'a> = (&'a [Vec3], &'a [Vec3], &'a [f64]);
+
+/// The sum of several parts on one body.
+fn combine(body: BodyId, parts: &[Part<'_>], up: Vec3) -> BodyForces {
+    let frames = parts.first().map_or(0, |(force, _, _)| force.len());
     let mut out = BodyForces {
         body,
         force: Vec::with_capacity(frames),
         moment: Vec::with_capacity(frames),
         center_of_pressure: Vec::with_capacity(frames),
         free_moment: Vec::with_capacity(frames),
+        surface_height: Vec::with_capacity(frames),
     };
     for i in 0..frames {
-        let part = |s: &Series, k: usize| Vec3::new(s.columns[k][i], s.columns[k + 1][i], s.columns[k + 2][i]);
-        let force: Vec3 = series.iter().map(|s| part(s, 0)).sum();
-        let moment: Vec3 = series.iter().map(|s| part(s, 3)).sum();
-        // Where several plates carry the foot, the surface is that of the most loaded one.
-        let height = series
-            .iter()
-            .max_by(|a, b| part(a, 0).dot(&up).total_cmp(&part(b, 0).dot(&up)))
-            .map_or(0.0, |s| s.surface_height);
+        let force: Vec3 = parts.iter().map(|(force, _, _)| force[i]).sum();
+        let moment: Vec3 = parts.iter().map(|(_, moment, _)| moment[i]).sum();
+        // Where several surfaces carry the foot, it is on the most loaded one.
+        let most_loaded = parts.iter().max_by(|a, b| a.0[i].dot(&up).total_cmp(&b.0[i].dot(&up)));
+        let height = most_loaded.map_or(0.0, |(_, _, height)| height[i]);
         let (center, free_moment) = center_of_pressure(force, moment, up, height);
         out.force.push(force);
         out.moment.push(moment);
         out.center_of_pressure.push(center);
         out.free_moment.push(free_moment);
+        out.surface_height.push(height);
     }
     out
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::findings::{Finding, Findings, Severity};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::spatial::{Inertia, Mat3, Pose, Vec3};
+use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
 use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimModel,
 };
@@ -25,6 +25,46 @@ pub enum ImportError {
         body: String,
         /// Its line.
         line: usize,
+    },
+    /// A joint that carries ground.
+    #[error(
+        "joint `{joint}` (line {line}) has ground as its child; expected a body. hint: exchange its parent and child frames"
+    )]
+    ChildIsGround {
+        /// The joint.
+        joint: String,
+        /// Its line.
+        line: usize,
+    },
+    /// A parent that the model does not have.
+    #[error("joint `{joint}` (line {line}) has the parent body `{parent}`; expected `ground` or one of {known}")]
+    UnknownParent {
+        /// The joint.
+        joint: String,
+        /// Its line.
+        line: usize,
+        /// The parent that it names.
+        parent: String,
+        /// The bodies that are there.
+        known: String,
+    },
+    /// A coordinate that two joints have.
+    #[error("coordinate `{coordinate}` (line {line}) has the name of another one; expected different names")]
+    DuplicateCoordinate {
+        /// The coordinate.
+        coordinate: String,
+        /// Its line.
+        line: usize,
+    },
+    /// A mass or an inertia that was refused.
+    #[error("body `{body}` (line {line})")]
+    Inertia {
+        /// The body.
+        body: String,
+        /// Its line.
+        line: usize,
+        /// Why.
+        source: InertiaError,
     },
     /// A body with two joints to a parent.
     #[error(
@@ -77,6 +117,7 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
         findings.warn("model.document", remark.to_string());
     }
     note_ignored(document, findings);
+    check_joints(document)?;
     let order = tree_order(document)?;
     let body_ids: BTreeMap<&str, BodyId> =
         order.iter().enumerate().map(|(i, (body, _))| (body.name.as_str(), BodyId(i))).collect();
@@ -110,6 +151,26 @@ fn note_ignored(document: &OsimModel, findings: &mut Findings) {
         message: format!("the model's forces and geometry play no part in inverse dynamics: {}", kinds.join(", ")),
         count: 1,
     });
+}
+
+fn check_joints(document: &OsimModel) -> Result<(), ImportError> {
+    let mut names = BTreeSet::new();
+    for joint in &document.joints {
+        let (name, line) = (joint.name.clone(), joint.line);
+        if joint.child.body == "ground" {
+            return Err(ImportError::ChildIsGround { joint: name, line });
+        }
+        let parent = &joint.parent.body;
+        if parent != "ground" && !document.bodies.iter().any(|b| b.name == *parent) {
+            let known: Vec<_> = document.bodies.iter().map(|b| b.name.as_str()).collect();
+            let (parent, known) = (parent.clone(), known.join(", "));
+            return Err(ImportError::UnknownParent { joint: name, line, parent, known });
+        }
+        if let Some(double) = joint.coordinates.iter().find(|c| !names.insert(c.name.as_str())) {
+            return Err(ImportError::DuplicateCoordinate { coordinate: double.name.clone(), line: double.line });
+        }
+    }
+    Ok(())
 }
 
 /// Each body with its joint, parents first; among those that are ready, in the order of the document's joints.
@@ -150,7 +211,7 @@ fn import_inertia(body: &OsimBody, findings: &mut Findings) -> Result<Inertia, I
     let [xx, yy, zz, xy, xz, yz] = body.inertia;
     let about_center = Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let inertia = Inertia::new(body.mass_kg, Vec3::from(body.mass_center_m), about_center)
-        .map_err(|source| ModelError::Inertia { body: body.name.clone(), source })?;
+        .map_err(|source| ImportError::Inertia { body: body.name.clone(), line: body.line, source })?;
     if body.mass_kg < f64::MIN_POSITIVE {
         findings.warn("model.massless", format!("body `{}` (line {}) has no mass", body.name, body.line));
     }

@@ -171,7 +171,7 @@ pub enum ModelError {
         coordinate: String,
     },
     /// A mass that was refused.
-    #[error("body `{body}`: {source}")]
+    #[error("body `{body}` cannot have this mass")]
     Inertia {
         /// The body.
         body: String,

@@ -6,6 +6,7 @@
 mod device_recording;
 pub mod filter;
 mod force_recording;
+pub(crate) mod gaps;
 mod import;
 mod recording;
 mod smooth;

@@ -113,9 +113,31 @@ pub enum MotionError {
         /// Longest gap that is filled.
         longest_s: f64,
     },
+    /// A clock whose steps are of very different lengths.
+    #[error(
+        "the clock of {samples} samples steps by {shortest_s:.1e} s to {longest_s:.1e} s; expected steps of about one length. hint: was the time column rounded or merged from two recordings?"
+    )]
+    UnevenClock {
+        /// Shortest step [s].
+        shortest_s: f64,
+        /// Longest step [s].
+        longest_s: f64,
+        /// Number of samples.
+        samples: usize,
+    },
+    /// A measured force that is no number.
+    #[error(
+        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s while it carries force; expected numbers. hint: cut the range with --from and --to"
+    )]
+    ForceNotFinite {
+        /// Name of the load.
+        load: String,
+        /// The instant [s].
+        time_s: f64,
+    },
     /// Nothing is left to compute.
     #[error(
-        "{found} frames from {from_s} s to {to_s} s; expected at least {expected}. hint: widen --from and --to; the recording runs from {first_s} s to {last_s} s"
+        "{found} frames from {from_s} s to {to_s} s; expected at least {expected}. hint: widen --from and --to; what was recorded of motion and forces runs from {first_s} s to {last_s} s"
     )]
     TooShort {
         /// How many frames there are.
@@ -132,7 +154,7 @@ pub enum MotionError {
         last_s: f64,
     },
     /// The filter refused.
-    #[error("`{column}`: {source}")]
+    #[error("`{column}` cannot be filtered")]
     Filter {
         /// The column.
         column: String,
@@ -140,7 +162,7 @@ pub enum MotionError {
         source: FilterError,
     },
     /// The spline refused.
-    #[error("`{column}`: {source}")]
+    #[error("`{column}` cannot be followed by a spline")]
     Spline {
         /// The column.
         column: String,

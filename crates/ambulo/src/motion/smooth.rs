@@ -7,10 +7,11 @@
 //! coordinate (Woltring 1986); its noise estimate is kept.
 
 use super::filter::{LowPass, low_pass_padded};
+use super::gaps::{LONGEST_GAP_S, fill_gaps, rows_around, spline_through};
 use super::recording::{Motion, MotionError};
 use super::time_grid::{TimeGrid, Window};
 use crate::findings::Findings;
-use crate::model::{CoordinateId, Model};
+use crate::model::{Coordinate, CoordinateId, Drive, Model};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 
 /// How a recording is smoothed.
@@ -35,10 +36,10 @@ pub struct SmoothMotion {
     pub noise: Vec<Option<f64>>,
 }
 
-/// Gaps inside a recording up to this long are bridged by a spline [s].
-const LONGEST_GAP_S: f64 = 0.2;
 /// A quintic spline needs this many samples.
 const FEWEST_SAMPLES: usize = 6;
+/// An uneven clock may ask for this many frames for each of its samples; more is no clock.
+const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
 
 impl SmoothMotion {
     /// Value, rate and acceleration of a coordinate.
@@ -48,7 +49,8 @@ impl SmoothMotion {
     }
 }
 
-/// Smooths the whole recording, then keeps the frames inside `window`.
+/// Smooths the recording as far around `window` as it has no gaps, then keeps the frames inside. What is recorded for
+/// coordinates that the model drives itself is smoothed only where it is complete.
 ///
 /// # Errors
 /// Gaps that are too long, fewer frames than a quintic spline needs, a cut-off that the sampling rate does not allow.
@@ -59,6 +61,7 @@ pub fn smooth(
     window: Window,
     findings: &mut Findings,
 ) -> Result<SmoothMotion, MotionError> {
+    let motion = &usable(model, motion, window);
     let whole = uniform_grid(motion, window, findings)?;
     let resampled = TimeGrid::through(&motion.times).is_none();
     let (first, frames) = whole.inside(window);
@@ -69,7 +72,9 @@ pub fn smooth(
     let mut out = SmoothMotion { grid, columns: Vec::new(), noise: Vec::new() };
     let mut fitters = Fitters { whole, smoother, fitter: None };
     for (coordinate, column) in model.coordinates().iter().zip(&motion.columns) {
-        let Some(column) = column else {
+        let is_used =
+            |column: &&Vec<f64>| matches!(coordinate.drive, Drive::Free) || column.iter().all(|x| x.is_finite());
+        let Some(column) = column.as_ref().filter(is_used) else {
             out.columns.push(None);
             out.noise.push(None);
             continue;
@@ -88,6 +93,19 @@ pub fn smooth(
         out.noise.push(spline.noise_standard_deviation());
     }
     Ok(out)
+}
+
+/// The recording cut to the rows around the window that have all the numbers that will be used.
+fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
+    let free = |(c, _): &(&Coordinate, &Option<Vec<f64>>)| matches!(c.drive, Drive::Free);
+    let used: Vec<&Vec<f64>> =
+        model.coordinates().iter().zip(&motion.columns).filter(free).filter_map(|(_, c)| c.as_ref()).collect();
+    let rows = rows_around(&motion.times, window, |row| used.iter().all(|c| c[row].is_finite()));
+    Motion {
+        origin: motion.origin.clone(),
+        times: motion.times[rows.clone()].to_vec(),
+        columns: motion.columns.iter().map(|c| c.as_ref().map(|c| c[rows.clone()].to_vec())).collect(),
+    }
 }
 
 fn too_short(motion: &Motion, window: Window, found: usize) -> MotionError {
@@ -120,6 +138,11 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
     }
     let (start_s, end_s) = (motion.times[0], motion.times[motion.times.len() - 1]);
     let intervals = ((end_s - start_s) / median).round();
+    let most = MOST_FRAMES_PER_SAMPLE * motion.times.len() as f64;
+    if intervals > most {
+        let (shortest_s, samples) = (steps[0], motion.times.len());
+        return Err(MotionError::UnevenClock { shortest_s, longest_s: longest, samples });
+    }
     let frames = intervals as usize + 1;
     let message = format!(
         "the recording's clock is uneven (steps of {:.4} to {longest:.4} s); it was resampled at {:.2} Hz",
@@ -128,45 +151,6 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
     );
     findings.warn("motion.uneven_clock", message);
     Ok(TimeGrid { start_s, step_s: (end_s - start_s) / intervals, frames })
-}
-
-/// Bridges runs of missing numbers by a quintic spline through the rest.
-fn fill_gaps(name: &str, times: &[f64], column: &[f64], findings: &mut Findings) -> Result<Vec<f64>, MotionError> {
-    let known: Vec<usize> = (0..column.len()).filter(|&i| column[i].is_finite()).collect();
-    if known.len() == column.len() {
-        return Ok(column.to_vec());
-    }
-    let gap = |from: usize, to: usize| MotionError::Gap {
-        column: name.to_owned(),
-        from_s: times[from],
-        to_s: times[to],
-        longest_s: LONGEST_GAP_S,
-    };
-    let (Some(&first), Some(&last)) = (known.first(), known.last()) else { return Err(gap(0, column.len() - 1)) };
-    if first > 0 {
-        return Err(gap(0, first - 1));
-    }
-    if last + 1 < column.len() {
-        return Err(gap(last + 1, column.len() - 1));
-    }
-    for pair in known.windows(2) {
-        if pair[1] > pair[0] + 1 && times[pair[1]] - times[pair[0]] > LONGEST_GAP_S {
-            return Err(gap(pair[0] + 1, pair[1] - 1));
-        }
-    }
-    let spline = spline_through(name, &pick(times, &known), &pick(column, &known))?;
-    let missing = column.len() - known.len();
-    findings.warn("motion.gap_filled", format!("`{name}`: {missing} missing samples were bridged by a spline"));
-    Ok((0..column.len()).map(|i| if column[i].is_finite() { column[i] } else { spline.value(times[i]) }).collect())
-}
-
-fn pick(values: &[f64], indices: &[usize]) -> Vec<f64> {
-    indices.iter().map(|&i| values[i]).collect()
-}
-
-fn spline_through(name: &str, times: &[f64], values: &[f64]) -> Result<NaturalSpline, MotionError> {
-    let error = |source| MotionError::Spline { column: name.to_owned(), source };
-    SplineFitter::new(SplineDegree::Quintic, times).map_err(error)?.fit(values, Smoothing::Interpolate).map_err(error)
 }
 
 fn resample(name: &str, times: &[f64], values: &[f64], grid: &TimeGrid) -> Result<Vec<f64>, MotionError> {

@@ -1,8 +1,7 @@
 //! Curves over the gait cycle, as rows.
 
-use super::tables;
 use crate::analysis::{Analysis, Cycle, over_cycle};
-use crate::ground::upward;
+use crate::ground::{feet, upward};
 use crate::model::{CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
 
@@ -79,7 +78,7 @@ fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: Coordi
 fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid) -> Vec<CycleRow> {
     let up = upward(model);
     let weight = analysis.mass.kg * model.gravity().norm();
-    let feet = tables::feet(model, analysis);
+    let feet = feet(model, &analysis.ground);
     let Some((_, foot)) = feet.into_iter().find(|(side, _)| *side == cycle.side) else { return Vec::new() };
     let forward = nalgebra::Vector3::x();
     [("vertical", up), ("fore_aft", forward), ("lateral", forward.cross(&up))]

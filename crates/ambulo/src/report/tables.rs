@@ -1,7 +1,7 @@
 //! Time series as tables with the names that OpenSim's tools know.
 
 use crate::analysis::Analysis;
-use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use crate::model::{BodyId, CoordinateKind, Model, Side};
 use crate::spatial::Vec3;
 use ambulo_formats::Error;
@@ -67,17 +67,6 @@ pub(super) fn reactions(model: &Model, analysis: &Analysis) -> Result<Table, Err
     table("Joint Reactions", analysis, columns)
 }
 
-/// The body of each side's ground force: where two bodies of a side were pushed, the one that carried most.
-pub(super) fn feet<'a>(model: &Model, analysis: &'a Analysis) -> Vec<(Side, &'a BodyForces)> {
-    let carried = |b: &&BodyForces| b.force.iter().map(Vec3::norm).sum::<f64>();
-    let of_side = |side: Side| {
-        let on_side = |b: &&BodyForces| Side::of_name(body_name(model, b.body)) == Some(side);
-        let bodies = analysis.ground.bodies.iter().filter(on_side);
-        bodies.max_by(|a, b| carried(a).total_cmp(&carried(b))).map(|b| (side, b))
-    };
-    Side::BOTH.into_iter().filter_map(of_side).collect()
-}
-
 fn body_name(model: &Model, id: BodyId) -> &str {
     &model.bodies()[id.index()].name
 }
@@ -85,11 +74,11 @@ fn body_name(model: &Model, id: BodyId) -> &str {
 /// `grf.mot`: forces, centres of pressure and free moments of both feet; an unloaded foot has zeros.
 pub(super) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
     let frames = analysis.trajectory.grid().frames;
-    let feet = feet(model, analysis);
+    let feet = feet(model, &analysis.ground);
     let mut columns = Vec::new();
     for side in Side::BOTH {
         let letter = side.letter();
-        let foot = feet.iter().find(|(s, _)| *s == side).map(|(_, f)| *f);
+        let foot = feet.iter().find(|(s, _)| *s == side).map(|(_, f)| f);
         let loaded = |frame: usize| foot.is_some_and(|f| !f.center_of_pressure[frame].x.is_nan());
         let series = |pick: &dyn Fn(&BodyForces, usize) -> Vec3| {
             let at = |i: usize| foot.filter(|_| loaded(i)).map_or(Vec3::zeros(), |f| pick(f, i));
@@ -104,14 +93,14 @@ pub(super) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error>
 
 /// `external_loads.xml`: how OpenSim's tools apply `grf.mot`.
 pub(super) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoads {
-    let force = |(side, foot): (Side, &BodyForces)| {
+    let force = |(side, foot): (Side, BodyForces)| {
         let prefix = format!("ground_force_{}_", side.letter());
         ExternalForce::with_prefix(&format!("{side}_ground_reaction"), body_name(model, foot.body), &prefix)
     };
     ExternalLoads {
         name: "ground_reactions".into(),
         datafile: Some("grf.mot".into()),
-        forces: feet(model, analysis).into_iter().map(force).collect(),
+        forces: feet(model, &analysis.ground).into_iter().map(force).collect(),
     }
 }
 
