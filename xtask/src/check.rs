@@ -30,7 +30,8 @@ const STEPS: [Step; 4] = [
     },
     Step {
         name: "tests",
-        arguments: &["test", "--workspace", "--locked"],
+        // What a test measured or skipped is worth seeing when it passes, too.
+        arguments: &["test", "--workspace", "--locked", "--", "--show-output"],
         variable: None,
         hint: "run the failing test alone with `cargo test --package NAME TEST`",
     },
