@@ -10,7 +10,7 @@ use ambulo::dynamics::{Forces, Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, body_motion};
 use ambulo::model::{BodyId, Model, from_osim};
-use ambulo::motion::{Motion, Smoother, TimeGrid, Window, smooth};
+use ambulo::motion::{Motion, SmoothSettings, Smoother, TimeGrid, Window, smooth};
 use ambulo::spatial::Vec3;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
@@ -70,6 +70,10 @@ pub(crate) fn write(folder: &Path) -> Result<(), String> {
     }
     Ok(())
 }
+
+/// The walk is free of noise.
+const AS_MADE: SmoothSettings =
+    SmoothSettings { smoother: Smoother::Off, window: Window { from_s: None, to_s: None }, rate_hz: None };
 
 /// Coordinates of the figure, one column each [rad or m].
 struct Walk {
@@ -157,7 +161,7 @@ impl Walk {
             columns: self.columns.iter().cloned().map(Some).collect(),
         };
         let mut findings = Findings::default();
-        let smoothed = smooth(model, &motion, Smoother::Off, Window::default(), &mut findings);
+        let smoothed = smooth(model, &motion, AS_MADE, &mut findings);
         let smoothed = smoothed.map_err(|e| e.to_string())?;
         Trajectory::complete(model, &smoothed, &mut findings).map_err(|e| e.to_string())
     }

@@ -70,6 +70,9 @@ pub(crate) struct ForcesArgs {
     /// Last instant to analyse [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(crate) to: Option<f64>,
+    /// Frames a second of the results [default: as recorded].
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
     /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
     #[arg(long, value_name = "HZ|off", default_value = "6")]
     pub(crate) cutoff: Cutoff,

@@ -8,7 +8,9 @@ use ambulo::findings::{Findings, Severity};
 use ambulo::kinematics::{Trajectory, TrajectoryError};
 use ambulo::model::{Body, Coordinate, CoordinateKind, Drive, Function, Model};
 use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Motion, MotionError, SmoothMotion, Smoother, TimeGrid, Window, coordinates_from_table, smooth};
+use ambulo::motion::{
+    Motion, MotionError, SmoothMotion, SmoothSettings, Smoother, TimeGrid, Window, coordinates_from_table, smooth,
+};
 use ambulo_formats::table::Table;
 use free_bodies::{DOWN_Y, ball, coordinate_ids, free, free_bodies, weld};
 use std::f64::consts::{PI, TAU};
@@ -173,7 +175,7 @@ fn wave(t: f64) -> f64 {
 
 fn smoothed(motion: &Motion, smoother: Smoother, window: Window) -> (Result<SmoothMotion, MotionError>, Findings) {
     let mut findings = Findings::default();
-    (smooth(&pelvis(), motion, smoother, window, &mut findings), findings)
+    (smooth(&pelvis(), motion, SmoothSettings { smoother, window, rate_hz: None }, &mut findings), findings)
 }
 
 /// Largest errors of value, rate and acceleration against 0.5 sin(2πt), between 0.3 s and 2.7 s.
@@ -468,4 +470,25 @@ fn numbers_that_are_not_finite_stop_at_the_border_of_the_trajectory() {
     let mut columns = vec![column(); 6];
     columns[4][0].pop();
     assert_eq!(Trajectory::new(&model, grid, columns).unwrap_err(), shape("frames", 3, 4));
+}
+
+#[test]
+fn another_rate_reads_the_same_curve_at_other_instants() {
+    let motion = recorded(clock(), clock().into_iter().map(wave).collect());
+    let at = |rate_hz| {
+        let settings = SmoothSettings { smoother: Smoother::Off, window: Window::default(), rate_hz };
+        smooth(&pelvis(), &motion, settings, &mut Findings::default())
+    };
+    let (own, fine) = (at(None).unwrap(), at(Some(4.0 * RATE_HZ)).unwrap());
+    assert_eq!(fine.grid.frames, 4 * (own.grid.frames - 1) + 1);
+    let (own, fine) = (own.columns[0].as_ref().unwrap(), fine.columns[0].as_ref().unwrap());
+    for k in 0..3 {
+        for (i, value) in own[k].iter().enumerate() {
+            // The same spline at the same instant, but for the rounding of the instant: 1e-16 s times slopes of 60 rad/s³.
+            assert!((value - fine[k][4 * i]).abs() < 1e-9, "{k} {i}");
+        }
+    }
+    for rate in [0.0, -1.0, f64::NAN, 1e9, 1e-3] {
+        assert!(matches!(at(Some(rate)), Err(MotionError::Rate { .. })), "{rate}");
+    }
 }

@@ -70,7 +70,7 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     let plates = force_recordings(&model, &loads, &table, &mut findings)?;
     stage("read forces");
     let smoother = Smoother::Butterworth(LOW_PASS);
-    let settings = analysis::Settings { smoother, force_filter: None, window: Window::default() };
+    let settings = analysis::Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, stage)?;
     black_box(output_files(&model, &analysis, None)?);
     stage("files' content");

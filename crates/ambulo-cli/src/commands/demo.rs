@@ -53,7 +53,7 @@ fn read(findings: &mut Findings) -> Result<Recording> {
         plates,
         device: None,
         // The walk is free of noise.
-        settings: Settings { smoother: Smoother::Off, force_filter: None, window: Window::default() },
+        settings: Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None },
         input: Input {
             motion: named("walk.mot"),
             model: named("figure.osim"),

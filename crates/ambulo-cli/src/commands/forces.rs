@@ -174,5 +174,5 @@ fn settings(args: &ForcesArgs) -> Settings {
         (Filter::Butterworth, None) => Smoother::Off,
     };
     let force_filter = low_pass(args.force_cutoff.unwrap_or(args.cutoff).0);
-    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to } }
+    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to }, rate_hz: args.rate }
 }

@@ -9,7 +9,7 @@ use crate::ground::{self, MeasuredGround};
 use crate::kinematics::{Trajectory, TrajectoryError, body_motion};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
-use crate::motion::{ForceRecording, Motion, MotionError, Smoother, Window, interpolate, smooth};
+use crate::motion::{ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, interpolate, smooth};
 use crate::spatial::Vec3;
 
 /// How a recording is analysed.
@@ -21,6 +21,8 @@ pub struct Settings {
     pub force_filter: Option<LowPass>,
     /// The range of time to analyse.
     pub window: Window,
+    /// Frames a second of the results; `None` keeps the recording's own [Hz].
+    pub rate_hz: Option<f64>,
 }
 
 /// Everything that was computed from one recording.
@@ -99,7 +101,8 @@ pub fn analyse(
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
-    let smoothed = smooth(model, motion, settings.smoother, window, findings)
+    let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
+    let smoothed = smooth(model, motion, smoothing, findings)
         .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");

@@ -16,5 +16,5 @@ pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use import::coordinates_from_table;
 pub use recording::{Motion, MotionError};
-pub use smooth::{SmoothMotion, Smoother, smooth};
+pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use time_grid::{TimeGrid, Window, interpolate};

@@ -125,6 +125,16 @@ pub enum MotionError {
         /// Number of samples.
         samples: usize,
     },
+    /// A rate at which no result can be given.
+    #[error(
+        "{found_hz} frames a second were asked for; expected a rate above 0 and at most {highest_hz} Hz that has two frames in the range"
+    )]
+    Rate {
+        /// The rate [Hz].
+        found_hz: f64,
+        /// Highest rate [Hz].
+        highest_hz: f64,
+    },
     /// A measured force that is no number.
     #[error(
         "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s while it carries force; expected numbers. hint: cut the range with --from and --to"

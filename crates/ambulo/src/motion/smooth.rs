@@ -25,6 +25,17 @@ pub enum Smoother {
     Spline,
 }
 
+/// How a recording is smoothed, and which instants are wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SmoothSettings {
+    /// The filter.
+    pub smoother: Smoother,
+    /// The range of time.
+    pub window: Window,
+    /// Frames a second of the result, read from the splines; `None` keeps the recording's own [Hz].
+    pub rate_hz: Option<f64>,
+}
+
 /// Smoothed coordinates with two derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothMotion {
@@ -38,6 +49,8 @@ pub struct SmoothMotion {
 
 /// A quintic spline needs this many samples.
 const FEWEST_SAMPLES: usize = 6;
+/// Results at a higher rate than this [Hz] say nothing more of a human motion.
+const HIGHEST_RATE_HZ: f64 = 20_000.0;
 /// An uneven clock may ask for this many frames for each of its samples; more is no clock.
 const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
 
@@ -57,10 +70,10 @@ impl SmoothMotion {
 pub fn smooth(
     model: &Model,
     motion: &Motion,
-    smoother: Smoother,
-    window: Window,
+    settings: SmoothSettings,
     findings: &mut Findings,
 ) -> Result<SmoothMotion, MotionError> {
+    let SmoothSettings { smoother, window, rate_hz } = settings;
     let motion = &usable(model, motion, window);
     let whole = uniform_grid(motion, window, findings)?;
     let resampled = TimeGrid::through(&motion.times).is_none();
@@ -68,7 +81,8 @@ pub fn smooth(
     if frames < FEWEST_SAMPLES {
         return Err(too_short(motion, window, frames));
     }
-    let grid = TimeGrid { start_s: whole.time(first), frames, ..whole };
+    let grid = at_rate(TimeGrid { start_s: whole.time(first), frames, ..whole }, rate_hz)?;
+    let frames = grid.frames;
     let mut out = SmoothMotion { grid, columns: Vec::new(), noise: Vec::new() };
     let mut fitters = Fitters { whole, smoother, fitter: None };
     for (coordinate, column) in model.coordinates().iter().zip(&motion.columns) {
@@ -106,6 +120,16 @@ fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
         times: motion.times[rows.clone()].to_vec(),
         columns: motion.columns.iter().map(|c| c.as_ref().map(|c| c[rows.clone()].to_vec())).collect(),
     }
+}
+
+/// The grid from the same start, at another rate.
+fn at_rate(grid: TimeGrid, rate_hz: Option<f64>) -> Result<TimeGrid, MotionError> {
+    let Some(rate_hz) = rate_hz else { return Ok(grid) };
+    let intervals = ((grid.end_s() - grid.start_s) * rate_hz + 1e-6).floor();
+    if !(rate_hz > 0.0 && rate_hz <= HIGHEST_RATE_HZ) || intervals < 1.0 {
+        return Err(MotionError::Rate { found_hz: rate_hz, highest_hz: HIGHEST_RATE_HZ });
+    }
+    Ok(TimeGrid { step_s: 1.0 / rate_hz, frames: intervals as usize + 1, ..grid })
 }
 
 fn too_short(motion: &Motion, window: Window, found: usize) -> MotionError {
