@@ -2,12 +2,13 @@
 
 use ambulo::spatial::Vec3;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Forces behind human walking: motion in, forces out.
 #[derive(Debug, Parser)]
-#[command(version, about, disable_help_subcommand = true)]
+#[command(version, about)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
@@ -42,14 +43,15 @@ pub(crate) struct Voice {
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, summary.json, figures/moments.svg. docs/OUTPUTS.md describes them.")]
+events.csv, cycles.csv, summary.json, figures/moments.svg, with --device moments_biological.sto.
+Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.")]
 pub(crate) struct ForcesArgs {
     /// Recorded coordinates: .mot or .sto.
     pub(crate) input: PathBuf,
     /// The body: an OpenSim model (.osim).
     #[arg(long, value_name = "FILE")]
     pub(crate) model: PathBuf,
-    /// Measured ground forces: .mot, .sto or .csv.
+    /// Measured ground forces: .mot, .sto or .csv [default: the file that --loads names; the columns by their usual names if neither --loads nor --right and --left are given].
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
     /// Which columns act on which body: OpenSim's external loads (.xml).
@@ -65,22 +67,22 @@ pub(crate) struct ForcesArgs {
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,
     /// First instant to analyse [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
     /// Last instant to analyse [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
     /// Frames a second of the results [default: as recorded].
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
     /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
-    #[arg(long, value_name = "HZ|off", default_value = "6")]
+    #[arg(long, value_name = "HZ|off", default_value = "6", allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
     /// Low-pass of the measured forces [default: the same as the motion's].
-    #[arg(long, value_name = "HZ|off")]
+    #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<Cutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = order)]
     pub(crate) order: usize,
     /// How the motion is smoothed; spline: quintic, stiffness by generalised cross-validation, --cutoff then goes for the forces only.
     #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
@@ -135,19 +137,33 @@ pub(crate) struct CompareArgs {
     /// The reference: .mot, .sto or .csv.
     pub(crate) b: PathBuf,
     /// Largest allowed root-mean-square difference of any column, in the columns' unit.
-    #[arg(long, value_name = "X", value_parser = limit)]
+    #[arg(long, value_name = "X", value_parser = limit, allow_hyphen_values = true)]
     pub(crate) limit: Option<f64>,
     /// Columns to compare [default: all that both have].
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
     /// First instant [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
     /// Last instant [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) voice: Voice,
+}
+
+fn order(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(order @ 1..=8) => Ok(order),
+        _ => Err("expected a whole number from 1 to 8".into()),
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() => Ok(seconds),
+        _ => Err("expected a number of seconds".into()),
+    }
 }
 
 fn limit(text: &str) -> Result<f64, String> {
@@ -212,6 +228,13 @@ pub(crate) struct AddedMass {
     pub(crate) body: String,
     pub(crate) mass_kg: f64,
     pub(crate) place_m: Vec3,
+}
+
+impl fmt::Display for AddedMass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z]: [f64; 3] = self.place_m.into();
+        write!(f, "{}:{}:{x},{y},{z}", self.body, self.mass_kg)
+    }
 }
 
 impl FromStr for AddedMass {

@@ -1,12 +1,13 @@
 //! Files in and out, with errors that name them.
 
 use ambulo::findings::Findings;
+use ambulo::report::OutputFile;
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Larger files are refused before they are read: no recording of walking needs more, and memory stays bounded.
 const LARGEST_FILE_BYTES: u64 = 512 << 20;
@@ -45,9 +46,45 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
     read.with_context(|| path.display().to_string())
 }
 
+/// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
+/// never holds results of two runs.
+const RESULTS: [&str; 10] = [
+    "kinematics.mot",
+    "moments.sto",
+    "moments_biological.sto",
+    "powers.sto",
+    "reactions.sto",
+    "grf.mot",
+    "external_loads.xml",
+    "events.csv",
+    "cycles.csv",
+    "figures/moments.svg",
+];
+
+/// Puts the results of a run in place of an earlier run's, unless that would write over something that was read.
+pub(crate) fn replace_results(folder: &Path, files: &[OutputFile], read: &[PathBuf]) -> Result<()> {
+    let inputs: Vec<PathBuf> = read.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+    for name in RESULTS.iter().chain(&["summary.json"]) {
+        let target = folder.join(name);
+        if fs::canonicalize(&target).is_ok_and(|path| inputs.contains(&path)) {
+            bail!(
+                "{}: this file was read and would be written over. hint: choose another folder with -o",
+                target.display()
+            );
+        }
+    }
+    for stale in RESULTS.iter().map(|name| folder.join(name)).filter(|path| path.is_file()) {
+        fs::remove_file(&stale).with_context(|| format!("{}: cannot be replaced", stale.display()))?;
+    }
+    files.iter().try_for_each(|file| write(&folder.join(&file.name), &file.bytes))
+}
+
 /// Writes a file, making its folder first.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     if let Some(folder) = path.parent() {
+        if folder.is_file() {
+            bail!("{}: this is a file; expected a folder for the results", folder.display());
+        }
         fs::create_dir_all(folder).with_context(|| format!("{}: cannot make this folder", folder.display()))?;
     }
     fs::write(path, bytes).with_context(|| format!("{}: cannot be written", path.display()))

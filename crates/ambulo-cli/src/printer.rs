@@ -4,7 +4,7 @@
 
 use crate::args::Voice;
 use ambulo::analysis::Agreement;
-use ambulo::report::{FilterSummary, Summary};
+use ambulo::report::{FilterSummary, Ground, Summary};
 use anyhow::Result;
 use serde::Serialize;
 use serde_json::Value;
@@ -64,11 +64,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     }
     let [from, to] = summary.window_s;
     say(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
-    say(&format!("  filter    motion {}, forces {}", filter(&summary.filter.motion), filter(&summary.filter.force)))?;
-    say(&format!(
-        "  ground    {} (a foot counts as unloaded below {} N)",
-        summary.ground.source, summary.ground.threshold_n
-    ))?;
+    print_ground(summary)?;
     if let Some(r) = &summary.residual {
         say(&format!(
             "  residual  {:.1} N rms ({:.1} %BW), {:.1} N peak; {:.1} N.m rms, {:.1} N.m peak",
@@ -82,6 +78,16 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     print_peaks(summary)?;
     say(&format!("  written   {}", output.display()))?;
     Ok(())
+}
+
+fn print_ground(summary: &Summary) -> Result<()> {
+    let motion = filter(&summary.filter.motion);
+    let Ground { source, threshold_n, .. } = summary.ground;
+    if source == "none" {
+        return say(&format!("  filter    motion {motion}\n  ground    none"));
+    }
+    say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
+    say(&format!("  ground    {source} (a foot counts as unloaded below {threshold_n} N)"))
 }
 
 fn print_peaks(summary: &Summary) -> Result<()> {
@@ -171,6 +177,11 @@ pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
     for (key, value) in keys {
         let label = key.replace('_', " ");
         match value {
+            Value::Number(number) if number.is_f64() => {
+                // Six digits for the eye; --json has them all.
+                let rounded = format!("{:.6}", number.as_f64().unwrap_or_default());
+                say(&format!("{label}: {}", rounded.trim_end_matches('0').trim_end_matches('.')))?;
+            }
             Value::Null => {}
             Value::Array(items) if items.iter().all(Value::is_string) => {
                 say(&format!("{label}: {}", items.len()))?;

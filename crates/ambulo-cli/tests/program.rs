@@ -103,7 +103,7 @@ fn a_missing_file_is_named_once_with_a_hint() {
 fn a_coordinate_that_the_model_does_not_know_and_one_that_is_missing_are_warned_about() {
     let bench = Workbench::new("unknown_coordinate");
     bench.edit("walk.mot", "knee_angle_r", "knee_flexion_r");
-    let unknown = "the model has no coordinate `knee_flexion_r`";
+    let unknown = "the model has no such coordinates: `knee_flexion_r`";
     bench.forces(&RAW).warned(&[unknown, "the recording has no coordinate `knee_angle_r`; its default value"]);
     let codes: Vec<String> = bench.json("out/summary.json")["findings"]
         .as_array()
@@ -213,7 +213,7 @@ fn a_clock_that_runs_back_and_two_rows_for_one_instant_are_refused_with_their_li
 fn degrees_under_a_header_of_radians_are_warned_about() {
     let bench = Workbench::new("degrees");
     bench.edit("walk.mot", "inDegrees=yes", "inDegrees=no");
-    bench.forces(&RAW).warned(&["it looks like degrees", "hint: set inDegrees=yes"]);
+    bench.forces(&RAW).warned(&["look like degrees", "hint: set inDegrees=yes"]);
 }
 
 #[test]
@@ -765,7 +765,9 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
         let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-7, "{name}: {worst}");
     }
-    bench.forces(&["--from", "5", "--to", "6"]).refused(&["0 frames from 5 s", "hint: widen --from and --to"]);
+    bench
+        .forces(&["--from", "5", "--to", "6"])
+        .refused(&["the range from 5 s to 6 s has 0 frames", "hint: widen --from and --to"]);
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["hint: widen --from and --to"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
     bench.forces(&["--order", "0"]).refused(&["filter order is 0"]);

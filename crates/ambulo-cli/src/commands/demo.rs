@@ -31,7 +31,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let mut findings = Findings::default();
     findings.note(
         "demo.built_in",
-        "built-in input: a figure and a walk made by this project, with the ground forces that they need; no person was measured",
+        "an invented walk, not typical of people: figure and motion were made by this project, with the ground forces that they need",
     );
     let mut clock = Stopwatch::new();
     let recording = read(&mut findings)?;
@@ -52,6 +52,7 @@ fn read(findings: &mut Findings) -> Result<Recording> {
         motion,
         plates,
         device: None,
+        read: Vec::new(),
         // The walk is free of noise.
         settings: Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None },
         input: Input {
@@ -59,6 +60,8 @@ fn read(findings: &mut Findings) -> Result<Recording> {
             model: named("figure.osim"),
             ground: Some(named("walk_grf.mot")),
             loads: Some(named("walk_grf.xml")),
+            device: None,
+            added_mass: Vec::new(),
             ground_source: GroundSource::Simulated { rule: "lever rule between rear toe and front heel" },
         },
     })

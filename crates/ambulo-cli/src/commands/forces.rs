@@ -14,10 +14,15 @@ use ambulo::motion::{
 use ambulo::report::{GroundSource, Input, Summary, output_files, summary};
 use ambulo_formats::osim::OsimModel;
 use anyhow::{Context, Result, bail};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
+    if let (Some(from), Some(to)) = (args.from, args.to)
+        && from > to
+    {
+        bail!("--from {from} is after --to {to}; expected a range of time that runs forwards");
+    }
     refuse_other_inputs(&args.input)?;
     let mut findings = Findings::default();
     let mut clock = Stopwatch::new();
@@ -33,9 +38,13 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
         model: args.model.display().to_string(),
         ground: ground.as_ref().map(|g| g.path.display().to_string()),
         loads: args.loads.as_ref().map(|p| p.display().to_string()),
+        device: args.device.as_ref().map(|p| p.display().to_string()),
+        added_mass: args.add_mass.iter().map(ToString::to_string).collect(),
         ground_source: if args.no_ground { GroundSource::None } else { GroundSource::Measured },
     };
-    let recording = Recording { model, motion, plates, device, settings: settings(args), input };
+    let optional = [Some(&args.input), Some(&args.model), args.loads.as_ref(), args.device.as_ref()];
+    let read = optional.into_iter().flatten().cloned().chain(ground.map(|g| g.path)).collect();
+    let recording = Recording { model, motion, plates, device, settings: settings(args), input, read };
     compute(&recording, findings, clock, &args.output, args.voice)
 }
 
@@ -47,6 +56,8 @@ pub(super) struct Recording {
     pub(super) device: Option<DeviceRecording>,
     pub(super) settings: Settings,
     pub(super) input: Input,
+    /// Every file that was read; none of them is written over.
+    pub(super) read: Vec<PathBuf>,
 }
 
 /// Computes, writes and reports: what `forces` and `demo` share.
@@ -57,13 +68,18 @@ pub(super) fn compute(
     output: &Path,
     voice: Voice,
 ) -> Result<Verdict> {
-    let Recording { model, motion, plates, device, settings, input } = recording;
+    let Recording { model, motion, plates, device, settings, input, read: inputs } = recording;
     let analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, input))?;
-    let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
-    for file in output_files(model, &analysis, device.as_deref())? {
-        files::write(&output.join(&file.name), &file.bytes)?;
+    if let Some(device) = device {
+        device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
+    if analysis.cycles.is_empty() {
+        findings.note("cycles.none", "no whole gait cycle in the window: cycles.csv and the figure were not written");
+    }
+    let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
+    let written = output_files(model, &analysis, device.as_deref())?;
+    files::replace_results(output, &written, inputs)?;
     clock.lap("write");
     let mut summary = summary(model, &analysis, settings, input.clone(), &findings);
     summary.timing_ms = clock.laps.into_iter().collect();
@@ -107,11 +123,16 @@ impl Stopwatch {
 
 fn refuse_other_inputs(input: &Path) -> Result<()> {
     let ending = input.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if ["trc", "c3d", "bvh"].contains(&ending.as_str()) {
-        bail!(
-            "{}: markers (.{ending}) are not fitted yet; expected recorded coordinates (.mot or .sto). hint: OpenSim's inverse kinematics writes them",
-            input.display()
-        );
+    let shown = input.display();
+    match ending.as_str() {
+        "trc" => bail!(
+            "{shown}: markers are not fitted yet; expected recorded coordinates (.mot or .sto). hint: OpenSim's inverse kinematics makes them from a .trc"
+        ),
+        "c3d" => bail!(
+            "{shown}: C3D is not read yet; expected recorded coordinates (.mot or .sto). hint: convert it to .trc and let OpenSim's inverse kinematics make them"
+        ),
+        "bvh" => bail!("{shown}: BVH is not read yet; expected recorded coordinates (.mot or .sto)"),
+        _ => {}
     }
     Ok(())
 }

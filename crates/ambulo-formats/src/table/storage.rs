@@ -11,17 +11,21 @@ const MAX_HEADER_LINES: usize = 4096;
 const ENDHEADER: &str = "endheader";
 
 /// Reads a `.mot` or `.sto` file.
-/// A model or a set-up file in place of a table is the usual mistake.
-fn refuse_xml(bytes: &[u8]) -> Result<(), Error> {
-    if bytes.trim_ascii_start().starts_with(b"<") {
-        let expected = "an OpenSim storage file (.mot or .sto)".into();
-        return Err(Error::Line { line: 1, found: "an XML document".into(), expected });
-    }
-    Ok(())
+/// A model, a set-up file or markers in place of a table are the usual mistakes.
+fn refuse_other_formats(bytes: &[u8]) -> Result<(), Error> {
+    let start = bytes.trim_ascii_start();
+    let found = if start.starts_with(b"<") {
+        "an XML document"
+    } else if start.starts_with(b"PathFileType") {
+        "a marker file (.trc)"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Line { line: 1, found: found.into(), expected: "an OpenSim storage file (.mot or .sto)".into() })
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
-    refuse_xml(bytes)?;
+    refuse_other_formats(bytes)?;
     let mut lines = Lines::new(bytes, "an OpenSim storage file: a header that ends with `endheader`, names, rows")?;
     let mut remarks = Vec::new();
     let header = read_header(&mut lines, &mut remarks)?;

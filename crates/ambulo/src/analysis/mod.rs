@@ -4,6 +4,7 @@ mod comparison;
 mod cycles;
 mod events;
 mod peaks;
+mod plausibility;
 mod recording;
 mod residual;
 

@@ -1,12 +1,13 @@
 //! One recording, from observed coordinates and measured forces to joint forces, events and cycles.
 
 use super::cycles::{Cycle, cycles};
-use super::events::{Contact, Event, contacts, events};
+use super::events::{Contact, Event, EventKind, contacts, events};
+use super::plausibility;
 use super::residual::{Residual, residual};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
 use crate::ground::{self, MeasuredGround};
-use crate::kinematics::{Trajectory, TrajectoryError, body_motion};
+use crate::kinematics::{Trajectory, TrajectoryError, each_body_motion};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, interpolate, smooth};
@@ -80,7 +81,7 @@ pub enum AnalysisError {
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
-const WHOLE_BODY_SHARE: f64 = 0.10;
+const WHOLE_BODY_SHARE: f64 = 0.05;
 /// Above this difference between plates and model the reader is told (issue of scaling or of plates).
 const MASS_MISMATCH: f64 = 0.03;
 /// A foot carries enough to stand still on the ground above this share of the body's weight.
@@ -103,7 +104,7 @@ pub fn analyse(
     let window = covered(motion, plates, settings.window, findings);
     let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
     let smoothed = smooth(model, motion, smoothing, findings)
-        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window)))?;
+        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");
     let ground =
@@ -120,26 +121,32 @@ pub fn analyse(
     let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = events(&contacts).into_iter().filter(inside).collect();
     let cycles = cycles(&events, grid);
-    let mass = mass(model, &vertical, &cycles, findings);
+    if !plates.is_empty() && !events.iter().any(|e| e.kind == EventKind::Strike) {
+        findings.note("events.none", "no foot strike was found in the forces inside the window");
+    }
+    let mass = mass(model, &vertical, &weighing(&cycles, &events, findings), findings);
     let speed_m_s = walking_speed(model, &trajectory, &ground, up);
     let residual = residual(model, &forces);
+    plausibility::report_residual(residual, mass.kg * model.gravity().norm(), !plates.is_empty(), findings);
+    plausibility::report_downward(model, &ground, up, findings);
+    plausibility::report_far_feet(model, &trajectory, &ground, findings);
+    plausibility::report_ranges(model, &trajectory, findings);
     stage("analysis");
     Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual })
 }
 
-/// A range that holds too little is named as the user gave it, not as it was cut to the forces.
-fn in_the_users_words(error: MotionError, asked: Window) -> MotionError {
-    match error {
-        MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s } => MotionError::TooShort {
-            found,
-            expected,
-            from_s: asked.from_s.unwrap_or(from_s),
-            to_s: asked.to_s.unwrap_or(to_s),
-            first_s: from_s.max(first_s).min(last_s),
-            last_s: to_s.min(last_s),
-        },
-        other => other,
-    }
+/// A range that holds too little is named as the user gave it, beside what motion and forces cover together.
+fn in_the_users_words(error: MotionError, asked: Window, motion: &Motion, plates: &[ForceRecording]) -> MotionError {
+    let MotionError::TooShort { found, expected, .. } = error else { return error };
+    let whole = Window { from_s: motion.times.first().copied(), to_s: motion.times.last().copied() };
+    let both = plates.iter().fold(whole, |window, plate| window.overlap(recorded(plate)));
+    let (first_s, last_s) = (both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN));
+    let (from_s, to_s) = (asked.from_s.unwrap_or(first_s), asked.to_s.unwrap_or(last_s));
+    MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
+}
+
+fn recorded(plate: &ForceRecording) -> Window {
+    Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() }
 }
 
 /// What `grf.mot`, which has one foot a side, cannot show as it was measured.
@@ -166,7 +173,7 @@ fn report_sides(model: &Model, ground: &MeasuredGround, findings: &mut Findings)
 fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings: &mut Findings) -> Window {
     let mut covered = window;
     for plate in plates {
-        covered = covered.overlap(Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() });
+        covered = covered.overlap(recorded(plate));
     }
     let end = |w: Window| w.to_s.or(motion.times.last().copied()).unwrap_or(f64::INFINITY);
     let start = |w: Window| w.from_s.or(motion.times.first().copied()).unwrap_or(f64::NEG_INFINITY);
@@ -209,6 +216,24 @@ fn zero_if_unknown(x: f64) -> f64 {
     if x.is_finite() { x } else { 0.0 }
 }
 
+/// The cycles in which the other foot was seen to leave the ground and to meet it: in others it may have stood off the
+/// plates.
+fn weighing(cycles: &[Cycle], events: &[Event], findings: &mut Findings) -> Vec<Cycle> {
+    let seen = |cycle: &&Cycle| {
+        let other = |e: &&Event| e.side != cycle.side && e.time_s > cycle.start_s && e.time_s < cycle.end_s;
+        [EventKind::Strike, EventKind::Off].iter().all(|kind| events.iter().filter(other).any(|e| e.kind == *kind))
+    };
+    let (whole, partial): (Vec<&Cycle>, Vec<&Cycle>) = cycles.iter().partition(seen);
+    for cycle in partial {
+        let message = format!(
+            "{} cycle {} ({:.3} to {:.3} s): the other foot was not seen to leave and to meet the ground; it may have stood off the plates, so this cycle's forces are not the whole body's",
+            cycle.side, cycle.number, cycle.start_s, cycle.end_s
+        );
+        findings.warn("cycles.other_foot_unseen", message);
+    }
+    whole.into_iter().copied().collect()
+}
+
 /// m = mean vertical force / g over whole cycles, where that is near the model's mass; else the model's.
 fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findings: &mut Findings) -> Mass {
     let (stated, g) = (model.mass(), model.gravity().norm());
@@ -225,7 +250,9 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
         return Mass { kg: stated, source: MassSource::Model };
     }
     if (mean / stated - 1.0).abs() > MASS_MISMATCH {
-        let message = format!("the plates carry {mean:.1} kg over whole cycles, the model has {stated:.1} kg");
+        let message = format!(
+            "the plates carry {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are normalised by the plates' mass, the dynamics use the model's. hint: scale the model to this person"
+        );
         findings.warn("mass.mismatch", message);
     }
     Mass { kg: mean, source: MassSource::Plates }
@@ -253,9 +280,8 @@ fn cycle_mean(vertical: &[(Side, TimedForce)], cycle: &Cycle) -> Option<f64> {
 fn walking_speed(model: &Model, trajectory: &Trajectory, ground: &MeasuredGround, up: Vec3) -> Option<f64> {
     let weight = model.mass() * model.gravity().norm();
     let (mut center, mut frames, mut feet) = (Vec3::zeros(), 0.0, Vec::new());
-    trajectory.for_each_posture(|frame, posture| {
-        let bodies = body_motion(model, posture);
-        let momentum: Vec3 = model.bodies().iter().zip(&bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
+    each_body_motion(model, trajectory, |frame, bodies| {
+        let momentum: Vec3 = model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
         center += momentum / model.mass();
         frames += 1.0;
         for foot in &ground.bodies {

@@ -19,7 +19,7 @@
 
 use crate::dynamics::LoadSeries;
 use crate::findings::Findings;
-use crate::kinematics::{Trajectory, body_motion};
+use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::gaps::rows_around;
@@ -175,7 +175,7 @@ fn in_world(model: &Model, trajectory: &Trajectory, recording: &ForceRecording) 
 
 fn body_poses(model: &Model, trajectory: &Trajectory) -> Vec<Vec<Pose>> {
     let mut poses = Vec::with_capacity(trajectory.grid().frames);
-    trajectory.for_each_posture(|_, posture| poses.push(body_motion(model, posture).iter().map(|b| b.pose).collect()));
+    each_body_motion(model, trajectory, |_, bodies| poses.push(bodies.iter().map(|b| b.pose).collect()));
     poses
 }
 

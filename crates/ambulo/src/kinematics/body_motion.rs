@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::sweep::{self, Scratch};
+use super::trajectory::Trajectory;
 use crate::model::{BodyId, Model};
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -40,6 +41,20 @@ pub fn body_motion(model: &Model, posture: Posture<'_>) -> Vec<BodyMotion> {
     scratch.load_posture(posture);
     sweep::forward(&plan, &mut scratch);
     model.body_ids().map(|id| scratch.body_motion(&plan, id, 0)).collect()
+}
+
+/// Calls `visit` with the motion of every body, in the model's order, for each frame of a trajectory.
+pub fn each_body_motion(model: &Model, trajectory: &Trajectory, mut visit: impl FnMut(usize, &[BodyMotion])) {
+    let plan = Plan::new(model);
+    let mut scratch = Scratch::<1>::new(&plan);
+    let mut bodies = Vec::with_capacity(model.bodies().len());
+    trajectory.for_each_posture(|frame, posture| {
+        scratch.load_posture(posture);
+        sweep::forward(&plan, &mut scratch);
+        bodies.clear();
+        bodies.extend(model.body_ids().map(|id| scratch.body_motion(&plan, id, 0)));
+        visit(frame, &bodies);
+    });
 }
 
 impl Scratch<1> {

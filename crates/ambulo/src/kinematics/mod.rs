@@ -11,5 +11,5 @@ mod sin_cos;
 pub(crate) mod sweep;
 mod trajectory;
 
-pub use body_motion::{BodyMotion, Posture, body_motion};
+pub use body_motion::{BodyMotion, Posture, body_motion, each_body_motion};
 pub use trajectory::{Trajectory, TrajectoryError};

@@ -2,7 +2,7 @@
 
 use super::body_motion::Posture;
 use crate::findings::Findings;
-use crate::model::{CoordinateId, CoordinateKind, Drive, Model};
+use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
 /// A complete motion of a model. Numbers are finite, couplers and locks are obeyed.
@@ -79,6 +79,7 @@ impl Trajectory {
         let grid = motion.grid;
         let mut columns: Vec<[Vec<f64>; 3]> =
             model.coordinate_ids().map(|id| recorded_or_driven(model, motion, id, findings)).collect();
+        report_missing(model, motion, findings);
         for id in model.coordinate_ids() {
             if let Drive::Coupled(leader, function) = &model.coordinates()[id.index()].drive {
                 let follower = follow(&columns[leader.index()], |x| function.at(x));
@@ -150,14 +151,25 @@ fn recorded_or_driven(
         }
         (Drive::Coupled(..), _) => held(),
         (Drive::Free, Some(recorded)) => recorded.clone(),
-        (Drive::Free, None) => {
-            let message = format!(
-                "the recording has no coordinate `{}`; its default value {} is used throughout",
-                coordinate.name, coordinate.default_value
-            );
-            findings.warn("motion.missing_coordinate", message);
-            held()
-        }
+        (Drive::Free, None) => held(),
+    }
+}
+
+fn report_missing(model: &Model, motion: &SmoothMotion, findings: &mut Findings) {
+    let is_missing = |(c, column): &(&Coordinate, &Option<_>)| matches!(c.drive, Drive::Free) && column.is_none();
+    let missing: Vec<String> = model
+        .coordinates()
+        .iter()
+        .zip(&motion.columns)
+        .filter(is_missing)
+        .map(|(c, _)| format!("`{}` ({})", c.name, c.default_value))
+        .collect();
+    if !missing.is_empty() {
+        let message = format!(
+            "the recording has no column for {}; the default values in brackets are used throughout",
+            missing.join(", ")
+        );
+        findings.warn("motion.missing_coordinate", message);
     }
 }
 
@@ -191,10 +203,10 @@ fn report_mismatch(
     if worst <= COUPLER_TOLERANCE {
         return;
     }
-    let (source, unit) = match (&coordinate.drive, coordinate.kind) {
-        (Drive::Locked, CoordinateKind::Translation) => ("is locked in the model", "m"),
-        (Drive::Locked, _) => ("is locked in the model", "rad"),
-        _ => ("follows a coupler of the model", "rad or m"),
+    let unit = if coordinate.kind == CoordinateKind::Translation { "m" } else { "rad" };
+    let source = match coordinate.drive {
+        Drive::Locked => "is locked in the model",
+        _ => "follows a coupler of the model",
     };
     let in_degrees = recorded.iter().zip(used).all(|(a, b)| (a.to_radians() - b).abs() <= COUPLER_TOLERANCE);
     let guess = if in_degrees { "; the recorded column is in degrees under a header that says radians" } else { "" };

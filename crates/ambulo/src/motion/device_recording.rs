@@ -21,6 +21,17 @@ pub struct DeviceRecording {
 }
 
 impl DeviceRecording {
+    /// Says when the device was recorded for part of a grid only.
+    pub fn report_cover(&self, grid: TimeGrid, findings: &mut Findings) {
+        let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return };
+        if *first > grid.start_s + grid.step_s || *last < grid.end_s() - grid.step_s {
+            let message = format!(
+                "the device was recorded from {first:.3} s to {last:.3} s only; elsewhere its contribution counts as zero"
+            );
+            findings.warn("device.shorter_than_motion", message);
+        }
+    }
+
     /// The device on the frames of a grid: one column a coordinate, zero where and when it does nothing.
     #[must_use]
     pub fn on(&self, grid: TimeGrid) -> Vec<Vec<f64>> {

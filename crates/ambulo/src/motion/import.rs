@@ -113,9 +113,12 @@ fn report_unknown(model: &Model, unknown: &[&str], motion: &Motion, findings: &m
         .filter(|(_, c)| c.is_none())
         .map(|(c, _)| c.name.as_str())
         .collect();
-    let unmatched = if unmatched.is_empty() { "none".to_owned() } else { unmatched.join(", ") };
+    let unmatched = match unmatched[..] {
+        [] => String::new(),
+        _ => format!(" (coordinates of the model without a column: {})", unmatched.join(", ")),
+    };
     let message = format!(
-        "the model has no coordinate {}; these columns were not used (coordinates of the model without a column: {unmatched})",
+        "the model has no such coordinates: {}; these columns were not used{unmatched}",
         unknown.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
     );
     findings.warn("motion.unknown_coordinate", message);
@@ -131,10 +134,15 @@ fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings:
         })
         .collect();
     if !in_degrees {
-        if let Some((c, largest)) = rotations.iter().find(|(_, largest)| *largest > LARGEST_PLAUSIBLE_ANGLE) {
+        let large: Vec<String> = rotations
+            .iter()
+            .filter(|(_, largest)| *largest > LARGEST_PLAUSIBLE_ANGLE)
+            .map(|(c, largest)| format!("`{}` {largest:.0}", c.name))
+            .collect();
+        if !large.is_empty() {
             let message = format!(
-                "`{}` reaches {largest:.1} where the header says radians; it looks like degrees. hint: set inDegrees=yes in the header",
-                c.name
+                "angles that were read as radians look like degrees: they reach {}. hint: set inDegrees=yes in the header of a .mot or .sto; a .csv cannot state its unit",
+                large.join(", ")
             );
             findings.warn("motion.degrees_as_radians", message);
         }

@@ -147,7 +147,7 @@ pub enum MotionError {
     },
     /// Nothing is left to compute.
     #[error(
-        "{found} frames from {from_s} s to {to_s} s; expected at least {expected}. hint: widen --from and --to; what was recorded of motion and forces runs from {first_s} s to {last_s} s"
+        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and forces were both recorded from {first_s} s to {last_s} s"
     )]
     TooShort {
         /// How many frames there are.

@@ -64,7 +64,8 @@ pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str) -> Result<
         let root = SVGBackend::with_string(&mut svg, (FINE * width, FINE * height)).into_drawing_area();
         root.fill(&WHITE).map_err(|e| error(e.to_string()))?;
         let (title, body) = root.split_vertically(FINE * TITLE);
-        draw_title(&title, caption).map_err(|e| error(e.to_string()))?;
+        let sides = Side::BOTH.into_iter().filter(|side| rows.iter().any(|row| row.side == *side)).collect::<Vec<_>>();
+        draw_title(&title, caption, &sides).map_err(|e| error(e.to_string()))?;
         for (panel, area) in panels.iter().zip(body.split_evenly((1, 3))) {
             draw_panel(&area, panel, rows, mass_kg).map_err(|e| error(e.to_string()))?;
         }
@@ -87,11 +88,16 @@ fn font(size: u32) -> TextStyle<'static> {
     ("sans-serif", FINE * size).into_font().color(&RGBColor(40, 40, 40))
 }
 
-fn draw_title(area: &Area<'_>, caption: &str) -> DrawResult {
+fn draw_title(area: &Area<'_>, caption: &str, sides: &[Side]) -> DrawResult {
     let at = |x: u32, y: u32| ((FINE * x) as i32, (FINE * y) as i32);
     area.draw_text("Net joint moments over the gait cycle", &font(15), at(14, 10))?;
     area.draw_text(caption, &font(11), at(14, 30))?;
+    let explanation = "thin: single cycles, thick: mean, tick: toe-off";
+    area.draw_text(explanation, &font(11), at(500, 17))?;
     for (side, x) in [(Side::Right, 780), (Side::Left, 880)] {
+        if !sides.contains(&side) {
+            continue;
+        }
         let dashes: &[(u32, u32)] = if side == Side::Right { &[(0, 25)] } else { &[(0, 7), (9, 16), (18, 25)] };
         for (from, to) in dashes {
             let line = [at(x + from, 22), at(x + to, 22)];
@@ -136,7 +142,8 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64) -
         for (row, values) in &of_side {
             chart.draw_series(LineSeries::new(points(values), color(side).mix(0.35).stroke_width(FINE)))?;
             if let Some(off) = row.toe_off_percent {
-                let tick = [(off, low), (off, low + 0.08 * (high - low))];
+                let (from, to) = if side == Side::Right { (0.0, 0.07) } else { (0.07, 0.14) };
+                let tick = [(off, low + from * (high - low)), (off, low + to * (high - low))];
                 chart.draw_series(LineSeries::new(tick, color(side).stroke_width(FINE)))?;
             }
         }

@@ -18,8 +18,10 @@ pub struct Summary {
     pub input: Input,
     /// Name of the model.
     pub model: String,
-    /// Body mass [kg].
+    /// Body mass [kg]; results are normalised by it.
     pub mass_kg: f64,
+    /// The model's mass, which the dynamics use [kg].
+    pub mass_model_kg: f64,
     /// `plates` or `model`.
     pub mass_source: &'static str,
     /// Stature [m], where it was given.
@@ -28,6 +30,8 @@ pub struct Summary {
     pub speed_m_s: Option<f64>,
     /// First and last instant [s].
     pub window_s: [f64; 2],
+    /// The range that was asked for [s]; `null` where it was left open.
+    pub window_asked_s: [Option<f64>; 2],
     /// Frames a second [Hz].
     pub rate_hz: f64,
     /// Number of frames.
@@ -63,6 +67,10 @@ pub struct Input {
     pub ground: Option<String>,
     /// The description of the loads.
     pub loads: Option<String>,
+    /// What a worn device contributes.
+    pub device: Option<String>,
+    /// Masses that were added to the model, as `BODY:KG:X,Y,Z`.
+    pub added_mass: Vec<String>,
     /// How the ground forces came about; reported under `ground`.
     #[serde(skip)]
     pub ground_source: GroundSource,
@@ -159,6 +167,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         input,
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,
+        mass_model_kg: model.mass(),
         mass_source: match analysis.mass.source {
             MassSource::Plates => "plates",
             MassSource::Model => "model",
@@ -166,6 +175,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         height_m: None,
         speed_m_s: analysis.speed_m_s,
         window_s: [grid.start_s, grid.end_s()],
+        window_asked_s: [settings.window.from_s, settings.window.to_s],
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(settings),

@@ -1,0 +1,103 @@
+//! Whether model, motion and forces belong together: mistakes that leave every number finite and wrong.
+
+use super::residual::Residual;
+use crate::findings::Findings;
+use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, MeasuredGround};
+use crate::kinematics::{Trajectory, each_body_motion};
+use crate::model::{CoordinateKind, Model, Side};
+use crate::spatial::Vec3;
+
+/// A residual above this share of body weight is said. Walking data with every foot on a plate leave 4 to 7 % (the
+/// recordings that the tests use); plates of another person 47 to 98 %.
+const LARGE_RESIDUAL_BW: f64 = 0.15;
+/// A coordinate may leave its stated range by this much [rad] before it is said; ranges are often drawn tightly.
+const RANGE_SLACK_RAD: f64 = 0.35;
+
+/// A residual that is too large for the numbers to be trusted.
+pub(super) fn report_residual(residual: Option<Residual>, weight_n: f64, measured: bool, findings: &mut Findings) {
+    let Some(residual) = residual.filter(|_| measured) else { return };
+    let share = residual.force_rms_n / weight_n;
+    if share > LARGE_RESIDUAL_BW {
+        let message = format!(
+            "the residual at the root is {:.0} % of body weight (walking data with every foot on a plate: below 10 %): forces, motion and model do not belong together, a foot stood off the plates, or the motion is not filtered; the moments are not to be trusted. hint: check files, sides and time origin; cut to the time when every foot on the floor is on a plate with --from and --to",
+            100.0 * share
+        );
+        findings.warn("residual.large", message);
+    }
+}
+
+/// Forces that pull a foot down: the force on the plate in place of the force on the foot.
+pub(super) fn report_downward(model: &Model, ground: &MeasuredGround, up: Vec3, findings: &mut Findings) {
+    for body in &ground.bodies {
+        let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
+        if mean < -CENTER_OF_PRESSURE_LOAD_N {
+            let name = &model.bodies()[body.body.index()].name;
+            let message = format!(
+                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it looks like the force on the plate. hint: change the sign of forces and torques"
+            );
+            findings.warn("loads.downward", message);
+        }
+    }
+}
+
+/// Centres of pressure that lie nearer to the other foot: right and left exchanged.
+pub(super) fn report_far_feet(
+    model: &Model,
+    trajectory: &Trajectory,
+    ground: &MeasuredGround,
+    findings: &mut Findings,
+) {
+    let side_of = |i: usize| Side::of_name(&model.bodies()[i].name);
+    let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b.body.index()).is_some()).collect();
+    let mut own: Vec<Vec<f64>> = vec![Vec::new(); feet.len()];
+    let mut other = own.clone();
+    each_body_motion(model, trajectory, |frame, bodies| {
+        for (k, foot) in feet.iter().enumerate() {
+            let center = foot.center_of_pressure[frame];
+            let stands_on = |b: usize| (bodies[b].center - center).norm();
+            if center.x.is_nan() {
+                continue;
+            }
+            let opposite = feet.iter().filter(|f| side_of(f.body.index()) != side_of(foot.body.index()));
+            if let Some(nearest) = opposite.map(|f| stands_on(f.body.index())).min_by(f64::total_cmp) {
+                own[k].push(stands_on(foot.body.index()));
+                other[k].push(nearest);
+            }
+        }
+    });
+    for ((foot, own), other) in feet.iter().zip(own).zip(other) {
+        if let (Some(own), Some(other)) = (median(own), median(other))
+            && other < own
+        {
+            let name = &model.bodies()[foot.body.index()].name;
+            let message = format!(
+                "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right and left may be exchanged. hint: exchange the bodies in the loads file or in --right and --left"
+            );
+            findings.warn("loads.far_from_foot", message);
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// Rotations far outside what the model allows: the motion of another model.
+pub(super) fn report_ranges(model: &Model, trajectory: &Trajectory, findings: &mut Findings) {
+    for id in model.coordinate_ids() {
+        let coordinate = &model.coordinates()[id.index()];
+        let (Some([low, high]), CoordinateKind::Rotation) = (coordinate.range, coordinate.kind) else { continue };
+        let values = trajectory.values(id);
+        let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if largest > high + RANGE_SLACK_RAD || smallest < low - RANGE_SLACK_RAD {
+            let [smallest, largest, low, high] = [smallest, largest, low, high].map(f64::to_degrees);
+            let message = format!(
+                "`{}` runs from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0}. hint: is this the motion of another model? Some count knee flexion positive, some negative",
+                coordinate.name
+            );
+            findings.warn("motion.out_of_range", message);
+        }
+    }
+}
