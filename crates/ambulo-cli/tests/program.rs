@@ -104,7 +104,7 @@ fn a_coordinate_that_the_model_does_not_know_and_one_that_is_missing_are_warned_
     let bench = Workbench::new("unknown_coordinate");
     bench.edit("walk.mot", "knee_angle_r", "knee_flexion_r");
     let unknown = "the model has no such coordinates: `knee_flexion_r`";
-    bench.forces(&RAW).warned(&[unknown, "the recording has no coordinate `knee_angle_r`; its default value"]);
+    bench.forces(&RAW).warned(&[unknown, "the recording has no column for `knee_angle_r` (0); the default values"]);
     let codes: Vec<String> = bench.json("out/summary.json")["findings"]
         .as_array()
         .unwrap()
@@ -765,12 +765,15 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
         let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-7, "{name}: {worst}");
     }
-    bench
-        .forces(&["--from", "5", "--to", "6"])
-        .refused(&["the range from 5 s to 6 s has 0 frames", "hint: widen --from and --to"]);
-    bench.forces(&["--from", "2", "--to", "1"]).refused(&["hint: widen --from and --to"]);
+    bench.forces(&["--from", "5", "--to", "6"]).refused(&[
+        "the range from 5 s to 6 s has 0 frames",
+        "hint: motion and forces were both recorded from 0 s to 2.9 s",
+    ]);
+    bench.forces(&["--from", "2", "--to", "1"]).refused(&["--from 2 is after --to 1"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
-    bench.forces(&["--order", "0"]).refused(&["filter order is 0"]);
+    bench.forces(&["--order", "0"]).refused(&["expected a whole number from 1 to 8"]);
+    bench.forces(&["--from", "nan"]).refused(&["expected a number of seconds"]);
+    bench.forces(&["--cutoff", "-6"]).refused(&["expected a frequency above 0 in Hz, or `off`"]);
 }
 
 // ---- Small tools ----
@@ -844,4 +847,65 @@ fn info_tells_what_each_kind_of_file_holds() {
         let run = bench.run(&["info", file]).done();
         assert!(run.stdout.starts_with("kind: ") || run.stdout.contains("\nkind: "), "{file}: {}", run.stdout);
     }
+}
+
+// ---- Input that does not belong together ----
+
+#[test]
+fn exchanged_feet_are_noticed() {
+    let bench = Workbench::new("exchanged");
+    let swapped = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
+    let run = bench.run(&[&FORCES[..4], &["--grf", "walk_grf.mot"], &swapped, &RAW].concat()).done();
+    run.warned(&["`calcn_r` acts", "from the other foot", "right and left may be exchanged"]);
+    assert!(!bench.forces(&RAW).done().stderr.contains("exchanged"));
+}
+
+#[test]
+fn forces_on_the_plate_in_place_of_forces_on_the_foot_are_noticed() {
+    let bench = Workbench::new("downward");
+    bench.edit_rows("walk_grf.mot", |mut rows| {
+        for row in &mut rows[1..] {
+            for cell in &mut row[1..4] {
+                *cell = format!("{}", -cell.parse::<f64>().unwrap());
+            }
+        }
+        rows
+    });
+    let run = bench.forces(&RAW).done();
+    run.warned(&["pulls `calcn_r` down", "hint: change the sign of forces and torques"]);
+    run.warned(&["the residual at the root is", "hint: check files, sides and time origin"]);
+}
+
+#[test]
+fn a_knee_that_bends_the_other_way_is_noticed() {
+    let bench = Workbench::new("knee");
+    let joint = "<Coordinate name=\"knee_angle_r\"><default_value>0</default_value>";
+    bench.edit("figure.osim", joint, &format!("{joint}<range>-0.1 2.1</range>"));
+    bench.forces(&RAW).done().warned(&["`knee_angle_r` runs from -6", "the model allows -6 to 120"]);
+}
+
+// ---- Folders ----
+
+#[test]
+fn what_was_read_is_never_written_over() {
+    let bench = Workbench::new("same_folder");
+    bench.write("external_loads.xml", bench.read("walk_grf.xml"));
+    let before = bench.read("external_loads.xml");
+    bench
+        .run(&[&FORCES[..4], &["--loads", "external_loads.xml", "-o", "."], &RAW].concat())
+        .refused(&["external_loads.xml: this file was read and would be written over", "hint: choose another folder"]);
+    assert_eq!(bench.read("external_loads.xml"), before);
+}
+
+#[test]
+fn results_of_an_earlier_run_do_not_stay_beside_those_of_the_next() {
+    let bench = Workbench::new("stale");
+    bench.forces(&[&RAW[..], &["-o", "out"]].concat()).done();
+    assert!(!bench.read("out/cycles.csv").is_empty());
+    bench.write("out/notes.txt", "mine");
+    bench.run(&[&FORCES[..4], &RAW, &["--no-ground", "-o", "out"]].concat()).done();
+    assert!(
+        !bench.exists("out/cycles.csv") && !bench.exists("out/grf.mot") && !bench.exists("out/figures/moments.svg")
+    );
+    assert!(bench.exists("out/moments.sto") && bench.exists("out/notes.txt"));
 }

@@ -81,6 +81,10 @@ impl Workbench {
         fs::write(self.folder.join(name), content).unwrap();
     }
 
+    pub(crate) fn exists(&self, name: &str) -> bool {
+        self.folder.join(name).exists()
+    }
+
     pub(crate) fn read(&self, name: &str) -> Vec<u8> {
         fs::read(self.folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
