@@ -1,6 +1,7 @@
 //! A folder of its own for each test, holding the demo's input, and the program run in it with a limit of time.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 
 use ambulo_formats::table::Table;
 use serde_json::Value;
