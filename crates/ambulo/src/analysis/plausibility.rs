@@ -15,7 +15,7 @@ const RANGE_SLACK_RAD: f64 = 0.35;
 
 /// A residual that is too large for the numbers to be trusted.
 pub(super) fn report_residual(residual: Option<Residual>, weight_n: f64, measured: bool, findings: &mut Findings) {
-    let Some(residual) = residual.filter(|_| measured) else { return };
+    let Some(residual) = residual.filter(|_| measured && weight_n > 0.0) else { return };
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(

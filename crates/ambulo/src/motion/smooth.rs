@@ -51,6 +51,8 @@ pub struct SmoothMotion {
 const FEWEST_SAMPLES: usize = 6;
 /// Results at a higher rate than this [Hz] say nothing more of a human motion.
 const HIGHEST_RATE_HZ: f64 = 20_000.0;
+/// More frames than this are not kept in memory at once: ten minutes at the highest rate are 12 million, of 100 columns each.
+const MOST_FRAMES: f64 = 2e6;
 /// An uneven clock may ask for this many frames for each of its samples; more is no clock.
 const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
 
@@ -126,8 +128,9 @@ fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
 fn at_rate(grid: TimeGrid, rate_hz: Option<f64>) -> Result<TimeGrid, MotionError> {
     let Some(rate_hz) = rate_hz else { return Ok(grid) };
     let intervals = ((grid.end_s() - grid.start_s) * rate_hz + 1e-6).floor();
-    if !(rate_hz > 0.0 && rate_hz <= HIGHEST_RATE_HZ) || intervals < 1.0 {
-        return Err(MotionError::Rate { found_hz: rate_hz, highest_hz: HIGHEST_RATE_HZ });
+    if !(rate_hz > 0.0 && rate_hz <= HIGHEST_RATE_HZ) || !(1.0..MOST_FRAMES).contains(&intervals) {
+        let highest_hz = HIGHEST_RATE_HZ.min(MOST_FRAMES / (grid.end_s() - grid.start_s));
+        return Err(MotionError::Rate { found_hz: rate_hz, highest_hz });
     }
     Ok(TimeGrid { step_s: 1.0 / rate_hz, frames: intervals as usize + 1, ..grid })
 }
