@@ -128,7 +128,7 @@ fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
 fn at_rate(grid: TimeGrid, rate_hz: Option<f64>) -> Result<TimeGrid, MotionError> {
     let Some(rate_hz) = rate_hz else { return Ok(grid) };
     let intervals = ((grid.end_s() - grid.start_s) * rate_hz + 1e-6).floor();
-    if !(rate_hz > 0.0 && rate_hz <= HIGHEST_RATE_HZ) || !(1.0..MOST_FRAMES).contains(&intervals) {
+    if !(rate_hz > 0.0 && rate_hz <= HIGHEST_RATE_HZ && (1.0..MOST_FRAMES).contains(&intervals)) {
         let highest_hz = HIGHEST_RATE_HZ.min(MOST_FRAMES / (grid.end_s() - grid.start_s));
         return Err(MotionError::Rate { found_hz: rate_hz, highest_hz });
     }
