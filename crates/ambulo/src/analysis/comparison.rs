@@ -1,7 +1,7 @@
 //! How far two curves agree.
 //!
 //!   RMSE  = √(mean (a - b)²)
-//!   rRMSE = RMSE / ((range a + range b) / 2)          Ren, Jones, Howard 2008 (J Biomech 41:2750)
+//!   rRMSE = RMSE / ((range a + range b) / 2)          Ren, Jones, Howard 2008 (unverified page)
 //!   r     = Pearson's correlation
 //!
 //! Pinned by: tests/analysis.rs

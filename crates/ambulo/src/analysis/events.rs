@@ -7,7 +7,7 @@
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::model::Side;
 
-/// A contact or a break shorter than this is noise [s]. The shortest ground contacts of sprinters last about 0.08 s.
+/// A contact or a break shorter than this is noise [s]. Sprinters' contacts last about 0.08 s (unverified).
 pub const SHORTEST_CONTACT_S: f64 = 0.05;
 
 /// A time during which a foot was loaded.

@@ -2,7 +2,7 @@
 //!
 //! Interpolating cubic with continuous curvature. End conditions: the third derivative at each end equals that of the
 //! cubic through the four outermost points (Forsythe, Malcolm, Moler 1977, "Computer Methods for Mathematical
-//! Computations", ch. 4.4, as OpenSim's `SimmSpline.cpp` applies it). Beyond the ends a straight line continues with
+//! Computations" (unverified), as OpenSim's `SimmSpline.cpp` applies it). Beyond the ends a straight line continues with
 //! the end slope. Two points give a straight line, three points a third derivative of zero at the ends.
 //!
 //! With curvatures M = y'' at the knots and h the spacings, the interior rows are

@@ -22,7 +22,7 @@ const PANEL: (u32, u32) = (330, 270);
 /// Height of the title line as shown [px].
 const TITLE: u32 = 46;
 
-/// Right: blue, left: vermilion; told apart by colour-blind eyes (Okabe and Ito's palette).
+/// Right: blue, left: vermilion; told apart by colour-blind eyes (Okabe and Ito's palette, unverified).
 fn color(side: Side) -> RGBColor {
     match side {
         Side::Right => RGBColor(0, 114, 178),
