@@ -17,7 +17,11 @@ pub mod motion;
 
 pub mod kinematics;
 
+pub mod contact;
+
 pub mod dynamics;
+
+pub mod simulation;
 
 pub mod ground;
 

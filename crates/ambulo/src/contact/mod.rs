@@ -1,0 +1,1 @@
+//! Where bodies touch, the Coulomb cone, rigid and compliant laws.

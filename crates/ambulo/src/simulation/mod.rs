@@ -1,0 +1,3 @@
+//! Worlds stepped through time: figures, obstacles, driven joints, collisions, scenes.
+
+pub mod scene;

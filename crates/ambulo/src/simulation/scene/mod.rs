@@ -1,0 +1,1 @@
+//! Scenes: a world, its outputs and its duration as a TOML file.
