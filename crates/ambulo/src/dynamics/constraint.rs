@@ -1,28 +1,90 @@
-//! One scalar row of a constraint between two bodies, and what the bodies themselves bring.
+//! Scalar constraints between bodies, and the graph of everything that acts at one instant.
 //!
-//! A row asks of the accelerations a = (α, a_c) of a child and its parent, angular part before linear, at the mass
-//! centres, in world axes:
+//! A row asks of the motions a = (α, a_c) of two bodies, angular part before linear, at the mass centres, in world axes,
+//! that the departure
 //!
-//!   j_child · a_child + j_parent · a_parent = target
+//!   u = j_first · a_first + j_second · a_second + R λ - target
 //!
-//! Its multiplier λ is the generalised force that keeps it: the wrench j_child λ on the child and j_parent λ on the
-//! parent. A joint is up to six rows; a driven joint has six, and the multipliers of the driven directions are the
-//! actuator's moments (Faure, Debunne, Cani, Multon 1997, section 3.1-3.2).
+//! vanish, or as its law says. Its multiplier λ is the generalised force that keeps it: the wrench j_first λ on the first
+//! body and j_second λ on the second (Faure, Debunne, Cani, Multon 1997, section 3.1). R is the compliance: zero for a rigid
+//! row. The unknown motion may be accelerations, velocities (then λ is an impulse) or displacements.
+//!
+//! Joints that form trees are not rows but [`Link`]s; rows close loops, hold contacts and limit coordinates.
 
-use crate::spatial::{Mat3, Vec3, Wrench};
+use super::elimination::{Link, LinkTerms};
+use crate::spatial::{Mat3, Vec3};
+use std::ops::Range;
 
 /// Six numbers, angular part before linear.
 pub type Six = nalgebra::Vector6<f64>;
 
-/// One scalar row between a child and its parent.
+/// One scalar row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constraint {
-    /// On the child's acceleration.
-    pub on_child: Six,
-    /// On the parent's acceleration; without meaning where the parent is ground.
-    pub on_parent: Six,
-    /// What the two add up to: the prescribed relative acceleration, less what velocities contribute.
+    /// On the first body's motion.
+    pub on_first: Six,
+    /// On the second body's motion; without meaning where that is ground.
+    pub on_second: Six,
+    /// What the two add up to.
     pub target: f64,
+    /// R ≥ 0: how much the row yields per unit of force.
+    pub compliance: f64,
+}
+
+/// Rows of one closing joint, contact or limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConstraintGroup {
+    /// What the rows act on.
+    pub on: Acting,
+    /// Which rows, among all.
+    pub rows: Range<usize>,
+    /// What forces they may bring up.
+    pub law: Law,
+}
+
+/// What rows act on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Acting {
+    /// Two bodies, or a body and ground.
+    Bodies {
+        /// The first.
+        first: usize,
+        /// The second; `None` is ground.
+        second: Option<usize>,
+    },
+    /// One coordinate of a joint: the one row reads its motion q.
+    Coordinate {
+        /// The body that hangs on the joint.
+        body: usize,
+        /// The coordinate, among all.
+        coordinate: usize,
+    },
+}
+
+/// What forces rows may bring up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// u = 0 while λ lies within [least, most]; u > 0 only at λ = least, u < 0 only at λ = most. In each row. With infinite
+    /// bounds the row holds; with `least` zero it only pushes, as a lower limit does.
+    Bounded {
+        /// Least force [N, N.m], or impulse.
+        least: f64,
+        /// Largest force [N, N.m], or impulse.
+        most: f64,
+    },
+    /// Three rows, normal first: u_n ≥ 0, λ_n ≥ 0, one of them zero; |λ_t| ≤ μ λ_n, and where it slips, λ_t = -μ λ_n u_t/|u_t|
+    /// (Coulomb's cone, not a pyramid).
+    Contact {
+        /// Coefficient of friction μ.
+        friction: f64,
+        /// Largest normal force [N], or impulse.
+        bound: f64,
+    },
+}
+
+impl Law {
+    /// u = 0, whatever force it takes.
+    pub const HELD: Law = Law::Bounded { least: f64::NEG_INFINITY, most: f64::INFINITY };
 }
 
 /// A rigid body as the solver sees it at one instant.
@@ -32,29 +94,173 @@ pub struct BodyTerms {
     pub mass: f64,
     /// Inertia about the mass centre in world axes [kg.m²].
     pub inertia: Mat3,
-    /// Everything that acts and is known, at the mass centre in world axes: gravity, loads, applied moments, and
-    /// -ω × I ω [N.m, N].
-    pub wrench: Wrench,
 }
 
-/// The six rows of the relative motion at a joint centre: angular velocity of the child in the parent along each of
-/// `axes`, then the velocity of the child's point against the parent's point along each of them. Targets are zero.
+impl BodyTerms {
+    /// M a.
+    #[must_use]
+    #[inline]
+    pub fn times(&self, a: &Six) -> Six {
+        let moment = self.inertia * Vec3::new(a[0], a[1], a[2]);
+        Six::new(moment.x, moment.y, moment.z, self.mass * a[3], self.mass * a[4], self.mass * a[5])
+    }
+}
+
+/// Bodies, joints, rows and what acts, at one instant.
+#[derive(Debug, Clone, Default)]
+pub struct ConstraintGraph {
+    /// How each body is held.
+    pub links: Vec<Link>,
+    /// Each body's inertia.
+    pub bodies: Vec<BodyTerms>,
+    /// The joints' geometry.
+    pub terms: LinkTerms,
+    /// Right side b, one a body: known wrenches [N.m, N], or momenta with known impulses.
+    pub wrenches: Vec<Six>,
+    /// Efforts along the joints' free directions, one a coordinate [N.m or N].
+    pub efforts: Vec<f64>,
+    /// Inertia added to coordinates: rotors, and springs and dampers taken implicitly [kg.m² or kg].
+    pub rotors: Vec<f64>,
+    /// Groups of rows.
+    pub groups: Vec<ConstraintGroup>,
+    /// All rows.
+    pub rows: Vec<Constraint>,
+}
+
+/// How far a solver came.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Convergence {
+    /// Tree solves.
+    pub iterations: usize,
+    /// Factorisations.
+    pub factorizations: usize,
+    /// Largest departure of a row from its law, as a share of the largest departure that rows would have without any
+    /// constraint force.
+    pub residual: f64,
+    /// Whether the residual is within the tolerance.
+    pub converged: bool,
+    /// The row that departs most; none without rows.
+    pub worst: Option<usize>,
+}
+
+/// The motion and the multipliers, one vector each.
+#[derive(Debug, Clone, Default)]
+pub struct GraphSolution {
+    /// Motions, one a body.
+    pub motions: Vec<Six>,
+    /// Motions along the joints' free directions, one a coordinate.
+    pub coordinates: Vec<f64>,
+    /// Multipliers, one a row.
+    pub lambda: Vec<f64>,
+    /// How far the solver came.
+    pub convergence: Convergence,
+}
+
+impl ConstraintGraph {
+    /// Forgets all rows, bodies and joints; keeps the memory.
+    pub fn clear(&mut self) {
+        self.links.clear();
+        self.bodies.clear();
+        self.terms.arm.clear();
+        self.terms.directions.clear();
+        self.terms.offset.clear();
+        self.wrenches.clear();
+        self.efforts.clear();
+        self.rotors.clear();
+        self.groups.clear();
+        self.rows.clear();
+    }
+
+    /// What the rows of a group make of a motion: J a, without compliance or target.
+    #[inline]
+    pub(crate) fn reading(&self, group: &ConstraintGroup, row: usize, motions: &[Six], coordinates: &[f64]) -> f64 {
+        match group.on {
+            Acting::Coordinate { coordinate, .. } => coordinates[coordinate],
+            Acting::Bodies { first, second } => {
+                let row = &self.rows[row];
+                row.on_first.dot(&motions[first]) + second.map_or(0.0, |s| row.on_second.dot(&motions[s]))
+            }
+        }
+    }
+
+    /// Adds Jᵀ λ of all rows.
+    pub(crate) fn push(&self, lambda: &[f64], wrenches: &mut [Six], efforts: &mut [f64]) {
+        for group in &self.groups {
+            match group.on {
+                Acting::Coordinate { coordinate, .. } => efforts[coordinate] += lambda[group.rows.start],
+                Acting::Bodies { first, second } => {
+                    for row in group.rows.clone() {
+                        wrenches[first].axpy(lambda[row], &self.rows[row].on_first, 1.0);
+                        if let Some(second) = second {
+                            wrenches[second].axpy(lambda[row], &self.rows[row].on_second, 1.0);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The wrench of each joint on its body, at the body's mass centre [N.m, N]: M a - b - Jᵀ λ of the body and of all that
+    /// hangs on it. Along a free direction it is the effort, but for the solver's residual.
+    #[must_use]
+    pub fn joint_wrenches(&self, outwards: &[(usize, Option<usize>)], solution: &GraphSolution) -> Vec<Six> {
+        let mut pushed = self.wrenches.clone();
+        self.push(&solution.lambda, &mut pushed, &mut vec![0.0; solution.coordinates.len()]);
+        let mut wrenches: Vec<Six> = self
+            .bodies
+            .iter()
+            .zip(&solution.motions)
+            .zip(&pushed)
+            .map(|((body, a), f)| body.times(a) - f)
+            .collect();
+        for &(body, parent) in outwards.iter().rev() {
+            if let Some(parent) = parent {
+                let carried = super::block::carry(&wrenches[body], &self.terms.arm[body]);
+                wrenches[parent] += carried;
+            }
+        }
+        wrenches
+    }
+
+    /// Whether the row's own length of motion is angular or linear plays no part: the inverse inertia that an
+    /// unconstrained body, or a pair, shows to a row [1/kg or 1/(kg.m²)]; from the mean of its principal moments.
+    pub(crate) fn mobility(&self, group: &ConstraintGroup, row: usize) -> f64 {
+        let of_body = |body: usize, j: &Six| {
+            let terms = &self.bodies[body];
+            let mean = terms.inertia.trace() / 3.0;
+            let linear = j[3] * j[3] + j[4] * j[4] + j[5] * j[5];
+            let angular = j[0] * j[0] + j[1] * j[1] + j[2] * j[2];
+            let share = |squares: f64, inertia: f64| if inertia > 0.0 { squares / inertia } else { 0.0 };
+            share(linear, terms.mass) + share(angular, mean)
+        };
+        match group.on {
+            Acting::Coordinate { body, coordinate } => {
+                let s = &self.terms.directions[coordinate];
+                let inertia = s.dot(&self.bodies[body].times(s)) + self.rotors[coordinate];
+                if inertia > 0.0 { 1.0 / inertia } else { 0.0 }
+            }
+            Acting::Bodies { first, second } => {
+                let row = &self.rows[row];
+                of_body(first, &row.on_first) + second.map_or(0.0, |s| of_body(s, &row.on_second))
+            }
+        }
+    }
+}
+
+/// The six rows of the relative motion of two bodies at a point: angular velocity of the first in the second along each of
+/// `axes`, then the velocity of the first's point against the second's along each of them. Targets are zero.
 ///
-/// `to_center` leads from the joint centre to the child's mass centre, `to_joint` from the parent's mass centre to the
-/// joint centre, world axes [m].
+/// `to_first` leads from the point to the first's mass centre, `from_second` from the second's mass centre to the point, world
+/// axes [m].
 ///
-/// The velocity of the joint centre on the child is v + ω × (-to_center), so e · that = e · v + (-to_center × e) · ω; on
-/// the parent it is v + ω × to_joint.
+/// The velocity of the point on the first is v + ω × (-to_first), so e · that = e · v + (-to_first × e) · ω; on the second it
+/// is v + ω × from_second.
 #[must_use]
-pub fn relative_rows(axes: [Vec3; 3], to_center: Vec3, to_joint: Vec3) -> [Constraint; 6] {
+pub fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
     let six = |angular: Vec3, linear: Vec3| Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z);
-    let angular =
-        |e: Vec3| Constraint { on_child: six(e, Vec3::zeros()), on_parent: six(-e, Vec3::zeros()), target: 0.0 };
-    let linear = |e: Vec3| Constraint {
-        on_child: six(-to_center.cross(&e), e),
-        on_parent: six(-to_joint.cross(&e), -e),
-        target: 0.0,
-    };
+    let rigid = |on_first, on_second| Constraint { on_first, on_second, target: 0.0, compliance: 0.0 };
+    let angular = |e: Vec3| rigid(six(e, Vec3::zeros()), six(-e, Vec3::zeros()));
+    let linear = |e: Vec3| rigid(six(-to_first.cross(&e), e), six(-from_second.cross(&e), -e));
     let [x, y, z] = axes;
     [angular(x), angular(y), angular(z), linear(x), linear(y), linear(z)]
 }

@@ -1,11 +1,16 @@
-//! Forces from motion.
+//! Forces from motion, and motion from forces.
 
+mod block;
 mod constraint;
-mod forest;
+mod elimination;
 mod inverse;
 mod load;
+mod proximal;
 
-pub use constraint::{BodyTerms, Constraint, Six, relative_rows};
-pub use forest::{Forest, ForestError, ForestWorkspace, Link, Solution};
+pub use constraint::{
+    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six, relative_rows,
+};
+pub use elimination::{Elimination, EliminationWorkspace, Link, LinkError, LinkTerms, Offsets};
 pub use inverse::{Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames};
 pub use load::{BodyLoad, LoadSeries};
+pub use proximal::{GraphWorkspace, SolverSettings, solve_graph};

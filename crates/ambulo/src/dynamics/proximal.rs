@@ -1,0 +1,582 @@
+//! Motions and constraint forces of a graph with loops and contacts: Newton steps on an augmented Lagrangian.
+//!
+//! With A the inertias on the trees' own coordinates, rows u = J a + R λ - c and laws that confine the forces to a set K:
+//!
+//!   λ = Π_K( (λ° - ρ (J a - c)) / (1 + ρ R) )                                                     (1)
+//!   A a = b + Jᵀ λ                                                                                 (2)
+//!
+//! λ° is the last estimate. A Newton step on (2) with (1) put in solves (A + Jᵀ H J) Δ = b + Jᵀ λ - A a, where H = -∂λ/∂(J a) is
+//! at most 3 x 3 for each contact and diagonal else: rows on one body only add to that body's block, rows between two
+//! bodies couple them, and [`Elimination`] does the rest. When (2) holds, λ° := λ; the departure of rigid rows then falls by
+//! 1/(1 + ρ W) each time, W = J A⁻¹ Jᵀ. Redundant rows do no harm: starting at λ° = 0 every λ° stays in the range of J, so the
+//! forces of a table on four legs are the least-squares ones.
+//!
+//! Coulomb's law is no gradient. The disc of friction, |λ_t| ≤ r, takes its radius r = μ λ_n from the normal force of the step
+//! before; for a fixed radius (1), (2) are the stationarity of a convex function φ, on which a line search guards each step.
+//!
+//! | code        | symbol | unit            | shape                         |
+//! | `lambda`    | λ      | N.m, N          | one a row                     |
+//! | `center`    | λ°     | N.m, N          | one a row                     |
+//! | `u`         | J a - c |  as the motion | one a row                     |
+//! | `rho`       | ρ      | kg, kg.m²       | one number                    |
+//! | `radius`    | r      | N               | one a group                   |
+//! | `curvature` | H      | kg, kg.m²       | 3 x 3 a contact, diagonal else |
+//!
+//! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
+//! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
+//! Panagiotopoulos (unverified). The equations are derived above.
+//! Cost: one factorisation when contacts change between open, sticking and slipping; one solve else.
+//! Pinned by: tests/constraint_graph.rs
+
+use super::block::Block;
+use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
+use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError, Offsets};
+use std::collections::BTreeMap;
+
+/// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
+/// the digits of A.
+const STIFFNESS: f64 = 1e6;
+/// Halvings of the line search; the slope of a convex function changes sign within them.
+const HALVINGS: usize = 30;
+
+/// How far to iterate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverSettings {
+    /// Largest residual accepted; see [`Convergence::residual`].
+    pub tolerance: f64,
+    /// Most tree solves.
+    pub max_iterations: usize,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        SolverSettings { tolerance: 1e-10, max_iterations: 100 }
+    }
+}
+
+/// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
+#[derive(Debug, Clone, Default)]
+pub struct GraphWorkspace {
+    links: Vec<Link>,
+    /// Bodies that each group joins.
+    shape: Vec<Option<(usize, usize)>>,
+    pub(crate) elimination: Option<Elimination>,
+    pub(crate) factors: EliminationWorkspace,
+    /// Off-diagonal block of each group that joins two bodies.
+    blocks: Vec<Option<(usize, bool)>>,
+    u: Vec<f64>,
+    /// J Δ.
+    change: Vec<f64>,
+    center: Vec<f64>,
+    mobility: Vec<f64>,
+    radius: Vec<f64>,
+    curvature: Vec<Curvature>,
+    factored: Vec<Curvature>,
+    step: Vec<Six>,
+    step_coordinates: Vec<f64>,
+}
+
+/// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Curvature {
+    Diagonal([f64; 6]),
+    /// Normal; then the tangential xx, xy, yy.
+    Contact(f64, [f64; 3]),
+}
+
+impl GraphWorkspace {
+    /// The elimination for this graph, made anew only if its shape has changed.
+    pub(crate) fn prepare(&mut self, graph: &ConstraintGraph, with_rows: bool) -> Result<(), LinkError> {
+        let pair = |group: &ConstraintGroup| match group.on {
+            Acting::Bodies { first, second: Some(second) } if with_rows => Some((first, second)),
+            _ => None,
+        };
+        let shape = graph.groups.iter().map(pair);
+        if self.elimination.is_some() && self.links == graph.links && shape.clone().eq(self.shape.iter().copied()) {
+            return Ok(());
+        }
+        self.shape.clear();
+        self.shape.extend(shape);
+        self.links.clone_from(&graph.links);
+        let mut numbers = BTreeMap::new();
+        let mut couplings = Vec::new();
+        self.blocks.clear();
+        for pair in &self.shape {
+            self.blocks.push(pair.map(|(first, second)| {
+                let block = *numbers.entry((first.min(second), first.max(second))).or_insert_with(|| {
+                    couplings.push((first, second));
+                    couplings.len() - 1
+                });
+                (block, first > second)
+            }));
+        }
+        self.elimination = Some(Elimination::new(&graph.links, &couplings)?);
+        Ok(())
+    }
+
+    /// Bodies with their parents, parents first, as last prepared.
+    #[must_use]
+    pub fn outwards(&self) -> Vec<(usize, Option<usize>)> {
+        self.elimination.iter().flat_map(Elimination::outwards).collect()
+    }
+
+    fn resize(&mut self, graph: &ConstraintGraph) {
+        let rows = graph.rows.len();
+        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.mobility] {
+            list.clear();
+            list.resize(rows, 0.0);
+        }
+        self.radius.clear();
+        self.radius.resize(graph.groups.len(), f64::INFINITY);
+        self.curvature.clear();
+        self.curvature.resize(graph.groups.len(), Curvature::Diagonal([0.0; 6]));
+        self.factored.clone_from(&self.curvature);
+        self.step.resize(graph.bodies.len(), Six::zeros());
+        self.step_coordinates.resize(graph.efforts.len(), 0.0);
+    }
+}
+
+/// Solves the graph. `solution.lambda` holds a guess of the forces, as of the last step; it decides only which contacts are
+/// first taken as pushing and which as slipping. A contact without a past gets a positive normal force and no other.
+///
+/// Rows whose laws contradict each other (a drive against a wall) leave [`Convergence::converged`] false, with the row that
+/// departs most; forces stay within their bounds.
+///
+/// # Errors
+/// A graph whose links are no forest.
+pub fn solve_graph(
+    graph: &ConstraintGraph,
+    settings: &SolverSettings,
+    workspace: &mut GraphWorkspace,
+    solution: &mut GraphSolution,
+) -> Result<(), LinkError> {
+    workspace.prepare(graph, true)?;
+    workspace.resize(graph);
+    solution.lambda.resize(graph.rows.len(), 0.0);
+    let Some(elimination) = workspace.elimination.take() else { return Ok(()) };
+    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0 }.run(solution);
+    workspace.elimination = Some(elimination);
+    Ok(())
+}
+
+struct Newton<'a> {
+    graph: &'a ConstraintGraph,
+    elimination: &'a Elimination,
+    settings: &'a SolverSettings,
+    w: &'a mut GraphWorkspace,
+    rho: f64,
+    /// Largest departure of a row without constraint forces.
+    scale: f64,
+}
+
+impl Newton<'_> {
+    fn run(&mut self, solution: &mut GraphSolution) {
+        let GraphSolution { motions, coordinates, lambda, convergence } = solution;
+        *convergence = Convergence::default();
+        self.measure();
+        self.guess(lambda);
+        self.factor(convergence);
+        self.first_solve(motions, coordinates, lambda);
+        convergence.iterations = 1;
+        loop {
+            self.read(motions, coordinates);
+            self.update_radii(lambda);
+            self.evaluate(lambda);
+            if self.w.curvature == self.w.factored {
+                // (2) holds: the factored system was this one.
+                if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
+                    break;
+                }
+                self.recenter(lambda);
+            } else if convergence.iterations >= self.settings.max_iterations {
+                self.settle(lambda, convergence);
+                break;
+            } else {
+                self.factor(convergence);
+            }
+            self.newton_step(motions, coordinates, lambda);
+            convergence.iterations += 1;
+            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            if self.slipping() && largest <= self.settings.tolerance * self.scale {
+                self.read(motions, coordinates);
+                self.update_radii(lambda);
+                self.evaluate(lambda);
+                if self.settle(lambda, convergence) {
+                    break;
+                }
+                self.recenter(lambda);
+            }
+        }
+    }
+
+    /// ρ from the rows' mobilities; the scale of departures.
+    fn measure(&mut self) {
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        let free = |body: usize| {
+            let (terms, b) = (&self.graph.bodies[body], &self.graph.wrenches[body]);
+            let mean = terms.inertia.trace() / 3.0;
+            let share = |x: f64, inertia: f64| if inertia > 0.0 { x / inertia } else { 0.0 };
+            let (m, i) = (terms.mass, mean);
+            Six::new(share(b[0], i), share(b[1], i), share(b[2], i), share(b[3], m), share(b[4], m), share(b[5], m))
+        };
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                let mobility = self.graph.mobility(group, row);
+                self.w.mobility[row] = mobility;
+                if mobility > 0.0 {
+                    (least, most) = (least.min(mobility), most.max(mobility));
+                }
+                let terms = &self.graph.rows[row];
+                let departure = match group.on {
+                    Acting::Coordinate { body, coordinate } => {
+                        let s = &self.graph.terms.directions[coordinate];
+                        (s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility
+                    }
+                    Acting::Bodies { first, second } => {
+                        terms.on_first.dot(&free(first)) + second.map_or(0.0, |s| terms.on_second.dot(&free(s)))
+                    }
+                };
+                self.scale = self.scale.max((departure - terms.target).abs());
+            }
+        }
+        self.rho = if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS };
+        if self.scale <= 0.0 {
+            self.scale = 1.0;
+        }
+    }
+
+    /// Curvatures by the guess: pushing contacts stick, or slip where they slipped.
+    fn guess(&mut self, lambda: &[f64]) {
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            let first = group.rows.start;
+            let h = |row: usize| self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
+            self.w.curvature[number] = match group.law {
+                Law::HELD => diagonal(group, h),
+                Law::Bounded { least, most } => {
+                    diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
+                }
+                Law::Contact { friction, .. } => {
+                    let tangential = lambda[first + 1].hypot(lambda[first + 2]);
+                    let pushing = lambda[first] > 0.0;
+                    let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
+                    let normal = if pushing { h(first) } else { 0.0 };
+                    let rho = if pushing && !slips { self.rho } else { 0.0 };
+                    self.w.radius[number] = if slips || !pushing { tangential } else { f64::INFINITY };
+                    Curvature::Contact(normal, [rho, 0.0, rho])
+                }
+            };
+        }
+    }
+
+    /// A + Jᵀ H J, factored.
+    fn factor(&mut self, convergence: &mut Convergence) {
+        convergence.factorizations += 1;
+        let GraphWorkspace { factors, curvature, factored, blocks, .. } = &mut *self.w;
+        factors.begin(self.elimination, &self.graph.bodies);
+        for link in 0..self.graph.links.len() {
+            for coordinate in self.elimination.coordinates_of(link) {
+                let rotor = self.graph.rotors[coordinate];
+                factors.add_to_coordinate(self.elimination, coordinate, link, rotor);
+            }
+        }
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            add_group(self.graph, self.elimination, group, &curvature[number], blocks[number], factors);
+        }
+        factored.clone_from(curvature);
+        self.elimination.factor(&self.graph.terms, factors);
+    }
+
+    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts.
+    fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
+        motions.clone_from(&self.graph.wrenches);
+        coordinates.clone_from(&self.graph.efforts);
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let target = self.graph.rows[row].target;
+                lambda[row] = match self.w.curvature[number] {
+                    Curvature::Diagonal(h) => h[row - start] * target,
+                    Curvature::Contact(normal, _) if row == start => normal * target,
+                    Curvature::Contact(_, h) if h[0] > 0.0 => h[0] * target,
+                    Curvature::Contact(normal, _) => if normal > 0.0 { lambda[row] } else { 0.0 },
+                };
+            }
+        }
+        self.graph.push(lambda, motions, coordinates);
+        self.elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, &self.w.factors);
+        // The radius of friction starts from the normal force that this motion calls for.
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            if let (Law::Contact { .. }, Curvature::Contact(normal, _)) = (group.law, self.w.curvature[number]) {
+                let row = group.rows.start;
+                let u = self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
+                lambda[row] = (-normal * u).max(0.0);
+            }
+        }
+    }
+
+    /// u = J a - c.
+    fn read(&mut self, motions: &[Six], coordinates: &[f64]) {
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.u[row] =
+                    self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
+            }
+        }
+    }
+
+    fn update_radii(&mut self, lambda: &[f64]) {
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            if let Law::Contact { friction, .. } = group.law {
+                self.w.radius[number] = friction * lambda[group.rows.start];
+            }
+        }
+    }
+
+    /// λ by (1) and H at the present motion.
+    fn evaluate(&mut self, lambda: &mut [f64]) {
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            self.w.curvature[number] =
+                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, |row| self.w.u[row], lambda);
+            if let (Law::Contact { friction, .. }, true) = (group.law, self.w.radius[number] <= 0.0) {
+                // A contact that begins to push may stick at once.
+                let normal = lambda[group.rows.start];
+                if normal > 0.0 {
+                    self.w.radius[number] = friction * normal;
+                    self.w.curvature[number] = project(
+                        self.graph,
+                        group,
+                        self.rho,
+                        self.w.radius[number],
+                        &self.w.center,
+                        |row| self.w.u[row],
+                        lambda,
+                    );
+                }
+            }
+        }
+    }
+
+    fn slipping(&self) -> bool {
+        self.w.curvature.iter().any(|c| matches!(c, Curvature::Contact(n, [xx, xy, yy]) if *n > 0.0 && (*xy != 0.0 || xx != yy)))
+    }
+
+    /// The residual of the laws, at unit step 1/W; true if it is within the tolerance.
+    fn settle(&mut self, lambda: &[f64], convergence: &mut Convergence) -> bool {
+        let (mut worst, mut at) = (0.0_f64, None);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                let departure = self.departure(group, row, lambda);
+                // Not a number counts as the worst.
+                if !(departure <= worst) || at.is_none() {
+                    (worst, at) = (departure, Some(row));
+                }
+            }
+        }
+        convergence.residual = worst / self.scale;
+        convergence.worst = at;
+        convergence.converged = convergence.residual <= self.settings.tolerance;
+        convergence.converged
+    }
+
+    /// How far a row is from its law, in units of motion: W |λ - Π(λ - u/W)|.
+    fn departure(&self, group: &ConstraintGroup, row: usize, lambda: &[f64]) -> f64 {
+        let start = group.rows.start;
+        let w = self.w.mobility[row].max(f64::MIN_POSITIVE);
+        let whole = |row: usize| self.w.u[row] + self.graph.rows[row].compliance * lambda[row];
+        match group.law {
+            Law::Bounded { least, most } => w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(least, most)).abs(),
+            Law::Contact { bound, .. } if row == start => {
+                w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(0.0, bound)).abs()
+            }
+            Law::Contact { friction, .. } => {
+                let radius = friction * lambda[start];
+                let z = [1, 2].map(|k| lambda[start + k] - self.w.u[start + k] / w);
+                let length = z[0].hypot(z[1]);
+                let shrink = if length > radius { radius / length } else { 1.0 };
+                w * (lambda[row] - z[row - start - 1] * shrink).abs()
+            }
+        }
+    }
+
+    /// λ° := λ, and λ, H for it at the same motion.
+    fn recenter(&mut self, lambda: &mut [f64]) {
+        self.w.center.copy_from_slice(lambda);
+        self.evaluate(lambda);
+    }
+
+    /// Δ, guarded by a line search, added to the motion.
+    fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
+        let GraphWorkspace { step, step_coordinates, factors, .. } = &mut *self.w;
+        for ((r, body), (b, a)) in
+            step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
+        {
+            *r = b - body.times(a);
+        }
+        for ((r, effort), (rotor, q)) in step_coordinates
+            .iter_mut()
+            .zip(&self.graph.efforts)
+            .zip(self.graph.rotors.iter().zip(coordinates.iter()))
+        {
+            *r = effort - rotor * q;
+        }
+        self.graph.push(lambda, step, step_coordinates);
+        self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.change[row] =
+                    self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
+            }
+        }
+        let length = self.step_length(motions, coordinates, lambda);
+        for (a, step) in motions.iter_mut().zip(&self.w.step) {
+            a.axpy(length, step, 1.0);
+        }
+        for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
+            *q += length * step;
+        }
+    }
+
+    /// Where φ along Δ is least: φ'(s) = Δᵀ(A a - b) + s Δᵀ A Δ - (J Δ)ᵀ λ(s), which rises with s.
+    fn step_length(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64]) -> f64 {
+        if self.graph.groups.iter().all(|g| g.law == Law::HELD) {
+            return 1.0;
+        }
+        let (mut constant, mut linear) = (0.0, 0.0);
+        for (i, d) in self.w.step.iter().enumerate() {
+            let body = &self.graph.bodies[i];
+            constant += d.dot(&(body.times(&motions[i]) - self.graph.wrenches[i]));
+            linear += d.dot(&body.times(d));
+        }
+        for (k, d) in self.w.step_coordinates.iter().enumerate() {
+            constant += d * (self.graph.rotors[k] * coordinates[k] - self.graph.efforts[k]);
+            linear += d * d * self.graph.rotors[k];
+        }
+        let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&self.w.change).map(|(l, c)| l * c).sum() };
+        let start = constant - work(lambda);
+        let mut trial = lambda.to_vec();
+        let mut slope = |s: f64| {
+            for (number, group) in self.graph.groups.iter().enumerate() {
+                let u = |row: usize| self.w.u[row] + s * self.w.change[row];
+                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, u, &mut trial);
+            }
+            constant + s * linear - work(&trial)
+        };
+        if slope(1.0) <= 0.5 * start.abs() {
+            return 1.0;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let here = slope(middle);
+            if here.abs() <= 0.1 * start.abs() {
+                return middle;
+            }
+            if here > 0.0 { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    }
+}
+
+fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
+    let mut values = [0.0; 6];
+    for (value, row) in values.iter_mut().zip(group.rows.clone()) {
+        *value = h(row);
+    }
+    Curvature::Diagonal(values)
+}
+
+/// λ of one group by (1), and its H.
+#[inline]
+fn project(
+    graph: &ConstraintGraph,
+    group: &ConstraintGroup,
+    rho: f64,
+    radius: f64,
+    center: &[f64],
+    u: impl Fn(usize) -> f64,
+    lambda: &mut [f64],
+) -> Curvature {
+    let start = group.rows.start;
+    // One row confined to [least, most].
+    let clamped = |row: usize, least: f64, most: f64| {
+        let soft = 1.0 + rho * graph.rows[row].compliance;
+        let z = (center[row] - rho * u(row)) / soft;
+        if z <= least {
+            (least, 0.0)
+        } else if z >= most {
+            (most, 0.0)
+        } else {
+            (z, rho / soft)
+        }
+    };
+    match group.law {
+        Law::Bounded { least, most } => {
+            let mut h = [0.0; 6];
+            for row in group.rows.clone() {
+                (lambda[row], h[row - start]) = clamped(row, least, most);
+            }
+            Curvature::Diagonal(h)
+        }
+        Law::Contact { bound, .. } => {
+            let (normal, h) = clamped(start, 0.0, bound);
+            lambda[start] = normal;
+            let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
+            let length = z[0].hypot(z[1]);
+            if length <= radius {
+                (lambda[start + 1], lambda[start + 2]) = (z[0], z[1]);
+                return Curvature::Contact(h, [rho, 0.0, rho]);
+            }
+            let (x, y) = (z[0] / length, z[1] / length);
+            (lambda[start + 1], lambda[start + 2]) = (radius * x, radius * y);
+            let across = rho * radius / length;
+            Curvature::Contact(h, [across * y * y, -across * x * y, across * x * x])
+        }
+    }
+}
+
+/// Adds Jᵀ H J of one group.
+fn add_group(
+    graph: &ConstraintGraph,
+    elimination: &Elimination,
+    group: &ConstraintGroup,
+    curvature: &Curvature,
+    block: Option<(usize, bool)>,
+    factors: &mut EliminationWorkspace,
+) {
+    let start = group.rows.start;
+    let (first, second) = match group.on {
+        Acting::Coordinate { body, coordinate } => {
+            if let Curvature::Diagonal(h) = curvature {
+                factors.add_to_coordinate(elimination, coordinate, body, h[0]);
+            }
+            return;
+        }
+        Acting::Bodies { first, second } => (first, second),
+    };
+    let mut add = |m: usize, n: usize, h: f64| {
+        if h == 0.0 {
+            return;
+        }
+        let (one, other) = (&graph.rows[start + m], &graph.rows[start + n]);
+        factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
+        if let (Some(second), Some((block, swapped))) = (second, block) {
+            factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
+            let place: &mut Block = factors.off_mut(block);
+            if swapped {
+                place.add_outer(&one.on_second, &other.on_first, h);
+            } else {
+                place.add_outer(&one.on_first, &other.on_second, h);
+            }
+        }
+    };
+    match curvature {
+        Curvature::Diagonal(h) => (0..group.rows.len()).for_each(|k| add(k, k, h[k])),
+        Curvature::Contact(normal, [xx, xy, yy]) => {
+            add(0, 0, *normal);
+            add(1, 1, *xx);
+            add(1, 2, *xy);
+            add(2, 1, *xy);
+            add(2, 2, *yy);
+        }
+    }
+}
