@@ -14,3 +14,4 @@ pub use elimination::{Elimination, EliminationWorkspace, Link, LinkError, LinkTe
 pub use inverse::{Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames};
 pub use load::{BodyLoad, LoadSeries};
 pub use proximal::{GraphWorkspace, SolverSettings, solve_graph};
+pub(crate) use proximal::project_displacements;

@@ -159,6 +159,32 @@ pub fn solve_graph(
     Ok(())
 }
 
+/// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
+/// J δ = targets, and the joints' offsets as they stand in the graph. Uses the last factor.
+pub(crate) fn project_displacements(
+    graph: &ConstraintGraph,
+    targets: &[f64],
+    workspace: &GraphWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+) {
+    motions.clear();
+    motions.resize(graph.bodies.len(), Six::zeros());
+    coordinates.clear();
+    coordinates.resize(graph.efforts.len(), 0.0);
+    let Some(elimination) = &workspace.elimination else { return };
+    let mut lambda = vec![0.0; graph.rows.len()];
+    for (group, curvature) in graph.groups.iter().zip(&workspace.factored) {
+        let start = group.rows.start;
+        match curvature {
+            Curvature::Diagonal(h) => group.rows.clone().for_each(|row| lambda[row] = h[row - start] * targets[row]),
+            Curvature::Contact(normal, _) => lambda[start] = normal * targets[start],
+        }
+    }
+    graph.push(&lambda, motions, coordinates);
+    elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, &workspace.factors);
+}
+
 struct Newton<'a> {
     graph: &'a ConstraintGraph,
     elimination: &'a Elimination,
@@ -295,7 +321,8 @@ impl Newton<'_> {
             for row in group.rows.clone() {
                 let target = self.graph.rows[row].target;
                 lambda[row] = match self.w.curvature[number] {
-                    Curvature::Diagonal(h) => h[row - start] * target,
+                    Curvature::Diagonal(h) if h[row - start] > 0.0 => h[row - start] * target,
+                    Curvature::Diagonal(_) => clamp_to(group.law, lambda[row]),
                     Curvature::Contact(normal, _) if row == start => normal * target,
                     Curvature::Contact(_, h) if h[0] > 0.0 => h[0] * target,
                     Curvature::Contact(normal, _) => if normal > 0.0 { lambda[row] } else { 0.0 },
@@ -483,6 +510,13 @@ fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
         *value = h(row);
     }
     Curvature::Diagonal(values)
+}
+
+fn clamp_to(law: Law, lambda: f64) -> f64 {
+    match law {
+        Law::Bounded { least, most } => lambda.clamp(least, most),
+        Law::Contact { .. } => lambda,
+    }
 }
 
 /// λ of one group by (1), and its H.

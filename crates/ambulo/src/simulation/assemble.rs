@@ -1,0 +1,264 @@
+//! The constraint graph of one velocity step.
+//!
+//! Unknown are the velocities v at the end of the step:
+//!
+//!   M v = M v⁻ + h f + Jᵀ λ          λ: impulses
+//!
+//! with f gravity, loads and the gyroscopic moment -ω × I ω, the last taken implicitly by one Newton step of
+//! I (ω - ω⁻) + h ω × I ω = 0, since taken at the start it feeds energy to fast spins (Catto 2015, unverified).
+//! Springs, dampers and motors on coordinates are implicit: with q at the end of the step q + h q̇,
+//!
+//!   (.. + r + h d + h² k) q̇ = r q̇⁻ + h k (rest - q)
+//!
+//! A drive takes its coordinate from where it is to where its signal is at the end of the step: q̇ = (s(t + h) - q)/h.
+
+use super::joint::{JointKind, MOST, rotation_vector};
+use super::state::{RowKey, State};
+use super::world::{Joint, JointCoordinate, World};
+use crate::dynamics::{
+    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows,
+};
+use crate::spatial::{Mat3, Pose, Twist, Vec3};
+
+/// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
+pub(crate) type Yielding = Vec<(usize, usize, f64)>;
+
+/// A coordinate of the graph.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slot {
+    pub(crate) joint: usize,
+    pub(crate) coordinate: usize,
+}
+
+/// The graph of a step, and what its parts stand for.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Assembly {
+    pub(crate) graph: ConstraintGraph,
+    /// What each group of rows stands for.
+    pub(crate) keys: Vec<RowKey>,
+    /// What each coordinate stands for.
+    pub(crate) slots: Vec<Slot>,
+    /// All free directions of each joint, driven ones too.
+    pub(crate) directions: Vec<[Six; MOST]>,
+    /// Joint of each body.
+    pub(crate) joint_of: Vec<Option<usize>>,
+    /// Groups of rows before contacts.
+    pub(crate) closures: usize,
+}
+
+/// Poses of the bodies of every figure at one instant, as its recording has them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Prescribed(pub(crate) Vec<Vec<Pose>>);
+
+impl Prescribed {
+    pub(crate) fn at(world: &World, time_s: f64) -> Prescribed {
+        Prescribed(world.figures.iter().map(|figure| figure.poses(time_s)).collect())
+    }
+
+    /// Where a joint's child shall be, seen from its parent.
+    pub(crate) fn goal(&self, joint: &Joint) -> Option<Pose> {
+        let follows = joint.follows?;
+        let poses = &self.0[follows.figure];
+        let parent = follows.parent.map_or(Pose::IDENTITY, |p| poses[p]);
+        Some(parent.inverse() * poses[follows.body])
+    }
+}
+
+impl Assembly {
+    /// Bodies, joints, closures and what acts on coordinates; contacts come after.
+    pub(crate) fn fill(
+        &mut self,
+        world: &World,
+        state: &State,
+        prescribed: &Prescribed,
+        yielding: &Yielding,
+        step_s: f64,
+    ) {
+        self.graph.clear();
+        self.keys.clear();
+        self.slots.clear();
+        self.directions.clear();
+        self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
+        self.joint_of = world.joint_of_body();
+        for body in 0..world.bodies.len() {
+            self.add_body(world, state, body, step_s);
+            match self.joint_of[body] {
+                Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, step_s),
+                None => self.add_free(),
+            }
+        }
+        for slot in 0..self.slots.len() {
+            self.add_coordinate(world, state, yielding, slot, step_s);
+        }
+        self.closures = 0;
+        for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
+            let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
+            let frames = super::joint::Frames {
+                parent: parent * closure.second_from_joint,
+                child: state.poses[closure.first] * closure.first_from_joint,
+            };
+            let centers = (state.poses[closure.first].translation, closure.second.map(|p| state.poses[p].translation));
+            let rows = closing_rows(closure.kind, &frames, centers);
+            let start = self.graph.rows.len();
+            let on = Acting::Bodies { first: closure.first, second: closure.second };
+            let count = rows.len();
+            self.graph.rows.extend(rows);
+            self.graph.groups.push(ConstraintGroup { on, rows: start..start + count, law: Law::HELD });
+            self.keys.push(RowKey::Closure(number));
+            self.closures += 1;
+        }
+    }
+
+    fn add_body(&mut self, world: &World, state: &State, body: usize, h: f64) {
+        let (about, pose, twist) = (&world.bodies[body], &state.poses[body], &state.twists[body]);
+        let inertia = pose.rotation * about.inertia * pose.rotation.transpose();
+        let omega = twist.angular + gyroscopic_change(&inertia, &twist.angular, h);
+        let moment = inertia * omega + about.load.moment * h;
+        let force = twist.linear * about.mass + (world.gravity * about.mass + about.load.force) * h;
+        self.graph.bodies.push(BodyTerms { mass: about.mass, inertia });
+        self.graph.wrenches.push(Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z));
+    }
+
+    fn add_free(&mut self) {
+        self.graph.links.push(Link { parent: None, freedom: 6 });
+        self.graph.terms.arm.push(Vec3::zeros());
+        self.graph.terms.offset.push(Six::zeros());
+        for k in 0..6 {
+            let mut direction = Six::zeros();
+            direction[k] = 1.0;
+            self.graph.terms.directions.push(direction);
+            self.graph.efforts.push(0.0);
+            self.graph.rotors.push(0.0);
+            self.slots.push(Slot { joint: usize::MAX, coordinate: k });
+        }
+    }
+
+    fn add_joint(
+        &mut self,
+        world: &World,
+        state: &State,
+        prescribed: &Prescribed,
+        yielding: &Yielding,
+        number: usize,
+        h: f64,
+    ) {
+        let joint = &world.joints[number];
+        let center = state.poses[joint.child].translation;
+        let arm = joint.parent.map_or(Vec3::zeros(), |p| center - state.poses[p].translation);
+        self.graph.terms.arm.push(arm);
+        if let Some(goal) = prescribed.goal(joint) {
+            self.graph.links.push(Link { parent: joint.parent, freedom: 0 });
+            let offset = following(state, joint, &goal, h);
+            self.graph.terms.offset.push(offset);
+            return;
+        }
+        let frames = state.frames(joint);
+        let directions = joint.kind.directions(&frames, &(center - frames.child.translation));
+        let mut offset = Six::zeros();
+        let mut freedom = 0;
+        for (k, acting) in joint.coordinates.iter().enumerate() {
+            let gives_way = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
+            if let (Some(drive), false) = (&acting.drive, gives_way) {
+                let target = drive.signal.at(state.time_s + h)[0];
+                offset.axpy((target - state.coordinates[number][k]) / h, &directions[k], 1.0);
+                continue;
+            }
+            freedom += 1;
+            self.graph.terms.directions.push(directions[k]);
+            self.graph.efforts.push(0.0);
+            self.graph.rotors.push(0.0);
+            self.slots.push(Slot { joint: number, coordinate: k });
+        }
+        self.graph.links.push(Link { parent: joint.parent, freedom });
+        self.graph.terms.offset.push(offset);
+        self.directions[number] = directions;
+    }
+
+    /// Springs, motors, limits and friction of one coordinate.
+    fn add_coordinate(&mut self, world: &World, state: &State, yielding: &Yielding, slot: usize, h: f64) {
+        let Slot { joint: number, coordinate } = self.slots[slot];
+        let Some(joint) = world.joints.get(number) else { return };
+        let acting: &JointCoordinate = &joint.coordinates[coordinate];
+        let q = state.coordinates[number][coordinate];
+        if acting.rotor > 0.0 {
+            self.graph.rotors[slot] += acting.rotor;
+            self.graph.efforts[slot] += acting.rotor * state.rates(joint)[coordinate];
+        }
+        if let Some(spring) = &acting.spring {
+            self.graph.rotors[slot] += h * spring.damping + h * h * spring.stiffness;
+            self.graph.efforts[slot] += h * spring.stiffness * (spring.rest - q);
+        }
+        let mut add = |key: RowKey, target: f64, compliance: f64, least: f64, most: f64| {
+            let start = self.graph.rows.len();
+            let (on_first, on_second) = (Six::zeros(), Six::zeros());
+            self.graph.rows.push(Constraint { on_first, on_second, target, compliance });
+            let on = Acting::Coordinate { body: joint.child, coordinate: slot };
+            self.graph.groups.push(ConstraintGroup { on, rows: start..start + 1, law: Law::Bounded { least, most } });
+            self.keys.push(key);
+        };
+        if let Some((_, _, max)) = yielding.iter().find(|(j, c, _)| (*j, *c) == (number, coordinate)) {
+            let target = acting.drive.as_ref().map_or(q, |drive| drive.signal.at(state.time_s + h)[0]);
+            add(RowKey::Drive(number, coordinate), (target - q) / h, 0.0, -h * max, h * max);
+        }
+        if let Some(motor) = &acting.motor {
+            let [target, rate, _] = motor.target.at(state.time_s + h);
+            let yields = h * motor.kd + h * h * motor.kp;
+            if yields > 0.0 {
+                let compliance = 1.0 / yields;
+                let wanted = compliance * h * (motor.kp * (target - q) + motor.kd * rate);
+                add(RowKey::Motor(number, coordinate), wanted, compliance, -h * motor.max, h * motor.max);
+            }
+        }
+        if acting.friction > 0.0 {
+            let most = h * acting.friction;
+            add(RowKey::Friction(number, coordinate), 0.0, 0.0, -most, most);
+        }
+        if let Some(lower) = acting.limits.0 {
+            add(RowKey::LowerLimit(number, coordinate), ((lower - q) / h).min(0.0), 0.0, 0.0, f64::INFINITY);
+        }
+        if let Some(upper) = acting.limits.1 {
+            add(RowKey::UpperLimit(number, coordinate), ((upper - q) / h).max(0.0), 0.0, f64::NEG_INFINITY, 0.0);
+        }
+    }
+}
+
+/// ω - ω⁻ of the free body: one Newton step of I (ω - ω⁻) + h ω × I ω = 0 at ω⁻.
+fn gyroscopic_change(inertia: &Mat3, omega: &Vec3, h: f64) -> Vec3 {
+    let momentum = inertia * omega;
+    let moment = omega.cross(&momentum) * h;
+    if moment.norm_squared() < 1e-32 * momentum.norm_squared() {
+        return Vec3::zeros();
+    }
+    let slope = inertia + (omega.cross_matrix() * inertia - momentum.cross_matrix()) * h;
+    slope.try_inverse().map_or(Vec3::zeros(), |inverse| -(inverse * moment))
+}
+
+/// The twist, as a motion of the child's mass centre against its parent, that takes a followed body to its place in one step.
+fn following(state: &State, joint: &Joint, goal: &Pose, h: f64) -> Six {
+    let now = state.poses[joint.child];
+    let goal = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * *goal;
+    let turn = rotation_vector(&(goal.rotation * now.rotation.transpose())) / h;
+    let shift = (goal.translation - now.translation) / h;
+    Six::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+}
+
+/// Rows of a closing joint; targets zero.
+pub(crate) fn closing_rows(
+    kind: JointKind,
+    frames: &super::joint::Frames,
+    (first, second): (Vec3, Option<Vec3>),
+) -> Vec<Constraint> {
+    let point = frames.child.translation;
+    let from_second = second.map_or(Vec3::zeros(), |c| point - c);
+    let (turns, slides) = kind.held(frames);
+    let rows = |axis: Vec3| relative_rows([axis, axis, axis], first - point, from_second);
+    turns.into_iter().map(|e| rows(e)[0]).chain(slides.into_iter().map(|e| rows(e)[3])).collect()
+}
+
+/// Velocity of a body from the solver's six numbers.
+pub(crate) fn twist(motion: &Six) -> Twist {
+    Twist {
+        angular: Vec3::new(motion[0], motion[1], motion[2]),
+        linear: Vec3::new(motion[3], motion[4], motion[5]),
+    }
+}

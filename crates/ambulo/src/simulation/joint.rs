@@ -1,0 +1,239 @@
+//! Joints: which motions of a child against its parent are free, where the child stands, and how far it has drifted.
+//!
+//! P is a frame fixed to the parent, C one fixed to the child; with all coordinates zero they coincide. S are the free
+//! directions as motions of the child's mass centre: a rotation about e through the origin of C is (e, e × r), a
+//! translation along e is (0, e), where r leads from the origin of C to the mass centre.
+//!
+//! | kind      | T = P from C            | coordinates                                              |
+//! | weld      | 1                       | -                                                        |
+//! | revolute  | R_z(q)                  | angle about z                                            |
+//! | prismatic | t(q z)                  | distance along z                                         |
+//! | universal | R_x(q₁) R_y(q₂)         | angle about x of P, angle about y of C                   |
+//! | ball      | R                       | rotation vector in P; rates: angular velocity in P       |
+//! | planar    | t(q₁ x + q₂ y) R_z(q₃)  | distances along x and y of P, angle about z              |
+//! | free      | t R                     | rotation vector and place in P; rates in P               |
+
+use crate::dynamics::Six;
+use crate::spatial::{Mat3, Pose, Vec3};
+
+/// Which motions a joint leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// None.
+    Weld,
+    /// A turn about z.
+    Revolute,
+    /// A slide along z.
+    Prismatic,
+    /// A turn about x of the parent's frame, then about y of the child's.
+    Universal,
+    /// Any turn.
+    Ball,
+    /// Slides along x and y, a turn about z.
+    Planar,
+    /// Everything.
+    Free,
+}
+
+/// Largest number of coordinates of a joint.
+pub(crate) const MOST: usize = 6;
+
+/// Coordinates of a joint: the first [`JointKind::freedom`] count.
+pub(crate) type Coordinates = [f64; MOST];
+
+/// Frames of a joint at one instant, world axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frames {
+    /// `world_from_P`.
+    pub(crate) parent: Pose,
+    /// `world_from_C`.
+    pub(crate) child: Pose,
+}
+
+impl JointKind {
+    /// Number of coordinates.
+    #[must_use]
+    pub fn freedom(self) -> usize {
+        match self {
+            JointKind::Weld => 0,
+            JointKind::Revolute | JointKind::Prismatic => 1,
+            JointKind::Universal => 2,
+            JointKind::Ball | JointKind::Planar => 3,
+            JointKind::Free => 6,
+        }
+    }
+
+    /// Whether a coordinate is an angle [rad] rather than a distance [m].
+    #[must_use]
+    pub fn turns(self, coordinate: usize) -> bool {
+        match self {
+            JointKind::Weld | JointKind::Prismatic => false,
+            JointKind::Revolute | JointKind::Universal | JointKind::Ball => true,
+            JointKind::Planar => coordinate == 2,
+            JointKind::Free => coordinate < 3,
+        }
+    }
+
+    /// Names of the coordinates, for a joint's own name to precede.
+    #[must_use]
+    pub fn coordinate_names(self) -> &'static [&'static str] {
+        match self {
+            JointKind::Weld => &[],
+            JointKind::Revolute => &["angle"],
+            JointKind::Prismatic => &["distance"],
+            JointKind::Universal => &["angle_x", "angle_y"],
+            JointKind::Ball => &["turn_x", "turn_y", "turn_z"],
+            JointKind::Planar => &["distance_x", "distance_y", "angle_z"],
+            JointKind::Free => &["turn_x", "turn_y", "turn_z", "place_x", "place_y", "place_z"],
+        }
+    }
+
+    /// T of these coordinates.
+    pub(crate) fn parent_from_child(self, q: &Coordinates) -> Pose {
+        let turn = |rotation| Pose { rotation, translation: Vec3::zeros() };
+        match self {
+            JointKind::Weld => Pose::IDENTITY,
+            JointKind::Revolute => turn(about_z(q[0])),
+            JointKind::Prismatic => Pose::at(Vec3::new(0.0, 0.0, q[0])),
+            JointKind::Universal => turn(rotation(&Vec3::new(q[0], 0.0, 0.0)) * rotation(&Vec3::new(0.0, q[1], 0.0))),
+            JointKind::Ball => turn(rotation(&Vec3::new(q[0], q[1], q[2]))),
+            JointKind::Planar => Pose { rotation: about_z(q[2]), translation: Vec3::new(q[0], q[1], 0.0) },
+            JointKind::Free => Pose {
+                rotation: rotation(&Vec3::new(q[0], q[1], q[2])),
+                translation: Vec3::new(q[3], q[4], q[5]),
+            },
+        }
+    }
+
+    /// Coordinates of a T that may have drifted; angles are those nearest to `last`.
+    pub(crate) fn coordinates(self, t: &Pose, last: &[f64]) -> Coordinates {
+        let (r, p) = (&t.rotation, &t.translation);
+        let near = |angle: f64, k: usize| nearest_turn(angle, last.get(k).copied().unwrap_or(0.0));
+        let mut q = [0.0; MOST];
+        match self {
+            JointKind::Weld => {}
+            JointKind::Revolute => q[0] = near(f64::atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 0),
+            JointKind::Prismatic => q[0] = p.z,
+            // R_x(a) R_y(b): third column is (sin b, -sin a cos b, cos a cos b), second is (0, cos a, sin a).
+            JointKind::Universal => {
+                q[0] = near(f64::atan2(r[(2, 1)], r[(1, 1)]), 0);
+                q[1] = near(f64::atan2(r[(0, 2)], r[(0, 0)]), 1);
+            }
+            JointKind::Ball => q[..3].copy_from_slice(rotation_vector(r).as_slice()),
+            JointKind::Planar => {
+                (q[0], q[1]) = (p.x, p.y);
+                q[2] = near(f64::atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 2);
+            }
+            JointKind::Free => {
+                q[..3].copy_from_slice(rotation_vector(r).as_slice());
+                q[3..].copy_from_slice(p.as_slice());
+            }
+        }
+        q
+    }
+
+    /// T without its drift: the nearest one that the joint allows.
+    pub(crate) fn seated(self, t: &Pose, last: &[f64]) -> Pose {
+        match self {
+            // No way through angles where nothing is held of the rotation.
+            JointKind::Ball => Pose { rotation: t.rotation, translation: Vec3::zeros() },
+            JointKind::Free => *t,
+            _ => self.parent_from_child(&self.coordinates(t, last)),
+        }
+    }
+
+    /// S, world axes, as motions of a mass centre that lies at `to_center` from the origin of C.
+    pub(crate) fn directions(self, frames: &Frames, to_center: &Vec3) -> [Six; MOST] {
+        let turn = |e: Vec3| {
+            let v = e.cross(to_center);
+            Six::new(e.x, e.y, e.z, v.x, v.y, v.z)
+        };
+        let slide = |e: Vec3| Six::new(0.0, 0.0, 0.0, e.x, e.y, e.z);
+        let p = |k: usize| frames.parent.rotation.column(k).into_owned();
+        let mut s = [Six::zeros(); MOST];
+        match self {
+            JointKind::Weld => {}
+            JointKind::Revolute => s[0] = turn(p(2)),
+            JointKind::Prismatic => s[0] = slide(p(2)),
+            JointKind::Universal => (s[0], s[1]) = (turn(p(0)), turn(frames.child.rotation.column(1).into_owned())),
+            JointKind::Ball => (s[0], s[1], s[2]) = (turn(p(0)), turn(p(1)), turn(p(2))),
+            JointKind::Planar => (s[0], s[1], s[2]) = (slide(p(0)), slide(p(1)), turn(p(2))),
+            JointKind::Free => {
+                s = [turn(p(0)), turn(p(1)), turn(p(2)), slide(p(0)), slide(p(1)), slide(p(2))];
+            }
+        }
+        s
+    }
+
+    /// Held directions, as axes in world: rotations that the joint forbids, then translations.
+    pub(crate) fn held(self, frames: &Frames) -> (Vec<Vec3>, Vec<Vec3>) {
+        let [x, y, z] = [0, 1, 2].map(|k| frames.parent.rotation.column(k).into_owned());
+        match self {
+            JointKind::Weld => (vec![x, y, z], vec![x, y, z]),
+            JointKind::Revolute => (vec![x, y], vec![x, y, z]),
+            JointKind::Prismatic => (vec![x, y, z], vec![x, y]),
+            JointKind::Universal => {
+                let normal = x.cross(&frames.child.rotation.column(1));
+                (normal.try_normalize(1e-9).into_iter().collect(), vec![x, y, z])
+            }
+            JointKind::Ball => (vec![], vec![x, y, z]),
+            JointKind::Planar => (vec![x, y], vec![z]),
+            JointKind::Free => (vec![], vec![]),
+        }
+    }
+}
+
+/// How a child has drifted: the turn [rad] and shift [m] of C, world axes, from where the joint would have it.
+pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Vec3) {
+    let t = frames.parent.inverse() * frames.child;
+    let seat = frames.parent * kind.seated(&t, last);
+    let turn = rotation_vector(&(frames.child.rotation * seat.rotation.transpose()));
+    (turn, frames.child.translation - seat.translation)
+}
+
+/// exp of a rotation vector [rad] (Rodrigues).
+pub(crate) fn rotation(v: &Vec3) -> Mat3 {
+    let squared = v.norm_squared();
+    // sin θ/θ and (1 - cos θ)/θ²; below 1e-4 rad the next terms of the series are under 1e-17.
+    let (a, b) = if squared < 1e-8 {
+        (1.0 - squared / 6.0, 0.5 - squared / 24.0)
+    } else {
+        let angle = squared.sqrt();
+        let (sin, cos) = angle.sin_cos();
+        (sin / angle, (1.0 - cos) / squared)
+    };
+    let k = v.cross_matrix();
+    Mat3::identity() + k * a + k * k * b
+}
+
+fn about_z(angle: f64) -> Mat3 {
+    let (sin, cos) = angle.sin_cos();
+    Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// log of a rotation: a vector of length at most π [rad].
+pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
+    let twice_sine = Vec3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+    let sine = 0.5 * twice_sine.norm();
+    let cosine = 0.5 * (r.trace() - 1.0);
+    let angle = sine.atan2(cosine);
+    if sine > 1e-6 {
+        return twice_sine * (0.5 * angle / sine);
+    }
+    if cosine > 0.0 {
+        return twice_sine * 0.5;
+    }
+    // Near half a turn: the axis is the largest column of R + 1 = 2 u uᵀ.
+    let m = r + Mat3::identity();
+    let k = (0..3).max_by(|a, b| m[(*a, *a)].total_cmp(&m[(*b, *b)])).unwrap_or(0);
+    m.column(k).into_owned().try_normalize(0.0).map_or(Vec3::zeros(), |u| u * angle)
+}
+
+/// R (3 - RᵀR)/2: one Newton step back to a rotation; rounding grows by no more than it undoes.
+pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
+    r * (Mat3::identity() * 3.0 - r.transpose() * r) * 0.5
+}
+
+fn nearest_turn(angle: f64, last: f64) -> f64 {
+    angle + std::f64::consts::TAU * ((last - angle) / std::f64::consts::TAU).round()
+}

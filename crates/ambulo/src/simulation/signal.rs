@@ -1,0 +1,72 @@
+//! Functions of time that drives, motors and obstacles follow.
+
+use crate::numerics::NaturalSpline;
+use std::f64::consts::TAU;
+
+/// A function of time [s], twice differentiable; values in rad or m.
+#[derive(Debug, Clone)]
+pub enum Signal {
+    /// Always the same.
+    Constant(f64),
+    /// offset + amplitude sin(2π frequency t + phase).
+    Sine {
+        /// Half the distance between the extremes.
+        amplitude: f64,
+        /// Cycles a second [Hz].
+        frequency_hz: f64,
+        /// At time zero [rad].
+        phase: f64,
+        /// The middle.
+        offset: f64,
+    },
+    /// At rest at each instant (time [s], value), times rising; quintics between, with zero velocity and acceleration at
+    /// their ends; constant outside.
+    Stops(Vec<(f64, f64)>),
+    /// A natural spline and the time of the spline at which the scene begins [s]; held constant outside it.
+    Spline(NaturalSpline, f64),
+}
+
+impl Signal {
+    /// Value, first and second derivative.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        match self {
+            Signal::Constant(value) => [*value, 0.0, 0.0],
+            Signal::Sine { amplitude, frequency_hz, phase, offset } => {
+                let omega = TAU * frequency_hz;
+                let (sin, cos) = (omega * t + phase).sin_cos();
+                [offset + amplitude * sin, amplitude * omega * cos, -amplitude * omega * omega * sin]
+            }
+            Signal::Stops(stops) => between_stops(stops, t),
+            Signal::Spline(spline, start) => {
+                let (first, last) = (spline.times().first(), spline.times().last());
+                match (first, last) {
+                    (Some(first), _) if t + start < *first => [spline.value(*first), 0.0, 0.0],
+                    (_, Some(last)) if t + start > *last => [spline.value(*last), 0.0, 0.0],
+                    _ => spline.value_and_two_derivatives(t + start),
+                }
+            }
+        }
+    }
+}
+
+/// x(s) = x0 + (x1 - x0) (10 s³ - 15 s⁴ + 6 s⁵), s from 0 to 1: zero velocity and acceleration at both ends.
+fn between_stops(stops: &[(f64, f64)], t: f64) -> [f64; 3] {
+    let after = stops.partition_point(|(time, _)| *time <= t);
+    let (Some((_, last)), Some((_, first))) = (stops.last(), stops.first()) else { return [0.0; 3] };
+    if after == 0 {
+        return [*first, 0.0, 0.0];
+    }
+    if after == stops.len() {
+        return [*last, 0.0, 0.0];
+    }
+    let ((t0, x0), (t1, x1)) = (stops[after - 1], stops[after]);
+    let (span, rise) = (t1 - t0, x1 - x0);
+    let s = (t - t0) / span;
+    let (s2, s3) = (s * s, s * s * s);
+    [
+        x0 + rise * s3 * (10.0 - 15.0 * s + 6.0 * s2),
+        rise * 30.0 * s2 * (1.0 - 2.0 * s + s2) / span,
+        rise * 60.0 * s * (1.0 - 3.0 * s + 2.0 * s2) / (span * span),
+    ]
+}

@@ -1,0 +1,303 @@
+//! Where surfaces touch in a step, and the rows that this makes.
+//!
+//! A rigid contact asks at velocity level that its gap g stay open to the end of the step,
+//!
+//!   u_n ≥ -max(g, 0)/h          or, where surfaces meet faster than resting contact does, u_n ≥ -e u_n⁻
+//!
+//! What overlap there is, position projection removes. A regularised contact is the same row with the compliance of a
+//! spring k and a damper d taken implicitly, F = -k (g + h u) - d u:
+//!
+//!   R = 1 / (h (h k + d))          target = -h k g R
+//!
+//! A Hunt-Crossley contact is that with k, d the slopes of its law at the start of the step and F its force there; its
+//! friction is a damper whose constant is the secant |F_t|/|v| of the law.
+//!
+//! Source: Faure, Debunne, Cani, Multon 1997, section 3.3 (contact as a joint that is destroyed when it would pull;
+//! restitution zero by default).
+
+use super::state::{RowKey, State};
+use super::world::{ContactLaw, Material, Owner, Surface, World};
+use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
+use crate::dynamics::{Acting, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
+use crate::spatial::{Pose, Twist, Vec3};
+
+/// Surfaces nearer than this are looked at even if nothing moves [m].
+const MARGIN_M: f64 = 1e-4;
+/// Slip below which the secant of smooth friction is taken at its start [m/s].
+const STILL_M_S: f64 = 1e-6;
+
+/// One point of contact in a step.
+#[derive(Debug, Clone)]
+pub(crate) struct Touch {
+    /// Surfaces.
+    pub(crate) surfaces: (usize, usize),
+    /// Geometry; the normal points from the second surface to the first.
+    pub(crate) at: ContactPoint,
+    /// Tangents; with the normal a right-handed frame (normal, first, second).
+    pub(crate) tangents: [Vec3; 2],
+    /// Group of rows of the normal force (and of friction, unless soft).
+    pub(crate) group: usize,
+    /// Group of friction of a Hunt-Crossley contact.
+    pub(crate) friction_group: Option<usize>,
+    /// Normal velocity of the second surface itself, where that is an obstacle [m/s].
+    pub(crate) surface_speed: f64,
+    /// Whether overlap is to be projected out.
+    pub(crate) rigid: bool,
+}
+
+/// Scratch of detection.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TouchWorkspace {
+    pub(crate) touches: Vec<Touch>,
+    boxes: Vec<Option<(Vec3, Vec3)>>,
+    poses: Vec<Pose>,
+    pairs: Vec<(usize, usize)>,
+    points: Vec<ContactPoint>,
+}
+
+/// Poses and twists of obstacles at an instant.
+pub(crate) type ObstacleMotion = Vec<(Pose, Twist)>;
+
+impl TouchWorkspace {
+    /// Finds all points where surfaces are, or within the step could come, in touch.
+    pub(crate) fn detect(&mut self, world: &World, state: &State, obstacles: &ObstacleMotion, step_s: f64) {
+        self.touches.clear();
+        if world.surfaces.is_empty() {
+            return;
+        }
+        self.poses.clear();
+        self.boxes.clear();
+        for surface in &world.surfaces {
+            let (owner, speed) = owner_motion(state, obstacles, surface);
+            let pose = owner * surface.owner_from_shape;
+            let reach = Vec3::repeat(MARGIN_M + step_s * speed);
+            self.boxes.push(surface.shape.bounding(&pose).map(|(low, high)| (low - reach, high + reach)));
+            self.poses.push(pose);
+        }
+        let apart = |a: usize, b: usize| may_touch(world, &world.surfaces[a], &world.surfaces[b]);
+        candidate_pairs(&self.boxes, apart, &mut self.pairs);
+        for &(a, b) in &self.pairs {
+            let (first, second) = (&world.surfaces[a], &world.surfaces[b]);
+            let speed = owner_motion(state, obstacles, first).1 + owner_motion(state, obstacles, second).1;
+            self.points.clear();
+            let reach = MARGIN_M + step_s * speed;
+            contacts(&first.shape, &self.poses[a], &second.shape, &self.poses[b], reach, &mut self.points);
+            self.touches.extend(self.points.iter().map(|point| Touch {
+                surfaces: (a, b),
+                at: *point,
+                tangents: tangents(&point.normal),
+                group: 0,
+                friction_group: None,
+                surface_speed: 0.0,
+                rigid: true,
+            }));
+        }
+    }
+
+    /// Adds the rows of all touches to the graph, dropping those that ask nothing of this step.
+    pub(crate) fn add_rows(
+        &mut self,
+        world: &World,
+        state: &State,
+        obstacles: &ObstacleMotion,
+        step_s: f64,
+        graph: &mut ConstraintGraph,
+        keys: &mut Vec<RowKey>,
+    ) {
+        self.touches.retain_mut(|touch| {
+            let mut rows = Rows { world, state, obstacles, step_s, graph, keys };
+            rows.add(touch)
+        });
+    }
+}
+
+struct Rows<'a> {
+    world: &'a World,
+    state: &'a State,
+    obstacles: &'a ObstacleMotion,
+    step_s: f64,
+    graph: &'a mut ConstraintGraph,
+    keys: &'a mut Vec<RowKey>,
+}
+
+impl Rows<'_> {
+    fn add(&mut self, touch: &mut Touch) -> bool {
+        let (a, b) = touch.surfaces;
+        let (first, second) = (&self.world.surfaces[a], &self.world.surfaces[b]);
+        let material = combined(&self.world.materials[first.material], &self.world.materials[second.material]);
+        // A body comes first.
+        let flipped = matches!(first.owner, Owner::Obstacle(_));
+        let sign = if flipped { -1.0 } else { 1.0 };
+        let (one, other) = if flipped { (second, first) } else { (first, second) };
+        let Owner::Body(body) = one.owner else { return false };
+        let on = match other.owner {
+            Owner::Body(second) => Acting::Bodies { first: body, second: Some(second) },
+            Owner::Obstacle(_) => Acting::Bodies { first: body, second: None },
+        };
+        let directions = [touch.at.normal, touch.tangents[0], touch.tangents[1]];
+        let mut rows = directions.map(|d| self.row(touch.at.point, d * sign, body, other));
+        let u = rows.map(|row| self.velocity(&row, on) - row.target);
+        touch.surface_speed = rows[0].target;
+        let h = self.step_s;
+        let gap = touch.at.gap;
+        let feature = touch.at.feature;
+        match material.law {
+            ContactLaw::Rigid => {
+                // Faster than what gravity gives within a few steps is an impact.
+                let resting = 4.0 * h * self.world.gravity.norm();
+                let bounces = material.restitution > 0.0 && u[0] < -resting;
+                if bounces && gap > 0.0 {
+                    return false;
+                }
+                touch.rigid = !bounces;
+                rows[0].target += if bounces { -material.restitution * u[0] } else { -gap.max(0.0) / h };
+            }
+            ContactLaw::Regularised { stiffness, damping } => {
+                touch.rigid = false;
+                rows[0].compliance = 1.0 / (h * (h * stiffness + damping));
+                rows[0].target -= h * stiffness * gap * rows[0].compliance;
+            }
+            ContactLaw::HuntCrossley(law) => {
+                touch.rigid = false;
+                return self.add_soft(touch, &law, rows, u, on, (a, b));
+            }
+        }
+        touch.group = self.push(&rows, on, Law::Contact { friction: material.friction, bound: f64::INFINITY });
+        self.keys.push(RowKey::Contact(a, b, feature));
+        true
+    }
+
+    /// One row: the velocity of the first body's point against the second owner's along a direction.
+    fn row(&self, point: Vec3, direction: Vec3, body: usize, other: &Surface) -> Constraint {
+        let at = |center: Vec3| {
+            let moment = (point - center).cross(&direction);
+            Six::new(moment.x, moment.y, moment.z, direction.x, direction.y, direction.z)
+        };
+        let on_first = at(self.state.poses[body].translation);
+        match other.owner {
+            Owner::Body(second) => Constraint {
+                on_first,
+                on_second: -at(self.state.poses[second].translation),
+                target: 0.0,
+                compliance: 0.0,
+            },
+            Owner::Obstacle(obstacle) => {
+                let (pose, twist) = &self.obstacles[obstacle];
+                let target = direction.dot(&twist.velocity_at(point - pose.translation));
+                Constraint { on_first, on_second: Six::zeros(), target, compliance: 0.0 }
+            }
+        }
+    }
+
+    /// J v before the step.
+    fn velocity(&self, row: &Constraint, on: Acting) -> f64 {
+        let of = |body: usize, j: &Six| {
+            let t = &self.state.twists[body];
+            Vec3::new(j[0], j[1], j[2]).dot(&t.angular) + Vec3::new(j[3], j[4], j[5]).dot(&t.linear)
+        };
+        match on {
+            Acting::Bodies { first, second } => {
+                of(first, &row.on_first) + second.map_or(0.0, |s| of(s, &row.on_second))
+            }
+            Acting::Coordinate { .. } => 0.0,
+        }
+    }
+
+    fn push(&mut self, rows: &[Constraint], on: Acting, law: Law) -> usize {
+        let start = self.graph.rows.len();
+        self.graph.rows.extend_from_slice(rows);
+        self.graph.groups.push(ConstraintGroup { on, rows: start..start + rows.len(), law });
+        self.graph.groups.len() - 1
+    }
+
+    /// A Hunt-Crossley contact: one row that pushes, two that rub.
+    fn add_soft(
+        &mut self,
+        touch: &mut Touch,
+        law: &HuntCrossley,
+        mut rows: [Constraint; 3],
+        u: [f64; 3],
+        on: Acting,
+        (a, b): (usize, usize),
+    ) -> bool {
+        let h = self.step_s;
+        let surfaces = [&self.world.surfaces[a], &self.world.surfaces[b]];
+        let radius = surfaces.iter().filter_map(|s| s.shape.radius()).fold(f64::INFINITY, f64::min);
+        let (depth, rate) = (-touch.at.gap, -u[0]);
+        if !radius.is_finite() || depth <= 0.0 {
+            return false;
+        }
+        let slip = Vec3::new(u[1], u[2], 0.0);
+        let (force, friction) = law.force(radius, depth, rate, slip);
+        // Slopes by differences: a micrometre and a millimetre a second are far below where the law bends.
+        let stiffness = ((law.force(radius, depth + 1e-7, rate, slip).0 - force) / 1e-7).max(0.0);
+        let damping = ((law.force(radius, depth, rate + 1e-5, slip).0 - force) / 1e-5).max(0.0);
+        let yields = h * (h * stiffness + damping);
+        if force <= 0.0 || yields <= 0.0 {
+            return false;
+        }
+        let compliance = 1.0 / yields;
+        rows[0].compliance = compliance;
+        rows[0].target += compliance * h * (force + damping * u[0]);
+        touch.group = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
+        self.keys.push(RowKey::Contact(a, b, touch.at.feature));
+        let speed = slip.norm();
+        let secant = if speed > STILL_M_S {
+            friction.norm() / speed
+        } else {
+            law.force(radius, depth, rate, Vec3::new(STILL_M_S, 0.0, 0.0)).1.norm() / STILL_M_S
+        };
+        if secant > 0.0 {
+            for row in &mut rows[1..] {
+                row.compliance = 1.0 / (h * secant);
+            }
+            touch.friction_group = Some(self.push(&rows[1..], on, Law::HELD));
+            self.keys.push(RowKey::SoftFriction(a, b, touch.at.feature));
+        }
+        true
+    }
+}
+
+/// Pose of a surface's owner and a bound on the speed of the surface's points [m/s].
+fn owner_motion(state: &State, obstacles: &ObstacleMotion, surface: &Surface) -> (Pose, f64) {
+    let (pose, twist) = match surface.owner {
+        Owner::Body(body) => (state.poses[body], state.twists[body]),
+        Owner::Obstacle(obstacle) => obstacles[obstacle],
+    };
+    let arm = surface.shape.bounding(&surface.owner_from_shape).map_or(0.0, |(low, high)| low.abs().sup(&high.abs()).norm());
+    (pose, twist.linear.norm() + arm * twist.angular.norm())
+}
+
+fn may_touch(world: &World, a: &Surface, b: &Surface) -> bool {
+    let joined = |x: usize, y: usize| {
+        world.joints.iter().any(|j| (j.child == x && j.parent == Some(y)) || (j.child == y && j.parent == Some(x)))
+    };
+    let ignored = || world.ignored.iter().any(|p| *p == (a.owner, b.owner) || *p == (b.owner, a.owner));
+    match (a.owner, b.owner) {
+        (Owner::Obstacle(_), Owner::Obstacle(_)) => false,
+        (Owner::Body(x), Owner::Body(y)) => x != y && !joined(x, y) && !ignored(),
+        _ => !ignored(),
+    }
+}
+
+fn combined(a: &Material, b: &Material) -> Material {
+    let law = match (a.law, b.law) {
+        (ContactLaw::Rigid, other) | (other, ContactLaw::Rigid) => other,
+        (ContactLaw::HuntCrossley(law), _) | (_, ContactLaw::HuntCrossley(law)) => ContactLaw::HuntCrossley(law),
+        // Springs in series.
+        (
+            ContactLaw::Regularised { stiffness: k1, damping: d1 },
+            ContactLaw::Regularised { stiffness: k2, damping: d2 },
+        ) => ContactLaw::Regularised { stiffness: k1 * k2 / (k1 + k2), damping: d1.min(d2) },
+    };
+    Material { friction: (a.friction * b.friction).sqrt(), restitution: a.restitution.max(b.restitution), law }
+}
+
+/// Two unit vectors that make a right-handed frame with a unit normal (Duff et al. 2017, "Building an orthonormal basis,
+/// revisited", unverified page).
+fn tangents(n: &Vec3) -> [Vec3; 2] {
+    let sign = 1.0_f64.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    [Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y)]
+}
