@@ -14,7 +14,7 @@
 
 use super::joint::{JointKind, MOST, rotation_vector};
 use super::state::{RowKey, State};
-use super::world::{Joint, JointCoordinate, World};
+use super::world::{Closure, Joint, JointCoordinate, World};
 use crate::dynamics::{
     Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows,
 };
@@ -26,7 +26,9 @@ pub(crate) type Yielding = Vec<(usize, usize, f64)>;
 /// A coordinate of the graph.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slot {
-    pub(crate) joint: usize,
+    pub(crate) body: usize,
+    /// None for a body without a joint.
+    pub(crate) joint: Option<usize>,
     pub(crate) coordinate: usize,
 }
 
@@ -42,8 +44,6 @@ pub(crate) struct Assembly {
     pub(crate) directions: Vec<[Six; MOST]>,
     /// Joint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
-    /// Groups of rows before contacts.
-    pub(crate) closures: usize,
 }
 
 /// Poses of the bodies of every figure at one instant, as its recording has them.
@@ -74,23 +74,17 @@ impl Assembly {
         yielding: &Yielding,
         step_s: f64,
     ) {
-        self.graph.clear();
-        self.keys.clear();
-        self.slots.clear();
-        self.directions.clear();
-        self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
-        self.joint_of = world.joint_of_body();
+        self.begin(world);
         for body in 0..world.bodies.len() {
             self.add_body(world, state, body, step_s);
             match self.joint_of[body] {
                 Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, step_s),
-                None => self.add_free(),
+                None => self.add_free(body),
             }
         }
         for slot in 0..self.slots.len() {
             self.add_coordinate(world, state, yielding, slot, step_s);
         }
-        self.closures = 0;
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
             let frames = super::joint::Frames {
@@ -98,15 +92,27 @@ impl Assembly {
                 child: state.poses[closure.first] * closure.first_from_joint,
             };
             let centers = (state.poses[closure.first].translation, closure.second.map(|p| state.poses[p].translation));
-            let rows = closing_rows(closure.kind, &frames, centers);
-            let start = self.graph.rows.len();
-            let on = Acting::Bodies { first: closure.first, second: closure.second };
-            let count = rows.len();
-            self.graph.rows.extend(rows);
-            self.graph.groups.push(ConstraintGroup { on, rows: start..start + count, law: Law::HELD });
-            self.keys.push(RowKey::Closure(number));
-            self.closures += 1;
+            self.close(number, closure, closing_rows(closure.kind, &frames, centers));
         }
+    }
+
+    /// Empties everything but the memory.
+    pub(crate) fn begin(&mut self, world: &World) {
+        self.graph.clear();
+        self.keys.clear();
+        self.slots.clear();
+        self.directions.clear();
+        self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
+        self.joint_of = world.joint_of_body();
+    }
+
+    /// Adds the rows of a closure.
+    pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: Vec<Constraint>) {
+        let start = self.graph.rows.len();
+        self.graph.rows.extend(rows);
+        let on = Acting::Bodies { first: closure.first, second: closure.second };
+        self.graph.groups.push(ConstraintGroup { on, rows: start..self.graph.rows.len(), law: Law::HELD });
+        self.keys.push(RowKey::Closure(number));
     }
 
     fn add_body(&mut self, world: &World, state: &State, body: usize, h: f64) {
@@ -119,7 +125,7 @@ impl Assembly {
         self.graph.wrenches.push(Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z));
     }
 
-    fn add_free(&mut self) {
+    fn add_free(&mut self, body: usize) {
         self.graph.links.push(Link { parent: None, freedom: 6 });
         self.graph.terms.arm.push(Vec3::zeros());
         self.graph.terms.offset.push(Six::zeros());
@@ -129,7 +135,7 @@ impl Assembly {
             self.graph.terms.directions.push(direction);
             self.graph.efforts.push(0.0);
             self.graph.rotors.push(0.0);
-            self.slots.push(Slot { joint: usize::MAX, coordinate: k });
+            self.slots.push(Slot { body, joint: None, coordinate: k });
         }
     }
 
@@ -167,7 +173,7 @@ impl Assembly {
             self.graph.terms.directions.push(directions[k]);
             self.graph.efforts.push(0.0);
             self.graph.rotors.push(0.0);
-            self.slots.push(Slot { joint: number, coordinate: k });
+            self.slots.push(Slot { body: joint.child, joint: Some(number), coordinate: k });
         }
         self.graph.links.push(Link { parent: joint.parent, freedom });
         self.graph.terms.offset.push(offset);
@@ -176,8 +182,8 @@ impl Assembly {
 
     /// Springs, motors, limits and friction of one coordinate.
     fn add_coordinate(&mut self, world: &World, state: &State, yielding: &Yielding, slot: usize, h: f64) {
-        let Slot { joint: number, coordinate } = self.slots[slot];
-        let Some(joint) = world.joints.get(number) else { return };
+        let Slot { joint: Some(number), coordinate, .. } = self.slots[slot] else { return };
+        let joint = &world.joints[number];
         let acting: &JointCoordinate = &joint.coordinates[coordinate];
         let q = state.coordinates[number][coordinate];
         if acting.rotor > 0.0 {

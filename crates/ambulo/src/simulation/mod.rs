@@ -6,6 +6,7 @@ mod forces;
 mod joint;
 mod rates;
 mod signal;
+mod smooth;
 mod state;
 mod step;
 mod touch;

@@ -113,6 +113,18 @@ pub struct JointCoordinate {
     pub rotor: f64,
 }
 
+impl JointCoordinate {
+    /// Effort of spring, damper and motor at a value and rate, at an instant [s].
+    pub(crate) fn smooth_effort(&self, q: f64, rate: f64, t: f64) -> f64 {
+        let spring = self.spring.map_or(0.0, |s| s.stiffness * (s.rest - q) - s.damping * rate);
+        let motor = self.motor.as_ref().map_or(0.0, |m| {
+            let [target, target_rate, _] = m.target.at(t);
+            (m.kp * (target - q) + m.kd * (target_rate - rate)).clamp(-m.max, m.max)
+        });
+        spring + motor
+    }
+}
+
 /// Prescribed motion of a coordinate.
 #[derive(Debug, Clone)]
 pub struct Drive {
