@@ -1,1 +1,18 @@
 //! Where bodies touch, the Coulomb cone, rigid and compliant laws.
+
+mod height_field;
+mod polytope;
+mod shape;
+
+mod broad_phase;
+mod detect;
+mod round;
+mod segment;
+mod separating_axis;
+
+mod compliant;
+
+pub use broad_phase::candidate_pairs;
+pub use compliant::{HuntCrossley, HuntCrossleyError};
+pub use detect::{ContactPoint, contacts};
+pub use shape::{Shape, ShapeError};

@@ -1,0 +1,162 @@
+//! Soft contact of a sphere and a plane: Hertz' spring, Hunt and Crossley's damping, friction smoothed over slip.
+//!
+//!   k = E^(2/3) / 2
+//!   F_h = 4/3 k √(R k) (d² + ε)^(3/4)
+//!   F_n = F_h (1 + 3/2 c d') · (tanh(b_v (d' + 1/(3/2 c))) + 1)/2 · (tanh(b_d d) + 1)/2
+//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip
+//!
+//! | code                  | symbol | unit   | meaning                                                           |
+//! | `stiffness`           | E      | N/m²   | plane-strain modulus                                              |
+//! | `dissipation`         | c      | s/m    | c d' is the share of damping in the force, over 3/2               |
+//! | `static_friction`     | μ_s    | 1      | reached at v = v_t                                                |
+//! | `dynamic_friction`    | μ_d    | 1      | at slip far above v_t                                             |
+//! | `viscous_friction`    | μ_v    | s/m    | grows with slip                                                   |
+//! | `transition_velocity` | v_t    | m/s    | below it, friction falls with slip to zero                        |
+//! | `depth_offset`        | ε      | m²     | rounds off the spring at d = 0                                    |
+//! | `depth_slope`         | b_d    | 1/m    | how steeply the force comes in with depth                         |
+//! | `rate_slope`          | b_v    | s/m    | how steeply it goes where the surfaces part faster than 1/(3/2 c) |
+//! | `radius`              | R      | m      | of the sphere                                                     |
+//! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                            |
+//! | `slip`                | v      | m/s    | velocity of the sphere's surface against the plane, along it      |
+//!
+//! As published, the law pushes a little before the surfaces meet: tanh(b_d d) leaves some force for d < 0. Here no
+//! force acts unless d > 0, and none is negative. The price is a step at d = 0 of half of F_h(0), which ε makes as
+//! large as F_h of 3.2 mm without ε: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no
+//! step.
+//!
+//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; 3dpredictsim `Contact/HCContactModel.m`. The sets of parameters
+//! name their own files.
+//! Cost: constant.
+//! Not handled: radii that change over the contact; several spheres share no load.
+//! Pinned by: tests/contact_geometry.rs
+
+use crate::spatial::Vec3;
+
+/// Parameters of the law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HuntCrossley {
+    /// Plane-strain modulus E [N/m²].
+    pub stiffness: f64,
+    /// c [s/m].
+    pub dissipation: f64,
+    /// μ_s.
+    pub static_friction: f64,
+    /// μ_d.
+    pub dynamic_friction: f64,
+    /// μ_v [s/m].
+    pub viscous_friction: f64,
+    /// v_t [m/s].
+    pub transition_velocity: f64,
+    /// ε [m²].
+    pub depth_offset: f64,
+    /// b_d [1/m].
+    pub depth_slope: f64,
+    /// b_v [s/m].
+    pub rate_slope: f64,
+}
+
+/// A parameter that the law cannot have.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{parameter} is {found} {unit}; expected a finite number, {least}")]
+pub struct HuntCrossleyError {
+    parameter: &'static str,
+    found: f64,
+    unit: &'static str,
+    least: &'static str,
+}
+
+impl HuntCrossley {
+    /// opencap-processing `Moco/models/LaiArnoldModified2017_contacts.osim` and PredSim `Subjects/Falisse_et_al_2022`:
+    /// six spheres a foot (four on the calcaneus, two on the toes) of 32 mm.
+    pub const FALISSE_2022: HuntCrossley = HuntCrossley {
+        stiffness: 1e6,
+        dissipation: 2.0,
+        static_friction: 0.8,
+        dynamic_friction: 0.8,
+        viscous_friction: 0.5,
+        transition_velocity: 0.2,
+        // Defaults of the class in opensim-core.
+        depth_offset: 1e-5,
+        depth_slope: 300.0,
+        rate_slope: 50.0,
+    };
+    /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres a foot, 35 mm at the heel and 15 mm in front.
+    pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
+    /// opensim-models `WalkerModel.osim`: spheres of 50 mm.
+    pub const WALKER_MODEL: HuntCrossley =
+        HuntCrossley { dissipation: 1.0, dynamic_friction: 0.4, viscous_friction: 0.4, ..HuntCrossley::FALISSE_2022 };
+    /// SCONE `Human0914.osim` and `H0914M_osim3.osim`: heel and toe, 30 mm. A comment in the file says 0.3 for the
+    /// dissipation that it sets to 1.
+    pub const SCONE_HUMAN_0914: HuntCrossley = HuntCrossley {
+        stiffness: 2e6,
+        dissipation: 1.0,
+        static_friction: 0.9,
+        dynamic_friction: 0.8,
+        viscous_friction: 0.6,
+        transition_velocity: 0.1,
+        ..HuntCrossley::FALISSE_2022
+    };
+
+    /// The same parameters, if the law can have them.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, or is negative; the transition velocity must be above zero.
+    pub fn checked(self) -> Result<HuntCrossley, HuntCrossleyError> {
+        let all = [
+            ("the stiffness", self.stiffness, "N/m²"),
+            ("the dissipation", self.dissipation, "s/m"),
+            ("the static friction", self.static_friction, ""),
+            ("the dynamic friction", self.dynamic_friction, ""),
+            ("the viscous friction", self.viscous_friction, "s/m"),
+            ("the depth offset", self.depth_offset, "m²"),
+            ("the depth slope", self.depth_slope, "1/m"),
+            ("the rate slope", self.rate_slope, "s/m"),
+        ];
+        for (parameter, found, unit) in all {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(HuntCrossleyError { parameter, found, unit, least: "zero or more" });
+            }
+        }
+        let found = self.transition_velocity;
+        if found > 0.0 && found.is_finite() {
+            return Ok(self);
+        }
+        Err(HuntCrossleyError { parameter: "the transition velocity", found, unit: "m/s", least: "above zero" })
+    }
+
+    /// Normal force [N], zero or more, and friction [N] on a sphere of this radius [m] whose overlap with the plane is
+    /// `depth` [m], growing by `depth_rate` [m/s], and whose surface moves along the plane with `slip` [m/s].
+    #[must_use]
+    pub fn force(&self, radius: f64, depth: f64, depth_rate: f64, slip: Vec3) -> (f64, Vec3) {
+        let normal_force = self.normal_force(radius, depth, depth_rate);
+        let speed = slip.norm();
+        if normal_force <= 0.0 || speed <= 0.0 {
+            return (normal_force, Vec3::zeros());
+        }
+        (normal_force, slip * (-normal_force * self.friction_coefficient(speed) / speed))
+    }
+
+    fn normal_force(&self, radius: f64, depth: f64, depth_rate: f64) -> f64 {
+        if depth <= 0.0 {
+            return 0.0;
+        }
+        let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
+        let hertz = 4.0 / 3.0 * k * (radius * k).sqrt() * (depth * depth + self.depth_offset).powf(0.75);
+        let c = 1.5 * self.dissipation;
+        // Without dissipation there is no speed at which the surfaces part without force.
+        let held = if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { 1.0 };
+        (hertz * (1.0 + c * depth_rate) * held * step(self.depth_slope * depth)).max(0.0)
+    }
+
+    /// |F_t| / F_n.
+    fn friction_coefficient(&self, speed: f64) -> f64 {
+        let v = speed / self.transition_velocity;
+        let (mu_s, mu_d) = (self.static_friction, self.dynamic_friction);
+        v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)) + self.viscous_friction * speed
+    }
+}
+
+/// From 0 to 1 around x = 0.
+fn step(x: f64) -> f64 {
+    0.5 * x.tanh() + 0.5
+}
