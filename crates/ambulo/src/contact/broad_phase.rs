@@ -1,7 +1,7 @@
 //! Which pairs of shapes may touch at all: sweep and prune.
 //!
-//! Boxes that overlap do so along every axis. Sorted by their low ends along the axis on which the boxes' middles spread
-//! most, each box needs to be compared only with those that begin before it ends.
+//! Boxes that overlap do so along every axis. Sorted by their low ends along the axis on which the boxes' middles
+//! spread most, each box needs to be compared only with those that begin before it ends.
 //!
 //! Source: Baraff 1992, "Dynamic simulation of non-penetrating rigid bodies" (unverified page), for the sweep.
 //! Cost: n log n for the sort, and the number of pairs that overlap along that axis.

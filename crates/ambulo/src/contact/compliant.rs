@@ -5,23 +5,24 @@
 //!   F_n = F_h (1 + 3/2 c d') · (tanh(b_v (d' + 1/(3/2 c))) + 1)/2 · (tanh(b_d d) + 1)/2
 //!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip
 //!
-//! | code                  | symbol | unit | meaning                                                        |
-//! | `stiffness`           | E      | N/m² | plane-strain modulus                                           |
-//! | `dissipation`         | c      | s/m  | c d' is the share of damping in the force, over 3/2            |
-//! | `static_friction`     | μ_s    | 1    | reached at v = v_t                                             |
-//! | `dynamic_friction`    | μ_d    | 1    | at slip far above v_t                                          |
-//! | `viscous_friction`    | μ_v    | s/m  | grows with slip                                                |
-//! | `transition_velocity` | v_t    | m/s  | below it, friction falls with slip to zero                     |
-//! | `depth_offset`        | ε      | m²   | rounds off the spring at d = 0                                 |
-//! | `depth_slope`         | b_d    | 1/m  | how steeply the force comes in with depth                      |
-//! | `rate_slope`          | b_v    | s/m  | how steeply it goes where the surfaces part faster than 1/(3/2 c) |
-//! | `radius`              | R      | m    | of the sphere                                                  |
-//! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                       |
-//! | `slip`                | v      | m/s  | velocity of the sphere's surface against the plane, along it   |
+//! | code                  | symbol | unit   | meaning                                                           |
+//! | `stiffness`           | E      | N/m²   | plane-strain modulus                                              |
+//! | `dissipation`         | c      | s/m    | c d' is the share of damping in the force, over 3/2               |
+//! | `static_friction`     | μ_s    | 1      | reached at v = v_t                                                |
+//! | `dynamic_friction`    | μ_d    | 1      | at slip far above v_t                                             |
+//! | `viscous_friction`    | μ_v    | s/m    | grows with slip                                                   |
+//! | `transition_velocity` | v_t    | m/s    | below it, friction falls with slip to zero                        |
+//! | `depth_offset`        | ε      | m²     | rounds off the spring at d = 0                                    |
+//! | `depth_slope`         | b_d    | 1/m    | how steeply the force comes in with depth                         |
+//! | `rate_slope`          | b_v    | s/m    | how steeply it goes where the surfaces part faster than 1/(3/2 c) |
+//! | `radius`              | R      | m      | of the sphere                                                     |
+//! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                            |
+//! | `slip`                | v      | m/s    | velocity of the sphere's surface against the plane, along it      |
 //!
-//! As published, the law pushes a little before the surfaces meet: tanh(b_d d) leaves some force for d < 0. Here no force
-//! acts unless d > 0, and none is negative. The price is a step at d = 0 of half of F_h(0), which ε makes as large as F_h
-//! of 3.2 mm without ε: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no step.
+//! As published, the law pushes a little before the surfaces meet: tanh(b_d d) leaves some force for d < 0. Here no
+//! force acts unless d > 0, and none is negative. The price is a step at d = 0 of half of F_h(0), which ε makes as
+//! large as F_h of 3.2 mm without ε: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no
+//! step.
 //!
 //! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; 3dpredictsim `Contact/HCContactModel.m`. The sets of parameters
 //! name their own files.
@@ -65,8 +66,8 @@ pub struct HuntCrossleyError {
 }
 
 impl HuntCrossley {
-    /// opencap-processing `Moco/models/LaiArnoldModified2017_contacts.osim` and PredSim `Subjects/Falisse_et_al_2022`: six
-    /// spheres a foot (four on the calcaneus, two on the toes) of 32 mm.
+    /// opencap-processing `Moco/models/LaiArnoldModified2017_contacts.osim` and PredSim `Subjects/Falisse_et_al_2022`:
+    /// six spheres a foot (four on the calcaneus, two on the toes) of 32 mm.
     pub const FALISSE_2022: HuntCrossley = HuntCrossley {
         stiffness: 1e6,
         dissipation: 2.0,

@@ -1,7 +1,7 @@
 //! Where two shapes touch: points midway between their surfaces, with the normal and the gap there.
 //!
-//! Closed forms, with c and r centre and radius of a sphere, n the normal towards the first shape, gap = n·(p₁ - p₂) for
-//! the points p₁, p₂ of the surfaces that face each other:
+//! Closed forms, with c and r centre and radius of a sphere, n the normal towards the first shape, gap = n·(p₁ - p₂)
+//! for the points p₁, p₂ of the surfaces that face each other:
 //!
 //! | first    | second     | gap                                       | points                                     |
 //! |----------|------------|-------------------------------------------|--------------------------------------------|
@@ -14,12 +14,12 @@
 //! | cuboid   | half-space | n·corner                                  | 8, one a corner                            |
 //! | hull     | half-space | n·corner                                  | one a corner                               |
 //!
-//! Other pairs of solids: see `separating_axis` (flat faces on flat faces), `round` (balls and capsules on flat faces) and
-//! `height_field`. Nothing is kept from one call to the next, so that a point's gap belongs to this pose and not to an
-//! earlier one.
+//! Other pairs of solids: see `separating_axis` (flat faces on flat faces), `round` (balls and capsules on flat faces)
+//! and `height_field`. Nothing is kept from one call to the next, so that a point's gap belongs to this pose and not to
+//! an earlier one.
 //!
-//! Cost: constant for closed forms, which do not allocate; two solids with flat faces allocate a few lists a call, a ball
-//! on a height field one.
+//! Cost: constant for closed forms, which do not allocate; two solids with flat faces allocate a few lists a call, a
+//! ball on a height field one.
 //! Not handled: half-spaces and height fields among themselves touch nowhere.
 //! Pinned by: tests/contact_geometry.rs
 
@@ -39,8 +39,8 @@ pub struct ContactPoint {
     pub normal: Vec3,
     /// Distance of the surfaces along the normal [m]; negative where they overlap.
     pub gap: f64,
-    /// Which features of the two shapes touch here: the same from step to step while they do, and another for each point
-    /// of a pair.
+    /// Which features of the two shapes touch here: the same from step to step while they do, and another for each
+    /// point of a pair.
     pub feature: u64,
 }
 

@@ -2,16 +2,16 @@
 //!
 //! The ground is solid below the surface, which is made of triangles; it ends at the rim. What touches:
 //!
-//! | shape               | with     | where                                                                              |
-//! |---------------------|----------|------------------------------------------------------------------------------------|
-//! | ball                | surface  | each place of least distance; below the surface, the plane of the triangle above  |
-//! | corner of a solid   | triangle | over which it lies, along the triangle's normal                                    |
-//! | edge of a solid     | ridge    | where they pass each other, if the ridge's normals and the edge's hold their cross product between them |
-//! | face of a solid     | peak     | along the face's normal, if no neighbour of the peak is higher along it             |
-//! | segment of a capsule | ridge, peak | the same, less the radius; the ends are balls                                |
+//! | shape               | with     | where                                                                            |
+//! |---------------------|----------|----------------------------------------------------------------------------------|
+//! | ball                | surface  | each place of least distance; below the surface, the plane of the triangle above |
+//! | corner of a solid   | triangle | over which it lies, along the triangle's normal                                  |
+//! | edge of a solid     | ridge    | where they pass each other, if the normal lies between those of both edges       |
+//! | face of a solid     | peak     | along the face's normal, if no neighbour of the peak is higher along it          |
+//! | length of a capsule | both     | the same, less the radius; the ends are balls                                    |
 //!
-//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys touch nothing, so
-//! nothing that slides over flat ground meets them.
+//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys touch nothing,
+//! so nothing that slides over flat ground meets them.
 //!
 //! Source: local minima of the distance between convex pieces; derived here.
 //! Cost: cells under the shape's box times corners, edges and faces of the shape.
@@ -20,7 +20,7 @@
 
 use super::polytope::Polytope;
 use super::segment::{Segment, at_share, nearest_point, nearest_share, nearest_shares};
-use super::separating_axis::{Touch, arcs_cross};
+use super::separating_axis::Touch;
 use crate::spatial::Vec3;
 use std::ops::RangeInclusive;
 
@@ -54,9 +54,12 @@ struct Ridge {
 /// Rows and columns of cells.
 type Cells = [RangeInclusive<usize>; 2];
 
-/// What bends by less than this sine is flat, and what is nearer than this share of a cell is the same place: heights and
-/// places round to 1e-16.
+/// What bends by less than this sine is flat, and what is nearer than this share of a cell is the same place: heights
+/// and places round to 1e-16.
 const FLAT: f64 = 1e-9;
+/// Sine of the angle by which a normal may lie beyond those of an edge's two faces: a box that is level on a ridge but
+/// for a few degrees touches it with both of its edges, not with the lower one alone.
+const BESIDE: f64 = 0.05;
 
 impl HeightField {
     pub(super) fn new([rows, columns]: [usize; 2], heights: Vec<f64>, size: [f64; 2]) -> HeightField {
@@ -121,7 +124,7 @@ impl HeightField {
             if let Some(touch) = touch
                 && between(s)
                 && between(t)
-                && ridge.holds(touch.outward)
+                && lies_between(touch.outward, ridge.normals)
             {
                 report(touch);
             }
@@ -153,9 +156,10 @@ impl HeightField {
         let high = solid.vertices.iter().fold(Vec3::repeat(f64::MIN), |high, v| high.sup(v)) + around;
         for ridge in self.ridges(low, high) {
             for (number, edge) in solid.net.edges.iter().enumerate() {
-                let arc = edge.faces.map(|face| -solid.faces[face].normal);
-                if arcs_cross(ridge.normals, arc)
-                    && let Some(touch) = crossing(ridge.ends, solid.ends(edge))
+                let against = edge.faces.map(|face| -solid.faces[face].normal);
+                if let Some(touch) = crossing(ridge.ends, solid.ends(edge))
+                    && lies_between(touch.outward, ridge.normals)
+                    && lies_between(touch.outward, against)
                 {
                     report(Touch { feature: [1, ridge.number, number, 0], ..touch });
                 }
@@ -288,17 +292,18 @@ impl Ridge {
             number,
         })
     }
-
-    /// Whether a direction across the ridge lies between its two normals.
-    fn holds(&self, outward: Vec3) -> bool {
-        let [n, m] = self.normals;
-        let turn = n.cross(&m);
-        n.cross(&outward).dot(&turn) >= 0.0 && outward.cross(&m).dot(&turn) >= 0.0
-    }
 }
 
-/// A ball about a point of a capsule's axis, and a point of the ground: above it or, overlapping by more than the radius,
-/// below. `None` where they coincide.
+/// Whether a direction lies on the short arc between two normals, or beyond by less than [`BESIDE`]; it is given across
+/// the edge where their faces meet.
+fn lies_between(outward: Vec3, [n, m]: [Vec3; 2]) -> bool {
+    let turn = n.cross(&m);
+    let least = -BESIDE * turn.norm();
+    n.cross(&outward).dot(&turn) >= least && outward.cross(&m).dot(&turn) >= least
+}
+
+/// A ball about a point of a capsule's axis, and a point of the ground: above it or, overlapping by more than the
+/// radius, below. `None` where they coincide.
 fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [usize; 4]) -> Option<Touch> {
     let way = core - ground;
     let distance = way.norm().copysign(way.y);

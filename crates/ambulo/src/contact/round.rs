@@ -1,10 +1,10 @@
 //! Balls and capsules on solids with flat faces.
 //!
 //! Both are what lies within a radius r of a core: a point or a segment. With δ the distance of the core from the solid
-//! (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ leads to the face over
-//! which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis: a face's normal
-//! or, for a segment with direction d, the product of d and an edge whose two faces look to both sides of the plane
-//! across d.
+//! (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ leads to the face
+//! over which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis: a face's
+//! normal or, for a segment with direction d, the product of d and an edge whose two faces look to both sides of the
+//! plane across d.
 //!
 //! A segment over a face to which n belongs touches at the two ends of what the face leaves of it, each with the gap
 //! there; along an edge likewise.
@@ -21,8 +21,8 @@ use crate::spatial::Vec3;
 /// The nearest point of a capsule is reported beside those at the ends of what a face or another capsule leaves of it
 /// only if it lies this much deeper [m]: on a flat contact it is any point of the length, and another one in each step.
 pub(super) const DEEPER: f64 = 1e-6;
-/// A face belongs to a normal at less than this angle from its own [rad], whose cosine it is: 6 degrees, at which the ends
-/// of a rod of 0.4 m differ by 40 mm in their gaps.
+/// A face belongs to a normal at less than this angle from its own [rad], whose cosine it is: 6 degrees, at which the
+/// ends of a rod of 0.4 m differ by 40 mm in their gaps.
 const FACING: f64 = 0.995;
 
 /// From a solid to a core.

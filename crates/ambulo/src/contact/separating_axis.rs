@@ -5,10 +5,10 @@
 //!   s(n) = min over b in B of n·b - max over a in A of n·a,      gap = max over unit n of s(n).
 //!
 //! The largest s of overlapping solids belongs to the normal of a face of A, of one of B, or to the cross product of an
-//! edge of each; a pair of edges counts only where the arcs of their faces' normals cross on the unit sphere, since only
-//! those make a face of B - A. For a face, the opposing face of the other solid is cut by the planes through the sides
-//! of the first; each corner left touches the face's plane with the gap n·(v - p). For edges the one point is where they
-//! pass each other.
+//! edge of each; a pair of edges counts only where the arcs of their faces' normals cross on the unit sphere, since
+//! only those make a face of B - A. For a face, the opposing face of the other solid is cut by the planes through the
+//! sides of the first; each corner left touches the face's plane with the gap n·(v - p). For edges the one point is
+//! where they pass each other.
 //!
 //! | code        | symbol | unit | meaning                                            |
 //! | `normal`    | n      | 1    | outward from the first solid, or from a face       |
@@ -131,9 +131,9 @@ fn best_edges(first: &Polytope, second: &Polytope) -> Option<(f64, Axis)> {
     best
 }
 
-/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d on two sides of the plane of a and b, a and b on
-/// two sides of the plane of c and d, and both arcs on one half of the sphere.
-pub(super) fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
+/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d on two sides of the plane of a and b, a and b
+/// on two sides of the plane of c and d, and both arcs on one half of the sphere.
+fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
     let (plane, other_plane) = (b.cross(&a), d.cross(&c));
     let (from_c, from_d) = (c.dot(&plane), d.dot(&plane));
     let (from_a, from_b) = (a.dot(&other_plane), b.dot(&other_plane));

@@ -148,7 +148,8 @@ impl Shape {
     /// Each cell is two triangles, split from (i, j + 1) to (i + 1, j).
     ///
     /// # Errors
-    /// Sizes that are not finite and above zero, heights that are not finite, or another number of them than the grid has.
+    /// Sizes that are not finite and above zero, heights that are not finite, or another number of them than the grid
+    /// has.
     pub fn height_field(
         rows: usize,
         columns: usize,
@@ -200,8 +201,8 @@ impl Shape {
         }
     }
 
-    /// Inertia of a uniform solid of this mass [kg], in the shape's frame; `None` for half-spaces and height fields, and
-    /// for a mass that is negative or not finite.
+    /// Inertia of a uniform solid of this mass [kg], in the shape's frame; `None` for half-spaces and height fields,
+    /// and for a mass that is negative or not finite.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> Option<Inertia> {
         let (center, spread) = match &self.form {
@@ -214,8 +215,8 @@ impl Shape {
         Inertia::new(mass, center, (Mat3::identity() * spread.trace() - spread) * mass).ok()
     }
 
-    /// Lowest and highest corner [m] of the axis-aligned box around the shape placed by `world_from_shape`; `None` for a
-    /// half-space, which has none. A height field's box is that of its surface, with nothing below it.
+    /// Lowest and highest corner [m] of the axis-aligned box around the shape placed by `world_from_shape`; `None` for
+    /// a half-space, which has none. A height field's box is that of its surface, with nothing below it.
     #[must_use]
     pub fn bounding(&self, world_from_shape: &Pose) -> Option<(Vec3, Vec3)> {
         let middle_and_half = |middle: Vec3, half: Vec3| {

@@ -1,0 +1,118 @@
+//! Closures: joints that close loops, there from the start or added by an event.
+
+use super::SceneError;
+use super::body::Body;
+use super::joint::JointKind;
+use super::names::{Carrier, Names};
+use super::reader::{Table, Value};
+use crate::spatial::Vec3;
+
+/// A joint that closes a loop. Orientations (of a weld, of axes) are kept as they are at the moment it becomes active.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Closure {
+    /// Name, its own among joints and closures.
+    pub name: String,
+    /// Line of its header.
+    pub line: usize,
+    /// Which motions it leaves; never [`JointKind::Free`].
+    pub kind: JointKind,
+    /// One end.
+    pub first: Carrier,
+    /// The other end.
+    pub second: Carrier,
+    /// Which points it keeps together.
+    pub anchor: Anchor,
+    /// Whether it is there from the start; else an event adds it.
+    pub active: bool,
+}
+
+/// Which points a closure keeps together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Anchor {
+    /// The point of each that is here at the start.
+    Start {
+        /// In the world [m].
+        at: Vec3,
+    },
+    /// A point of each, in the frame of each [m].
+    Points {
+        /// In the first's frame.
+        on_first: Vec3,
+        /// In the second's frame.
+        on_second: Vec3,
+    },
+    /// A point of the first, and the point of the second that is there at the moment the closure becomes active.
+    AsFound {
+        /// In the first's frame [m].
+        on_first: Vec3,
+    },
+}
+
+const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on_second", "active"];
+/// How far apart the points of a closure that is active from the start may be [m]: what a tenth of a millimetre of
+/// rounding in a few lengths adds up to.
+const LARGEST_GAP: f64 = 1e-3;
+
+impl Closure {
+    pub(super) fn read(table: &Table<'_>, name: String, names: &Names, bodies: &[Body]) -> Result<Closure, SceneError> {
+        let kind = JointKind::read(table, KEYS)?;
+        if kind == JointKind::Free {
+            return Err(table.need("kind", "a kind")?.wrong("a kind that holds something; free holds nothing"));
+        }
+        let value = table.need("second", "the other end")?;
+        let closure = Closure {
+            name,
+            line: table.line,
+            kind,
+            first: names.carrier(&table.need("first", "one end: \"world\" or a body")?)?,
+            second: names.carrier(&value)?,
+            anchor: anchor(table)?,
+            active: table.truth_or("active", true)?,
+        };
+        if closure.first == closure.second {
+            return Err(value.wrong("another body than `first`"));
+        }
+        closure.refuse_gap(table, bodies)?;
+        Ok(closure)
+    }
+
+    /// A closure that is active from the start must be closed then.
+    fn refuse_gap(&self, table: &Table<'_>, bodies: &[Body]) -> Result<(), SceneError> {
+        let Anchor::Points { on_first, on_second } = self.anchor else { return Ok(()) };
+        let place = |carrier: &Carrier, point: Vec3| match carrier {
+            Carrier::World => Some(point),
+            Carrier::Body(body) => Some(bodies[*body].start.place(point)),
+            Carrier::FigureBody { .. } => None,
+        };
+        let (Some(a), Some(b)) = (place(&self.first, on_first), place(&self.second, on_second)) else { return Ok(()) };
+        let gap = match self.kind {
+            JointKind::Prismatic { axis } => (b - a).cross(&axis).norm(),
+            JointKind::Planar { normal, .. } => (b - a).dot(&normal).abs(),
+            _ => (b - a).norm(),
+        };
+        if !self.active || gap <= LARGEST_GAP {
+            return Ok(());
+        }
+        let value = table.need("on_second", "a point")?;
+        let expected = "points that meet at the start, within 1 mm";
+        let advice = "move the bodies, or set active = false and add the closure by an [[event]]";
+        Err(value.wrong(&format!("{expected}; they are {gap:.4} m apart")).hint(advice))
+    }
+}
+
+fn anchor(table: &Table<'_>) -> Result<Anchor, SceneError> {
+    let get = |key: &str| table.get(key).map(|value: Value<'_>| value.vector()).transpose();
+    match (get("at")?, get("on_first")?, get("on_second")?) {
+        (Some(at), None, None) => Ok(Anchor::Start { at }),
+        (None, Some(on_first), Some(on_second)) => Ok(Anchor::Points { on_first, on_second }),
+        (None, Some(on_first), None) => Ok(Anchor::AsFound { on_first }),
+        (None, None, None) => Err(table
+            .missing("at", "the point [m] of the world at the start that both share")
+            .hint("or `on_first` and `on_second`, or `on_first` alone")),
+        (None, None, Some(_)) => Err(table.missing("on_first", "the point of the first body [m]")),
+        (Some(_), _, _) => {
+            let value = table.need("at", "a point")?;
+            Err(value.wrong("either `at`, or `on_first` and `on_second`"))
+        }
+    }
+}

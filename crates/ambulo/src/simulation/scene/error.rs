@@ -1,0 +1,35 @@
+//! What can be wrong with a scene, said so that the reader can mend it.
+
+/// Why a scene could not be read: where, what was found, what was allowed, what to do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+#[error("line {line}{}: {message}", place(key))]
+pub struct SceneError {
+    /// Line of the file, counted from 1.
+    pub line: usize,
+    /// Path of the key, entries of lists counted from 1: `body[3].mass`. Empty where the text is no TOML.
+    pub key: String,
+    /// What was found, what was expected, and a hint.
+    pub message: String,
+}
+
+fn place(key: &str) -> String {
+    if key.is_empty() { String::new() } else { format!(", `{key}`") }
+}
+
+impl SceneError {
+    /// An error at a place of the file; also for what shows only later, when the files a scene names are read.
+    #[must_use]
+    pub fn new(line: usize, key: impl Into<String>, message: impl Into<String>) -> SceneError {
+        SceneError { line, key: key.into(), message: message.into() }
+    }
+
+    /// The same error with advice at its end.
+    #[must_use]
+    pub fn hint(mut self, advice: &str) -> SceneError {
+        let joined = if self.message.contains(". hint: ") { "; " } else { ". hint: " };
+        self.message.push_str(joined);
+        self.message.push_str(advice);
+        self
+    }
+}

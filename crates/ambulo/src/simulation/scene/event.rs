@@ -1,0 +1,95 @@
+//! Events: closures that come and go, joints that let go.
+
+use super::SceneError;
+use super::closure::Closure;
+use super::joint::Joint;
+use super::names::{Item, Names};
+use super::reader::{Table, Value};
+
+/// Something that happens at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Line of its header.
+    pub line: usize,
+    /// When [s], from zero to the duration.
+    pub time_s: f64,
+    /// What.
+    pub change: Change,
+}
+
+/// What an event changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// A closure becomes active: index in [`SceneFile::closures`](super::SceneFile::closures).
+    AddClosure(usize),
+    /// A closure lets go: index in [`SceneFile::closures`](super::SceneFile::closures).
+    RemoveClosure(usize),
+    /// A joint lets go for good, and its child is free: index in [`SceneFile::joints`](super::SceneFile::joints).
+    RemoveJoint(usize),
+}
+
+/// All events in the order of their times; those of one instant in the order of the file.
+pub(super) fn read_all(
+    root: &Table<'_>,
+    links: &Names,
+    (joints, closures): (&[Joint], &[Closure]),
+    duration_s: f64,
+) -> Result<Vec<Event>, SceneError> {
+    let mut list = Vec::new();
+    for table in root.tables("event")? {
+        table.only(&[&["time", "add", "remove"]])?;
+        let time_s = time(&table, duration_s)?;
+        let (change, value) = change(&table, links)?;
+        list.push((Event { line: table.line, time_s, change }, value));
+    }
+    list.sort_by(|a, b| a.0.time_s.total_cmp(&b.0.time_s));
+    refuse_idle(&list, joints, closures)?;
+    Ok(list.into_iter().map(|(event, _)| event).collect())
+}
+
+fn time(table: &Table<'_>, duration_s: f64) -> Result<f64, SceneError> {
+    let value = table.need("time", "the instant [s]")?;
+    let time_s = value.number()?;
+    let inside = (0.0..=duration_s).contains(&time_s);
+    if inside { Ok(time_s) } else { Err(value.wrong(&format!("an instant from 0 to {duration_s} s, the duration"))) }
+}
+
+fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(Change, Value<'t>), SceneError> {
+    let (value, adds) = match (table.get("add"), table.get("remove")) {
+        (Some(value), None) => (value, true),
+        (None, Some(value)) => (value, false),
+        (Some(_), Some(value)) => return Err(value.wrong("either `add` or `remove`").hint("write two events")),
+        (None, None) => return Err(table.missing("add", "`add` or `remove` with a name")),
+    };
+    let name = value.text()?;
+    let change = match (links.find(name), adds) {
+        (Some(Item::Closure(closure)), true) => Change::AddClosure(closure),
+        (Some(Item::Closure(closure)), false) => Change::RemoveClosure(closure),
+        (Some(Item::Joint(joint)), false) => Change::RemoveJoint(joint),
+        (found, true) => return Err(links.unfit(&value, name, "a closure", found)),
+        (found, false) => return Err(links.unfit(&value, name, "a closure or a joint", found)),
+    };
+    Ok((change, value))
+}
+
+/// Refuses to add what is there and to remove what is not.
+fn refuse_idle(events: &[(Event, Value<'_>)], joints: &[Joint], closures: &[Closure]) -> Result<(), SceneError> {
+    let mut closed: Vec<bool> = closures.iter().map(|closure| closure.active).collect();
+    let mut jointed = vec![true; joints.len()];
+    for (event, value) in events {
+        let (there, after) = match event.change {
+            Change::AddClosure(closure) => (&mut closed[closure], true),
+            Change::RemoveClosure(closure) => (&mut closed[closure], false),
+            Change::RemoveJoint(joint) => (&mut jointed[joint], false),
+        };
+        if *there == after && after {
+            let error = value.wrong(&format!("a closure that is not active at {} s already", event.time_s));
+            return Err(error.hint("active = false keeps a closure away until an event adds it"));
+        }
+        if *there == after {
+            return Err(value.wrong(&format!("one that is still there at {} s", event.time_s)));
+        }
+        *there = after;
+    }
+    Ok(())
+}

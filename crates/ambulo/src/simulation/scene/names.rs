@@ -1,0 +1,195 @@
+//! Names of a scene and what they refer to.
+
+use super::SceneError;
+use super::reader::{Table, Value};
+use std::collections::BTreeMap;
+
+/// What a joint or closure holds on to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Carrier {
+    /// The world, which never moves.
+    World,
+    /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
+    Body(usize),
+    /// A body of a figure, written `figure/body`.
+    FigureBody {
+        /// Index in [`SceneFile::figures`](super::SceneFile::figures).
+        figure: usize,
+        /// Name of the body in the figure's model.
+        body: String,
+    },
+}
+
+/// What can touch something.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Partner {
+    /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
+    Body(usize),
+    /// An obstacle: its index in [`SceneFile::obstacles`](super::SceneFile::obstacles).
+    Obstacle(usize),
+    /// Every body of a figure: its index in [`SceneFile::figures`](super::SceneFile::figures).
+    Figure(usize),
+    /// A body of a figure, written `figure/body`.
+    FigureBody {
+        /// Index in [`SceneFile::figures`](super::SceneFile::figures).
+        figure: usize,
+        /// Name of the body in the figure's model.
+        body: String,
+    },
+}
+
+/// What a name in the scene stands for, with its index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Item {
+    Body(usize),
+    Obstacle(usize),
+    Figure(usize),
+    Joint(usize),
+    Closure(usize),
+}
+
+/// Names that must differ from each other.
+#[derive(Default)]
+pub(super) struct Names {
+    items: BTreeMap<String, (Item, usize)>,
+}
+
+impl Names {
+    /// Reads the `name` of a table and notes what it stands for.
+    pub(super) fn declare(&mut self, table: &Table<'_>, item: Item) -> Result<String, SceneError> {
+        let value = table.need("name", "a name")?;
+        let name = value.text()?;
+        let free = |c: char| !c.is_control() && c != '/' && c != ':';
+        if name.is_empty() || name.trim() != name || name == "world" || !name.chars().all(free) {
+            let expected = "a name that is not empty, not \"world\", without / and : and without spaces around it";
+            return Err(value.wrong(expected));
+        }
+        if let Some((_, line)) = self.items.get(name) {
+            let error = value.wrong(&format!("a name of its own; this one stands in line {line} already"));
+            return Err(error.hint("bodies, obstacles and figures share their names, and so do joints and closures"));
+        }
+        self.items.insert(name.to_owned(), (item, value.line()));
+        Ok(name.to_owned())
+    }
+
+    /// As `declare`, of a table that knows these keys only: a misspelt `name` is told as such.
+    pub(super) fn declare_first(&mut self, table: &Table<'_>, keys: &[&str], item: Item) -> Result<String, SceneError> {
+        table.only(&[keys])?;
+        self.declare(table, item)
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<Item> {
+        self.items.get(name).map(|(item, _)| *item)
+    }
+
+    /// What a joint or closure holds on to.
+    pub(super) fn carrier(&self, value: &Value<'_>) -> Result<Carrier, SceneError> {
+        let name = value.text()?;
+        if name == "world" {
+            return Ok(Carrier::World);
+        }
+        if let Some((figure, body)) = self.figure_body(name) {
+            return Ok(Carrier::FigureBody { figure, body });
+        }
+        match self.find(name) {
+            Some(Item::Body(body)) => Ok(Carrier::Body(body)),
+            found => Err(self.unfit(value, name, "\"world\", a body, or \"figure/body\"", found)),
+        }
+    }
+
+    /// A body of the scene.
+    pub(super) fn body(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let name = value.text()?;
+        match self.find(name) {
+            Some(Item::Body(body)) => Ok(body),
+            found => Err(self.unfit(value, name, "a body of the scene", found)),
+        }
+    }
+
+    /// What can touch something.
+    pub(super) fn partner(&self, value: &Value<'_>) -> Result<Partner, SceneError> {
+        let name = value.text()?;
+        if let Some((figure, body)) = self.figure_body(name) {
+            return Ok(Partner::FigureBody { figure, body });
+        }
+        match self.find(name) {
+            Some(Item::Body(body)) => Ok(Partner::Body(body)),
+            Some(Item::Obstacle(obstacle)) => Ok(Partner::Obstacle(obstacle)),
+            Some(Item::Figure(figure)) => Ok(Partner::Figure(figure)),
+            found => Err(self.unfit(value, name, "a body, an obstacle, a figure, or \"figure/body\"", found)),
+        }
+    }
+
+    fn figure_body(&self, name: &str) -> Option<(usize, String)> {
+        let (figure, body) = name.split_once('/')?;
+        match self.find(figure) {
+            Some(Item::Figure(figure)) if !body.trim().is_empty() => Some((figure, body.to_owned())),
+            _ => None,
+        }
+    }
+
+    /// The error that a name stands for nothing, or for something else.
+    pub(super) fn unfit(&self, value: &Value<'_>, name: &str, expected: &str, found: Option<Item>) -> SceneError {
+        let error = value.wrong(expected);
+        let kind = match found {
+            None => {
+                return match nearest(name, self.items.keys().map(String::as_str)) {
+                    Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+                    None if self.items.is_empty() => error,
+                    None => error.hint(&format!("the names are {}", listed(self.items.keys().map(String::as_str)))),
+                };
+            }
+            Some(Item::Body(_)) => "a body",
+            Some(Item::Obstacle(_)) => "an obstacle; what joints hold on to is a body, if need be on a driven joint",
+            Some(Item::Figure(_)) => "a figure; name one of its bodies as \"figure/body\"",
+            Some(Item::Joint(_)) => "a joint",
+            Some(Item::Closure(_)) => "a closure",
+        };
+        error.hint(&format!("\"{name}\" is {kind}"))
+    }
+}
+
+/// At most this many names are listed in a message; the longest table of keys has 17.
+const LISTED: usize = 20;
+
+/// Names in back quotes, the first few.
+pub(super) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    let mut quoted: Vec<String> = names.take(LISTED + 1).map(|name| format!("`{name}`")).collect();
+    if quoted.len() > LISTED {
+        quoted[LISTED] = "…".into();
+    }
+    quoted.join(", ")
+}
+
+/// The name that is a slip of the pen away: at most a third of its letters differ.
+pub(super) fn nearest<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    const LONGEST: usize = 64;
+    let near = |other: &&str| other.chars().count() <= LONGEST;
+    if !near(&name) {
+        return None;
+    }
+    let rated = names.filter(near).map(|other| (slips(name, other), other));
+    rated.filter(|(slips, other)| 3 * slips <= other.chars().count().max(3)).min().map(|(_, other)| other)
+}
+
+/// Letters to insert, delete, replace or swap with their neighbour to turn one word into the other (optimal string
+/// alignment).
+fn slips(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    // cost[i][j]: from the first i letters to the first j.
+    let mut cost = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            cost[i][j] = match (i, j) {
+                (0, _) | (_, 0) => i + j,
+                _ => {
+                    let replaced = cost[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+                    let swaps = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+                    let swapped = if swaps { cost[i - 2][j - 2] + 1 } else { usize::MAX };
+                    replaced.min(swapped).min(cost[i - 1][j] + 1).min(cost[i][j - 1] + 1)
+                }
+            };
+        }
+    }
+    cost[a.len()][b.len()]
+}

@@ -1,0 +1,1003 @@
+//! Scene files: what is read from good ones, and what is said of bad ones.
+
+use ambulo::simulation::scene::{
+    Anchor, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, Integrator, JointKind, Method,
+    ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid,
+};
+use ambulo::spatial::{Mat3, Vec3};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A handful of operations on numbers of order one.
+const ROUNDING: f64 = 1e-14;
+
+/// Two hinged rods, a closure, a floor: everything a bad file can get wrong. Line numbers are counted below.
+const GOOD: &str = r#"title = "Good"
+step = 0.001
+duration = 2.0
+
+[material.rubber]
+friction = 0.9
+
+[[obstacle]]
+name = "floor"
+kind = "plane"
+material = "rubber"
+
+[[body]]
+name = "upper"
+mass = 2
+position = [0, 1.0, 0]
+shape = { kind = "box", size = [0.1, 0.4, 0.1] }
+
+[[body]]
+name = "lower"
+mass = 1.5
+inertia = [0.02, 0.001, 0.02]
+position = [0, 0.6, 0]
+
+[[joint]]
+name = "hip"
+kind = "revolute"
+parent = "world"
+child = "upper"
+at = [0, 1.2, 0]
+axis = [0, 0, 1]
+[joint.coordinate]
+limits = { lower_deg = -30, upper_deg = 90 }
+
+[[joint]]
+name = "knee"
+kind = "ball"
+parent = "upper"
+child = "lower"
+at = [0, 0.8, 0]
+
+[[closure]]
+name = "string"
+kind = "ball"
+first = "lower"
+second = "world"
+at = [0, 0.4, 0]
+
+[[event]]
+time = 1.0
+remove = "string"
+"#;
+
+fn good() -> SceneFile {
+    parse(GOOD)
+}
+
+fn parse(text: &str) -> SceneFile {
+    SceneFile::parse(text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The refusal of a text.
+fn refusal(text: &str) -> SceneError {
+    SceneFile::parse(text).expect_err("a bad scene")
+}
+
+/// What is said of the good scene after one replacement.
+fn said(from: &str, to: &str) -> String {
+    assert_eq!(GOOD.matches(from).count(), 1, "{from:?} stands once");
+    refusal(&GOOD.replace(from, to)).to_string()
+}
+
+/// What is said of the good scene with more at its end.
+fn said_with(end: &str) -> String {
+    refusal(&format!("{GOOD}{end}")).to_string()
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{found}, expected {expected}");
+}
+
+fn near_vector(found: Vec3, expected: [f64; 3]) {
+    for (found, expected) in found.iter().zip(expected) {
+        near(*found, expected);
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn examples() -> Vec<(String, String)> {
+    let folder = root().join("examples");
+    let listing = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut paths: Vec<PathBuf> = listing.map(|entry| entry.expect("a listing").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    paths.sort();
+    let name = |path: &PathBuf| path.file_stem().expect("a name").to_string_lossy().into_owned();
+    paths.iter().map(|path| (name(path), fs::read_to_string(path).expect("a text"))).collect()
+}
+
+fn example(name: &str) -> SceneFile {
+    let (_, text) = examples().into_iter().find(|(found, _)| found == name).expect(name);
+    parse(&text)
+}
+
+// ---- good files ----
+
+#[test]
+fn the_good_scene_reads_as_it_says() {
+    let scene = good();
+    assert_eq!(scene.title, "Good");
+    assert_eq!(scene.gravity, Vec3::new(0.0, -9.80665, 0.0));
+    near_vector(Vec3::new(scene.step_s, scene.duration_s, scene.output_rate_hz), [0.001, 2.0, 100.0]);
+    assert_eq!((scene.integrator, scene.projection), (Integrator::Impulse, true));
+    assert_eq!((scene.solver.method, scene.solver.max_iterations), (Method::Newton, 100));
+    assert_eq!(scene.materials.len(), 2);
+    assert_eq!((scene.materials[0].name.as_str(), scene.materials[0].line), ("default", 0));
+    assert_eq!((scene.obstacles[0].material, scene.bodies[0].shapes[0].material), (1, 0));
+    assert_eq!(scene.obstacles[0].shape, ObstacleShape::Plane { normal: Vec3::y() });
+    assert_eq!(scene.joints[0].parent, Carrier::World);
+    assert_eq!((&scene.joints[1].parent, scene.joints[1].child), (&Carrier::Body(0), 1));
+    assert_eq!(scene.joints[1].coordinates.len(), 3);
+    assert_eq!(scene.closures[0].anchor, Anchor::Start { at: Vec3::new(0.0, 0.4, 0.0) });
+    assert_eq!(scene.events[0].change, Change::RemoveClosure(0));
+    assert!(scene.outputs.poses && scene.outputs.plots.is_empty());
+}
+
+#[test]
+fn every_record_keeps_its_line() {
+    let scene = good();
+    let lines = |list: &[usize]| list.to_vec();
+    assert_eq!(lines(&[scene.materials[1].line, scene.obstacles[0].line]), [5, 8]);
+    assert_eq!(lines(&[scene.bodies[0].line, scene.bodies[1].line, scene.bodies[0].shapes[0].line]), [13, 19, 17]);
+    assert_eq!(lines(&[scene.joints[0].line, scene.joints[0].coordinates[0].line]), [25, 32]);
+    assert_eq!(lines(&[scene.joints[1].line, scene.joints[1].coordinates[2].line]), [35, 35]);
+    assert_eq!(lines(&[scene.closures[0].line, scene.events[0].line]), [42, 49]);
+}
+
+#[test]
+fn the_nine_examples_are_scenes() {
+    let counts: Vec<(String, [usize; 5])> = examples()
+        .iter()
+        .map(|(name, text)| {
+            let scene = SceneFile::parse(text).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let [bodies, obstacles] = [scene.bodies.len(), scene.obstacles.len()];
+            (name.clone(), [bodies, obstacles, scene.joints.len(), scene.closures.len(), scene.events.len()])
+        })
+        .collect();
+    let expected = [
+        ("four-bar", [3, 0, 3, 1, 0]),
+        ("grasp", [4, 1, 3, 0, 0]),
+        ("hands", [6, 0, 6, 1, 2]),
+        ("ladder", [60, 0, 60, 20, 0]),
+        ("pendulum", [1, 0, 1, 0, 0]),
+        ("pile", [10, 5, 0, 0, 0]),
+        ("pusher", [3, 2, 2, 0, 0]),
+        ("slope", [2, 2, 0, 0, 0]),
+        ("top", [1, 0, 1, 0, 0]),
+    ];
+    assert_eq!(counts, expected.map(|(name, counts)| (name.to_owned(), counts)));
+}
+
+/// A rigid rod's end is where the neighbour's end is: the examples' geometry, whose numbers are rounded to 1e-6 m.
+#[test]
+fn bodies_of_the_examples_hang_where_their_joints_are() {
+    // Half lengths of the rods along the axis that each example uses.
+    let ends = |name: &str, body: &str| match (name, body.rsplit(' ').next().unwrap_or(body)) {
+        ("pendulum", _) => Some(Vec3::new(0.0, 0.25, 0.0)),
+        ("top", _) => Some(Vec3::new(0.0, -0.1, 0.0)),
+        ("four-bar", "crank") => Some(Vec3::new(-0.05, 0.0, 0.0)),
+        ("four-bar", "coupler") => Some(Vec3::new(-0.175, 0.0, 0.0)),
+        ("four-bar", "rocker") => Some(Vec3::new(-0.15, 0.0, 0.0)),
+        ("hands", "arm" | "forearm") => Some(Vec3::new(0.0, 0.15, 0.0)),
+        ("hands", "hand") => Some(Vec3::new(0.0, 0.075, 0.0)),
+        ("pusher", _) => Some(Vec3::new(0.0, 0.25, 0.0)),
+        ("ladder", _) if body.starts_with("rung") => Some(Vec3::new(0.0, 0.0, -0.2)),
+        ("ladder", _) => Some(Vec3::new(0.0, 0.15, 0.0)),
+        _ => None,
+    };
+    let mut checked = 0;
+    for (name, text) in examples() {
+        let scene = parse(&text);
+        for joint in &scene.joints {
+            let child = &scene.bodies[joint.child];
+            let Some(end) = ends(&name, &child.name) else { continue };
+            let miss = (child.start.place(end) - joint.at).norm();
+            assert!(miss < 3e-6, "{name}, {}: {miss} m", joint.name);
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 1 + 1 + 3 + 6 + 2 + 60);
+    let linkage = example("four-bar");
+    let Anchor::Start { at } = linkage.closures[0].anchor else { panic!("a point at the start") };
+    for (body, half) in [(1, 0.175), (2, 0.15)] {
+        assert!((linkage.bodies[body].start.place(Vec3::new(half, 0.0, 0.0)) - at).norm() < 3e-6);
+    }
+}
+
+#[test]
+fn degrees_become_radians_and_radians_stay() {
+    let scene = parse(
+        r#"
+        step = 0.01
+        duration = 1
+        [[body]]
+        name = "a"
+        mass = 1
+        inertia = [1, 1, 1]
+        rotation = { axis = [0, 0, 2], angle_deg = 90 }
+        angular_velocity_deg = [180, 0, 0]
+        velocity = [1, 2, 3]
+        [[body]]
+        name = "b"
+        mass = 1
+        inertia = [1, 1, 1]
+        rotation = { quaternion = [1, 0, 0, 1] }
+        [[body]]
+        name = "c"
+        mass = 1
+        inertia = [1, 1, 1]
+        angular_velocity = [0, 0.5, 0]
+        [[joint]]
+        name = "j"
+        kind = "revolute"
+        parent = "a"
+        child = "b"
+        at = [0, 0, 0]
+        axis = [3, 0, 4]
+        [joint.coordinate]
+        start_deg = 60
+        rate = 2
+        spring = { stiffness = 5, damping = 1, rest_deg = 30 }
+        limits = { lower_deg = -90, upper = 1.5 }
+        motor = { target_deg = { sine = { amplitude = 90, frequency_hz = 2, phase_deg = 45, offset = -180 } }, stiffness = 7 }
+        [[joint]]
+        name = "k"
+        kind = "planar"
+        parent = "world"
+        child = "c"
+        axis = [0, 1, 0]
+        [[joint.coordinate]]
+        drive_deg = { points = [[0, 0], [1, 180]] }
+        drive_max = 12
+        [[joint.coordinate]]
+        limits = { lower = -1 }
+        friction = 3
+        "#,
+    );
+    // Both turn x to y, one by axis and angle, one by a quaternion that is not of length one.
+    for body in [0, 1] {
+        near_vector(scene.bodies[body].start.rotation * Vec3::x(), [0.0, 1.0, 0.0]);
+    }
+    near_vector(scene.bodies[0].angular_velocity.unwrap(), [PI, 0.0, 0.0]);
+    near_vector(scene.bodies[0].velocity.unwrap(), [1.0, 2.0, 3.0]);
+    near_vector(scene.bodies[2].angular_velocity.unwrap(), [0.0, 0.5, 0.0]);
+    assert_eq!(scene.bodies[1].angular_velocity, None);
+
+    let JointKind::Revolute { axis } = scene.joints[0].kind else { panic!("{:?}", scene.joints[0].kind) };
+    near_vector(axis, [0.6, 0.0, 0.8]);
+    let hinge = &scene.joints[0].coordinates[0];
+    near(hinge.start, PI / 3.0);
+    near(hinge.rate, 2.0);
+    let (spring, limits) = (hinge.spring.unwrap(), hinge.limits.unwrap());
+    near(spring.rest, PI / 6.0);
+    near(spring.stiffness, 5.0);
+    near(limits.lower, -PI / 2.0);
+    near(limits.upper, 1.5);
+    let motor = hinge.motor.as_ref().unwrap();
+    assert!(motor.max.is_infinite());
+    let Function::Sine { amplitude, frequency_hz, phase, offset } = motor.target else { panic!("{motor:?}") };
+    near(amplitude, PI / 2.0);
+    near(frequency_hz, 2.0);
+    near(phase, PI / 4.0);
+    near(offset, -PI);
+
+    let JointKind::Planar { normal, along } = scene.joints[1].kind else { panic!("{:?}", scene.joints[1].kind) };
+    assert_eq!((normal, along), (Vec3::y(), Vec3::x()));
+    let [turn, slide, other] = &scene.joints[1].coordinates[..] else { panic!("three coordinates") };
+    assert_eq!([turn.kind, slide.kind], [CoordinateKind::Rotation, CoordinateKind::Translation]);
+    let drive = turn.drive.as_ref().unwrap();
+    near(drive.max, 12.0);
+    assert_eq!(drive.function, Function::Points(vec![(0.0, 0.0), (1.0, 180_f64.to_radians())]));
+    assert!(slide.limits.unwrap().upper.is_infinite());
+    near(slide.friction, 3.0);
+    assert!(other.drive.is_none() && other.line == scene.joints[1].line);
+}
+
+#[test]
+fn figures_materials_and_obstacles_read_as_they_say() {
+    let scene = parse(
+        r#"
+        step = 0.001
+        duration = 1
+        integrator = "runge-kutta"
+        projection = false
+        output_rate = 1000
+        [solver]
+        method = "conjugate-gradient"
+        tolerance = 1e-6
+        max_iterations = 20
+        [material.shoe]
+        law = "hunt-crossley"
+        dissipation = 1
+        [material.mat]
+        law = "regularised"
+        friction = 0.7
+        stiffness = 2e4
+        damping = 100
+        [material.default]
+        friction = 0.1
+        [[figure]]
+        name = "walker"
+        model = "gait.osim"
+        motion = "walk.mot"
+        from = 0.4
+        root = "driven"
+        at = [1, 0, 0]
+        rotation = { axis = [0, 1, 0], angle_deg = 180 }
+        [[figure.sphere]]
+        body = "calcn_r"
+        at = [0.01, -0.01, 0]
+        radius = 0.032
+        material = "shoe"
+        [[figure]]
+        name = "doll"
+        model = "doll.osim"
+        [[figure]]
+        name = "partner"
+        model = "gait.osim"
+        motion = "walk.mot"
+        drive = ["knee_angle_r", "knee_angle_l"]
+        [[obstacle]]
+        name = "terrain"
+        kind = "height-field"
+        heights = [[0, 0.1, 0], [0, 0.2, 0]]
+        size = [4, 2]
+        material = "mat"
+        [obstacle.motion]
+        displacement = [{ motion = "belt.sto", column = "x" }, 0, { ramp = { from = 0, to = 1, start = 0, end = 1 } }]
+        [[obstacle]]
+        name = "post"
+        kind = "capsule"
+        from = [0, 0, 0]
+        to = [0, 1, 0]
+        radius = 0.1
+        [[closure]]
+        name = "hand in hand"
+        kind = "ball"
+        first = "walker/hand_r"
+        second = "partner/hand_l"
+        on_first = [0, -0.1, 0]
+        active = false
+        [[event]]
+        time = 0.7
+        remove = "hand in hand"
+        [[event]]
+        time = 0.2
+        add = "hand in hand"
+        [[ignore]]
+        pair = ["walker", "walker"]
+        [[ignore]]
+        pair = ["post", "partner/hand_r"]
+        [output]
+        contacts = false
+        plot = ["energy", "closure:hand in hand"]
+        "#,
+    );
+    assert_eq!((scene.integrator, scene.projection), (Integrator::RungeKutta, false));
+    assert_eq!((scene.solver.method, scene.solver.max_iterations), (Method::ConjugateGradient, 20));
+    let names: Vec<&str> = scene.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["default", "shoe", "mat"]);
+    assert_eq!(scene.materials[0].law, ContactLaw::Rigid { friction: 0.1, restitution: 0.0 });
+    let ContactLaw::HuntCrossley { stiffness, dissipation, .. } = scene.materials[1].law else { panic!("soft") };
+    near(stiffness, 1e6);
+    near(dissipation, 1.0);
+    assert_eq!(scene.materials[2].law, ContactLaw::Regularised { friction: 0.7, stiffness: 2e4, damping: 100.0 });
+
+    let [walker, doll, partner] = &scene.figures[..] else { panic!("three figures") };
+    assert_eq!((&walker.driven, walker.root, walker.from_s), (&Driven::All, Root::Driven, Some(0.4)));
+    assert_eq!(walker.motion.as_deref(), Some("walk.mot"));
+    near_vector(walker.pose.place(Vec3::x()), [0.0, 0.0, 0.0]);
+    assert_eq!((walker.spheres[0].body.as_str(), walker.spheres[0].material), ("calcn_r", 1));
+    assert_eq!((&doll.driven, doll.root), (&Driven::Nothing, Root::Free));
+    assert_eq!(partner.driven, Driven::Only(vec!["knee_angle_r".into(), "knee_angle_l".into()]));
+
+    let ObstacleShape::HeightField { heights, size_x, size_z } = &scene.obstacles[0].shape else { panic!("terrain") };
+    assert_eq!((heights.len(), heights[1][1], *size_x, *size_z), (2, 0.2, 4.0, 2.0));
+    let motion = scene.obstacles[0].motion.as_ref().unwrap();
+    assert_eq!(motion.displacement[1], Function::Constant(0.0));
+    assert_eq!(motion.displacement[2], Function::Stops(vec![(0.0, 0.0), (1.0, 1.0)]));
+    assert_eq!(motion.angle, Function::Constant(0.0));
+    let column = Function::Motion { file: "belt.sto".into(), column: "x".into(), from_s: None };
+    assert_eq!(motion.displacement[0], column);
+    assert!(matches!(scene.obstacles[1].shape, ObstacleShape::Solid(Solid::Capsule { .. })));
+
+    assert_eq!(scene.carrier_name(&scene.closures[0].first), "walker/hand_r");
+    assert_eq!(scene.closures[0].anchor, Anchor::AsFound { on_first: Vec3::new(0.0, -0.1, 0.0) });
+    // In the order of time, not of the file.
+    let changes: Vec<Change> = scene.events.iter().map(|event| event.change).collect();
+    assert_eq!(changes, [Change::AddClosure(0), Change::RemoveClosure(0)]);
+    assert_eq!((&scene.ignored[0].first, &scene.ignored[1].first), (&Partner::Figure(0), &Partner::Obstacle(1)));
+    assert_eq!(scene.outputs.plots, [Plot::Energy, Plot::Closure(0)]);
+    assert!(!scene.outputs.contacts && scene.outputs.joints);
+}
+
+// ---- uniform solids ----
+
+/// Inertia about the mass centre of a body of 1 kg with these shapes, as the scene has it.
+fn inertia_of(shapes: &str) -> Mat3 {
+    let text = format!("step = 1\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\nshape = {shapes}\n");
+    parse(&text).bodies[0].inertia.about_center()
+}
+
+/// The same as a sum over a grid of points that are inside, spaced `h`.
+fn summed(inside: impl Fn(Vec3) -> bool, reach: f64, h: f64) -> Mat3 {
+    let n = (reach / h) as i32;
+    let (mut sum, mut count) = (Mat3::zeros(), 0.0);
+    for (i, j, k) in (-n..n).flat_map(|i| (-n..n).flat_map(move |j| (-n..n).map(move |k| (i, j, k)))) {
+        let p = Vec3::new(f64::from(i) + 0.5, f64::from(j) + 0.5, f64::from(k) + 0.5) * h;
+        if inside(p) {
+            sum += Mat3::identity() * p.norm_squared() - p * p.transpose();
+            count += 1.0;
+        }
+    }
+    sum / count
+}
+
+#[test]
+fn shapes_without_inertia_are_uniform_solids() {
+    let to_segment = |p: Vec3, a: Vec3, b: Vec3| {
+        let t = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+        (p - a - (b - a) * t).norm()
+    };
+    let (a, b) = (Vec3::new(-0.3, 0.0, -0.2), Vec3::new(0.3, 0.0, 0.2));
+    let turned = PI / 6.0;
+    let in_box = |p: Vec3| {
+        let (sin, cos) = turned.sin_cos();
+        let q = Vec3::new(cos * p.x + sin * p.y, -sin * p.x + cos * p.y, p.z);
+        q.x.abs() < 0.4 && q.y.abs() < 0.2 && q.z.abs() < 0.1
+    };
+    let in_dumbbell = |p: Vec3| [-0.3, 0.3].iter().any(|x| (p - Vec3::new(*x, 0.0, 0.0)).norm() < 0.2);
+    let cases = [
+        (inertia_of("{ kind = \"sphere\", radius = 0.5 }"), summed(|p| p.norm() < 0.5, 0.6, 0.01)),
+        (
+            inertia_of("{ kind = \"capsule\", from = [-0.3, 0, -0.2], to = [0.3, 0, 0.2], radius = 0.2 }"),
+            summed(|p| to_segment(p, a, b) < 0.2, 0.6, 0.01),
+        ),
+        (
+            inertia_of("{ kind = \"box\", size = [0.8, 0.4, 0.2], rotation = { axis = [0, 0, 1], angle_deg = 30 } }"),
+            summed(in_box, 0.6, 0.01),
+        ),
+        (
+            inertia_of(
+                "[{ kind = \"sphere\", radius = 0.2, at = [-0.3, 0, 0] }, { kind = \"sphere\", radius = 0.2, at = [0.3, 0, 0] }]",
+            ),
+            summed(in_dumbbell, 0.6, 0.01),
+        ),
+    ];
+    // A cell of 0.01 on the surface of a solid half as large as 0.1 to 0.5 is in or out as a whole: well under 1 %.
+    for (found, expected) in cases {
+        assert!((found - expected).amax() < 0.01 * expected.amax(), "{found} {expected}");
+    }
+    // The same box not turned is another: the comparison sees the difference.
+    let straight = inertia_of("{ kind = \"box\", size = [0.8, 0.4, 0.2] }");
+    assert!((straight - summed(in_box, 0.6, 0.01)).amax() > 0.1 * straight.amax());
+}
+
+// ---- bad files ----
+
+#[test]
+fn text_that_is_no_toml_is_refused_with_its_line() {
+    let error = refusal("step = 0.001\nduration 2.0\n");
+    assert_eq!((error.line, error.key.as_str()), (2, ""));
+    assert!(error.to_string().starts_with("line 2: this is not TOML: "), "{error}");
+    assert!(error.message.contains(". hint: "), "{error}");
+    assert_eq!(refusal("step = 0.001\nstep = 0.002\n").line, 2);
+    assert_eq!(refusal("step = 0.001\ntitle = \"open\nduration = 1\n").line, 2);
+}
+
+#[test]
+fn an_unknown_key_is_refused_with_those_that_are_known() {
+    assert_eq!(
+        said("mass = 2\n", "mas = 2\n"),
+        "line 15, `body[1].mas`: this key is not known here; expected `name`, `mass`, `inertia`, `position`, `rotation`, \
+         `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: is `mass` meant?"
+    );
+    assert_eq!(
+        said("friction = 0.9", "frcition = 0.9"),
+        "line 6, `material.rubber.frcition`: this key is not known here; expected `law`, `friction`, `restitution`. \
+         hint: is `friction` meant?"
+    );
+    assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: this key is not known here; expected `title`"));
+    assert!(said("[[event]]", "[[evnt]]").ends_with("hint: is `event` meant?"));
+    assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: this key"));
+}
+
+#[test]
+fn a_missing_key_is_refused_with_what_it_means() {
+    assert_eq!(
+        said("step = 0.001\n", ""),
+        "line 1, `step`: found no `step`; expected the time step [s], such as 0.001"
+    );
+    assert_eq!(said("mass = 2\n", ""), "line 13, `body[1].mass`: found no `mass`; expected the mass [kg]");
+    assert_eq!(
+        said("inertia = [0.02, 0.001, 0.02]\n", ""),
+        "line 19, `body[2].inertia`: found no `inertia`; expected the moments about the mass centre [xx, yy, zz] \
+         [kg.m²]. hint: a body with a shape may go without: it is taken as uniform"
+    );
+    assert_eq!(
+        said("name = \"knee\"\n", "nmae = \"knee\"\n"),
+        "line 35, `joint[2].name`: found no `name`; expected a name. hint: is `nmae` meant to be `name`?"
+    );
+    assert_eq!(
+        refusal("step = 1\nduration = 1\n").to_string(),
+        "line 1, `body`: found no `body`; expected at least one [[body]] or [[figure]]"
+    );
+}
+
+/// Tables that only dotted keys make have no header to point at.
+#[test]
+fn a_missing_key_of_a_dotted_table_is_placed() {
+    let said = said("limits = { lower_deg = -30, upper_deg = 90 }", "motor.target_deg = 5");
+    assert!(said.starts_with("line 33, `joint[1].coordinate.motor.stiffness`: found no `stiffness`"), "{said}");
+}
+
+#[test]
+fn masses_and_inertias_that_no_body_has_are_refused() {
+    assert_eq!(
+        said("mass = 2\n", "mass = -2\n"),
+        "line 15, `body[1].mass`: found -2; expected a number above zero. hint: what no force moves is an [[obstacle]]"
+    );
+    assert!(said("mass = 2\n", "mass = 0\n").starts_with("line 15, `body[1].mass`: found 0; expected a number above"));
+    let inertia = |numbers: &str| said("[0.02, 0.001, 0.02]", numbers);
+    assert_eq!(
+        inertia("[0.02, 0, 0.02]"),
+        "line 22, `body[2].inertia`: found [0.02, 0, 0.02]; expected an inertia above zero about every axis; the smallest \
+         principal moment is 0e0 kg.m². hint: a thin rod has m r²/2 about its axis"
+    );
+    assert!(inertia("[0.02, 0.001, 0.01]").contains("expected an inertia that a body can have; principal moments"));
+    assert!(inertia("[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]").contains("expected a symmetric matrix"));
+    assert!(inertia("[[1, 0, 0], [0, 1, 0], [0, 0, \"1\"]]").starts_with("line 22, `body[2].inertia[3][3]`: found"));
+    assert!(inertia("[1, 2]").ends_with("expected three moments [xx, yy, zz] or three rows of three [kg.m²]"));
+    parse(&GOOD.replace("[0.02, 0.001, 0.02]", "[[1, 0.1, 0], [0.1, 1, 0], [0, 0, 1]]"));
+    let aside = said("size = [0.1, 0.4, 0.1]", "size = [0.1, 0.4, 0.1], at = [0, 0.1, 0]");
+    assert_eq!(
+        aside,
+        "line 13, `body[1]`: found shapes whose common centre is [0.000000, 0.100000, 0.000000]; expected it at the body's \
+         origin, its mass centre. hint: move the shapes, or give `inertia` if the body is not uniform"
+    );
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    for bad in ["nan", "inf", "-inf", "1e400", "1e16"] {
+        assert_eq!(
+            said("[0, 1.0, 0]", &format!("[0, {bad}, 0]")),
+            format!(
+                "line 16, `body[1].position[2]`: found {bad}; expected a number. hint: numbers are finite and at most 1e15 \
+                 in size"
+            )
+        );
+    }
+    assert!(
+        said("mass = 2\n", "mass = nan\n").starts_with("line 15, `body[1].mass`: found nan; expected a number above")
+    );
+}
+
+#[test]
+fn steps_and_durations_above_zero_are_asked_for() {
+    let step = |text: &str| said("step = 0.001", text);
+    assert_eq!(step("step = 0"), "line 2, `step`: found 0; expected a number above zero");
+    assert_eq!(step("step = -0.001"), "line 2, `step`: found -0.001; expected a number above zero");
+    assert_eq!(step("step = 3"), "line 2, `step`: found 3; expected a step of at most 2 s, the duration");
+    assert!(step("step = 1e-12").contains("expected at most 1e9 steps"));
+    assert_eq!(said("duration = 2.0", "duration = 0"), "line 3, `duration`: found 0; expected a number above zero");
+    assert_eq!(
+        step("step = 0.001\noutput_rate = 2000"),
+        "line 3, `output_rate`: found 2000; expected at most one row a step, 1000 a second"
+    );
+}
+
+#[test]
+fn values_of_another_kind_are_refused() {
+    assert_eq!(
+        said("mass = 2\n", "mass = \"2\"\n"),
+        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: numbers stand without quotes; what no \
+         force moves is an [[obstacle]]"
+    );
+    assert_eq!(said("title = \"Good\"", "title = 5"), "line 1, `title`: found 5; expected a text in quotes");
+    assert_eq!(
+        said("[0, 1.0, 0]", "[0, 1.0]"),
+        "line 16, `body[1].position`: found [0, 1.0]; expected three numbers [x, y, z]"
+    );
+    assert_eq!(
+        said("step = 0.001", "step = 0.001\nprojection = \"yes\""),
+        "line 3, `projection`: found \"yes\"; expected true or false"
+    );
+    assert_eq!(
+        refusal("step = 1\nduration = 1\nbody = 3\n").to_string(),
+        "line 3, `body`: found 3; expected tables, each under the header [[body]]"
+    );
+    assert_eq!(
+        said("kind = \"ball\"\nparent", "kind = \"bal\"\nparent"),
+        "line 37, `joint[2].kind`: found \"bal\"; expected one of \"weld\", \"revolute\", \"universal\", \"ball\", \
+         \"prismatic\", \"planar\", \"free\". hint: is \"ball\" meant?"
+    );
+    let axis = said("axis = [0, 0, 1]", "axis = [0, 0, 0]");
+    assert_eq!(axis, "line 31, `joint[1].axis`: found [0, 0, 0]; expected a direction [x, y, z] longer than zero");
+}
+
+#[test]
+fn names_that_stand_for_nothing_are_refused() {
+    assert_eq!(
+        said("parent = \"upper\"", "parent = \"uper\""),
+        "line 38, `joint[2].parent`: found \"uper\"; expected \"world\", a body, or \"figure/body\". \
+         hint: is \"upper\" meant?"
+    );
+    assert_eq!(
+        said("child = \"lower\"", "child = \"shin\""),
+        "line 39, `joint[2].child`: found \"shin\"; expected a body of the scene. \
+         hint: the names are `floor`, `lower`, `upper`"
+    );
+    assert_eq!(
+        said("second = \"world\"", "second = \"floor\""),
+        "line 46, `closure[1].second`: found \"floor\"; expected \"world\", a body, or \"figure/body\". hint: \"floor\" \
+         is an obstacle; what joints hold on to is a body, if need be on a driven joint"
+    );
+    assert_eq!(
+        said("material = \"rubber\"", "material = \"ruber\""),
+        "line 11, `obstacle[1].material`: found \"ruber\"; expected one of \"default\", \"rubber\". \
+         hint: is \"rubber\" meant?"
+    );
+    assert!(
+        said("remove = \"string\"", "remove = \"rope\"").contains("expected a closure or a joint. hint: the names")
+    );
+    let events = said("remove = \"string\"", "add = \"knee\"");
+    assert_eq!(events, "line 51, `event[1].add`: found \"knee\"; expected a closure. hint: \"knee\" is a joint");
+    assert!(said_with("[output]\nplot = [\"joint:kne\"]\n").ends_with("hint: is \"knee\" meant?"));
+}
+
+#[test]
+fn a_name_given_twice_is_refused() {
+    assert_eq!(
+        said("name = \"lower\"", "name = \"upper\""),
+        "line 20, `body[2].name`: found \"upper\"; expected a name of its own; this one stands in line 14 already. \
+         hint: bodies, obstacles and figures share their names, and so do joints and closures"
+    );
+    assert!(said("name = \"floor\"", "name = \"upper\"").starts_with("line 9, `obstacle[1].name`: found \"upper\""));
+    assert!(said("name = \"string\"", "name = \"hip\"").starts_with("line 43, `closure[1].name`: found \"hip\""));
+    for bad in ["", "world", "a/b", "a:b", " a"] {
+        let said = said("name = \"lower\"", &format!("name = \"{bad}\""));
+        assert!(said.starts_with("line 20, `body[2].name`: found "), "{said}");
+        assert!(said.contains("expected a name that is not empty, not \"world\", without / and :"), "{said}");
+    }
+}
+
+#[test]
+fn joints_that_form_no_tree_are_refused() {
+    assert_eq!(
+        said("parent = \"world\"", "parent = \"lower\""),
+        "line 28, `joint[1].parent`: found \"lower\"; expected parents that do not lead in a circle; here they do: \
+         upper -> lower -> upper. hint: close the loop with a [[closure]]"
+    );
+    assert!(said("parent = \"world\"", "parent = \"upper\"").contains("here they do: upper -> upper"));
+    assert_eq!(
+        said("child = \"lower\"", "child = \"upper\""),
+        "line 39, `joint[2].child`: found \"upper\"; expected a body on one joint; this one is on \"hip\" already \
+         (line 25). hint: close the loop with a [[closure]]"
+    );
+}
+
+#[test]
+fn a_circle_that_does_not_hold_the_first_joint_is_found() {
+    let bodies: String =
+        (0..5).map(|i| format!("[[body]]\nname = \"b{i}\"\nmass = 1\ninertia = [1, 1, 1]\n")).collect();
+    let joints: String = [("b1", "b0"), ("b2", "b1"), ("b3", "b2"), ("b1", "b3")]
+        .iter()
+        .enumerate()
+        .map(|(i, (parent, child))| {
+            format!("[[joint]]\nname = \"j{i}\"\nkind = \"weld\"\nparent = \"{parent}\"\nchild = \"{child}\"\n")
+        })
+        .collect();
+    let error = refusal(&format!("step = 1\nduration = 1\n{bodies}{joints}"));
+    assert_eq!((error.line, error.key.as_str()), (31, "joint[2].parent"));
+    assert!(error.message.contains("here they do: b1 -> b2 -> b3 -> b1"), "{error}");
+}
+
+#[test]
+fn coordinates_that_contradict_themselves_are_refused() {
+    let coordinate = |text: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", text);
+    assert_eq!(
+        coordinate("limits = { lower_deg = 30, upper_deg = -90 }"),
+        "line 33, `joint[1].coordinate.limits`: found { lower_deg = 30, upper_deg = -90 }; expected a lower limit below \
+         the upper one"
+    );
+    assert!(coordinate("limits = { lower_deg = 30, upper_deg = 90 }").contains("expected limits around the value at"));
+    assert_eq!(
+        coordinate("start_deg = 5\nstart = 0.1"),
+        "line 33, `joint[1].coordinate.start_deg`: found both `start_deg` and `start`; expected one of them. \
+         hint: `_deg` is in degrees"
+    );
+    assert_eq!(
+        coordinate("drive_deg = 5\nstart_deg = 5"),
+        "line 34, `joint[1].coordinate.start_deg`: found 5; expected no such key beside a drive. \
+         hint: the drive's own value and rate at time zero hold"
+    );
+    assert!(coordinate("drive_max = 5").contains("`joint[1].coordinate.drive`: found no `drive`"));
+    assert!(coordinate("motor = { target_deg = 5 }").contains("found no `stiffness`"));
+    let twice = GOOD.replace("limits = { lower_deg = -30, upper_deg = 90 }", "rate = 1");
+    let error = refusal(&twice.replace("mass = 2\n", "mass = 2\nvelocity = [0, 0, 0]\n"));
+    assert_eq!(
+        error.to_string(),
+        "line 34, `joint[1].coordinate.rate`: found 1; expected no rate, as body \"upper\" has its own velocity (line 13). \
+         hint: take one of them away"
+    );
+    let second = said("[joint.coordinate]", "[[joint.coordinate]]\n[[joint.coordinate]]");
+    assert_eq!(
+        second,
+        "line 33, `joint[1].coordinate[2]`: found coordinate 2; expected at most 1. \
+         hint: docs/SCENES.md tells which motions each kind of joint leaves"
+    );
+    let sliding = GOOD.replace("kind = \"revolute\"", "kind = \"prismatic\"");
+    assert_eq!(
+        refusal(&sliding).to_string(),
+        "line 33, `joint[1].coordinate.limits.lower_deg`: found -30; expected `lower` in metres. \
+         hint: this coordinate slides, it does not turn"
+    );
+}
+
+#[test]
+fn functions_that_are_none_are_refused() {
+    let drive =
+        |function: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", &format!("drive_deg = {function}"));
+    assert_eq!(
+        drive("\"fast\""),
+        "line 33, `joint[1].coordinate.drive_deg`: found \"fast\"; expected a number, or one of { sine = … }, { ramp = … \
+         }, { stops = … }, { points = … }, { motion = … }"
+    );
+    assert!(drive("{ sine = { amplitude = 1 } }").contains("drive_deg.sine.frequency_hz`: found no `frequency_hz`"));
+    assert!(drive("{ sine = { amplitude = 1, frequency_hz = 0 } }").contains("found 0; expected a number above zero"));
+    assert!(drive("{ sine = { amplitude = 1, frequency_hz = 1 }, from = 1 }").contains("drive_deg.from`: this key"));
+    assert!(drive("{ stops = [[0, 0]], points = [[0, 0]] }").contains("expected a number, or one of"));
+    assert!(
+        drive("{ ramp = { from = 0, to = 1, start = 1, end = 1 } }").contains("expected an instant after `start`, 1 s")
+    );
+    assert!(
+        drive("{ stops = [[0, 0], [0, 1]] }").contains("drive_deg.stops[2]`: found [0, 1]; expected a time after 0 s")
+    );
+    assert!(drive("{ stops = [] }").contains("expected a list of at least 1 [time, value]"));
+    assert_eq!(
+        drive("{ points = [[0, 0], [1, 5]] }"),
+        "line 33, `joint[1].coordinate.drive_deg.points`: found [[0, 0], [1, 5]]; expected points from 0 s or before to 2 \
+         s (`duration`) or after; these go from 0 s to 1 s. hint: `stops` rests before its first and after its last instant"
+    );
+    assert!(
+        drive("{ motion = \"a.mot\", column = \"b\" }").contains("hint: the file itself says whether its angles are")
+    );
+    assert!(drive("{ motion = \"a.mot\" }").contains("expected a recording under the key without `_deg`"));
+}
+
+#[test]
+fn shapes_that_are_none_are_refused() {
+    let shape = |shape: &str| said("{ kind = \"box\", size = [0.1, 0.4, 0.1] }", shape);
+    assert_eq!(
+        shape("{ kind = \"sphere\", radius = 0 }"),
+        "line 17, `body[1].shape.radius`: found 0; expected a number above zero"
+    );
+    assert!(shape("{ kind = \"plane\" }").contains("one of \"sphere\", \"capsule\", \"box\", \"convex\""));
+    assert!(shape("{ kind = \"sphere\", size = [1, 1, 1] }").contains("expected `kind`, `material`, `radius`, `at`"));
+    assert!(shape("{ kind = \"box\", size = [1, -1, 1] }").contains("`body[1].shape.size[2]`: found -1"));
+    assert!(shape("{ kind = \"capsule\", from = [0, 0, 0], to = [0, 0, 0], radius = 1 }").contains("is a sphere"));
+    let flat = "{ kind = \"convex\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]] }";
+    assert!(shape(flat).contains("expected at least four points [x, y, z], not all in one plane"));
+    let solid = "{ kind = \"convex\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }";
+    assert!(shape(solid).ends_with("hint: that of a convex shape is not worked out"));
+    let ground = "[[obstacle]]\nname = \"hill\"\nkind = \"height-field\"\nsize = [1, 1]\nheights = [[0, 1], [0]]\n";
+    assert!(
+        said_with(ground).starts_with("line 56, `obstacle[2].heights`: found [[0, 1], [0]]; expected at least two")
+    );
+}
+
+#[test]
+fn materials_that_are_none_are_refused() {
+    let rubber = |text: &str| said("friction = 0.9", text);
+    assert_eq!(
+        rubber("friction = 0.9\nrestitution = 1.5"),
+        "line 7, `material.rubber.restitution`: found 1.5; expected a share of the approach speed from 0 to 1"
+    );
+    assert!(
+        rubber("friction = -1").starts_with("line 6, `material.rubber.friction`: found -1; expected a number, zero")
+    );
+    assert!(rubber("law = \"regularised\"\nfriction = 1").contains("found no `stiffness`"));
+    assert!(rubber("law = \"hunt-crossley\"\nfriction = 1").contains("expected `law`, `stiffness`, `dissipation`"));
+    assert!(rubber("law = \"soft\"").contains("expected one of \"rigid\", \"regularised\", \"hunt-crossley\""));
+}
+
+#[test]
+fn closures_that_are_open_are_refused() {
+    let string = |text: &str| said("at = [0, 0.4, 0]", text);
+    assert_eq!(
+        string("on_first = [0, -0.2, 0]\non_second = [0, 0.5, 0]"),
+        "line 48, `closure[1].on_second`: found [0, 0.5, 0]; expected points that meet at the start, within 1 mm; they are \
+         0.1000 m apart. hint: move the bodies, or set active = false and add the closure by an [[event]]"
+    );
+    parse(&GOOD.replace("at = [0, 0.4, 0]", "on_first = [0, -0.2, 0]\non_second = [0, 0.4, 0]"));
+    assert!(string("").contains("found no `at`; expected the point [m]"));
+    assert!(string("at = [0, 0, 0]\non_first = [0, 0, 0]").contains("expected either `at`, or `on_first` and"));
+    assert!(said("second = \"world\"", "second = \"lower\"").contains("expected another body than `first`"));
+    let free = said("kind = \"ball\"\nfirst", "kind = \"free\"\nfirst");
+    assert_eq!(
+        free,
+        "line 44, `closure[1].kind`: found \"free\"; expected a kind that holds something; free holds nothing"
+    );
+}
+
+#[test]
+fn events_that_change_nothing_are_refused() {
+    assert_eq!(
+        said("time = 1.0", "time = 2.5"),
+        "line 50, `event[1].time`: found 2.5; expected an instant from 0 to 2 s, the duration"
+    );
+    assert_eq!(
+        said("remove = \"string\"", "add = \"string\""),
+        "line 51, `event[1].add`: found \"string\"; expected a closure that is not active at 1 s already. \
+         hint: active = false keeps a closure away until an event adds it"
+    );
+    let again = said_with("[[event]]\ntime = 1.5\nremove = \"string\"\n");
+    assert_eq!(again, "line 54, `event[2].remove`: found \"string\"; expected one that is still there at 1.5 s");
+    assert!(said("time = 1.0", "time = 1.0\nadd = \"knee\"").contains("expected either `add` or `remove`"));
+    parse(&format!("{GOOD}[[event]]\ntime = 1.5\nadd = \"string\"\n[[event]]\ntime = 1.5\nremove = \"knee\"\n"));
+}
+
+#[test]
+fn figures_and_pairs_that_make_no_sense_are_refused() {
+    let figure = |text: &str| said_with(&format!("[[figure]]\nname = \"walker\"\n{text}\n"));
+    assert_eq!(figure(""), "line 52, `figure[1].model`: found no `model`; expected the path of an .osim file");
+    assert!(figure("model = \"a.osim\"\ndrive = \"all\"").contains("`figure[1].motion`: found no `motion`"));
+    assert!(figure("model = \"a.osim\"\nmotion = \"\"").contains("expected a text that is not empty"));
+    assert!(figure("model = \"a.osim\"\ndrive = \"some\"").contains("expected \"all\", \"none\", or a list"));
+    let ignore = |pair: &str| said_with(&format!("[[ignore]]\npair = {pair}\n"));
+    assert_eq!(ignore("[\"upper\"]"), "line 53, `ignore[1].pair`: found [\"upper\"]; expected two names");
+    assert!(ignore("[\"upper\", \"upper\"]").contains("expected two different names"));
+    assert!(ignore("[\"upper\", \"flor\"]").ends_with("hint: is \"floor\" meant?"));
+}
+
+#[test]
+fn an_error_from_later_reads_the_same_way() {
+    let error =
+        SceneError::new(7, "figure[1].model", "found no file `a.osim`").hint("paths begin at the scene's folder");
+    assert_eq!(
+        error.to_string(),
+        "line 7, `figure[1].model`: found no file `a.osim`. hint: paths begin at the scene's folder"
+    );
+}
+
+// ---- the reference ----
+
+fn reference() -> String {
+    fs::read_to_string(root().join("docs/SCENES.md")).expect("docs/SCENES.md")
+}
+
+#[test]
+fn the_scenes_of_the_reference_parse() {
+    let text = reference();
+    let scenes: Vec<&str> = text.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    let whole: Vec<&&str> = scenes.iter().filter(|scene| scene.contains("duration =")).collect();
+    assert!(!whole.is_empty());
+    for scene in whole {
+        parse(scene);
+    }
+}
+
+/// A misplaced key makes the reader list the keys it knows there: the reference must have them all.
+#[test]
+fn the_reference_has_every_key() {
+    let text = reference();
+    let mut asked = 0;
+    let mut check = |scene: &str| {
+        let error = refusal(scene);
+        let list = error.message.split("expected ").nth(1).unwrap_or_else(|| panic!("{error}"));
+        assert!(error.key.ends_with("zzz"), "{error}");
+        assert!(!list.contains('…'), "{error}");
+        for key in list.split(", ") {
+            assert!(text.contains(key), "docs/SCENES.md has no {key}, which {} may have", error.key);
+            asked += 1;
+        }
+    };
+    let scene =
+        |more: &str| format!("step = 1\nduration = 1\n{more}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1,1,1]\n");
+    check("zzz = 1");
+    let joint = "name = \"j\"\nparent = \"world\"\nchild = \"b\"\nat = [0,0,0]\n";
+    for kind in ["weld", "revolute", "universal", "ball", "prismatic", "planar", "free"] {
+        check(&format!("{}[[joint]]\n{joint}kind = \"{kind}\"\nzzz = 1", scene("")));
+        check(&format!("{}[[closure]]\nname = \"c\"\nkind = \"{kind}\"\nzzz = 1", scene("")));
+    }
+    let hinge = format!("{}[[joint]]\n{joint}kind = \"revolute\"\naxis = [1,0,0]\n", scene(""));
+    for part in ["zzz = 1", "spring.zzz = 1", "limits.zzz = 1", "motor.zzz = 1", "drive.zzz = 1"] {
+        check(&format!("{hinge}[joint.coordinate]\n{part}"));
+    }
+    for function in ["sine", "ramp"] {
+        check(&format!("{hinge}[joint.coordinate]\ndrive.{function}.zzz = 1"));
+    }
+    check(&format!("{hinge}[joint.coordinate]\ndrive = {{ motion = \"a\", zzz = 1 }}"));
+    for law in ["rigid", "regularised", "hunt-crossley"] {
+        check(&scene(&format!("[material.m]\nlaw = \"{law}\"\nzzz = 1")));
+    }
+    for kind in ["sphere", "capsule", "box", "convex"] {
+        check(&format!("{}[[body.shape]]\nkind = \"{kind}\"\nzzz = 1", scene("")));
+    }
+    for kind in ["sphere", "capsule", "box", "convex", "plane", "height-field"] {
+        check(&scene(&format!("[[obstacle]]\nname = \"o\"\nkind = \"{kind}\"\nzzz = 1")));
+    }
+    let plane = "[[obstacle]]\nname = \"o\"\nkind = \"plane\"\n";
+    for part in ["motion.zzz = 1", "rotation.zzz = 1", "rotation = { quaternion = [1,0,0,0], zzz = 1 }"] {
+        check(&scene(&format!("{plane}{part}")));
+    }
+    let figure = "[[figure]]\nname = \"f\"\nmodel = \"m\"\n";
+    check(&scene(&format!("{figure}zzz = 1")));
+    check(&scene(&format!("{figure}[[figure.sphere]]\nzzz = 1")));
+    for table in ["[solver]", "[output]", "[[event]]", "[[ignore]]", "[[body]]"] {
+        check(&format!("{}{table}\nzzz = 1", scene("")));
+    }
+    assert!(asked > 150, "{asked}");
+}
+
+// ---- anything ----
+
+/// The examples and the good scene.
+fn seeds() -> Vec<String> {
+    examples().into_iter().map(|(_, text)| text).chain([GOOD.to_owned()]).collect()
+}
+
+/// Whatever is said of a text points into it.
+fn survives(text: &str) -> Result<(), TestCaseError> {
+    if let Err(error) = SceneFile::parse(text) {
+        prop_assert!(error.line >= 1 && error.line <= text.matches('\n').count() + 1, "{}", error);
+        prop_assert!(!error.message.is_empty());
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_truncated_scene_is_no_panic(which: prop::sample::Index, cut: prop::sample::Index) {
+        let seeds = seeds();
+        let text = which.get(&seeds);
+        let cut = cut.index(text.len() + 1);
+        survives(&String::from_utf8_lossy(&text.as_bytes()[..cut]))?;
+    }
+
+    #[test]
+    fn a_scene_with_changed_bytes_is_no_panic(
+        which: prop::sample::Index,
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let seeds = seeds();
+        let mut bytes = which.get(&seeds).clone().into_bytes();
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        survives(&String::from_utf8_lossy(&bytes))?;
+    }
+
+    /// Numbers are where a scene that still is TOML can hurt.
+    #[test]
+    fn a_scene_with_changed_numbers_is_no_panic(
+        which: prop::sample::Index,
+        at: prop::sample::Index,
+        number in prop::sample::select(vec![
+            "0", "-1", "nan", "inf", "1e-320", "1e-160", "1e15", "-1e15", "1e400", "true", "\"x\"", "[]", "{}", "0x10",
+            "9999999999999999999999", "1979-05-27",
+        ]),
+    ) {
+        let seeds = seeds();
+        let text = which.get(&seeds);
+        let digits: Vec<usize> = text.char_indices().filter(|(_, c)| c.is_ascii_digit()).map(|(i, _)| i).collect();
+        let start = *at.get(&digits);
+        let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-');
+        let from = text[..start].rfind(|c| !of_number(c)).map_or(0, |i| i + 1);
+        let to = text[start..].find(|c| !of_number(c)).map_or(text.len(), |i| start + i);
+        survives(&format!("{}{number}{}", &text[..from], &text[to..]))?;
+    }
+}
