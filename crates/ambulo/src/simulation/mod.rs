@@ -3,6 +3,7 @@
 mod assemble;
 mod energy;
 mod forces;
+mod impulse;
 mod joint;
 mod rates;
 mod signal;
@@ -19,7 +20,8 @@ pub use forces::{ContactForce, StepForces};
 pub use joint::JointKind;
 pub use signal::Signal;
 pub use state::{RowKey, State};
-pub use step::{StepSettings, StepWorkspace, largest_joint_error, step};
+pub use impulse::largest_joint_error;
+pub use step::{Integrator, StepSettings, StepWorkspace, step};
 pub use world::{
     Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
     Owner, Spring, Surface, World,

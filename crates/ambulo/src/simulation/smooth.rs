@@ -20,7 +20,7 @@ use super::assemble::{Assembly, Slot, closing_rows, twist};
 use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
 use super::rates::rates;
 use super::state::{RowKey, State};
-use super::step::closure_errors;
+use super::impulse::closure_errors;
 use super::world::{Joint, World};
 use crate::dynamics::{
     BodyTerms, Constraint, GraphSolution, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements,

@@ -1,47 +1,57 @@
-//! One step in time: impulses at velocity level, then positions.
+//! One step in time.
 //!
-//!   1. where surfaces touch, what acts: the graph at (x, v⁻)
-//!   2. v, λ from the graph                                        (dynamics::solve_graph)
-//!   3. x := x + h v, rotations by exp(h ω)
-//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2; then joints of trees are seated exactly
-//!
-//! First order in time. The multipliers λ/h are the forces: of joints, drives, contacts, friction.
-//!
-//! Source: Faure, Debunne, Cani, Multon 1997, section 3.1 (steps 1-3 for accelerations, velocities, linearised
-//! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
+//! [`Integrator::Impulse`] is of first order and takes everything: contacts, impacts, friction, limits. [`Integrator::RungeKutta`] is
+//! of fourth order where nothing touches, rubs or runs against a limit; where surfaces come to touch within the step, it
+//! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
-use super::assemble::{Assembly, Prescribed, Yielding, twist};
-use super::forces::StepForces;
-use super::joint::{drift, orthonormal, rotation};
-use super::state::{RowKey, State};
+use super::assemble::Assembly;
+use super::forces::{ContactForce, StepForces};
+use super::impulse::{impact, impulse_step, obstacle_motion};
+use super::smooth::{Stage, runge_kutta};
+use super::state::State;
 use super::touch::{ObstacleMotion, TouchWorkspace};
-use super::world::{Joint, World};
-use crate::dynamics::{
-    Convergence, GraphSolution, GraphWorkspace, Law, LinkError, Six, SolverSettings, project_displacements, solve_graph,
-};
+use super::world::{ContactLaw, World};
+use crate::dynamics::{Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings};
 use crate::findings::Findings;
-use crate::spatial::{Pose, Twist, Vec3};
 
-/// Where a solver cannot satisfy all rows, forces beyond so many times the weight of everything are taken as a sign that
-/// rows contradict each other.
-const UNREASONABLE_WEIGHTS: f64 = 1000.0;
-/// Fastest that position projection pulls loops together or bodies apart [m/s, rad/s].
-const CLOSING_SPEED: f64 = 1.0;
+/// Surfaces nearer than this touch [m]; what an instant of contact is found to.
+const TOUCHING_M: f64 = 1e-10;
+/// Collisions within one step before it is finished by impulses.
+const MOST_COLLISIONS: usize = 8;
+/// Bisections of the instant of contact: a step of 1 ms comes down to 1e-18 s.
+const BISECTIONS: usize = 50;
 
 /// How to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepSettings {
     /// Step [s].
     pub step_s: f64,
+    /// The method.
+    pub integrator: Integrator,
     /// Whether drift of positions is removed.
     pub projection: bool,
     /// The solver's limits.
     pub solver: SolverSettings,
 }
 
+/// How positions and velocities follow from forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// First order, by impulses.
+    Impulse,
+    /// Fourth order where motion is smooth.
+    RungeKutta,
+}
+
 impl Default for StepSettings {
+    /// 1 ms, by impulses, with projection.
     fn default() -> Self {
-        StepSettings { step_s: 1e-3, projection: true, solver: SolverSettings::default() }
+        StepSettings {
+            step_s: 1e-3,
+            integrator: Integrator::Impulse,
+            projection: true,
+            solver: SolverSettings::default(),
+        }
     }
 }
 
@@ -52,11 +62,29 @@ pub struct StepWorkspace {
     pub(crate) touch: TouchWorkspace,
     pub(crate) solver: GraphWorkspace,
     pub(crate) solution: GraphSolution,
-    targets: Vec<f64>,
-    displacements: Vec<Six>,
-    shifts: Vec<f64>,
-    obstacles: ObstacleMotion,
+    /// Scratch of the later stages of a smooth step.
+    later: (Assembly, GraphSolution),
+    pub(crate) targets: Vec<f64>,
+    pub(crate) displacements: Vec<Six>,
+    pub(crate) shifts: Vec<f64>,
+    pub(crate) obstacles: ObstacleMotion,
     pub(crate) step_s: f64,
+    /// Collisions within the last step: time [s] and impulse [N.s].
+    pub(crate) impacts: Vec<(f64, ContactForce)>,
+}
+
+impl StepWorkspace {
+    /// The forces of the last step: means over it by impulses, those at its start by Runge-Kutta.
+    #[must_use]
+    pub fn forces(&self, world: &World) -> StepForces {
+        StepForces::of(world, self)
+    }
+
+    /// Collisions that a smooth step has found within itself: time [s], and the contact with impulses [N.s] for forces.
+    #[must_use]
+    pub fn impacts(&self) -> &[(f64, ContactForce)] {
+        &self.impacts
+    }
 }
 
 /// One step of the world.
@@ -73,297 +101,105 @@ pub fn step(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    let h = settings.step_s;
-    w.step_s = h;
-    let prescribed = Prescribed::at(world, state.time_s + h);
-    w.obstacles = obstacle_motion(world, state.time_s, h);
-    w.solve(world, state, settings, &prescribed, findings)?;
-    for (body, motion) in w.solution.motions.iter().enumerate() {
-        state.twists[body] = twist(motion);
-        advance(&mut state.poses[body], &state.twists[body], h);
+    w.impacts.clear();
+    match settings.integrator {
+        Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
+        Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
     }
-    state.time_s += h;
-    state.guess.clear();
-    for (key, group) in w.assembly.keys.iter().zip(&w.assembly.graph.groups) {
-        let mut impulses = [0.0; 6];
-        impulses[..group.rows.len()].copy_from_slice(&w.solution.lambda[group.rows.clone()]);
-        state.guess.insert(*key, impulses);
-    }
-    if settings.projection {
-        w.project(world, state, &prescribed, h);
-    }
-    seat(world, state, &prescribed, settings.projection, &w.solver);
-    Ok(w.solution.convergence)
 }
 
-/// Poses of obstacles at the start of a step, with the mean twist over it.
-fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMotion {
-    let over_step = |obstacle: &super::world::Obstacle| {
-        let (now, _) = obstacle.at(time_s);
-        if obstacle.path.is_none() {
-            return (now, Twist::ZERO);
+/// Smooth stretches and the collisions between them.
+fn smooth_step(
+    world: &World,
+    state: &mut State,
+    settings: &StepSettings,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<Convergence, LinkError> {
+    let mut left = settings.step_s;
+    for _ in 0..MOST_COLLISIONS {
+        if !smooth_here(world, state, w, left) {
+            break;
         }
-        let (then, _) = obstacle.at(time_s + h);
-        let turn = super::joint::rotation_vector(&(then.rotation * now.rotation.transpose()));
-        (now, Twist { angular: turn / h, linear: (then.translation - now.translation) / h })
-    };
-    world.obstacles.iter().map(over_step).collect()
+        let mut end = state.clone();
+        w.runge_kutta(world, &mut end, left, settings)?;
+        if w.overloaded_or_limited(world, &end) {
+            break;
+        }
+        if w.least_gap(world, &end) >= 0.0 {
+            *state = end;
+            return Ok(w.solution.convergence);
+        }
+        let (mut before, mut after) = (0.0, left);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (before + after);
+            end.clone_from(state);
+            w.runge_kutta(world, &mut end, middle, settings)?;
+            if w.least_gap(world, &end) >= 0.0 { before = middle } else { after = middle }
+        }
+        end.clone_from(state);
+        w.runge_kutta(world, &mut end, before, settings)?;
+        *state = end;
+        left -= before;
+        impact(world, state, settings, w, findings)?;
+    }
+    if left <= 0.0 {
+        return Ok(w.solution.convergence);
+    }
+    impulse_step(world, state, left, settings, w, findings)
 }
 
-fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
-    pose.translation += twist.linear * h;
-    pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
+/// Whether nothing touches that does not part, and nothing rubs.
+fn smooth_here(world: &World, state: &State, w: &mut StepWorkspace, h: f64) -> bool {
+    let rubs = world.joints.iter().any(|j| j.coordinates.iter().any(|c| c.friction > 0.0));
+    let soft = world.materials.iter().any(|m| m.law != ContactLaw::Rigid);
+    if rubs || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
+        return false;
+    }
+    w.obstacles = obstacle_motion(world, state.time_s, h);
+    w.touch.detect(world, state, &w.obstacles, h);
+    !w.touch.approaches(world, state, &w.obstacles, TOUCHING_M)
 }
 
 impl StepWorkspace {
-    /// The forces of the last step.
-    #[must_use]
-    pub fn forces(&self, world: &World) -> StepForces {
-        StepForces::of(world, self)
-    }
-
-    /// Velocities and impulses; drives that ask too much give way.
-    fn solve(
+    fn runge_kutta(
         &mut self,
         world: &World,
-        state: &State,
+        state: &mut State,
+        h: f64,
         settings: &StepSettings,
-        prescribed: &Prescribed,
-        findings: &mut Findings,
     ) -> Result<(), LinkError> {
-        let h = settings.step_s;
-        let unreasonable = UNREASONABLE_WEIGHTS * (world.mass() * world.gravity.norm()).max(1.0);
-        let mut yielding: Yielding = Vec::new();
-        self.touch.detect(world, state, &self.obstacles, h);
-        let touches = self.touch.touches.clone();
-        loop {
-            self.touch.touches.clone_from(&touches);
-            self.assembly.fill(world, state, prescribed, &yielding, h);
-            let Assembly { graph, keys, .. } = &mut self.assembly;
-            self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
-            self.guess(state);
-            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
-            let more = self.overloaded(world, &yielding, unreasonable);
-            if more.is_empty() {
-                break;
-            }
-            yielding.extend(more);
-        }
-        if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
-            self.bound(h * unreasonable);
-            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
-        }
-        self.report(world, &yielding, findings);
-        Ok(())
+        self.step_s = 1.0; // multipliers of accelerations are forces
+        self.touch.clear();
+        let mut first = Stage { assembly: &mut self.assembly, solution: &mut self.solution };
+        let mut later = Stage { assembly: &mut self.later.0, solution: &mut self.later.1 };
+        runge_kutta(world, state, h, &settings.solver, &mut self.solver, &mut first, &mut later)
     }
 
-    /// Impulses of the last step as a guess; a new contact is taken to push and to stick.
-    fn guess(&mut self, state: &State) {
-        let lambda = &mut self.solution.lambda;
-        lambda.clear();
-        lambda.resize(self.assembly.graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&self.assembly.graph.groups) {
-            match state.guess.get(key) {
-                Some(impulses) => lambda[group.rows.clone()].copy_from_slice(&impulses[..group.rows.len()]),
-                None => lambda[group.rows.start] = if matches!(key, RowKey::Contact(..)) { f64::MIN_POSITIVE } else { 0.0 },
-            }
-        }
-    }
-
-    /// Drives whose effort exceeds their limit; or, where the solver failed, reason.
-    fn overloaded(&self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
-        let failed = !self.solution.convergence.converged;
-        let limited = |j: &Joint| j.coordinates.iter().any(|c| c.drive.as_ref().is_some_and(|d| failed || d.max.is_some()));
-        if !world.joints.iter().any(limited) {
-            return Vec::new();
+    fn overloaded_or_limited(&self, world: &World, end: &State) -> bool {
+        let limited = world.joints.iter().zip(&end.coordinates).any(|(joint, q)| {
+            joint.coordinates.iter().zip(q).any(|(acting, q)| {
+                acting.limits.0.is_some_and(|low| *q <= low) || acting.limits.1.is_some_and(|high| *q >= high)
+            })
+        });
+        let bounded = |c: &super::world::JointCoordinate| c.drive.as_ref().and_then(|d| d.max);
+        if limited || !world.joints.iter().any(|j| j.coordinates.iter().any(|c| bounded(c).is_some())) {
+            return limited;
         }
         let forces = self.forces(world);
-        let mut more = Vec::new();
-        for (number, joint) in world.joints.iter().enumerate() {
-            for (k, acting) in joint.coordinates.iter().enumerate() {
-                let Some(drive) = &acting.drive else { continue };
-                let known = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
-                let most = drive.max.unwrap_or(if failed { unreasonable } else { f64::INFINITY });
-                if !known && forces.efforts[number][k].abs() > most {
-                    more.push((number, k, most));
-                }
-            }
-        }
-        more
+        world.joints.iter().zip(&forces.efforts).any(|(joint, efforts)| {
+            joint.coordinates.iter().zip(efforts).any(|(c, effort)| bounded(c).is_some_and(|max| effort.abs() > max))
+        })
     }
 
-    /// Confines every force.
-    fn bound(&mut self, most: f64) {
-        for group in &mut self.assembly.graph.groups {
-            group.law = match group.law {
-                Law::Bounded { least, most: upper } => {
-                    Law::Bounded { least: least.max(-most), most: upper.min(most) }
-                }
-                Law::Contact { friction, bound } => Law::Contact { friction, bound: bound.min(most) },
-            };
-        }
+    /// Least distance of surfaces that may touch [m]; infinite if none come near.
+    fn least_gap(&mut self, world: &World, state: &State) -> f64 {
+        let obstacles = obstacle_motion(world, state.time_s, 1e-9);
+        let mut probe = std::mem::take(&mut self.touch);
+        probe.detect(world, state, &obstacles, 0.0);
+        let least = probe.touches.iter().map(|t| t.at.gap).fold(f64::INFINITY, f64::min);
+        probe.clear();
+        self.touch = probe;
+        least
     }
-
-    fn report(&self, world: &World, yielding: &Yielding, findings: &mut Findings) {
-        for &(joint, coordinate, max) in yielding {
-            let joint = &world.joints[joint];
-            let name = joint.kind.coordinate_names()[coordinate];
-            let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
-            findings.warn(
-                "drive.gave_way",
-                format!(
-                    "the drive of `{}` ({name}) could not keep to its motion with {max:.4} {unit} and gave way",
-                    joint.name
-                ),
-            );
-        }
-        let convergence = &self.solution.convergence;
-        if let (false, Some(row)) = (convergence.converged, convergence.worst) {
-            let name = self.row_name(world, row);
-            findings.warn(
-                "solver.not_converged",
-                format!("not all constraints could be met at once; the one that departs most is {name}"),
-            );
-        }
-    }
-
-    /// What a row stands for, in words.
-    pub(crate) fn row_name(&self, world: &World, row: usize) -> String {
-        let groups = &self.assembly.graph.groups;
-        let Some(group) = groups.iter().position(|g| g.rows.contains(&row)) else { return format!("row {row}") };
-        let coordinate = |joint: usize, k: usize| {
-            let joint = &world.joints[joint];
-            format!("`{}` ({})", joint.name, joint.kind.coordinate_names()[k])
-        };
-        match self.assembly.keys[group] {
-            RowKey::Closure(closure) => format!("the closure `{}`", world.closures[closure].name),
-            RowKey::Drive(j, k) => format!("the drive of {}", coordinate(j, k)),
-            RowKey::Motor(j, k) => format!("the motor of {}", coordinate(j, k)),
-            RowKey::Friction(j, k) => format!("the friction of {}", coordinate(j, k)),
-            RowKey::LowerLimit(j, k) => format!("the lower limit of {}", coordinate(j, k)),
-            RowKey::UpperLimit(j, k) => format!("the upper limit of {}", coordinate(j, k)),
-            RowKey::Contact(a, b, _) | RowKey::SoftFriction(a, b, _) => {
-                let name = |surface: usize| world.owner_name(world.surfaces[surface].owner);
-                format!("the contact of `{}` with `{}`", name(a), name(b))
-            }
-        }
-    }
-
-    /// Step 4: what has drifted goes back along M⁻¹ Jᵀ.
-    fn project(&mut self, world: &World, state: &mut State, prescribed: &Prescribed, h: f64) {
-        let most = CLOSING_SPEED * h;
-        for (body, joint) in self.assembly.joint_of.iter().enumerate() {
-            self.assembly.graph.terms.offset[body] = match joint {
-                None => Six::zeros(),
-                Some(number) => {
-                    let joint = &world.joints[*number];
-                    joint_correction(state, joint, &state.coordinates[*number], prescribed)
-                }
-            };
-        }
-        let graph = &self.assembly.graph;
-        self.targets.clear();
-        self.targets.resize(graph.rows.len(), 0.0);
-        for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
-            let RowKey::Closure(number) = key else { continue };
-            let (_, errors) = closure_errors(world, state, *number);
-            for (row, error) in group.rows.clone().zip(errors) {
-                self.targets[row] = -error.clamp(-most, most);
-            }
-        }
-        for touch in self.touch.touches.iter().filter(|t| t.rigid) {
-            let group = &graph.groups[touch.group];
-            let row = group.rows.start;
-            let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates) - touch.surface_speed;
-            let gap = touch.at.gap + h * u;
-            self.targets[row] = (-gap).clamp(-most, most);
-        }
-        project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
-        for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
-            advance(pose, &twist(displacement), 1.0);
-        }
-    }
-}
-
-/// The displacement of a child's mass centre against its parent that undoes its drift.
-fn joint_correction(state: &State, joint: &Joint, last: &[f64], prescribed: &Prescribed) -> Six {
-    let frames = state.frames(joint);
-    let (turn, shift) = match prescribed.goal(joint) {
-        None => drift(joint.kind, &frames, last),
-        Some(goal) => {
-            let seat = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * goal * joint.child_from_joint;
-            let turn = super::joint::rotation_vector(&(frames.child.rotation * seat.rotation.transpose()));
-            (turn, frames.child.translation - seat.translation)
-        }
-    };
-    let to_center = state.poses[joint.child].translation - frames.child.translation;
-    let linear = -shift - turn.cross(&to_center);
-    Six::new(-turn.x, -turn.y, -turn.z, linear.x, linear.y, linear.z)
-}
-
-/// Frames of a closure, and its errors along its rows [rad, m].
-pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (super::joint::Frames, Vec<f64>) {
-    let closure = &world.closures[number];
-    let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
-    let frames = super::joint::Frames {
-        parent: parent * closure.second_from_joint,
-        child: state.poses[closure.first] * closure.first_from_joint,
-    };
-    let (turn, shift) = drift(closure.kind, &frames, &[]);
-    let (turns, slides) = closure.kind.held(&frames);
-    let errors = turns.iter().map(|e| e.dot(&turn)).chain(slides.iter().map(|e| e.dot(&shift))).collect();
-    (frames, errors)
-}
-
-/// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool, solver: &GraphWorkspace) {
-    let joint_of = world.joint_of_body();
-    for (body, _) in solver.outwards() {
-        let Some(number) = joint_of[body] else { continue };
-        let joint = &world.joints[number];
-        if joint.follows.is_none() {
-            let mut q = state.measured(joint, &state.coordinates[number]);
-            if exactly {
-                for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
-                    if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
-                        let target = drive.signal.at(state.time_s)[0];
-                        // A drive that gave way stays where it is.
-                        if (target - *value).abs() < 1e-3 {
-                            *value = target;
-                        }
-                    }
-                }
-            }
-            state.coordinates[number] = q;
-        }
-        if !exactly {
-            continue;
-        }
-        let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
-        state.poses[body] = match prescribed.goal(joint) {
-            Some(goal) => parent * goal,
-            None => {
-                let mut q = [0.0; super::joint::MOST];
-                q[..joint.kind.freedom()].copy_from_slice(&state.coordinates[number]);
-                let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
-                let pose = seat * joint.child_from_joint.inverse();
-                Pose { rotation: orthonormal(&pose.rotation), ..pose }
-            }
-        };
-    }
-}
-
-/// Largest distance of any joint or closure from where it holds [m].
-#[must_use]
-pub fn largest_joint_error(world: &World, state: &State) -> f64 {
-    let joints = world.joints.iter().zip(&state.coordinates).filter(|(j, _)| j.follows.is_none()).map(|(joint, last)| {
-        let (_, shift) = drift(joint.kind, &state.frames(joint), last);
-        shift.norm()
-    });
-    joints.chain((0..world.closures.len()).filter(|c| world.closures[*c].active).map(|closure| {
-        let (frames, _) = closure_errors(world, state, closure);
-        let (_, shift): (Vec3, Vec3) = drift(world.closures[closure].kind, &frames, &[]);
-        shift.norm()
-    }))
-    .fold(0.0, f64::max)
 }

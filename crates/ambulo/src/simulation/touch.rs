@@ -26,6 +26,11 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
+/// Surfaces this near meet at an instant of contact [m].
+const MEETING_M: f64 = 1e-7;
+/// Touching surfaces that part faster than this are free of each other [m/s].
+const PARTING_M_S: f64 = 1e-6;
+
 /// One point of contact in a step.
 #[derive(Debug, Clone)]
 pub(crate) struct Touch {
@@ -92,6 +97,31 @@ impl TouchWorkspace {
                 rigid: true,
             }));
         }
+    }
+
+    /// Forgets all touches.
+    pub(crate) fn clear(&mut self) {
+        self.touches.clear();
+    }
+
+    /// At an instant of contact: what all but touches, touches; the rest is not there.
+    pub(crate) fn close_gaps(&mut self) {
+        self.touches.retain(|touch| touch.at.gap < MEETING_M);
+        self.touches.iter_mut().for_each(|touch| touch.at.gap = 0.0);
+    }
+
+    /// Whether surfaces nearer than `touching` [m] do not part.
+    pub(crate) fn approaches(&self, world: &World, state: &State, obstacles: &ObstacleMotion, touching: f64) -> bool {
+        self.touches.iter().filter(|touch| touch.at.gap <= touching).any(|touch| {
+            let velocity = |surface: usize| match world.surfaces[surface].owner {
+                Owner::Body(body) => {
+                    state.twists[body].velocity_at(touch.at.point - state.poses[body].translation)
+                }
+                Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
+            };
+            let (a, b) = touch.surfaces;
+            touch.at.normal.dot(&(velocity(a) - velocity(b))) <= PARTING_M_S
+        })
     }
 
     /// Adds the rows of all touches to the graph, dropping those that ask nothing of this step.

@@ -1,0 +1,366 @@
+//! One step of first order: impulses at velocity level, then positions.
+//!
+//!   1. where surfaces touch, what acts: the graph at (x, v⁻)
+//!   2. v, λ from the graph                                        (dynamics::solve_graph)
+//!   3. x := x + h v, rotations by exp(h ω)
+//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2; then joints of trees are seated exactly
+//!
+//! First order in time. The multipliers λ/h are the forces: of joints, drives, contacts, friction.
+//!
+//! Source: Faure, Debunne, Cani, Multon 1997, section 3.1 (steps 1-3 for accelerations, velocities, linearised
+//! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
+
+use super::assemble::{Assembly, Prescribed, Yielding, twist};
+use super::forces::{ContactForce, StepForces};
+use super::joint::{drift, orthonormal, rotation};
+use super::state::{RowKey, State};
+use super::step::{StepSettings, StepWorkspace};
+use super::touch::ObstacleMotion;
+use super::world::{Joint, World};
+use crate::dynamics::{
+    Convergence, GraphWorkspace, Law, LinkError, Six, project_displacements, solve_graph,
+};
+use crate::findings::Findings;
+use crate::spatial::{Pose, Twist, Vec3};
+
+/// Where a solver cannot satisfy all rows, forces beyond so many times the weight of everything are taken as a sign that
+/// rows contradict each other.
+const UNREASONABLE_WEIGHTS: f64 = 1000.0;
+/// Fastest that position projection pulls loops together or bodies apart [m/s, rad/s].
+const CLOSING_SPEED: f64 = 1.0;
+/// Duration of an impact in a smooth step [s]: gravity gives 1e-8 m/s in it.
+const IMPACT_S: f64 = 1e-9;
+
+/// Advances the state by `h`.
+pub(super) fn impulse_step(
+    world: &World,
+    state: &mut State,
+    h: f64,
+    settings: &StepSettings,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<Convergence, LinkError> {
+    w.step_s = h;
+    let prescribed = Prescribed::at(world, state.time_s + h);
+    w.obstacles = obstacle_motion(world, state.time_s, h);
+    w.solve(world, state, Span { h, instant: false }, settings, &prescribed, findings)?;
+    for (body, motion) in w.solution.motions.iter().enumerate() {
+        state.twists[body] = twist(motion);
+        advance(&mut state.poses[body], &state.twists[body], h);
+    }
+    state.time_s += h;
+    state.guess.clear();
+    for (key, group) in w.assembly.keys.iter().zip(&w.assembly.graph.groups) {
+        let mut impulses = [0.0; 6];
+        impulses[..group.rows.len()].copy_from_slice(&w.solution.lambda[group.rows.clone()]);
+        state.guess.insert(*key, impulses);
+    }
+    if settings.projection {
+        w.project(world, state, &prescribed, h);
+    }
+    seat(world, state, &prescribed, settings.projection, &w.solver);
+    Ok(w.solution.convergence)
+}
+
+/// What happens at an instant where surfaces meet: velocities change, positions do not. `h` is the short time over which
+/// forces other than those of the impact are negligible.
+pub(super) fn impact(
+    world: &World,
+    state: &mut State,
+    settings: &StepSettings,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<(), LinkError> {
+    let prescribed = Prescribed::at(world, state.time_s + IMPACT_S);
+    w.step_s = IMPACT_S;
+    w.obstacles = obstacle_motion(world, state.time_s, IMPACT_S);
+    w.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, &prescribed, findings)?;
+    for (body, motion) in w.solution.motions.iter().enumerate() {
+        state.twists[body] = twist(motion);
+    }
+    state.guess.clear();
+    let impulses = StepForces::of(world, w).contacts.into_iter().map(|c| ContactForce {
+        force: c.force * IMPACT_S,
+        normal_force: c.normal_force * IMPACT_S,
+        ..c
+    });
+    w.impacts.extend(impulses.map(|c| (state.time_s, c)));
+    Ok(())
+}
+
+/// Time over which velocities are solved for.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    h: f64,
+    /// Whether surfaces that all but touch are taken to touch.
+    instant: bool,
+}
+
+/// Poses of obstacles at the start of a step, with the mean twist over it.
+pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMotion {
+    let over_step = |obstacle: &super::world::Obstacle| {
+        let (now, _) = obstacle.at(time_s);
+        if obstacle.path.is_none() {
+            return (now, Twist::ZERO);
+        }
+        let (then, _) = obstacle.at(time_s + h);
+        let turn = super::joint::rotation_vector(&(then.rotation * now.rotation.transpose()));
+        (now, Twist { angular: turn / h, linear: (then.translation - now.translation) / h })
+    };
+    world.obstacles.iter().map(over_step).collect()
+}
+
+fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
+    pose.translation += twist.linear * h;
+    pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
+}
+
+impl StepWorkspace {
+    /// Velocities and impulses; drives that ask too much give way.
+    fn solve(
+        &mut self,
+        world: &World,
+        state: &State,
+        Span { h, instant }: Span,
+        settings: &StepSettings,
+        prescribed: &Prescribed,
+        findings: &mut Findings,
+    ) -> Result<(), LinkError> {
+        let unreasonable = UNREASONABLE_WEIGHTS * (world.mass() * world.gravity.norm()).max(1.0);
+        let mut yielding: Yielding = Vec::new();
+        self.touch.detect(world, state, &self.obstacles, h);
+        if instant {
+            self.touch.close_gaps();
+        }
+        let touches = self.touch.touches.clone();
+        loop {
+            self.touch.touches.clone_from(&touches);
+            self.assembly.fill(world, state, prescribed, &yielding, h);
+            let Assembly { graph, keys, .. } = &mut self.assembly;
+            self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
+            self.guess(state);
+            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
+            let more = self.overloaded(world, &yielding, unreasonable);
+            if more.is_empty() {
+                break;
+            }
+            yielding.extend(more);
+        }
+        if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
+            self.bound(h * unreasonable);
+            solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
+        }
+        self.report(world, &yielding, findings);
+        Ok(())
+    }
+
+    /// Impulses of the last step as a guess; a new contact is taken to push and to stick.
+    fn guess(&mut self, state: &State) {
+        let lambda = &mut self.solution.lambda;
+        lambda.clear();
+        lambda.resize(self.assembly.graph.rows.len(), 0.0);
+        for (key, group) in self.assembly.keys.iter().zip(&self.assembly.graph.groups) {
+            match state.guess.get(key) {
+                Some(impulses) => lambda[group.rows.clone()].copy_from_slice(&impulses[..group.rows.len()]),
+                None => lambda[group.rows.start] = if matches!(key, RowKey::Contact(..)) { f64::MIN_POSITIVE } else { 0.0 },
+            }
+        }
+    }
+
+    /// Drives whose effort exceeds their limit; or, where the solver failed, reason.
+    fn overloaded(&self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
+        let failed = !self.solution.convergence.converged;
+        let limited = |j: &Joint| j.coordinates.iter().any(|c| c.drive.as_ref().is_some_and(|d| failed || d.max.is_some()));
+        if !world.joints.iter().any(limited) {
+            return Vec::new();
+        }
+        let forces = self.forces(world);
+        let mut more = Vec::new();
+        for (number, joint) in world.joints.iter().enumerate() {
+            for (k, acting) in joint.coordinates.iter().enumerate() {
+                let Some(drive) = &acting.drive else { continue };
+                let known = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
+                let most = drive.max.unwrap_or(if failed { unreasonable } else { f64::INFINITY });
+                if !known && forces.efforts[number][k].abs() > most {
+                    more.push((number, k, most));
+                }
+            }
+        }
+        more
+    }
+
+    /// Confines every force.
+    fn bound(&mut self, most: f64) {
+        for group in &mut self.assembly.graph.groups {
+            group.law = match group.law {
+                Law::Bounded { least, most: upper } => {
+                    Law::Bounded { least: least.max(-most), most: upper.min(most) }
+                }
+                Law::Contact { friction, bound } => Law::Contact { friction, bound: bound.min(most) },
+            };
+        }
+    }
+
+    fn report(&self, world: &World, yielding: &Yielding, findings: &mut Findings) {
+        for &(joint, coordinate, max) in yielding {
+            let joint = &world.joints[joint];
+            let name = joint.kind.coordinate_names()[coordinate];
+            let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
+            findings.warn(
+                "drive.gave_way",
+                format!(
+                    "the drive of `{}` ({name}) could not keep to its motion with {max:.4} {unit} and gave way",
+                    joint.name
+                ),
+            );
+        }
+        let convergence = &self.solution.convergence;
+        if let (false, Some(row)) = (convergence.converged, convergence.worst) {
+            let name = self.row_name(world, row);
+            findings.warn(
+                "solver.not_converged",
+                format!("not all constraints could be met at once; the one that departs most is {name}"),
+            );
+        }
+    }
+
+    /// What a row stands for, in words.
+    pub(crate) fn row_name(&self, world: &World, row: usize) -> String {
+        let groups = &self.assembly.graph.groups;
+        let Some(group) = groups.iter().position(|g| g.rows.contains(&row)) else { return format!("row {row}") };
+        let coordinate = |joint: usize, k: usize| {
+            let joint = &world.joints[joint];
+            format!("`{}` ({})", joint.name, joint.kind.coordinate_names()[k])
+        };
+        match self.assembly.keys[group] {
+            RowKey::Closure(closure) => format!("the closure `{}`", world.closures[closure].name),
+            RowKey::Drive(j, k) => format!("the drive of {}", coordinate(j, k)),
+            RowKey::Motor(j, k) => format!("the motor of {}", coordinate(j, k)),
+            RowKey::Friction(j, k) => format!("the friction of {}", coordinate(j, k)),
+            RowKey::LowerLimit(j, k) => format!("the lower limit of {}", coordinate(j, k)),
+            RowKey::UpperLimit(j, k) => format!("the upper limit of {}", coordinate(j, k)),
+            RowKey::Contact(a, b, _) | RowKey::SoftFriction(a, b, _) => {
+                let name = |surface: usize| world.owner_name(world.surfaces[surface].owner);
+                format!("the contact of `{}` with `{}`", name(a), name(b))
+            }
+        }
+    }
+
+    /// Step 4: what has drifted goes back along M⁻¹ Jᵀ.
+    fn project(&mut self, world: &World, state: &mut State, prescribed: &Prescribed, h: f64) {
+        let most = CLOSING_SPEED * h;
+        for (body, joint) in self.assembly.joint_of.iter().enumerate() {
+            self.assembly.graph.terms.offset[body] = match joint {
+                None => Six::zeros(),
+                Some(number) => {
+                    let joint = &world.joints[*number];
+                    joint_correction(state, joint, &state.coordinates[*number], prescribed)
+                }
+            };
+        }
+        let graph = &self.assembly.graph;
+        self.targets.clear();
+        self.targets.resize(graph.rows.len(), 0.0);
+        for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
+            let RowKey::Closure(number) = key else { continue };
+            let (_, errors) = closure_errors(world, state, *number);
+            for (row, error) in group.rows.clone().zip(errors) {
+                self.targets[row] = -error.clamp(-most, most);
+            }
+        }
+        for touch in self.touch.touches.iter().filter(|t| t.rigid) {
+            let group = &graph.groups[touch.group];
+            let row = group.rows.start;
+            let u = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates) - touch.surface_speed;
+            let gap = touch.at.gap + h * u;
+            self.targets[row] = (-gap).clamp(-most, most);
+        }
+        project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
+        for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
+            advance(pose, &twist(displacement), 1.0);
+        }
+    }
+}
+
+/// The displacement of a child's mass centre against its parent that undoes its drift.
+fn joint_correction(state: &State, joint: &Joint, last: &[f64], prescribed: &Prescribed) -> Six {
+    let frames = state.frames(joint);
+    let (turn, shift) = match prescribed.goal(joint) {
+        None => drift(joint.kind, &frames, last),
+        Some(goal) => {
+            let seat = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * goal * joint.child_from_joint;
+            let turn = super::joint::rotation_vector(&(frames.child.rotation * seat.rotation.transpose()));
+            (turn, frames.child.translation - seat.translation)
+        }
+    };
+    let to_center = state.poses[joint.child].translation - frames.child.translation;
+    let linear = -shift - turn.cross(&to_center);
+    Six::new(-turn.x, -turn.y, -turn.z, linear.x, linear.y, linear.z)
+}
+
+/// Frames of a closure, and its errors along its rows [rad, m].
+pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (super::joint::Frames, Vec<f64>) {
+    let closure = &world.closures[number];
+    let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
+    let frames = super::joint::Frames {
+        parent: parent * closure.second_from_joint,
+        child: state.poses[closure.first] * closure.first_from_joint,
+    };
+    let (turn, shift) = drift(closure.kind, &frames, &[]);
+    let (turns, slides) = closure.kind.held(&frames);
+    let errors = turns.iter().map(|e| e.dot(&turn)).chain(slides.iter().map(|e| e.dot(&shift))).collect();
+    (frames, errors)
+}
+
+/// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
+fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool, solver: &GraphWorkspace) {
+    let joint_of = world.joint_of_body();
+    for (body, _) in solver.outwards() {
+        let Some(number) = joint_of[body] else { continue };
+        let joint = &world.joints[number];
+        if joint.follows.is_none() {
+            let mut q = state.measured(joint, &state.coordinates[number]);
+            if exactly {
+                for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
+                    if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
+                        let target = drive.signal.at(state.time_s)[0];
+                        // A drive that gave way stays where it is.
+                        if (target - *value).abs() < 1e-3 {
+                            *value = target;
+                        }
+                    }
+                }
+            }
+            state.coordinates[number] = q;
+        }
+        if !exactly {
+            continue;
+        }
+        let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
+        state.poses[body] = match prescribed.goal(joint) {
+            Some(goal) => parent * goal,
+            None => {
+                let mut q = [0.0; super::joint::MOST];
+                q[..joint.kind.freedom()].copy_from_slice(&state.coordinates[number]);
+                let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
+                let pose = seat * joint.child_from_joint.inverse();
+                Pose { rotation: orthonormal(&pose.rotation), ..pose }
+            }
+        };
+    }
+}
+
+/// Largest distance of any joint or closure from where it holds [m].
+#[must_use]
+pub fn largest_joint_error(world: &World, state: &State) -> f64 {
+    let joints = world.joints.iter().zip(&state.coordinates).filter(|(j, _)| j.follows.is_none()).map(|(joint, last)| {
+        let (_, shift) = drift(joint.kind, &state.frames(joint), last);
+        shift.norm()
+    });
+    joints.chain((0..world.closures.len()).filter(|c| world.closures[*c].active).map(|closure| {
+        let (frames, _) = closure_errors(world, state, closure);
+        let (_, shift): (Vec3, Vec3) = drift(world.closures[closure].kind, &frames, &[]);
+        shift.norm()
+    }))
+    .fold(0.0, f64::max)
+}
