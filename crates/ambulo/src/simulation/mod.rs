@@ -1,6 +1,7 @@
 //! Worlds stepped through time: figures, obstacles, driven joints, collisions, scenes.
 
 mod assemble;
+mod check;
 mod energy;
 mod forces;
 mod impulse;
@@ -15,6 +16,7 @@ mod world;
 
 pub mod scene;
 
+pub use check::WorldError;
 pub use energy::{Energy, energy};
 pub use forces::{ContactForce, StepForces};
 pub use joint::JointKind;
