@@ -36,6 +36,9 @@ use std::collections::BTreeMap;
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
 const STIFFNESS: f64 = 1e6;
+/// Least scale of departures, as a share of the velocities that a row compares: what these cancel to is known to 1e-16 of
+/// them, a tolerance of 1e-10 must stay above.
+const SMALLEST_SCALE: f64 = 1e-4;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
 
@@ -253,16 +256,18 @@ impl Newton<'_> {
                     (least, most) = (least.min(mobility), most.max(mobility));
                 }
                 let terms = &self.graph.rows[row];
-                let departure = match group.on {
+                let [first, second] = match group.on {
                     Acting::Coordinate { body, coordinate } => {
                         let s = &self.graph.terms.directions[coordinate];
-                        (s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility
+                        [(s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility, 0.0]
                     }
                     Acting::Bodies { first, second } => {
-                        terms.on_first.dot(&free(first)) + second.map_or(0.0, |s| terms.on_second.dot(&free(s)))
+                        [terms.on_first.dot(&free(first)), second.map_or(0.0, |s| terms.on_second.dot(&free(s)))]
                     }
                 };
-                self.scale = self.scale.max((departure - terms.target).abs());
+                let departure = unforced(group, row, first + second - terms.target, mobility);
+                let size = first.abs() + second.abs() + terms.target.abs();
+                self.scale = self.scale.max(departure).max(SMALLEST_SCALE * size);
             }
         }
         self.rho = if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS };
@@ -501,6 +506,16 @@ impl Newton<'_> {
             if here > 0.0 { high = middle } else { low = middle }
         }
         0.5 * (low + high)
+    }
+}
+
+/// How far a row without force is from its law at a motion u: limits and contacts that are open ask for nothing.
+fn unforced(group: &ConstraintGroup, row: usize, u: f64, mobility: f64) -> f64 {
+    match group.law {
+        Law::HELD => u.abs(),
+        Law::Bounded { least, most } if mobility > 0.0 => mobility * (-u / mobility).clamp(least, most).abs(),
+        Law::Contact { .. } if row == group.rows.start => (-u).max(0.0),
+        _ => u.abs(),
     }
 }
 
