@@ -106,8 +106,11 @@ impl Assembly {
         self.joint_of = world.joint_of_body();
     }
 
-    /// Adds the rows of a closure.
+    /// Adds the rows of a closure; one that holds nothing has none.
     pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: Vec<Constraint>) {
+        if rows.is_empty() {
+            return;
+        }
         let start = self.graph.rows.len();
         self.graph.rows.extend(rows);
         let on = Acting::Bodies { first: closure.first, second: closure.second };
