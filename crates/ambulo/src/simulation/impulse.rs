@@ -262,10 +262,15 @@ impl StepWorkspace {
         self.targets.clear();
         self.targets.resize(graph.rows.len(), 0.0);
         for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
-            let RowKey::Closure(number) = key else { continue };
-            let (_, errors) = closure_errors(world, state, *number);
-            for (row, error) in group.rows.clone().zip(errors) {
-                self.targets[row] = -error.clamp(-most, most);
+            if let RowKey::Closure(number) = key {
+                let (_, errors) = closure_errors(world, state, *number);
+                for (row, error) in group.rows.clone().zip(errors) {
+                    self.targets[row] = -error.clamp(-most, most);
+                }
+            } else if let Some((joint, k, limit)) = limit_of(world, *key) {
+                let row = group.rows.start;
+                let rate = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
+                self.targets[row] = (limit - state.coordinates[joint][k] - h * rate).clamp(-most, most);
             }
         }
         for touch in self.touch.touches.iter().filter(|t| t.rigid) {
@@ -279,6 +284,16 @@ impl StepWorkspace {
         for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
             advance(pose, &twist(displacement), 1.0);
         }
+    }
+}
+
+/// Joint, coordinate and value of a limit.
+fn limit_of(world: &World, key: RowKey) -> Option<(usize, usize, f64)> {
+    let limits = |joint: usize, k: usize| world.joints[joint].coordinates[k].limits;
+    match key {
+        RowKey::LowerLimit(joint, k) => limits(joint, k).0.map(|limit| (joint, k, limit)),
+        RowKey::UpperLimit(joint, k) => limits(joint, k).1.map(|limit| (joint, k, limit)),
+        _ => None,
     }
 }
 
