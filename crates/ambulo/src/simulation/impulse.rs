@@ -337,7 +337,7 @@ fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool
             let mut q = state.measured(joint, &state.coordinates[number]);
             if exactly {
                 for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
-                    if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
+                    if let Some(drive) = &acting.drive {
                         let target = drive.signal.at(state.time_s)[0];
                         // A drive that gave way stays where it is.
                         if (target - *value).abs() < 1e-3 {
