@@ -9,8 +9,10 @@
 //! written to `target/bench.csv`.
 
 mod human;
+pub(crate) mod simulation;
 mod timing;
 mod walk;
+mod worlds;
 
 use crate::peers::{self, Outcome, PeerTiming};
 use crate::workspace;

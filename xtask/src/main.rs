@@ -40,6 +40,10 @@ fn main() -> ExitCode {
         ("peers", _) => peers::run(rest),
         ("check", []) => check::run(),
         ("bench", []) => bench::run(),
+        ("sim", []) => {
+            bench::simulation::all();
+            Ok(())
+        }
         ("figures", []) => figures::run(),
         ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
 

@@ -39,6 +39,10 @@ const STIFFNESS: f64 = 1e6;
 /// Least scale of departures, as a share of the velocities that a row compares: what these cancel to is known to 1e-16 of
 /// them, a tolerance of 1e-10 must stay above.
 const SMALLEST_SCALE: f64 = 1e-4;
+/// Where forces are not unique, those of contacts that stick are kept within this share of their cone.
+const WITHIN: f64 = 0.95;
+/// Halvings in finding how far that allows to go.
+const SHARE_HALVINGS: usize = 20;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
 
@@ -71,6 +75,8 @@ pub struct GraphWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
+    /// The guess.
+    before: Vec<f64>,
     mobility: Vec<f64>,
     radius: Vec<f64>,
     curvature: Vec<Curvature>,
@@ -203,10 +209,17 @@ impl Newton<'_> {
         let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         *convergence = Convergence::default();
         self.measure();
+        self.w.before.clone_from(lambda);
         self.guess(lambda);
         self.factor(convergence);
         self.first_solve(motions, coordinates, lambda);
         convergence.iterations = 1;
+        if self.graph.rows.is_empty() {
+            convergence.converged = true;
+            return;
+        }
+        self.refine(motions, coordinates, lambda);
+        convergence.iterations = 2;
         loop {
             self.read(motions, coordinates);
             self.update_radii(lambda);
@@ -336,14 +349,90 @@ impl Newton<'_> {
         }
         self.graph.push(lambda, motions, coordinates);
         self.elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, &self.w.factors);
-        // The radius of friction starts from the normal force that this motion calls for.
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            if let (Law::Contact { .. }, Curvature::Contact(normal, _)) = (group.law, self.w.curvature[number]) {
-                let row = group.rows.start;
-                let u = self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
-                lambda[row] = (-normal * u).max(0.0);
+        self.read(motions, coordinates);
+        self.respond(lambda);
+    }
+
+    /// One round with everything as guessed: small forces beside large ones are not yet right after the first, and would be
+    /// taken to slip or to pull.
+    ///
+    /// Where forces are not unique, the first round has found the least-squares ones; they may lie outside their cones where
+    /// others do not. So λ° goes from the guess as far towards them as all cones allow.
+    fn refine(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+        let share = self.share_of_least_squares(lambda);
+        for group in &self.graph.groups {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let (before, now) = (self.w.before[row], lambda[row]);
+                self.w.center[row] = if before == 0.0 { now } else { before + share * (now - before) };
+            }
+            if let (Law::Contact { friction, .. }, false) = (group.law, known(group, &self.w.before)) {
+                let center = &mut self.w.center[start..start + 3];
+                center[0] = center[0].max(0.0);
+                let (length, radius) = (center[1].hypot(center[2]), WITHIN * friction * center[0]);
+                if length > radius {
+                    center[1..].iter_mut().for_each(|x| *x *= radius / length);
+                }
             }
         }
+        self.respond(lambda);
+        self.increment(motions, coordinates, lambda);
+        self.advance(motions, coordinates, 1.0);
+        self.read(motions, coordinates);
+        self.respond(lambda);
+    }
+
+    /// The largest share, up to all, of the way from the guess to `lambda` on which no contact that sticks leaves its cone.
+    fn share_of_least_squares(&self, lambda: &[f64]) -> f64 {
+        let mut share = 1.0_f64;
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let (Law::Contact { friction, .. }, Curvature::Contact(normal, h)) = (group.law, curvature) else { continue };
+            if *normal <= 0.0 || h[0] <= 0.0 || !known(group, &self.w.before) {
+                continue;
+            }
+            let start = group.rows.start;
+            let at = |s: f64| [0, 1, 2].map(|k| {
+                let before = self.w.before[start + k];
+                before + s * (lambda[start + k] - before)
+            });
+            let inside = |s: f64| {
+                let [n, x, y] = at(s);
+                x.hypot(y) <= WITHIN * friction * n
+            };
+            if inside(share) {
+                continue;
+            }
+            // The cone is convex: by halving.
+            let (mut low, mut high) = (0.0, share);
+            for _ in 0..SHARE_HALVINGS {
+                let middle = 0.5 * (low + high);
+                if inside(middle) { low = middle } else { high = middle }
+            }
+            share = low;
+        }
+        share
+    }
+
+    /// λ° - H u, without regard to laws; rows without curvature keep their force.
+    fn respond(&self, lambda: &mut [f64]) {
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let h = match curvature {
+                    Curvature::Diagonal(h) => h[row - start],
+                    Curvature::Contact(normal, _) if row == start => *normal,
+                    Curvature::Contact(_, h) => h[0],
+                };
+                if h > 0.0 {
+                    lambda[row] = self.w.center[row] / self.softening(row) - h * self.w.u[row];
+                }
+            }
+        }
+    }
+
+    /// 1 + ρ R.
+    fn softening(&self, row: usize) -> f64 {
+        1.0 + self.rho * self.graph.rows[row].compliance
     }
 
     /// u = J a - c.
@@ -438,28 +527,33 @@ impl Newton<'_> {
 
     /// Δ, guarded by a line search, added to the motion.
     fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
+        self.increment(motions, coordinates, lambda);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
+            }
+        }
+        let length = self.step_length(motions, coordinates, lambda);
+        self.advance(motions, coordinates, length);
+    }
+
+    /// (A + Jᵀ H J) Δ = b + Jᵀ λ - A a.
+    fn increment(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64]) {
         let GraphWorkspace { step, step_coordinates, factors, .. } = &mut *self.w;
-        for ((r, body), (b, a)) in
-            step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
-        {
+        let known = self.graph.bodies.iter().zip(&self.graph.wrenches);
+        for (r, ((body, b), a)) in step.iter_mut().zip(known.zip(motions)) {
             *r = b - body.times(a);
         }
-        for ((r, effort), (rotor, q)) in step_coordinates
-            .iter_mut()
-            .zip(&self.graph.efforts)
-            .zip(self.graph.rotors.iter().zip(coordinates.iter()))
-        {
+        let known = self.graph.efforts.iter().zip(&self.graph.rotors);
+        for (r, ((effort, rotor), q)) in step_coordinates.iter_mut().zip(known.zip(coordinates)) {
             *r = effort - rotor * q;
         }
         self.graph.push(lambda, step, step_coordinates);
         self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                self.w.change[row] =
-                    self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
-            }
-        }
-        let length = self.step_length(motions, coordinates, lambda);
+    }
+
+    /// a += s Δ.
+    fn advance(&self, motions: &mut [Six], coordinates: &mut [f64], length: f64) {
         for (a, step) in motions.iter_mut().zip(&self.w.step) {
             a.axpy(length, step, 1.0);
         }
@@ -525,6 +619,11 @@ fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
         *value = h(row);
     }
     Curvature::Diagonal(values)
+}
+
+/// Whether a contact has a past: more than the mark of a new one.
+fn known(group: &ConstraintGroup, before: &[f64]) -> bool {
+    before[group.rows.start] > f64::MIN_POSITIVE
 }
 
 fn clamp_to(law: Law, lambda: f64) -> f64 {

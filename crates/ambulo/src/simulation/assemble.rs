@@ -201,6 +201,7 @@ impl Assembly {
             self.graph.rotors[slot] += acting.rotor;
             self.graph.efforts[slot] += acting.rotor * state.rates(joint)[coordinate];
         }
+        self.graph.efforts[slot] += h * acting.effort;
         if let Some(spring) = &acting.spring {
             self.graph.rotors[slot] += h * spring.damping + h * h * spring.stiffness;
             self.graph.efforts[slot] += h * spring.stiffness * (spring.rest - q);

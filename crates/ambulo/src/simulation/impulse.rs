@@ -26,6 +26,8 @@ use crate::spatial::{Pose, Twist, Vec3};
 /// Where a solver cannot satisfy all rows, forces beyond so many times the weight of everything are taken as a sign that
 /// rows contradict each other.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
+/// Rows that depart by more than this share contradict each other; less is slow convergence, as where a loop is stretched.
+const CONTRADICTION: f64 = 1e-6;
 /// Fastest that position projection pulls loops together or bodies apart [m/s, rad/s].
 const CLOSING_SPEED: f64 = 1.0;
 /// Duration of an impact in a smooth step [s]: gravity gives 1e-8 m/s in it.
@@ -215,7 +217,7 @@ impl StepWorkspace {
             );
         }
         let convergence = &self.solution.convergence;
-        if let (false, Some(row)) = (convergence.converged, convergence.worst) {
+        if let (true, Some(row)) = (!(convergence.residual <= CONTRADICTION), convergence.worst) {
             let name = self.row_name(world, row);
             findings.warn(
                 "solver.not_converged",

@@ -21,7 +21,7 @@ pub use joint::JointKind;
 pub use signal::Signal;
 pub use state::{RowKey, State};
 pub use impulse::largest_joint_error;
-pub use step::{Integrator, StepSettings, StepWorkspace, step};
+pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
     Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
     Owner, Spring, Surface, World,
