@@ -448,7 +448,8 @@ impl Newton<'_> {
     fn update_radii(&mut self, lambda: &[f64]) {
         for (number, group) in self.graph.groups.iter().enumerate() {
             if let Law::Contact { friction, .. } = group.law {
-                self.w.radius[number] = friction * lambda[group.rows.start];
+                // A guess that turns out to pull has no friction.
+                self.w.radius[number] = friction * lambda[group.rows.start].max(0.0);
             }
         }
     }
