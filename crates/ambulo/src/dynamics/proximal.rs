@@ -75,6 +75,8 @@ pub struct GraphWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
+    /// λ - H J Δ.
+    predicted: Vec<f64>,
     /// The guess.
     before: Vec<f64>,
     mobility: Vec<f64>,
@@ -131,7 +133,7 @@ impl GraphWorkspace {
 
     fn resize(&mut self, graph: &ConstraintGraph) {
         let rows = graph.rows.len();
-        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.mobility] {
+        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.predicted, &mut self.mobility] {
             list.clear();
             list.resize(rows, 0.0);
         }
@@ -163,7 +165,7 @@ pub fn solve_graph(
     workspace.resize(graph);
     solution.lambda.resize(graph.rows.len(), 0.0);
     let Some(elimination) = workspace.elimination.take() else { return Ok(()) };
-    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0 }.run(solution);
+    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0, full: false }.run(solution);
     workspace.elimination = Some(elimination);
     Ok(())
 }
@@ -202,6 +204,8 @@ struct Newton<'a> {
     rho: f64,
     /// Largest departure of a row without constraint forces.
     scale: f64,
+    /// Whether the last Newton step was a whole one.
+    full: bool,
 }
 
 impl Newton<'_> {
@@ -222,32 +226,30 @@ impl Newton<'_> {
         convergence.iterations = 2;
         loop {
             self.read(motions, coordinates);
-            self.update_radii(lambda);
-            self.evaluate(lambda);
-            if self.w.curvature == self.w.factored {
-                // (2) holds: the factored system was this one.
-                if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
+            if self.full {
+                // With these forces (2) holds; if (1) does, too, this is the solution.
+                lambda.copy_from_slice(&self.w.predicted);
+                if self.settle(lambda, convergence) {
+                    self.confine(lambda);
                     break;
                 }
-                self.recenter(lambda);
-            } else if convergence.iterations >= self.settings.max_iterations {
+            }
+            self.update_radii(lambda);
+            self.evaluate(lambda);
+            if convergence.iterations >= self.settings.max_iterations {
                 self.settle(lambda, convergence);
+                convergence.converged = false;
                 break;
-            } else {
+            }
+            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            if self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale {
+                self.recenter(lambda);
+            }
+            if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
             self.newton_step(motions, coordinates, lambda);
             convergence.iterations += 1;
-            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            if self.slipping() && largest <= self.settings.tolerance * self.scale {
-                self.read(motions, coordinates);
-                self.update_radii(lambda);
-                self.evaluate(lambda);
-                if self.settle(lambda, convergence) {
-                    break;
-                }
-                self.recenter(lambda);
-            }
         }
     }
 
@@ -378,8 +380,48 @@ impl Newton<'_> {
         self.respond(lambda);
         self.increment(motions, coordinates, lambda);
         self.advance(motions, coordinates, 1.0);
-        self.read(motions, coordinates);
-        self.respond(lambda);
+        self.predict(lambda);
+    }
+
+    /// λ - H J Δ: with these forces (2) holds after a whole step, to rounding. What (1) makes of the new motion is known
+    /// less well: there ρ multiplies the rounding of u.
+    fn predict(&mut self, lambda: &[f64]) {
+        self.full = true;
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let c = |k: usize| self.w.change[start + k];
+                let fall = match curvature {
+                    Curvature::Diagonal(h) => h[row - start] * c(row - start),
+                    Curvature::Contact(normal, [xx, xy, yy]) => match row - start {
+                        0 => normal * c(0),
+                        1 => xx * c(1) + xy * c(2),
+                        _ => xy * c(1) + yy * c(2),
+                    },
+                };
+                self.w.predicted[row] = lambda[row] - fall;
+            }
+        }
+    }
+
+    /// Forces that are within the tolerance of their laws, within them.
+    fn confine(&self, lambda: &mut [f64]) {
+        for group in &self.graph.groups {
+            let start = group.rows.start;
+            match group.law {
+                Law::Bounded { least, most } => {
+                    group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
+                }
+                Law::Contact { friction, bound } => {
+                    lambda[start] = lambda[start].clamp(0.0, bound);
+                    let (length, radius) = (lambda[start + 1].hypot(lambda[start + 2]), friction * lambda[start]);
+                    if length > radius {
+                        lambda[start + 1] *= radius / length;
+                        lambda[start + 2] *= radius / length;
+                    }
+                }
+            }
+        }
     }
 
     /// The largest share, up to all, of the way from the guess to `lambda` on which no contact that sticks leaves its cone.
@@ -478,10 +520,6 @@ impl Newton<'_> {
         }
     }
 
-    fn slipping(&self) -> bool {
-        self.w.curvature.iter().any(|c| matches!(c, Curvature::Contact(n, [xx, xy, yy]) if *n > 0.0 && (*xy != 0.0 || xx != yy)))
-    }
-
     /// The residual of the laws, at unit step 1/W; true if it is within the tolerance.
     fn settle(&mut self, lambda: &[f64], convergence: &mut Convergence) -> bool {
         let (mut worst, mut at) = (0.0_f64, None);
@@ -529,13 +567,10 @@ impl Newton<'_> {
     /// Δ, guarded by a line search, added to the motion.
     fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
         self.increment(motions, coordinates, lambda);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
-            }
-        }
         let length = self.step_length(motions, coordinates, lambda);
         self.advance(motions, coordinates, length);
+        self.predict(lambda);
+        self.full = length >= 1.0;
     }
 
     /// (A + Jᵀ H J) Δ = b + Jᵀ λ - A a.
@@ -551,6 +586,11 @@ impl Newton<'_> {
         }
         self.graph.push(lambda, step, step_coordinates);
         self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
+            }
+        }
     }
 
     /// a += s Δ.
