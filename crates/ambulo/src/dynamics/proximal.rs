@@ -75,7 +75,7 @@ pub struct GraphWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
-    /// λ - H J Δ.
+    /// Forces with which (2) holds.
     predicted: Vec<f64>,
     /// The guess.
     before: Vec<f64>,
@@ -165,7 +165,7 @@ pub fn solve_graph(
     workspace.resize(graph);
     solution.lambda.resize(graph.rows.len(), 0.0);
     let Some(elimination) = workspace.elimination.take() else { return Ok(()) };
-    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0, full: false }.run(solution);
+    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0 }.run(solution);
     workspace.elimination = Some(elimination);
     Ok(())
 }
@@ -204,8 +204,6 @@ struct Newton<'a> {
     rho: f64,
     /// Largest departure of a row without constraint forces.
     scale: f64,
-    /// Whether the last Newton step was a whole one.
-    full: bool,
 }
 
 impl Newton<'_> {
@@ -226,21 +224,14 @@ impl Newton<'_> {
         convergence.iterations = 2;
         loop {
             self.read(motions, coordinates);
-            if self.full {
-                // With these forces (2) holds; if (1) does, too, this is the solution.
-                lambda.copy_from_slice(&self.w.predicted);
-                if self.settle(lambda, convergence) {
-                    self.confine(lambda);
-                    break;
-                }
+            // With these forces (2) holds; if (1) does, too, this is the solution.
+            lambda.copy_from_slice(&self.w.predicted);
+            if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
+                self.confine(lambda);
+                break;
             }
             self.update_radii(lambda);
             self.evaluate(lambda);
-            if convergence.iterations >= self.settings.max_iterations {
-                self.settle(lambda, convergence);
-                convergence.converged = false;
-                break;
-            }
             let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
             if self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale {
                 self.recenter(lambda);
@@ -380,13 +371,12 @@ impl Newton<'_> {
         self.respond(lambda);
         self.increment(motions, coordinates, lambda);
         self.advance(motions, coordinates, 1.0);
-        self.predict(lambda);
+        self.predict(lambda, 1.0);
     }
 
-    /// λ - H J Δ: with these forces (2) holds after a whole step, to rounding. What (1) makes of the new motion is known
-    /// less well: there ρ multiplies the rounding of u.
-    fn predict(&mut self, lambda: &[f64]) {
-        self.full = true;
+    /// The forces with which (2) holds after a step s Δ, to rounding: s (λ - H J Δ), and 1 - s of those before. What (1)
+    /// makes of the new motion is known less well: there ρ multiplies the rounding of u.
+    fn predict(&mut self, lambda: &[f64], s: f64) {
         for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
             let start = group.rows.start;
             for row in group.rows.clone() {
@@ -399,7 +389,7 @@ impl Newton<'_> {
                         _ => xy * c(1) + yy * c(2),
                     },
                 };
-                self.w.predicted[row] = lambda[row] - fall;
+                self.w.predicted[row] = s * (lambda[row] - fall) + (1.0 - s) * self.w.predicted[row];
             }
         }
     }
@@ -569,8 +559,7 @@ impl Newton<'_> {
         self.increment(motions, coordinates, lambda);
         let length = self.step_length(motions, coordinates, lambda);
         self.advance(motions, coordinates, length);
-        self.predict(lambda);
-        self.full = length >= 1.0;
+        self.predict(lambda, length);
     }
 
     /// (A + Jᵀ H J) Δ = b + Jᵀ λ - A a.
