@@ -1,6 +1,8 @@
 //! Contact, friction and impact of the velocity-level stepper, against closed forms and against the laws themselves, whose
 //! residuals are computed here from poses, twists and forces alone.
 
+#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests may unwrap and print as tests do")]
+
 mod common;
 
 use ambulo::contact::{HuntCrossley, Shape};

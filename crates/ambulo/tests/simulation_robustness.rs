@@ -1,5 +1,7 @@
 //! The simulator under what nobody would ask of it: long runs, resumed runs, random scenes, drives that cannot be obeyed.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
 mod common;
 
 use ambulo::contact::{HuntCrossley, Shape};
@@ -382,7 +384,7 @@ fn a_driven_four_bar_that_cannot_close_gives_way_and_says_so() {
         assert!(max.is_none() || (farthest - stretched).abs() < 1e-4 && error < 1e-8);
     }
     let mut feasible = jammed_four_bar(Some(50.0));
-    drive(&mut feasible, 0, 0, Signal::Stops(vec![(0.0, 1.5708), (1.0, 2.0)]));
+    drive(&mut feasible, 0, 0, Signal::Stops(vec![(0.0, std::f64::consts::FRAC_PI_2), (1.0, 2.0)]));
     let (_, messages) = endured(feasible, 1.5, 100.0);
     assert!(messages.is_empty(), "{messages:?}");
 }
