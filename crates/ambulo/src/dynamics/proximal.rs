@@ -30,99 +30,64 @@
 
 use super::block::Block;
 use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
-use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError, Offsets};
-use std::collections::BTreeMap;
+use super::elimination::{Elimination, EliminationWorkspace, Offsets};
+use super::solve::Problem;
 
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
-const STIFFNESS: f64 = 1e6;
+pub(super) const STIFFNESS: f64 = 1e6;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
+/// Rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row that has any mobility to speak of.
+const ROUNDS: usize = 3;
 
-/// How far to iterate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverSettings {
-    /// Largest residual accepted; see [`Convergence::residual`].
-    pub tolerance: f64,
-    /// Most tree solves.
-    pub max_iterations: usize,
-}
-
-impl Default for SolverSettings {
-    fn default() -> Self {
-        SolverSettings { tolerance: 1e-10, max_iterations: 100 }
-    }
-}
-
-/// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
+/// Scratch of Newton's method.
 #[derive(Debug, Clone, Default)]
-pub struct GraphWorkspace {
-    links: Vec<Link>,
-    /// Bodies that each group joins.
-    shape: Vec<Option<(usize, usize)>>,
-    pub(crate) elimination: Option<Elimination>,
-    pub(crate) factors: EliminationWorkspace,
-    /// Off-diagonal block of each group that joins two bodies.
-    blocks: Vec<Option<(usize, bool)>>,
-    u: Vec<f64>,
+pub(super) struct NewtonWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
-    mobility: Vec<f64>,
     radius: Vec<f64>,
     curvature: Vec<Curvature>,
     factored: Vec<Curvature>,
     step: Vec<Six>,
     step_coordinates: Vec<f64>,
+    /// λ along the line of a line search.
+    trial: Vec<f64>,
 }
 
 /// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Curvature {
     Diagonal([f64; 6]),
-    /// Normal; then the tangential xx, xy, yy.
-    Contact(f64, [f64; 3]),
+    Contact {
+        normal: f64,
+        /// xx, xy, yy.
+        tangential: [f64; 3],
+        sticks: bool,
+    },
 }
 
-impl GraphWorkspace {
-    /// The elimination for this graph, made anew only if its shape has changed.
-    pub(crate) fn prepare(&mut self, graph: &ConstraintGraph, with_rows: bool) -> Result<(), LinkError> {
-        let pair = |group: &ConstraintGroup| match group.on {
-            Acting::Bodies { first, second: Some(second) } if with_rows => Some((first, second)),
-            _ => None,
-        };
-        let shape = graph.groups.iter().map(pair);
-        if self.elimination.is_some() && self.links == graph.links && shape.clone().eq(self.shape.iter().copied()) {
-            return Ok(());
+impl Curvature {
+    /// Whether the same rows hold, and the same contacts stick.
+    fn holds_alike(&self, other: &Curvature) -> bool {
+        match (self, other) {
+            (Curvature::Diagonal(one), Curvature::Diagonal(two)) => {
+                one.iter().zip(two).all(|(x, y)| (*x > 0.0) == (*y > 0.0))
+            }
+            (
+                Curvature::Contact { normal, sticks, .. },
+                Curvature::Contact { normal: other_normal, sticks: other_sticks, .. },
+            ) => (*normal > 0.0) == (*other_normal > 0.0) && sticks == other_sticks,
+            _ => false,
         }
-        self.shape.clear();
-        self.shape.extend(shape);
-        self.links.clone_from(&graph.links);
-        let mut numbers = BTreeMap::new();
-        let mut couplings = Vec::new();
-        self.blocks.clear();
-        for pair in &self.shape {
-            self.blocks.push(pair.map(|(first, second)| {
-                let block = *numbers.entry((first.min(second), first.max(second))).or_insert_with(|| {
-                    couplings.push((first, second));
-                    couplings.len() - 1
-                });
-                (block, first > second)
-            }));
-        }
-        self.elimination = Some(Elimination::new(&graph.links, &couplings)?);
-        Ok(())
     }
+}
 
-    /// Bodies with their parents, parents first, as last prepared.
-    #[must_use]
-    pub fn outwards(&self) -> Vec<(usize, Option<usize>)> {
-        self.elimination.iter().flat_map(Elimination::outwards).collect()
-    }
-
+impl NewtonWorkspace {
     fn resize(&mut self, graph: &ConstraintGraph) {
         let rows = graph.rows.len();
-        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.mobility] {
+        for list in [&mut self.change, &mut self.center, &mut self.trial] {
             list.clear();
             list.resize(rows, 0.0);
         }
@@ -136,138 +101,117 @@ impl GraphWorkspace {
     }
 }
 
-/// Solves the graph. `solution.lambda` holds a guess of the forces, as of the last step; it decides only which contacts are
-/// first taken as pushing and which as slipping. A contact without a past gets a positive normal force and no other.
-///
-/// Rows whose laws contradict each other (a drive against a wall) leave [`Convergence::converged`] false, with the row that
-/// departs most; forces stay within their bounds.
-///
-/// # Errors
-/// A graph whose links are no forest.
-pub fn solve_graph(
-    graph: &ConstraintGraph,
-    settings: &SolverSettings,
-    workspace: &mut GraphWorkspace,
-    solution: &mut GraphSolution,
-) -> Result<(), LinkError> {
-    workspace.prepare(graph, true)?;
-    workspace.resize(graph);
-    solution.lambda.resize(graph.rows.len(), 0.0);
-    let Some(elimination) = workspace.elimination.take() else { return Ok(()) };
-    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0 }.run(solution);
-    workspace.elimination = Some(elimination);
-    Ok(())
+/// See [`super::solve_graph`].
+pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
+    workspace.resize(problem.graph);
+    let rho = stiffness(&problem.departures.mobility);
+    Newton { graph: problem.graph, problem, w: workspace, rho }.run(solution);
 }
 
-/// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
-/// J δ = targets, and the joints' offsets as they stand in the graph. Uses the last factor.
-pub(crate) fn project_displacements(
-    graph: &ConstraintGraph,
+/// ρ for rows of these mobilities.
+pub(super) fn stiffness(mobility: &[f64]) -> f64 {
+    let (least, most) = mobility.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(*x), m.max(*x)));
+    if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS }
+}
+
+/// See [`super::solve::project_displacements`]: one solve with the last factor.
+pub(super) fn project(
+    problem: &mut Problem<'_>,
+    workspace: &mut NewtonWorkspace,
     targets: &[f64],
-    workspace: &GraphWorkspace,
-    motions: &mut Vec<Six>,
-    coordinates: &mut Vec<f64>,
+    motions: &mut [Six],
+    coordinates: &mut [f64],
 ) {
-    motions.clear();
-    motions.resize(graph.bodies.len(), Six::zeros());
-    coordinates.clear();
-    coordinates.resize(graph.efforts.len(), 0.0);
-    let Some(elimination) = &workspace.elimination else { return };
-    let mut lambda = vec![0.0; graph.rows.len()];
+    let graph = problem.graph;
+    let lambda = &mut workspace.trial;
     for (group, curvature) in graph.groups.iter().zip(&workspace.factored) {
         let start = group.rows.start;
-        match curvature {
-            Curvature::Diagonal(h) => group.rows.clone().for_each(|row| lambda[row] = h[row - start] * targets[row]),
-            Curvature::Contact(normal, _) => lambda[start] = normal * targets[start],
+        for row in group.rows.clone() {
+            lambda[row] = match curvature {
+                Curvature::Diagonal(h) => h[row - start] * targets[row],
+                Curvature::Contact { normal, .. } if row == start => normal * targets[row],
+                Curvature::Contact { .. } => 0.0,
+            };
         }
     }
-    graph.push(&lambda, motions, coordinates);
-    elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, &workspace.factors);
+    graph.push(lambda, motions, coordinates);
+    problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, problem.factors);
 }
 
-struct Newton<'a> {
+/// Takes from `rows` what forces of the rows that hold can bring about: r := (1 + ρ W)⁻¹ r, by
+/// r - J (A + Jᵀ H J)⁻¹ Jᵀ H r. Rows that do not hold, and those that yield, become zero.
+pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, rows: &mut [f64]) {
+    let graph = problem.graph;
+    let NewtonWorkspace { factored, trial, step, step_coordinates, .. } = workspace;
+    for _ in 0..ROUNDS {
+        for (group, curvature) in graph.groups.iter().zip(&*factored) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let (h, rigid) = match curvature {
+                    Curvature::Diagonal(h) => (h[row - start], graph.rows[row].compliance <= 0.0),
+                    Curvature::Contact { normal, .. } if row == start => (*normal, graph.rows[row].compliance <= 0.0),
+                    Curvature::Contact { tangential, sticks, .. } => (tangential[0], *sticks),
+                };
+                rows[row] = if rigid && h > 0.0 { rows[row] } else { 0.0 };
+                trial[row] = h * rows[row];
+            }
+        }
+        step.fill(Six::zeros());
+        step_coordinates.fill(0.0);
+        graph.push(trial, step, step_coordinates);
+        problem.elimination.solve(&graph.terms, Offsets::None, step, step_coordinates, problem.factors);
+        for group in &graph.groups {
+            for row in group.rows.clone() {
+                rows[row] -= if trial[row] == 0.0 { 0.0 } else { graph.reading(group, row, step, step_coordinates) };
+            }
+        }
+    }
+}
+
+struct Newton<'p, 'a> {
     graph: &'a ConstraintGraph,
-    elimination: &'a Elimination,
-    settings: &'a SolverSettings,
-    w: &'a mut GraphWorkspace,
+    problem: &'p mut Problem<'a>,
+    w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// Largest departure of a row without constraint forces.
-    scale: f64,
 }
 
-impl Newton<'_> {
+impl Newton<'_, '_> {
+    /// A whole step leaves (2) true of λ + H J Δ (`lambda`), whatever (1) says of it: if the laws agree with those forces,
+    /// all is solved. If not, but the same contacts hold, they are the next center.
     fn run(&mut self, solution: &mut GraphSolution) {
         let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         *convergence = Convergence::default();
-        self.measure();
+        let settings = self.problem.settings;
         self.guess(lambda);
         self.factor(convergence);
         self.first_solve(motions, coordinates, lambda);
         convergence.iterations = 1;
+        let mut whole = true;
         loop {
-            self.read(motions, coordinates);
-            self.update_radii(lambda);
-            self.evaluate(lambda);
-            if self.w.curvature == self.w.factored {
-                // (2) holds: the factored system was this one.
-                if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
-                    break;
-                }
-                self.recenter(lambda);
-            } else if convergence.iterations >= self.settings.max_iterations {
-                self.settle(lambda, convergence);
+            self.problem.departures.read(self.graph, motions, coordinates);
+            let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
+            if whole && lawful {
                 break;
-            } else {
+            }
+            if whole {
+                self.update_radii(lambda);
+                self.w.trial.copy_from_slice(lambda);
+            }
+            self.evaluate(lambda);
+            if convergence.iterations >= settings.max_iterations {
+                self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
+                convergence.converged = false;
+                break;
+            }
+            if whole && self.w.curvature.iter().zip(&self.w.factored).all(|(now, then)| now.holds_alike(then)) {
+                self.w.center.copy_from_slice(&self.w.trial);
+                self.evaluate(lambda);
+            }
+            if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
-            self.newton_step(motions, coordinates, lambda);
+            whole = self.newton_step(motions, coordinates, lambda);
             convergence.iterations += 1;
-            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            if self.slipping() && largest <= self.settings.tolerance * self.scale {
-                self.read(motions, coordinates);
-                self.update_radii(lambda);
-                self.evaluate(lambda);
-                if self.settle(lambda, convergence) {
-                    break;
-                }
-                self.recenter(lambda);
-            }
-        }
-    }
-
-    /// ρ from the rows' mobilities; the scale of departures.
-    fn measure(&mut self) {
-        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-        let free = |body: usize| {
-            let (terms, b) = (&self.graph.bodies[body], &self.graph.wrenches[body]);
-            let mean = terms.inertia.trace() / 3.0;
-            let share = |x: f64, inertia: f64| if inertia > 0.0 { x / inertia } else { 0.0 };
-            let (m, i) = (terms.mass, mean);
-            Six::new(share(b[0], i), share(b[1], i), share(b[2], i), share(b[3], m), share(b[4], m), share(b[5], m))
-        };
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                let mobility = self.graph.mobility(group, row);
-                self.w.mobility[row] = mobility;
-                if mobility > 0.0 {
-                    (least, most) = (least.min(mobility), most.max(mobility));
-                }
-                let terms = &self.graph.rows[row];
-                let departure = match group.on {
-                    Acting::Coordinate { body, coordinate } => {
-                        let s = &self.graph.terms.directions[coordinate];
-                        (s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility
-                    }
-                    Acting::Bodies { first, second } => {
-                        terms.on_first.dot(&free(first)) + second.map_or(0.0, |s| terms.on_second.dot(&free(s)))
-                    }
-                };
-                self.scale = self.scale.max((departure - terms.target).abs());
-            }
-        }
-        self.rho = if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS };
-        if self.scale <= 0.0 {
-            self.scale = 1.0;
         }
     }
 
@@ -285,10 +229,11 @@ impl Newton<'_> {
                     let tangential = lambda[first + 1].hypot(lambda[first + 2]);
                     let pushing = lambda[first] > 0.0;
                     let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
+                    let sticks = pushing && !slips;
                     let normal = if pushing { h(first) } else { 0.0 };
-                    let rho = if pushing && !slips { self.rho } else { 0.0 };
+                    let rho = if sticks { self.rho } else { 0.0 };
                     self.w.radius[number] = if slips || !pushing { tangential } else { f64::INFINITY };
-                    Curvature::Contact(normal, [rho, 0.0, rho])
+                    Curvature::Contact { normal, tangential: [rho, 0.0, rho], sticks }
                 }
             };
         }
@@ -297,22 +242,16 @@ impl Newton<'_> {
     /// A + Jᵀ H J, factored.
     fn factor(&mut self, convergence: &mut Convergence) {
         convergence.factorizations += 1;
-        let GraphWorkspace { factors, curvature, factored, blocks, .. } = &mut *self.w;
-        factors.begin(self.elimination, &self.graph.bodies);
-        for link in 0..self.graph.links.len() {
-            for coordinate in self.elimination.coordinates_of(link) {
-                let rotor = self.graph.rotors[coordinate];
-                factors.add_to_coordinate(self.elimination, coordinate, link, rotor);
-            }
+        self.problem.begin();
+        let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
+        for (number, group) in graph.groups.iter().enumerate() {
+            add_group(graph, elimination, group, &self.w.curvature[number], blocks[number], factors);
         }
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            add_group(self.graph, self.elimination, group, &curvature[number], blocks[number], factors);
-        }
-        factored.clone_from(curvature);
-        self.elimination.factor(&self.graph.terms, factors);
+        self.w.factored.clone_from(&self.w.curvature);
+        elimination.factor(&graph.terms, factors);
     }
 
-    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts.
+    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts. λ = H c - H J a.
     fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
         motions.clone_from(&self.graph.wrenches);
         coordinates.clone_from(&self.graph.efforts);
@@ -323,30 +262,38 @@ impl Newton<'_> {
                 lambda[row] = match self.w.curvature[number] {
                     Curvature::Diagonal(h) if h[row - start] > 0.0 => h[row - start] * target,
                     Curvature::Diagonal(_) => clamp_to(group.law, lambda[row]),
-                    Curvature::Contact(normal, _) if row == start => normal * target,
-                    Curvature::Contact(_, h) if h[0] > 0.0 => h[0] * target,
-                    Curvature::Contact(normal, _) => if normal > 0.0 { lambda[row] } else { 0.0 },
+                    Curvature::Contact { normal, .. } if row == start => normal * target,
+                    Curvature::Contact { sticks: true, tangential: h, .. } => h[0] * target,
+                    Curvature::Contact { normal, .. } if normal > 0.0 => lambda[row],
+                    Curvature::Contact { .. } => 0.0,
                 };
             }
         }
         self.graph.push(lambda, motions, coordinates);
-        self.elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, &self.w.factors);
-        // The radius of friction starts from the normal force that this motion calls for.
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            if let (Law::Contact { .. }, Curvature::Contact(normal, _)) = (group.law, self.w.curvature[number]) {
-                let row = group.rows.start;
-                let u = self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
-                lambda[row] = (-normal * u).max(0.0);
-            }
-        }
-    }
-
-    /// u = J a - c.
-    fn read(&mut self, motions: &[Six], coordinates: &[f64]) {
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, factors);
         for group in &self.graph.groups {
             for row in group.rows.clone() {
-                self.w.u[row] =
-                    self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
+                self.w.change[row] = self.graph.reading(group, row, motions, coordinates);
+            }
+        }
+        self.follow(lambda);
+    }
+
+    /// λ := λ - H J Δ with the factored H.
+    fn follow(&self, lambda: &mut [f64]) {
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let start = group.rows.start;
+            let change = &self.w.change[group.rows.clone()];
+            match curvature {
+                Curvature::Diagonal(h) => {
+                    (0..change.len()).for_each(|k| lambda[start + k] -= h[k] * change[k]);
+                }
+                Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
+                    lambda[start] -= normal * change[0];
+                    lambda[start + 1] -= xx * change[1] + xy * change[2];
+                    lambda[start + 2] -= xy * change[1] + yy * change[2];
+                }
             }
         }
     }
@@ -354,104 +301,53 @@ impl Newton<'_> {
     fn update_radii(&mut self, lambda: &[f64]) {
         for (number, group) in self.graph.groups.iter().enumerate() {
             if let Law::Contact { friction, .. } = group.law {
-                self.w.radius[number] = friction * lambda[group.rows.start];
+                self.w.radius[number] = friction * lambda[group.rows.start].max(0.0);
             }
         }
     }
 
     /// λ by (1) and H at the present motion.
     fn evaluate(&mut self, lambda: &mut [f64]) {
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            self.w.curvature[number] =
-                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, |row| self.w.u[row], lambda);
+        for number in 0..self.graph.groups.len() {
+            self.evaluate_group(number, lambda);
+            let group = &self.graph.groups[number];
             if let (Law::Contact { friction, .. }, true) = (group.law, self.w.radius[number] <= 0.0) {
                 // A contact that begins to push may stick at once.
                 let normal = lambda[group.rows.start];
                 if normal > 0.0 {
                     self.w.radius[number] = friction * normal;
-                    self.w.curvature[number] = project(
-                        self.graph,
-                        group,
-                        self.rho,
-                        self.w.radius[number],
-                        &self.w.center,
-                        |row| self.w.u[row],
-                        lambda,
-                    );
+                    self.evaluate_group(number, lambda);
                 }
             }
         }
     }
 
-    fn slipping(&self) -> bool {
-        self.w.curvature.iter().any(|c| matches!(c, Curvature::Contact(n, [xx, xy, yy]) if *n > 0.0 && (*xy != 0.0 || xx != yy)))
+    fn evaluate_group(&mut self, number: usize, lambda: &mut [f64]) {
+        let (group, radius) = (&self.graph.groups[number], self.w.radius[number]);
+        let u = &self.problem.departures.u;
+        self.w.curvature[number] =
+            project_law(self.graph, group, self.rho, radius, &self.w.center, |row| u[row], lambda);
     }
 
-    /// The residual of the laws, at unit step 1/W; true if it is within the tolerance.
-    fn settle(&mut self, lambda: &[f64], convergence: &mut Convergence) -> bool {
-        let (mut worst, mut at) = (0.0_f64, None);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                let departure = self.departure(group, row, lambda);
-                // Not a number counts as the worst.
-                if !(departure <= worst) || at.is_none() {
-                    (worst, at) = (departure, Some(row));
-                }
-            }
-        }
-        convergence.residual = worst / self.scale;
-        convergence.worst = at;
-        convergence.converged = convergence.residual <= self.settings.tolerance;
-        convergence.converged
-    }
-
-    /// How far a row is from its law, in units of motion: W |λ - Π(λ - u/W)|.
-    fn departure(&self, group: &ConstraintGroup, row: usize, lambda: &[f64]) -> f64 {
-        let start = group.rows.start;
-        let w = self.w.mobility[row].max(f64::MIN_POSITIVE);
-        let whole = |row: usize| self.w.u[row] + self.graph.rows[row].compliance * lambda[row];
-        match group.law {
-            Law::Bounded { least, most } => w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(least, most)).abs(),
-            Law::Contact { bound, .. } if row == start => {
-                w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(0.0, bound)).abs()
-            }
-            Law::Contact { friction, .. } => {
-                let radius = friction * lambda[start];
-                let z = [1, 2].map(|k| lambda[start + k] - self.w.u[start + k] / w);
-                let length = z[0].hypot(z[1]);
-                let shrink = if length > radius { radius / length } else { 1.0 };
-                w * (lambda[row] - z[row - start - 1] * shrink).abs()
-            }
-        }
-    }
-
-    /// λ° := λ, and λ, H for it at the same motion.
-    fn recenter(&mut self, lambda: &mut [f64]) {
-        self.w.center.copy_from_slice(lambda);
-        self.evaluate(lambda);
-    }
-
-    /// Δ, guarded by a line search, added to the motion.
-    fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
-        let GraphWorkspace { step, step_coordinates, factors, .. } = &mut *self.w;
+    /// Δ, guarded by a line search, added to the motion; true of a whole step, after which (2) holds.
+    fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) -> bool {
+        let NewtonWorkspace { step, step_coordinates, .. } = &mut *self.w;
         for ((r, body), (b, a)) in
             step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
         {
             *r = b - body.times(a);
         }
-        for ((r, effort), (rotor, q)) in step_coordinates
-            .iter_mut()
-            .zip(&self.graph.efforts)
-            .zip(self.graph.rotors.iter().zip(coordinates.iter()))
+        for ((r, effort), (rotor, q)) in
+            step_coordinates.iter_mut().zip(&self.graph.efforts).zip(self.graph.rotors.iter().zip(coordinates.iter()))
         {
             *r = effort - rotor * q;
         }
         self.graph.push(lambda, step, step_coordinates);
-        self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
         for group in &self.graph.groups {
             for row in group.rows.clone() {
-                self.w.change[row] =
-                    self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
+                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
             }
         }
         let length = self.step_length(motions, coordinates, lambda);
@@ -461,6 +357,11 @@ impl Newton<'_> {
         for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
             *q += length * step;
         }
+        let whole = length >= 1.0;
+        if whole {
+            self.follow(lambda);
+        }
+        whole
     }
 
     /// Where φ along Δ is least: φ'(s) = Δᵀ(A a - b) + s Δᵀ A Δ - (J Δ)ᵀ λ(s), which rises with s.
@@ -478,15 +379,16 @@ impl Newton<'_> {
             constant += d * (self.graph.rotors[k] * coordinates[k] - self.graph.efforts[k]);
             linear += d * d * self.graph.rotors[k];
         }
-        let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&self.w.change).map(|(l, c)| l * c).sum() };
+        let NewtonWorkspace { trial, change, radius, center, .. } = &mut *self.w;
+        let (graph, rho, departures) = (self.graph, self.rho, &self.problem.departures);
+        let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&*change).map(|(l, c)| l * c).sum() };
         let start = constant - work(lambda);
-        let mut trial = lambda.to_vec();
         let mut slope = |s: f64| {
-            for (number, group) in self.graph.groups.iter().enumerate() {
-                let u = |row: usize| self.w.u[row] + s * self.w.change[row];
-                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, u, &mut trial);
+            for (number, group) in graph.groups.iter().enumerate() {
+                let u = |row: usize| departures.u[row] + s * change[row];
+                project_law(graph, group, rho, radius[number], center, u, trial);
             }
-            constant + s * linear - work(&trial)
+            constant + s * linear - work(trial)
         };
         if slope(1.0) <= 0.5 * start.abs() {
             return 1.0;
@@ -521,7 +423,7 @@ fn clamp_to(law: Law, lambda: f64) -> f64 {
 
 /// λ of one group by (1), and its H.
 #[inline]
-fn project(
+fn project_law(
     graph: &ConstraintGraph,
     group: &ConstraintGroup,
     rho: f64,
@@ -558,12 +460,16 @@ fn project(
             let length = z[0].hypot(z[1]);
             if length <= radius {
                 (lambda[start + 1], lambda[start + 2]) = (z[0], z[1]);
-                return Curvature::Contact(h, [rho, 0.0, rho]);
+                return Curvature::Contact { normal: h, tangential: [rho, 0.0, rho], sticks: true };
             }
             let (x, y) = (z[0] / length, z[1] / length);
             (lambda[start + 1], lambda[start + 2]) = (radius * x, radius * y);
             let across = rho * radius / length;
-            Curvature::Contact(h, [across * y * y, -across * x * y, across * x * x])
+            Curvature::Contact {
+                normal: h,
+                tangential: [across * y * y, -across * x * y, across * x * x],
+                sticks: false,
+            }
         }
     }
 }
@@ -605,7 +511,7 @@ fn add_group(
     };
     match curvature {
         Curvature::Diagonal(h) => (0..group.rows.len()).for_each(|k| add(k, k, h[k])),
-        Curvature::Contact(normal, [xx, xy, yy]) => {
+        Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
             add(0, 0, *normal);
             add(1, 1, *xx);
             add(1, 2, *xy);
