@@ -45,3 +45,11 @@ fn scratch() {
     show("mass ratio", &tower(&[1.0, 1000.0], 0.5), 1e-10, 2000);
     show("mass ratio", &tower(&[1000.0, 1.0], 0.5), 1e-10, 2000);
 }
+
+#[test]
+fn trace() {
+    let edges = Vec3::new(1.0, 0.6, 0.7);
+        let mut g = box_on(20.0, edges, &corners(edges), 0.5);
+        g.wrenches[0][3] = 200.0; g.wrenches[0][4]=60.0; g.wrenches[0][2]=30.0;
+    show("trace", &g, 1e-10, 100);
+}

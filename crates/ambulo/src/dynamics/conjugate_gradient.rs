@@ -94,8 +94,8 @@ enum Friction {
     Given,
     /// Whatever keeps the point.
     Sticks,
-    /// Turning along `across`, which yields with `compliance`.
-    Slips { across: [f64; 2], compliance: f64 },
+    /// On the cone along `along`, turning across it with a compliance.
+    Slips { along: [f64; 2], compliance: f64 },
 }
 
 /// See [`super::solve_graph`].
@@ -103,7 +103,7 @@ pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspac
     workspace.resize(problem.graph);
     problem.begin();
     problem.elimination.factor(&problem.graph.terms, problem.factors);
-    Rounds { graph: problem.graph, problem, w: workspace, contradicted: false }.run(solution);
+    Rounds { graph: problem.graph, problem, w: workspace, contradicted: false, rounds: 0 }.run(solution);
 }
 
 /// See [`super::solve::project_displacements`].
@@ -115,7 +115,7 @@ pub(super) fn project(
     coordinates: &mut Vec<f64>,
 ) {
     let graph = problem.graph;
-    let mut rounds = Rounds { graph, problem, w: workspace, contradicted: false };
+    let mut rounds = Rounds { graph, problem, w: workspace, contradicted: false, rounds: 0 };
     rounds.w.forces.fill(0.0);
     rounds.displace(Offsets::Prescribed);
     let mut asked = 0.0_f64;
@@ -137,7 +137,7 @@ pub(super) fn project(
 /// zero.
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, rows: &mut [f64]) {
     workspace.left.copy_from_slice(rows);
-    let mut rounds = Rounds { graph: problem.graph, problem, w: workspace, contradicted: false };
+    let mut rounds = Rounds { graph: problem.graph, problem, w: workspace, contradicted: false, rounds: 0 };
     rounds.descend(PROBE_SHARE, &mut Convergence::default());
     rows.copy_from_slice(&workspace.null);
 }
@@ -170,6 +170,8 @@ struct Rounds<'p, 'a> {
     w: &'p mut ConjugateWorkspace,
     /// Rows that hold were asked for what no force can bring about.
     contradicted: bool,
+    /// Active sets so far.
+    rounds: usize,
 }
 
 impl Rounds<'_, '_> {
@@ -196,6 +198,7 @@ impl Rounds<'_, '_> {
             last = convergence.residual;
             self.round(lambda, convergence);
             self.go(motions, coordinates, lambda);
+            self.rounds += 1;
             convergence.iterations += 1;
         }
         if self.contradicted && !convergence.converged {
@@ -220,7 +223,13 @@ impl Rounds<'_, '_> {
         for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
             *force = l + change;
         }
-        self.graph.groups.iter().for_each(|group| confine(group, &mut self.w.forces));
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            confine(group, &mut self.w.forces);
+            if let State::Contact { friction: Friction::Slips { along, .. }, .. } = state {
+                let turn = &self.w.change[group.rows.start + 1..];
+                rub_fully(group, lambda, *along, [turn[0], turn[1]], &mut self.w.forces);
+            }
+        }
         self.animate();
         for group in &self.graph.groups {
             for row in group.rows.clone() {
@@ -241,6 +250,7 @@ impl Rounds<'_, '_> {
             }
         }
         let s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
+        if std::env::var("TRACE").is_ok() { println!("s {s} here {here:e} there {there:e} states {:?}\n   before {:?}\n   after {:?}\n  u {:?}", self.w.states, lambda, self.w.forces, self.w.u); }
         let toward = |from: &mut f64, to: &f64| *from += s * (to - *from);
         lambda.iter_mut().zip(&self.w.forces).for_each(|(x, y)| toward(x, y));
         coordinates.iter_mut().zip(&self.w.coordinates).for_each(|(x, y)| toward(x, y));
@@ -270,12 +280,16 @@ impl Rounds<'_, '_> {
                 }
                 Law::Contact { friction, bound } => {
                     let pushes = inside(start, 0.0, bound);
-                    let tangential = [1, 2].map(|k| lambda[start + k]);
-                    let begins = pushes && lambda[start] <= 0.0;
-                    let friction = if begins && friction > 0.0 {
+                    let friction = if self.rounds == 0 && pushes && friction > 0.0 && lambda[start + 1..start + 3] == [0.0; 2] {
                         Friction::Sticks
                     } else {
-                        rub(friction * lambda[start], tangential, [u[start + 1], u[start + 2]])
+                        let slipped = matches!(
+                            self.w.states[number],
+                            State::Contact { friction: Friction::Slips { .. }, .. }
+                        );
+                        let ut = [u[start + 1], u[start + 2]];
+                        let w = self.problem.departures.mobility[start + 1];
+                        rub(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
                     };
                     State::Contact { pushes, friction }
                 }
@@ -366,8 +380,8 @@ impl Rounds<'_, '_> {
         let mut x = std::mem::take(field.of(self.w));
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
             let start = group.rows.start;
-            if let State::Contact { friction: Friction::Slips { across, .. }, .. } = state {
-                x[start + 1] = across[0] * x[start + 1] + across[1] * x[start + 2];
+            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+                x[start + 1] = x1 * x[start + 2] - x2 * x[start + 1];
             }
             for row in group.rows.clone() {
                 x[row] *= if state.seeks(row - start) { self.measure(group, state, row) } else { 0.0 };
@@ -384,8 +398,8 @@ impl Rounds<'_, '_> {
             for row in group.rows.clone() {
                 x[row] *= if state.seeks(row - start) { self.measure(group, state, row) } else { 0.0 };
             }
-            if let State::Contact { friction: Friction::Slips { across, .. }, .. } = state {
-                (x[start + 1], x[start + 2]) = (across[0] * x[start + 1], across[1] * x[start + 1]);
+            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+                (x[start + 1], x[start + 2]) = (-x2 * x[start + 1], x1 * x[start + 1]);
             }
         }
         *field.of(self.w) = x;
@@ -467,18 +481,25 @@ fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f
     }
 }
 
-/// Sticks within the cone, and on it where friction would help the slip.
-fn rub(radius: f64, force: [f64; 2], u: [f64; 2]) -> Friction {
+/// Sticks within the cone, and on it where friction would help the slip. Without friction yet, whether it will slip is judged
+/// by the friction that the point alone would need.
+fn rub(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
     let length = force[0].hypot(force[1]);
     if radius <= 0.0 {
         return Friction::Given;
     }
+    let speed = u[0].hypot(u[1]);
+    if length <= EDGE * radius {
+        if speed <= radius * mobility {
+            return Friction::Sticks;
+        }
+        return Friction::Slips { along: [-u[0] / speed, -u[1] / speed], compliance: speed / radius };
+    }
     let power = force[0] * u[0] + force[1] * u[1];
-    if length < radius * (1.0 - EDGE) || power >= 0.0 {
+    if power >= 0.0 || !(slipped || length >= radius * (1.0 - EDGE)) {
         return Friction::Sticks;
     }
-    let across = [-force[1] / length, force[0] / length];
-    Friction::Slips { across, compliance: -power / (length * radius) }
+    Friction::Slips { along: [force[0] / length, force[1] / length], compliance: -power / (length * radius) }
 }
 
 /// Forces of one group that its law allows, nearest in the normal first.
@@ -498,6 +519,17 @@ fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
             }
         }
     }
+}
+
+/// Friction of a slipping contact, as large as it can be: along r d + s e.
+fn rub_fully(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f64; 2], lambda: &mut [f64]) {
+    let Law::Contact { friction, .. } = group.law else { return };
+    let start = group.rows.start;
+    let radius = friction * before[start];
+    let toward = [radius * along[0] + turn[0], radius * along[1] + turn[1]];
+    let longer = friction * lambda[start] / toward[0].hypot(toward[1]);
+    lambda[start + 1] = longer * toward[0];
+    lambda[start + 2] = longer * toward[1];
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
