@@ -1,15 +1,27 @@
 //! scratch
 mod common;
-use common::graphs::*;
-use common::random::Random;
 use ambulo::dynamics::*;
 use ambulo::spatial::Vec3;
+use common::graphs::*;
+use common::random::Random;
 
 fn show(name: &str, graph: &ConstraintGraph, tol: f64, max: usize) {
     for method in METHODS {
         let t = std::time::Instant::now();
         let (s, _) = solved(graph, &settings(method, tol, max));
-        println!("{name:30} {method:?} {:?} {:.2} ms, lmax {:.3e}", s.convergence, t.elapsed().as_secs_f64()*1e3, s.lambda.iter().fold(0.0f64, |m,x| m.max(x.abs())));
+        let mut again = s.clone();
+        let mut moved = graph.clone();
+        for w in &mut moved.wrenches {
+            *w *= 1.01;
+        }
+        solve_graph(&moved, &settings(method, tol, max), &mut GraphWorkspace::default(), &mut again).unwrap();
+        print!("warm {:4} {:4}; ", again.convergence.iterations, again.convergence.factorizations);
+        println!(
+            "{name:30} {method:?} {:?} {:.2} ms, lmax {:.3e}",
+            s.convergence,
+            t.elapsed().as_secs_f64() * 1e3,
+            s.lambda.iter().fold(0.0f64, |m, x| m.max(x.abs()))
+        );
     }
 }
 
@@ -19,7 +31,8 @@ fn scratch() {
     show("table", &box_on(20.0, edges, &corners(edges), 0.5), 1e-10, 100);
     for push in [50.0, 90.0, 110.0, 200.0] {
         let mut g = box_on(20.0, edges, &corners(edges), 0.5);
-        g.wrenches[0][3] = push; g.wrenches[0][4] = 0.3*push;
+        g.wrenches[0][3] = push;
+        g.wrenches[0][4] = 0.3 * push;
         show(&format!("table pushed {push}"), &g, 1e-10, 100);
         g.wrenches[0][2] = 30.0;
         show(&format!("table pushed+turned {push}"), &g, 1e-10, 100);
@@ -32,15 +45,16 @@ fn scratch() {
     let pts: Vec<_> = (0..1000).map(|_| Vec3::new(r.within(0.5), r.within(0.3), -0.35)).collect();
     show("1000 points", &box_on(20.0, edges, &pts, 0.5), 1e-10, 2000);
     let mut g = box_on(20.0, edges, &pts, 0.5);
-    g.wrenches[0][3] = 70.0; 
+    g.wrenches[0][3] = 70.0;
     show("1000 points pushed", &g, 1e-10, 2000);
-    g.wrenches[0][3] = 130.0; g.wrenches[0][2]=20.0;
+    g.wrenches[0][3] = 130.0;
+    g.wrenches[0][2] = 20.0;
     show("1000 points sliding", &g, 1e-10, 2000);
     for n in [10, 50, 250] {
-    show(&format!("tower {n}"), &tower(&vec![1.0; n], 0.5), 1e-10, 20000);
-    let mut g = tower(&vec![1.0; n], 0.5);
-    g.wrenches[n-1][3] = 8.0;
-    show(&format!("tower pushed {n}"), &g, 1e-10, 20000);
+        show(&format!("tower {n}"), &tower(&vec![1.0; n], 0.5), 1e-10, 20000);
+        let mut g = tower(&vec![1.0; n], 0.5);
+        g.wrenches[n - 1][3] = 8.0;
+        show(&format!("tower pushed {n}"), &g, 1e-10, 20000);
     }
     show("mass ratio", &tower(&[1.0, 1000.0], 0.5), 1e-10, 2000);
     show("mass ratio", &tower(&[1000.0, 1.0], 0.5), 1e-10, 2000);
@@ -49,7 +63,43 @@ fn scratch() {
 #[test]
 fn trace() {
     let edges = Vec3::new(1.0, 0.6, 0.7);
-        let mut g = box_on(20.0, edges, &corners(edges), 0.5);
-        g.wrenches[0][3] = 200.0; g.wrenches[0][4]=60.0; g.wrenches[0][2]=30.0;
+    let mut g = box_on(20.0, edges, &corners(edges), 0.5);
+    g.wrenches[0][3] = 200.0;
+    g.wrenches[0][4] = 60.0;
+    g.wrenches[0][2] = 30.0;
     show("trace", &g, 1e-10, 100);
+    println!("TOWER");
+    let n = 250;
+    let mut g = tower(&vec![1.0; n], 0.5);
+    g.wrenches[n - 1][3] = 8.0;
+    show(&format!("tower pushed {n}"), &g, 1e-10, 200);
+}
+
+#[test]
+fn survey() {
+    for mu in [0.0, 0.3, 1.0] {
+        for method in METHODS {
+            let mut counts = vec![];
+            let mut bad = vec![];
+            for seed in 0..3000 {
+                let g = random_contacts(&mut Random::new(seed), mu);
+                let (s, _) = solved(&g, &settings(method, 1e-10, if method == Method::Newton { 100 } else { 3000 }));
+                if s.convergence.converged {
+                    counts.push(s.convergence.iterations);
+                } else {
+                    bad.push((seed, s.convergence.residual));
+                }
+                assert!(s.lambda.iter().all(|x| x.is_finite()));
+            }
+            counts.sort();
+            println!(
+                "mu {mu} {method:?}: median {} 95% {} most {} failed {} {:?}",
+                counts[counts.len() / 2],
+                counts[counts.len() * 95 / 100],
+                counts.last().unwrap(),
+                bad.len(),
+                &bad[..bad.len().min(12)]
+            );
+        }
+    }
 }

@@ -250,7 +250,6 @@ impl Rounds<'_, '_> {
             }
         }
         let s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
-        if std::env::var("TRACE").is_ok() { println!("s {s} here {here:e} there {there:e} states {:?}\n   before {:?}\n   after {:?}\n  u {:?}", self.w.states, lambda, self.w.forces, self.w.u); }
         let toward = |from: &mut f64, to: &f64| *from += s * (to - *from);
         lambda.iter_mut().zip(&self.w.forces).for_each(|(x, y)| toward(x, y));
         coordinates.iter_mut().zip(&self.w.coordinates).for_each(|(x, y)| toward(x, y));
@@ -280,17 +279,18 @@ impl Rounds<'_, '_> {
                 }
                 Law::Contact { friction, bound } => {
                     let pushes = inside(start, 0.0, bound);
-                    let friction = if self.rounds == 0 && pushes && friction > 0.0 && lambda[start + 1..start + 3] == [0.0; 2] {
-                        Friction::Sticks
-                    } else {
-                        let slipped = matches!(
-                            self.w.states[number],
-                            State::Contact { friction: Friction::Slips { .. }, .. }
-                        );
-                        let ut = [u[start + 1], u[start + 2]];
-                        let w = self.problem.departures.mobility[start + 1];
-                        rub(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
-                    };
+                    let friction =
+                        if self.rounds == 0 && pushes && friction > 0.0 && lambda[start + 1..start + 3] == [0.0; 2] {
+                            Friction::Sticks
+                        } else {
+                            let slipped = matches!(
+                                self.w.states[number],
+                                State::Contact { friction: Friction::Slips { .. }, .. }
+                            );
+                            let ut = [u[start + 1], u[start + 2]];
+                            let w = self.problem.departures.mobility[start + 1];
+                            rub(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
+                        };
                     State::Contact { pushes, friction }
                 }
             };

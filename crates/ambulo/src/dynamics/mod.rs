@@ -7,6 +7,7 @@ mod departure;
 mod elimination;
 mod inverse;
 mod load;
+mod mixing;
 mod proximal;
 mod solve;
 

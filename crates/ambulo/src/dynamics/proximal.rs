@@ -31,11 +31,22 @@
 use super::block::Block;
 use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
 use super::elimination::{Elimination, EliminationWorkspace, Offsets};
+use super::mixing::Mixing;
 use super::solve::Problem;
 
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
 pub(super) const STIFFNESS: f64 = 1e6;
+/// By how much ρ rises where rows' departures fall too slowly, and how far. At 1e10 of A ten digits of a step are lost and
+/// the next step mends them.
+const STIFFER: f64 = 100.0;
+const STIFFEST: f64 = 1e4;
+/// A round that leaves more than this share of the departure is slow.
+const SLOW: f64 = 0.5;
+/// A round that leaves less than this share is one of a steady approach, which can be foreseen.
+const STEADY: f64 = 0.3;
+/// A round that leaves more than this share has come to nothing.
+const STUCK: f64 = 0.999;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
 /// Rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row that has any mobility to speak of.
@@ -48,6 +59,8 @@ pub(super) struct NewtonWorkspace {
     change: Vec<f64>,
     center: Vec<f64>,
     radius: Vec<f64>,
+    last_radius: Vec<f64>,
+    mixing: Mixing,
     curvature: Vec<Curvature>,
     factored: Vec<Curvature>,
     step: Vec<Six>,
@@ -69,6 +82,10 @@ enum Curvature {
 }
 
 impl Curvature {
+    fn slips(&self) -> bool {
+        matches!(self, Curvature::Contact { normal, sticks: false, .. } if *normal > 0.0)
+    }
+
     /// Whether the same rows hold, and the same contacts stick.
     fn holds_alike(&self, other: &Curvature) -> bool {
         match (self, other) {
@@ -96,6 +113,7 @@ impl NewtonWorkspace {
         self.curvature.clear();
         self.curvature.resize(graph.groups.len(), Curvature::Diagonal([0.0; 6]));
         self.factored.clone_from(&self.curvature);
+        self.mixing.forget();
         self.step.resize(graph.bodies.len(), Six::zeros());
         self.step_coordinates.resize(graph.efforts.len(), 0.0);
     }
@@ -105,7 +123,7 @@ impl NewtonWorkspace {
 pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
     workspace.resize(problem.graph);
     let rho = stiffness(&problem.departures.mobility);
-    Newton { graph: problem.graph, problem, w: workspace, rho }.run(solution);
+    Newton { graph: problem.graph, problem, w: workspace, rho, stiffest: STIFFEST * rho }.run(solution);
 }
 
 /// ρ for rows of these mobilities.
@@ -173,6 +191,8 @@ struct Newton<'p, 'a> {
     problem: &'p mut Problem<'a>,
     w: &'p mut NewtonWorkspace,
     rho: f64,
+    /// The largest ρ that leaves digits to A.
+    stiffest: f64,
 }
 
 impl Newton<'_, '_> {
@@ -186,7 +206,7 @@ impl Newton<'_, '_> {
         self.factor(convergence);
         self.first_solve(motions, coordinates, lambda);
         convergence.iterations = 1;
-        let mut whole = true;
+        let (mut whole, mut last) = (true, f64::INFINITY);
         loop {
             self.problem.departures.read(self.graph, motions, coordinates);
             let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
@@ -198,19 +218,26 @@ impl Newton<'_, '_> {
                 self.w.trial.copy_from_slice(lambda);
             }
             self.evaluate(lambda);
+            let alike = self.w.curvature.iter().zip(&self.w.factored).all(|(now, then)| now.holds_alike(then));
             if convergence.iterations >= settings.max_iterations {
                 self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
                 convergence.converged = false;
                 break;
             }
-            if whole && self.w.curvature.iter().zip(&self.w.factored).all(|(now, then)| now.holds_alike(then)) {
-                self.w.center.copy_from_slice(&self.w.trial);
-                self.evaluate(lambda);
+            if whole && alike {
+                let before = last;
+                if self.stuck(convergence.residual, &mut last) {
+                    break;
+                }
+                self.recenter(lambda, convergence.residual < STEADY * before);
+            } else if !alike {
+                self.w.mixing.forget();
+                last = f64::INFINITY;
             }
             if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
-            whole = self.newton_step(motions, coordinates, lambda);
+            whole = self.newton_step(motions, coordinates, lambda, whole && alike);
             convergence.iterations += 1;
         }
     }
@@ -298,7 +325,59 @@ impl Newton<'_, '_> {
         }
     }
 
+    /// Whether the same rows fail as a round ago, and as much, however stiff: they contradict each other. If they fail nearly
+    /// as much, ρ rises: modes of a mobility far below that of single rows (a tall tower that bends: its levels' to the
+    /// fourth power) want it so.
+    fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
+        let slow = residual > SLOW * *last;
+        let stiff = self.rho >= self.stiffest;
+        let stuck = slow && stiff && residual > STUCK * *last && !self.slips();
+        if slow && !stiff {
+            self.rho *= STIFFER;
+        }
+        *last = residual;
+        stuck
+    }
+
+    fn slips(&self) -> bool {
+        self.w.curvature.iter().any(Curvature::slips)
+    }
+
+    /// λ° := λ for which (2) holds (`trial`); radii of slipping contacts from the last rounds; λ and H for both at the same
+    /// motion, as if the same rows went on to hold: λ° is where they hold, while λ° - ρ u has moved on by as much again.
+    fn recenter(&mut self, lambda: &mut [f64], steady: bool) {
+        let slips = self.slips();
+        let NewtonWorkspace { mixing, last_radius, radius, center, trial, curvature, .. } = &mut *self.w;
+        center.copy_from_slice(trial);
+        if slips {
+            for (number, curvature) in curvature.iter().enumerate() {
+                if !curvature.slips() {
+                    (last_radius[number], radius[number]) = (0.0, 0.0);
+                }
+            }
+            if steady {
+                mixing.mix(last_radius, radius);
+            } else {
+                mixing.forget();
+            }
+            for (number, group) in self.graph.groups.iter().enumerate() {
+                if let Law::Contact { friction, .. } = group.law {
+                    let plain = friction * center[group.rows.start].max(0.0);
+                    let slips = curvature[number].slips();
+                    radius[number] = if slips { radius[number].clamp(0.5 * plain, 2.0 * plain) } else { plain };
+                }
+            }
+        }
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            let u = &self.problem.departures.u;
+            let (radius, curvature) = (self.w.radius[number], &mut self.w.curvature[number]);
+            *curvature =
+                extend_law(self.graph, group, self.rho, radius, &self.w.center, |row| u[row], curvature, lambda);
+        }
+    }
+
     fn update_radii(&mut self, lambda: &[f64]) {
+        self.w.last_radius.clone_from(&self.w.radius);
         for (number, group) in self.graph.groups.iter().enumerate() {
             if let Law::Contact { friction, .. } = group.law {
                 self.w.radius[number] = friction * lambda[group.rows.start].max(0.0);
@@ -330,7 +409,13 @@ impl Newton<'_, '_> {
     }
 
     /// Δ, guarded by a line search, added to the motion; true of a whole step, after which (2) holds.
-    fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) -> bool {
+    fn newton_step(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        recentered: bool,
+    ) -> bool {
         let NewtonWorkspace { step, step_coordinates, .. } = &mut *self.w;
         for ((r, body), (b, a)) in
             step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
@@ -350,7 +435,7 @@ impl Newton<'_, '_> {
                 self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
             }
         }
-        let length = self.step_length(motions, coordinates, lambda);
+        let length = if recentered { 1.0 } else { self.step_length(motions, coordinates, lambda) };
         for (a, step) in motions.iter_mut().zip(&self.w.step) {
             a.axpy(length, step, 1.0);
         }
@@ -457,21 +542,65 @@ fn project_law(
             let (normal, h) = clamped(start, 0.0, bound);
             lambda[start] = normal;
             let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
-            let length = z[0].hypot(z[1]);
-            if length <= radius {
-                (lambda[start + 1], lambda[start + 2]) = (z[0], z[1]);
-                return Curvature::Contact { normal: h, tangential: [rho, 0.0, rho], sticks: true };
-            }
-            let (x, y) = (z[0] / length, z[1] / length);
-            (lambda[start + 1], lambda[start + 2]) = (radius * x, radius * y);
-            let across = rho * radius / length;
-            Curvature::Contact {
-                normal: h,
-                tangential: [across * y * y, -across * x * y, across * x * x],
-                sticks: false,
-            }
+            let sticks = z[0].hypot(z[1]) <= radius;
+            let (forces, tangential) = rub(z, radius, rho, sticks);
+            (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
+            Curvature::Contact { normal: h, tangential, sticks }
         }
     }
+}
+
+/// The same as if the rows that hold by `before` held whatever their force, and the others did not.
+#[inline]
+fn extend_law(
+    graph: &ConstraintGraph,
+    group: &ConstraintGroup,
+    rho: f64,
+    radius: f64,
+    center: &[f64],
+    u: impl Fn(usize) -> f64,
+    before: &Curvature,
+    lambda: &mut [f64],
+) -> Curvature {
+    let start = group.rows.start;
+    let held = |row: usize| {
+        let soft = 1.0 + rho * graph.rows[row].compliance;
+        ((center[row] - rho * u(row)) / soft, rho / soft)
+    };
+    match *before {
+        Curvature::Diagonal(mut h) => {
+            for row in group.rows.clone() {
+                if h[row - start] > 0.0 {
+                    (lambda[row], h[row - start]) = held(row);
+                }
+            }
+            Curvature::Diagonal(h)
+        }
+        Curvature::Contact { normal, sticks, .. } => {
+            let mut h = 0.0;
+            if normal > 0.0 {
+                (lambda[start], h) = held(start);
+            }
+            let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
+            let (forces, tangential) = rub(z, radius, rho, sticks);
+            (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
+            Curvature::Contact { normal: h, tangential, sticks }
+        }
+    }
+}
+
+/// Friction for z = λ° - ρ u, and its curvature; z itself where it sticks.
+fn rub(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64; 3]) {
+    if sticks {
+        return (z, [rho, 0.0, rho]);
+    }
+    let length = z[0].hypot(z[1]);
+    if length <= 0.0 {
+        return ([0.0; 2], [0.0; 3]);
+    }
+    let (x, y) = (z[0] / length, z[1] / length);
+    let across = rho * (radius / length).min(1.0);
+    ([radius * x, radius * y], [across * y * y, -across * x * y, across * x * x])
 }
 
 /// Adds Jᵀ H J of one group.

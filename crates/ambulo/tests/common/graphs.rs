@@ -167,3 +167,43 @@ pub(crate) fn solved(graph: &ConstraintGraph, settings: &SolverSettings) -> (Gra
     solve_graph(graph, settings, &mut workspace, &mut solution).unwrap();
     (solution, workspace)
 }
+
+/// Random trees with free bodies among them, contacts at random points with random normals, and sometimes a closing row or
+/// a bounded one.
+pub(crate) fn random_contacts(r: &mut Random, most_friction: f64) -> ConstraintGraph {
+    let mut graph = ConstraintGraph::default();
+    let bodies = 1 + r.below(8);
+    for child in 0..bodies {
+        let turn = r.rotation();
+        let diagonal = Vec3::new(r.between(0.1, 1.0), r.between(0.1, 1.0), r.between(0.1, 1.0));
+        let terms =
+            BodyTerms { mass: r.between(0.5, 20.0), inertia: turn * Mat3::from_diagonal(&diagonal) * turn.transpose() };
+        if child == 0 || r.chance(0.5) {
+            add_free(&mut graph, terms.mass, terms.inertia);
+        } else {
+            let arms = (r.vector(0.5), r.vector(0.5));
+            add_hinged(&mut graph, Some(r.below(child)), arms, r.unit(), terms);
+        }
+        graph.wrenches[child] += random_six(r) * 30.0;
+    }
+    for _ in 0..1 + r.below(2 * bodies + 2) {
+        let first = r.below(bodies);
+        let second = Some(r.below(bodies)).filter(|s| *s != first && r.chance(0.5)).map(|s| (s, r.vector(0.5)));
+        let friction = if r.chance(0.2) { 0.0 } else { r.between(0.0, most_friction) };
+        let normal = r.unit();
+        let row = add_contact(&mut graph, (first, r.vector(0.5)), second, normal, friction);
+        // Some part, some approach.
+        (0..3).for_each(|k| graph.rows[row + k].target = r.within(5.0));
+    }
+    if r.chance(0.5) {
+        let (first, law) = match r.below(3) {
+            0 => (r.below(bodies), Law::HELD),
+            1 => (r.below(bodies), Law::Bounded { least: 0.0, most: f64::INFINITY }),
+            _ => (r.below(bodies), Law::Bounded { least: -5.0, most: 10.0 }),
+        };
+        let compliance = if r.chance(0.3) { r.between(0.0, 0.5) } else { 0.0 };
+        let row = Constraint { on_first: random_six(r), on_second: Six::zeros(), target: r.within(5.0), compliance };
+        add_rows(&mut graph, Acting::Bodies { first, second: None }, &[row], law);
+    }
+    graph
+}
