@@ -50,8 +50,12 @@ const NO_CURVATURE: f64 = 1e-13;
 const SHARE: f64 = 1e-2;
 /// Friction this close to the cone's edge is on it.
 const EDGE: f64 = 1e-10;
+/// Friction that slip turns by less than this in units of its own mobility does not turn.
+const RIGID: f64 = 1e12;
 /// Slope of f at the end of the way, as a share of that at its start, beyond which the way was too long.
 const OVERSHOOT: f64 = 0.1;
+/// A way this short is compared with another one.
+const SHORT: f64 = 0.5;
 /// A round that leaves more than this share of the departure has come to nothing.
 const STUCK: f64 = 0.9;
 /// Share of a random probe that may be left within the range of W.
@@ -197,7 +201,7 @@ impl Rounds<'_, '_> {
             }
             last = convergence.residual;
             self.round(lambda, convergence);
-            self.go(motions, coordinates, lambda);
+            self.go(motions, coordinates, lambda, convergence);
             self.rounds += 1;
             convergence.iterations += 1;
         }
@@ -220,9 +224,46 @@ impl Rounds<'_, '_> {
         let enough = 0.5 * self.problem.settings.tolerance;
         let share = if self.graph.groups.iter().all(|g| g.law == Law::HELD) { 0.0 } else { SHARE };
         self.descend(scale * enough.max(share * convergence.residual), convergence);
+        if self.contradicted {
+            self.ride(lambda);
+        }
         for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
             *force = l + change;
         }
+        self.confine_forces(lambda);
+        self.animate();
+        self.read_forces();
+    }
+
+    /// Along forces that move nothing, f falls without end unless a bound is met: then that row is the one to let go.
+    fn ride(&mut self, lambda: &[f64]) {
+        self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)).for_each(|(f, (l, c))| *f = l + c);
+        let t = self.reach(&self.w.forces, &self.w.null);
+        if t.is_finite() {
+            self.contradicted = false;
+            axpy(t, &self.w.null, &mut self.w.change);
+        }
+    }
+
+    /// How far `from` can go along `way` until a force that is sought meets its bound.
+    fn reach(&self, from: &[f64], way: &[f64]) -> f64 {
+        let mut reach = f64::INFINITY;
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            let (least, most, rows) = match group.law {
+                Law::Bounded { least, most } => (least, most, group.rows.clone()),
+                Law::Contact { bound, .. } => (0.0, bound, group.rows.start..group.rows.start + 1),
+            };
+            for row in rows.filter(|row| state.seeks(row - group.rows.start)) {
+                let room = if way[row] > 0.0 { most - from[row] } else { least - from[row] };
+                if way[row].abs() > 0.0 {
+                    reach = reach.min((room / way[row]).max(0.0));
+                }
+            }
+        }
+        reach
+    }
+
+    fn confine_forces(&mut self, lambda: &[f64]) {
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
             confine(group, &mut self.w.forces);
             if let State::Contact { friction: Friction::Slips { along, .. }, .. } = state {
@@ -230,7 +271,10 @@ impl Rounds<'_, '_> {
                 rub_fully(group, lambda, *along, [turn[0], turn[1]], &mut self.w.forces);
             }
         }
-        self.animate();
+    }
+
+    /// u under the forces tried.
+    fn read_forces(&mut self) {
         for group in &self.graph.groups {
             for row in group.rows.clone() {
                 let there = self.graph.reading(group, row, &self.w.motions, &self.w.coordinates);
@@ -239,8 +283,34 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// On the way from λ to the forces tried: all of it, or to where f is least. Motions are affine in forces.
-    fn go(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+    /// On the way from λ to the forces tried: all of it, or to where f is least. Where that is not far, straight to the first
+    /// bound met on the way to what the active set calls for, if that lowers f by more. Motions are affine in forces.
+    fn go(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64], convergence: &mut Convergence) {
+        let (here, there) = self.slopes(lambda);
+        let mut s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
+        if s < SHORT {
+            let straight = self.slope(&self.w.change, lambda);
+            let t = self.reach(lambda, &self.w.change).min(1.0);
+            if straight * (t - 0.5 * t * t) < 0.5 * here * s {
+                for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
+                    *force = l + t * change;
+                }
+                self.graph.groups.iter().for_each(|group| confine(group, &mut self.w.forces));
+                self.animate();
+                self.read_forces();
+                convergence.iterations += 1;
+                s = 1.0;
+            }
+        }
+        let toward = |from: &mut f64, to: &f64| *from += s * (to - *from);
+        lambda.iter_mut().zip(&self.w.forces).for_each(|(x, y)| toward(x, y));
+        coordinates.iter_mut().zip(&self.w.coordinates).for_each(|(x, y)| toward(x, y));
+        self.problem.departures.u.iter_mut().zip(&self.w.u).for_each(|(x, y)| toward(x, y));
+        motions.iter_mut().zip(&self.w.motions).for_each(|(x, y)| *x += (y - *x) * s);
+    }
+
+    /// Slopes of f on the way from λ to the forces tried, at its ends.
+    fn slopes(&self, lambda: &[f64]) -> (f64, f64) {
         let (mut here, mut there) = (0.0, 0.0);
         for group in &self.graph.groups {
             for row in group.rows.clone() {
@@ -249,12 +319,14 @@ impl Rounds<'_, '_> {
                 there += way * self.departure(group, row, self.w.u[row], &self.w.forces);
             }
         }
-        let s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
-        let toward = |from: &mut f64, to: &f64| *from += s * (to - *from);
-        lambda.iter_mut().zip(&self.w.forces).for_each(|(x, y)| toward(x, y));
-        coordinates.iter_mut().zip(&self.w.coordinates).for_each(|(x, y)| toward(x, y));
-        self.problem.departures.u.iter_mut().zip(&self.w.u).for_each(|(x, y)| toward(x, y));
-        motions.iter_mut().zip(&self.w.motions).for_each(|(x, y)| *x += (y - *x) * s);
+        (here, there)
+    }
+
+    /// Slope of f at λ along `way`.
+    fn slope(&self, way: &[f64], lambda: &[f64]) -> f64 {
+        let u = &self.problem.departures.u;
+        let of = |group: &ConstraintGroup, row: usize| way[row] * self.departure(group, row, u[row], lambda);
+        self.graph.groups.iter().flat_map(|g| g.rows.clone().map(move |row| of(g, row))).sum()
     }
 
     /// u + R λ.
@@ -489,6 +561,9 @@ fn rub(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) 
         return Friction::Given;
     }
     let speed = u[0].hypot(u[1]);
+    if speed > RIGID * radius * mobility {
+        return Friction::Given;
+    }
     if length <= EDGE * radius {
         if speed <= radius * mobility {
             return Friction::Sticks;
@@ -527,7 +602,8 @@ fn rub_fully(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f6
     let start = group.rows.start;
     let radius = friction * before[start];
     let toward = [radius * along[0] + turn[0], radius * along[1] + turn[1]];
-    let longer = friction * lambda[start] / toward[0].hypot(toward[1]);
+    let length = toward[0].hypot(toward[1]);
+    let longer = if length > 0.0 { friction * lambda[start] / length } else { 0.0 };
     lambda[start + 1] = longer * toward[0];
     lambda[start + 2] = longer * toward[1];
 }

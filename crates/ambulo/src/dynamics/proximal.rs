@@ -210,6 +210,9 @@ impl Newton<'_, '_> {
         loop {
             self.problem.departures.read(self.graph, motions, coordinates);
             let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
+            if std::env::var("TRACEN").is_ok() {
+                println!("N {} whole {whole} rho {:e} residual {:e} worst {:?} factored {:?}", convergence.iterations, self.rho, convergence.residual, convergence.worst, self.w.factored);
+            }
             if whole && lawful {
                 break;
             }
@@ -218,7 +221,7 @@ impl Newton<'_, '_> {
                 self.w.trial.copy_from_slice(lambda);
             }
             self.evaluate(lambda);
-            let alike = self.w.curvature.iter().zip(&self.w.factored).all(|(now, then)| now.holds_alike(then));
+            let alike = self.alike(lambda);
             if convergence.iterations >= settings.max_iterations {
                 self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
                 convergence.converged = false;
@@ -323,6 +326,20 @@ impl Newton<'_, '_> {
                 }
             }
         }
+    }
+
+    /// Whether the same rows hold as in the system that was factored, the others are at the same bounds, and the same
+    /// contacts stick.
+    fn alike(&self, lambda: &[f64]) -> bool {
+        let same_bound = |group: &ConstraintGroup, curvature: &Curvature| match curvature {
+            Curvature::Contact { .. } => true,
+            Curvature::Diagonal(h) => {
+                let start = group.rows.start;
+                group.rows.clone().all(|row| h[row - start] > 0.0 || (lambda[row] - self.w.trial[row]).abs() <= 0.0)
+            }
+        };
+        let groups = self.graph.groups.iter().zip(self.w.curvature.iter().zip(&self.w.factored));
+        groups.into_iter().all(|(group, (now, then))| now.holds_alike(then) && same_bound(group, now))
     }
 
     /// Whether the same rows fail as a round ago, and as much, however stiff: they contradict each other. If they fail nearly
@@ -435,7 +452,10 @@ impl Newton<'_, '_> {
                 self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
             }
         }
-        let length = if recentered { 1.0 } else { self.step_length(motions, coordinates, lambda) };
+        // A step below the tolerance is whole: the line search would read rounding.
+        let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let small = largest <= self.problem.settings.tolerance * self.problem.departures.scale;
+        let length = if recentered || small { 1.0 } else { self.step_length(motions, coordinates, lambda) };
         for (a, step) in motions.iter_mut().zip(&self.w.step) {
             a.axpy(length, step, 1.0);
         }
