@@ -79,22 +79,37 @@ fn trace() {
 fn survey() {
     for mu in [0.0, 0.3, 1.0] {
         let mut tally = std::collections::BTreeMap::new();
-        let mut counts = [vec![], vec![]]; let mut bad = vec![];
+        let mut counts = [vec![], vec![]];
+        let mut bad = vec![];
         for seed in 0..3000 {
             let g = random_contacts(&mut Random::new(seed), mu);
             let mut c = vec![];
             for (k, method) in METHODS.into_iter().enumerate() {
                 let (s, _) = solved(&g, &settings(method, 1e-10, if method == Method::Newton { 200 } else { 3000 }));
                 assert!(s.lambda.iter().all(|x| x.is_finite()), "seed {seed} mu {mu} {method:?} {:?}", s.lambda);
-                if s.convergence.converged { counts[k].push(s.convergence.iterations); }
+                if s.convergence.converged {
+                    counts[k].push(s.convergence.iterations);
+                }
                 c.push(s.convergence);
             }
             *tally.entry((c[0].converged, c[1].converged)).or_insert(0) += 1;
-            if c[0].converged != c[1].converged { bad.push((seed, c[0].residual, c[1].residual)); }
+            if c[0].converged != c[1].converged {
+                bad.push((seed, c[0].residual, c[1].residual));
+            }
         }
-        for c in &mut counts { c.sort(); }
+        for c in &mut counts {
+            c.sort();
+        }
         println!("mu {mu} {tally:?} {:?}", &bad[..bad.len().min(8)]);
-        for (k, c) in counts.iter().enumerate() { println!("   mu {:?} median {} 90% {} 99% {}", METHODS[k], c[c.len()/2], c[c.len()*9/10], c[c.len()*99/100]); }
+        for (k, c) in counts.iter().enumerate() {
+            println!(
+                "   mu {:?} median {} 90% {} 99% {}",
+                METHODS[k],
+                c[c.len() / 2],
+                c[c.len() * 9 / 10],
+                c[c.len() * 99 / 100]
+            );
+        }
     }
 }
 

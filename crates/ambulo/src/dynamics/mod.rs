@@ -3,6 +3,7 @@
 mod block;
 mod conjugate_gradient;
 mod constraint;
+mod curvature;
 mod departure;
 mod elimination;
 mod inverse;

@@ -11,8 +11,15 @@
 //! 1/(1 + ρ W) each time, W = J A⁻¹ Jᵀ. Redundant rows do no harm: starting at λ° = 0 every λ° stays in the range of J, so the
 //! forces of a table on four legs are the least-squares ones.
 //!
+//! A whole step leaves (2) true of λ - H J Δ, whatever (1) then says; a solution is where laws agree with those forces. If
+//! they do not, but the same rows hold as were factored, those forces are the next λ°, and ρ rises if the last rounds were
+//! slow.
+//!
 //! Coulomb's law is no gradient. The disc of friction, |λ_t| ≤ r, takes its radius r = μ λ_n from the normal force of the step
 //! before; for a fixed radius (1), (2) are the stationarity of a convex function φ, on which a line search guards each step.
+//! While the same contacts slip, [`Mixing`] foresees where the radii lead: a table that slides and turns, guessed within 1 %,
+//! takes 6 steps to 1e-10 instead of 9. Where friction moves normal forces that no motion determines (a table that slides
+//! on four legs), solutions are many, and which is found depends on the guess.
 //!
 //! | code        | symbol | unit            | shape                         |
 //! | `lambda`    | λ      | N.m, N          | one a row                     |
@@ -28,9 +35,9 @@
 //! Cost: one factorisation when contacts change between open, sticking and slipping; one solve else.
 //! Pinned by: tests/constraint_graph.rs
 
-use super::block::Block;
-use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
-use super::elimination::{Elimination, EliminationWorkspace, Offsets};
+use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
+use super::curvature::{Curvature, Proximal, add_group, diagonal};
+use super::elimination::Offsets;
 use super::mixing::Mixing;
 use super::solve::Problem;
 
@@ -67,38 +74,6 @@ pub(super) struct NewtonWorkspace {
     step_coordinates: Vec<f64>,
     /// λ along the line of a line search.
     trial: Vec<f64>,
-}
-
-/// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Curvature {
-    Diagonal([f64; 6]),
-    Contact {
-        normal: f64,
-        /// xx, xy, yy.
-        tangential: [f64; 3],
-        sticks: bool,
-    },
-}
-
-impl Curvature {
-    fn slips(&self) -> bool {
-        matches!(self, Curvature::Contact { normal, sticks: false, .. } if *normal > 0.0)
-    }
-
-    /// Whether the same rows hold, and the same contacts stick.
-    fn holds_alike(&self, other: &Curvature) -> bool {
-        match (self, other) {
-            (Curvature::Diagonal(one), Curvature::Diagonal(two)) => {
-                one.iter().zip(two).all(|(x, y)| (*x > 0.0) == (*y > 0.0))
-            }
-            (
-                Curvature::Contact { normal, sticks, .. },
-                Curvature::Contact { normal: other_normal, sticks: other_sticks, .. },
-            ) => (*normal > 0.0) == (*other_normal > 0.0) && sticks == other_sticks,
-            _ => false,
-        }
-    }
 }
 
 impl NewtonWorkspace {
@@ -210,9 +185,6 @@ impl Newton<'_, '_> {
         loop {
             self.problem.departures.read(self.graph, motions, coordinates);
             let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
-            if std::env::var("TRACEN").is_ok() {
-                println!("N {} whole {whole} rho {:e} residual {:e} worst {:?} factored {:?}", convergence.iterations, self.rho, convergence.residual, convergence.worst, self.w.factored);
-            }
             if whole && lawful {
                 break;
             }
@@ -385,11 +357,9 @@ impl Newton<'_, '_> {
                 }
             }
         }
+        let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
         for (number, group) in self.graph.groups.iter().enumerate() {
-            let u = &self.problem.departures.u;
-            let (radius, curvature) = (self.w.radius[number], &mut self.w.curvature[number]);
-            *curvature =
-                extend_law(self.graph, group, self.rho, radius, &self.w.center, |row| u[row], curvature, lambda);
+            curvature[number] = map.extend(group, radius[number], u, curvature[number], lambda);
         }
     }
 
@@ -402,27 +372,14 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// λ by (1) and H at the present motion.
+    /// λ by (1) and H at the present motion. A contact that begins to push has no friction for one step: what -ρ u would
+    /// allow it is many times what it will bear, opens it again, and so on without end.
     fn evaluate(&mut self, lambda: &mut [f64]) {
-        for number in 0..self.graph.groups.len() {
-            self.evaluate_group(number, lambda);
-            let group = &self.graph.groups[number];
-            if let (Law::Contact { friction, .. }, true) = (group.law, self.w.radius[number] <= 0.0) {
-                // A contact that begins to push may stick at once.
-                let normal = lambda[group.rows.start];
-                if normal > 0.0 {
-                    self.w.radius[number] = friction * normal;
-                    self.evaluate_group(number, lambda);
-                }
-            }
+        let NewtonWorkspace { center, radius, curvature, .. } = &mut *self.w;
+        let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            curvature[number] = map.project(group, radius[number], |row| u[row], lambda);
         }
-    }
-
-    fn evaluate_group(&mut self, number: usize, lambda: &mut [f64]) {
-        let (group, radius) = (&self.graph.groups[number], self.w.radius[number]);
-        let u = &self.problem.departures.u;
-        self.w.curvature[number] =
-            project_law(self.graph, group, self.rho, radius, &self.w.center, |row| u[row], lambda);
     }
 
     /// Δ, guarded by a line search, added to the motion; true of a whole step, after which (2) holds.
@@ -485,13 +442,14 @@ impl Newton<'_, '_> {
             linear += d * d * self.graph.rotors[k];
         }
         let NewtonWorkspace { trial, change, radius, center, .. } = &mut *self.w;
-        let (graph, rho, departures) = (self.graph, self.rho, &self.problem.departures);
+        let (graph, departures) = (self.graph, &self.problem.departures);
+        let map = Proximal { graph, rho: self.rho, center };
         let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&*change).map(|(l, c)| l * c).sum() };
         let start = constant - work(lambda);
         let mut slope = |s: f64| {
             for (number, group) in graph.groups.iter().enumerate() {
                 let u = |row: usize| departures.u[row] + s * change[row];
-                project_law(graph, group, rho, radius[number], center, u, trial);
+                map.project(group, radius[number], u, trial);
             }
             constant + s * linear - work(trial)
         };
@@ -511,161 +469,9 @@ impl Newton<'_, '_> {
     }
 }
 
-fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
-    let mut values = [0.0; 6];
-    for (value, row) in values.iter_mut().zip(group.rows.clone()) {
-        *value = h(row);
-    }
-    Curvature::Diagonal(values)
-}
-
 fn clamp_to(law: Law, lambda: f64) -> f64 {
     match law {
         Law::Bounded { least, most } => lambda.clamp(least, most),
         Law::Contact { .. } => lambda,
-    }
-}
-
-/// λ of one group by (1), and its H.
-#[inline]
-fn project_law(
-    graph: &ConstraintGraph,
-    group: &ConstraintGroup,
-    rho: f64,
-    radius: f64,
-    center: &[f64],
-    u: impl Fn(usize) -> f64,
-    lambda: &mut [f64],
-) -> Curvature {
-    let start = group.rows.start;
-    // One row confined to [least, most].
-    let clamped = |row: usize, least: f64, most: f64| {
-        let soft = 1.0 + rho * graph.rows[row].compliance;
-        let z = (center[row] - rho * u(row)) / soft;
-        if z <= least {
-            (least, 0.0)
-        } else if z >= most {
-            (most, 0.0)
-        } else {
-            (z, rho / soft)
-        }
-    };
-    match group.law {
-        Law::Bounded { least, most } => {
-            let mut h = [0.0; 6];
-            for row in group.rows.clone() {
-                (lambda[row], h[row - start]) = clamped(row, least, most);
-            }
-            Curvature::Diagonal(h)
-        }
-        Law::Contact { bound, .. } => {
-            let (normal, h) = clamped(start, 0.0, bound);
-            lambda[start] = normal;
-            let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
-            let sticks = z[0].hypot(z[1]) <= radius;
-            let (forces, tangential) = rub(z, radius, rho, sticks);
-            (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
-            Curvature::Contact { normal: h, tangential, sticks }
-        }
-    }
-}
-
-/// The same as if the rows that hold by `before` held whatever their force, and the others did not.
-#[inline]
-fn extend_law(
-    graph: &ConstraintGraph,
-    group: &ConstraintGroup,
-    rho: f64,
-    radius: f64,
-    center: &[f64],
-    u: impl Fn(usize) -> f64,
-    before: &Curvature,
-    lambda: &mut [f64],
-) -> Curvature {
-    let start = group.rows.start;
-    let held = |row: usize| {
-        let soft = 1.0 + rho * graph.rows[row].compliance;
-        ((center[row] - rho * u(row)) / soft, rho / soft)
-    };
-    match *before {
-        Curvature::Diagonal(mut h) => {
-            for row in group.rows.clone() {
-                if h[row - start] > 0.0 {
-                    (lambda[row], h[row - start]) = held(row);
-                }
-            }
-            Curvature::Diagonal(h)
-        }
-        Curvature::Contact { normal, sticks, .. } => {
-            let mut h = 0.0;
-            if normal > 0.0 {
-                (lambda[start], h) = held(start);
-            }
-            let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
-            let (forces, tangential) = rub(z, radius, rho, sticks);
-            (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
-            Curvature::Contact { normal: h, tangential, sticks }
-        }
-    }
-}
-
-/// Friction for z = λ° - ρ u, and its curvature; z itself where it sticks.
-fn rub(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64; 3]) {
-    if sticks {
-        return (z, [rho, 0.0, rho]);
-    }
-    let length = z[0].hypot(z[1]);
-    if length <= 0.0 {
-        return ([0.0; 2], [0.0; 3]);
-    }
-    let (x, y) = (z[0] / length, z[1] / length);
-    let across = rho * (radius / length).min(1.0);
-    ([radius * x, radius * y], [across * y * y, -across * x * y, across * x * x])
-}
-
-/// Adds Jᵀ H J of one group.
-fn add_group(
-    graph: &ConstraintGraph,
-    elimination: &Elimination,
-    group: &ConstraintGroup,
-    curvature: &Curvature,
-    block: Option<(usize, bool)>,
-    factors: &mut EliminationWorkspace,
-) {
-    let start = group.rows.start;
-    let (first, second) = match group.on {
-        Acting::Coordinate { body, coordinate } => {
-            if let Curvature::Diagonal(h) = curvature {
-                factors.add_to_coordinate(elimination, coordinate, body, h[0]);
-            }
-            return;
-        }
-        Acting::Bodies { first, second } => (first, second),
-    };
-    let mut add = |m: usize, n: usize, h: f64| {
-        if h == 0.0 {
-            return;
-        }
-        let (one, other) = (&graph.rows[start + m], &graph.rows[start + n]);
-        factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
-        if let (Some(second), Some((block, swapped))) = (second, block) {
-            factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
-            let place: &mut Block = factors.off_mut(block);
-            if swapped {
-                place.add_outer(&one.on_second, &other.on_first, h);
-            } else {
-                place.add_outer(&one.on_first, &other.on_second, h);
-            }
-        }
-    };
-    match curvature {
-        Curvature::Diagonal(h) => (0..group.rows.len()).for_each(|k| add(k, k, h[k])),
-        Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
-            add(0, 0, *normal);
-            add(1, 1, *xx);
-            add(1, 2, *xy);
-            add(2, 1, *xy);
-            add(2, 2, *yy);
-        }
     }
 }
