@@ -116,7 +116,7 @@ fn dense(graph: &ConstraintGraph) -> Vec<f64> {
 
 fn solved(graph: &ConstraintGraph) -> GraphSolution {
     let mut solution = GraphSolution::default();
-    let settings = SolverSettings { tolerance: 1e-13, max_iterations: 12 };
+    let settings = SolverSettings { tolerance: 1e-13, max_iterations: 12, ..SolverSettings::default() };
     solve_graph(graph, &settings, &mut GraphWorkspace::default(), &mut solution).unwrap_or_else(|e| panic!("{e}"));
     solution
 }

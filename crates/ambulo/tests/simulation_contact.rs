@@ -690,7 +690,7 @@ fn judged(world: World) -> Departures {
     let mut run = Run::new(world, 1e-3);
     // A tighter tolerance than 1e-10 asks more than there is: gaps are known to 1e-16 m, which over a step of 1 ms is 1e-13 m/s
     // or 1e-11 of g h, and eight spheres under two rigid feet cannot all agree to less.
-    run.settings.solver = SolverSettings { tolerance: 1e-10, max_iterations: 1000 };
+    run.settings.solver = SolverSettings { max_iterations: 1000, ..SolverSettings::default() };
     let mut sum = Departures::default();
     for _ in 0..500 {
         departures(&mut run, &mut sum);
@@ -731,7 +731,7 @@ fn the_judge_of_contact_notices_a_sloppy_solver() {
     let hip = || swing(0.1, 0.5);
     let still = Signal::Constant(0.0);
     let mut run = Run::new(figure([hip(), hip()], still.clone(), [still.clone(), still]), 1e-3);
-    run.settings.solver = SolverSettings { tolerance: 1.0, max_iterations: 1 };
+    run.settings.solver = SolverSettings { tolerance: 1.0, max_iterations: 1, ..SolverSettings::default() };
     let mut sum = Departures::default();
     for _ in 0..100 {
         departures(&mut run, &mut sum);

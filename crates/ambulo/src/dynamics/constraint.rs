@@ -206,13 +206,8 @@ impl ConstraintGraph {
     pub fn joint_wrenches(&self, outwards: &[(usize, Option<usize>)], solution: &GraphSolution) -> Vec<Six> {
         let mut pushed = self.wrenches.clone();
         self.push(&solution.lambda, &mut pushed, &mut vec![0.0; solution.coordinates.len()]);
-        let mut wrenches: Vec<Six> = self
-            .bodies
-            .iter()
-            .zip(&solution.motions)
-            .zip(&pushed)
-            .map(|((body, a), f)| body.times(a) - f)
-            .collect();
+        let mut wrenches: Vec<Six> =
+            self.bodies.iter().zip(&solution.motions).zip(&pushed).map(|((body, a), f)| body.times(a) - f).collect();
         for &(body, parent) in outwards.iter().rev() {
             if let Some(parent) = parent {
                 let carried = super::block::carry(&wrenches[body], &self.terms.arm[body]);

@@ -1,17 +1,24 @@
 //! Forces from motion, and motion from forces.
 
 mod block;
+mod conjugate_gradient;
 mod constraint;
+mod curvature;
+mod departure;
 mod elimination;
 mod inverse;
 mod load;
+mod mixing;
 mod proximal;
+mod relaxed;
+mod solve;
 
 pub use constraint::{
-    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six, relative_rows,
+    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six,
+    relative_rows,
 };
 pub use elimination::{Elimination, EliminationWorkspace, Link, LinkError, LinkTerms, Offsets};
 pub use inverse::{Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames};
 pub use load::{BodyLoad, LoadSeries};
-pub use proximal::{GraphWorkspace, SolverSettings, solve_graph};
-pub(crate) use proximal::project_displacements;
+pub(crate) use solve::project_displacements;
+pub use solve::{GraphWorkspace, Method, SolverSettings, solve_graph, undetermined_rows};

@@ -11,8 +11,15 @@
 //! 1/(1 + ρ W) each time, W = J A⁻¹ Jᵀ. Redundant rows do no harm: starting at λ° = 0 every λ° stays in the range of J, so the
 //! forces of a table on four legs are the least-squares ones.
 //!
+//! A whole step leaves (2) true of λ - H J Δ, whatever (1) then says; a solution is where laws agree with those forces. If
+//! they do not, but the same rows hold as were factored, those forces are the next λ°, and ρ rises if the last rounds were
+//! slow.
+//!
 //! Coulomb's law is no gradient. The disc of friction, |λ_t| ≤ r, takes its radius r = μ λ_n from the normal force of the step
 //! before; for a fixed radius (1), (2) are the stationarity of a convex function φ, on which a line search guards each step.
+//! While the same contacts slip, [`Mixing`] foresees where the radii lead: a table that slides and turns, guessed within 1 %,
+//! takes 6 steps to 1e-10 instead of 9. Where friction moves normal forces that no motion determines (a table that slides
+//! on four legs), solutions are many, and which is found depends on the guess.
 //!
 //! | code        | symbol | unit            | shape                         |
 //! | `lambda`    | λ      | N.m, N          | one a row                     |
@@ -28,112 +35,120 @@
 //! Cost: one factorisation when contacts change between open, sticking and slipping; one solve else.
 //! Pinned by: tests/constraint_graph.rs
 
-use super::block::Block;
-use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
-use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError, Offsets};
-use std::collections::BTreeMap;
+use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
+use super::curvature::{Curvature, Proximal, add_group, diagonal};
+use super::elimination::Offsets;
+use super::mixing::Mixing;
+use super::relaxed::{self, RelaxedWorkspace};
+use super::solve::Problem;
 
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
-const STIFFNESS: f64 = 1e6;
-/// Least scale of departures, as a share of the velocities that a row compares: what these cancel to is known to 1e-16 of
-/// them, a tolerance of 1e-10 must stay above.
-const SMALLEST_SCALE: f64 = 1e-4;
+pub(super) const STIFFNESS: f64 = 1e6;
+/// By how much ρ rises where rows' departures fall too slowly, and how far. At 1e10 of A ten digits of a step are lost and
+/// the next step mends them.
+const STIFFER: f64 = 100.0;
+const STIFFEST: f64 = 1e4;
+/// A round that leaves more than this share of the departure is slow.
+const SLOW: f64 = 0.5;
+/// A round that leaves less than this share is one of a steady approach, which can be foreseen.
+const STEADY: f64 = 0.3;
+/// A round that leaves more than this share has come to nothing.
+const STUCK: f64 = 0.999;
 /// Where forces are not unique, those of contacts that stick are kept within this share of their cone.
 const WITHIN: f64 = 0.95;
 /// Halvings in finding how far that allows to go.
 const SHARE_HALVINGS: usize = 20;
+/// After so many steps the best motion so far is kept.
+const PATIENCE: usize = 10;
+/// Steps after which Newton's method is given up.
+const MOST_STEPS: usize = 50;
+/// A residual that is taken for a solution where Newton's method ends without one.
+const NEARLY: f64 = 1e-6;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
+/// Rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row that has any mobility to speak of.
+const ROUNDS: usize = 3;
 
-/// How far to iterate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverSettings {
-    /// Largest residual accepted; see [`Convergence::residual`].
-    pub tolerance: f64,
-    /// Most tree solves.
-    pub max_iterations: usize,
-}
-
-impl Default for SolverSettings {
-    fn default() -> Self {
-        SolverSettings { tolerance: 1e-10, max_iterations: 100 }
-    }
-}
-
-/// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
+/// Scratch of Newton's method.
 #[derive(Debug, Clone, Default)]
-pub struct GraphWorkspace {
-    links: Vec<Link>,
-    /// Bodies that each group joins.
-    shape: Vec<Option<(usize, usize)>>,
-    pub(crate) elimination: Option<Elimination>,
-    pub(crate) factors: EliminationWorkspace,
-    /// Off-diagonal block of each group that joins two bodies.
-    blocks: Vec<Option<(usize, bool)>>,
-    u: Vec<f64>,
+pub(super) struct NewtonWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
-    /// Forces with which (2) holds.
-    predicted: Vec<f64>,
-    /// The guess.
-    before: Vec<f64>,
-    mobility: Vec<f64>,
     radius: Vec<f64>,
+    last_radius: Vec<f64>,
+    mixing: Mixing,
     curvature: Vec<Curvature>,
     factored: Vec<Curvature>,
     step: Vec<Six>,
     step_coordinates: Vec<f64>,
+    /// λ along the line of a line search.
+    trial: Vec<f64>,
+    /// The guess.
+    before: Vec<f64>,
+    best: Best,
+    relaxed: RelaxedWorkspace,
 }
 
-/// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Curvature {
-    Diagonal([f64; 6]),
-    /// Normal; then the tangential xx, xy, yy.
-    Contact(f64, [f64; 3]),
+/// The motion and forces that came nearest to all laws.
+#[derive(Debug, Clone, Default)]
+struct Best {
+    motions: Vec<Six>,
+    coordinates: Vec<f64>,
+    lambda: Vec<f64>,
+    found: Option<Convergence>,
 }
 
-impl GraphWorkspace {
-    /// The elimination for this graph, made anew only if its shape has changed.
-    pub(crate) fn prepare(&mut self, graph: &ConstraintGraph, with_rows: bool) -> Result<(), LinkError> {
-        let pair = |group: &ConstraintGroup| match group.on {
-            Acting::Bodies { first, second: Some(second) } if with_rows => Some((first, second)),
-            _ => None,
-        };
-        let shape = graph.groups.iter().map(pair);
-        if self.elimination.is_some() && self.links == graph.links && shape.clone().eq(self.shape.iter().copied()) {
-            return Ok(());
-        }
-        self.shape.clear();
-        self.shape.extend(shape);
-        self.links.clone_from(&graph.links);
-        let mut numbers = BTreeMap::new();
-        let mut couplings = Vec::new();
-        self.blocks.clear();
-        for pair in &self.shape {
-            self.blocks.push(pair.map(|(first, second)| {
-                let block = *numbers.entry((first.min(second), first.max(second))).or_insert_with(|| {
-                    couplings.push((first, second));
-                    couplings.len() - 1
-                });
-                (block, first > second)
-            }));
-        }
-        self.elimination = Some(Elimination::new(&graph.links, &couplings)?);
-        Ok(())
+impl Best {
+    fn forget(&mut self) {
+        self.found = None;
     }
 
-    /// Bodies with their parents, parents first, as last prepared.
-    #[must_use]
-    pub fn outwards(&self) -> Vec<(usize, Option<usize>)> {
-        self.elimination.iter().flat_map(Elimination::outwards).collect()
+    fn residual(&self) -> f64 {
+        self.found.map_or(f64::INFINITY, |c| c.residual)
     }
 
+    /// Keeps these if they are better.
+    fn keep(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64], convergence: &Convergence) {
+        if convergence.residual < self.residual() {
+            self.motions.clear();
+            self.motions.extend_from_slice(motions);
+            self.coordinates.clear();
+            self.coordinates.extend_from_slice(coordinates);
+            self.lambda.clear();
+            self.lambda.extend_from_slice(lambda);
+            self.found = Some(*convergence);
+        }
+    }
+
+    /// Puts the kept ones back if they are better than these.
+    fn restore(
+        &self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
+        let Some(found) = self.found.filter(|found| !(found.residual > convergence.residual)) else { return };
+        motions.clone_from(&self.motions);
+        coordinates.clone_from(&self.coordinates);
+        lambda.copy_from_slice(&self.lambda);
+        convergence.residual = found.residual;
+        convergence.worst = found.worst;
+        convergence.converged = found.converged;
+    }
+}
+
+/// Whether a contact has a past: more than the mark of a new one.
+fn known(group: &ConstraintGroup, before: &[f64]) -> bool {
+    before[group.rows.start] > f64::MIN_POSITIVE
+}
+
+impl NewtonWorkspace {
     fn resize(&mut self, graph: &ConstraintGraph) {
         let rows = graph.rows.len();
-        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.predicted, &mut self.mobility] {
+        for list in [&mut self.change, &mut self.center, &mut self.trial] {
             list.clear();
             list.resize(rows, 0.0);
         }
@@ -142,76 +157,97 @@ impl GraphWorkspace {
         self.curvature.clear();
         self.curvature.resize(graph.groups.len(), Curvature::Diagonal([0.0; 6]));
         self.factored.clone_from(&self.curvature);
+        self.mixing.forget();
         self.step.resize(graph.bodies.len(), Six::zeros());
         self.step_coordinates.resize(graph.efforts.len(), 0.0);
     }
 }
 
-/// Solves the graph. `solution.lambda` holds a guess of the forces, as of the last step; it decides only which contacts are
-/// first taken as pushing and which as slipping. A contact without a past gets a positive normal force and no other.
-///
-/// Rows whose laws contradict each other (a drive against a wall) leave [`Convergence::converged`] false, with the row that
-/// departs most; forces stay within their bounds.
-///
-/// # Errors
-/// A graph whose links are no forest.
-pub fn solve_graph(
-    graph: &ConstraintGraph,
-    settings: &SolverSettings,
-    workspace: &mut GraphWorkspace,
-    solution: &mut GraphSolution,
-) -> Result<(), LinkError> {
-    workspace.prepare(graph, true)?;
-    workspace.resize(graph);
-    solution.lambda.resize(graph.rows.len(), 0.0);
-    let Some(elimination) = workspace.elimination.take() else { return Ok(()) };
-    Newton { graph, elimination: &elimination, settings, w: workspace, rho: 0.0, scale: 0.0 }.run(solution);
-    workspace.elimination = Some(elimination);
-    Ok(())
+/// See [`super::solve_graph`].
+pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
+    workspace.resize(problem.graph);
+    let rho = stiffness(&problem.departures.mobility);
+    Newton { graph: problem.graph, problem, w: workspace, rho, stiffest: STIFFEST * rho }.run(solution);
 }
 
-/// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
-/// J δ = targets, and the joints' offsets as they stand in the graph. Uses the last factor.
-pub(crate) fn project_displacements(
-    graph: &ConstraintGraph,
+/// ρ for rows of these mobilities.
+pub(super) fn stiffness(mobility: &[f64]) -> f64 {
+    let (least, most) = mobility.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(*x), m.max(*x)));
+    if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS }
+}
+
+/// See [`super::solve::project_displacements`]: one solve with the last factor.
+pub(super) fn project(
+    problem: &mut Problem<'_>,
+    workspace: &mut NewtonWorkspace,
     targets: &[f64],
-    workspace: &GraphWorkspace,
-    motions: &mut Vec<Six>,
-    coordinates: &mut Vec<f64>,
+    motions: &mut [Six],
+    coordinates: &mut [f64],
 ) {
-    motions.clear();
-    motions.resize(graph.bodies.len(), Six::zeros());
-    coordinates.clear();
-    coordinates.resize(graph.efforts.len(), 0.0);
-    let Some(elimination) = &workspace.elimination else { return };
-    let mut lambda = vec![0.0; graph.rows.len()];
+    let graph = problem.graph;
+    let lambda = &mut workspace.trial;
     for (group, curvature) in graph.groups.iter().zip(&workspace.factored) {
         let start = group.rows.start;
-        match curvature {
-            Curvature::Diagonal(h) => group.rows.clone().for_each(|row| lambda[row] = h[row - start] * targets[row]),
-            Curvature::Contact(normal, _) => lambda[start] = normal * targets[start],
+        for row in group.rows.clone() {
+            lambda[row] = match curvature {
+                Curvature::Diagonal(h) => h[row - start] * targets[row],
+                Curvature::Contact { normal, .. } if row == start => normal * targets[row],
+                Curvature::Contact { .. } => 0.0,
+            };
         }
     }
-    graph.push(&lambda, motions, coordinates);
-    elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, &workspace.factors);
+    graph.push(lambda, motions, coordinates);
+    problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, problem.factors);
 }
 
-struct Newton<'a> {
+/// Takes from `rows` what forces of the rows that hold can bring about: r := (1 + ρ W)⁻¹ r, by
+/// r - J (A + Jᵀ H J)⁻¹ Jᵀ H r. Rows that do not hold, and those that yield, become zero.
+pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, rows: &mut [f64]) {
+    let graph = problem.graph;
+    let NewtonWorkspace { factored, trial, step, step_coordinates, .. } = workspace;
+    for _ in 0..ROUNDS {
+        for (group, curvature) in graph.groups.iter().zip(&*factored) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let (h, rigid) = match curvature {
+                    Curvature::Diagonal(h) => (h[row - start], graph.rows[row].compliance <= 0.0),
+                    Curvature::Contact { normal, .. } if row == start => (*normal, graph.rows[row].compliance <= 0.0),
+                    Curvature::Contact { tangential, sticks, .. } => (tangential[0], *sticks),
+                };
+                rows[row] = if rigid && h > 0.0 { rows[row] } else { 0.0 };
+                trial[row] = h * rows[row];
+            }
+        }
+        step.fill(Six::zeros());
+        step_coordinates.fill(0.0);
+        graph.push(trial, step, step_coordinates);
+        problem.elimination.solve(&graph.terms, Offsets::None, step, step_coordinates, problem.factors);
+        for group in &graph.groups {
+            for row in group.rows.clone() {
+                rows[row] -= if trial[row] == 0.0 { 0.0 } else { graph.reading(group, row, step, step_coordinates) };
+            }
+        }
+    }
+}
+
+struct Newton<'p, 'a> {
     graph: &'a ConstraintGraph,
-    elimination: &'a Elimination,
-    settings: &'a SolverSettings,
-    w: &'a mut GraphWorkspace,
+    problem: &'p mut Problem<'a>,
+    w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// Largest departure of a row without constraint forces.
-    scale: f64,
+    /// The largest ρ that leaves digits to A.
+    stiffest: f64,
 }
 
-impl Newton<'_> {
+impl Newton<'_, '_> {
+    /// A whole step leaves (2) true of λ + H J Δ (`lambda`), whatever (1) says of it: if the laws agree with those forces,
+    /// all is solved. If not, but the same contacts hold, they are the next center.
     fn run(&mut self, solution: &mut GraphSolution) {
         let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         *convergence = Convergence::default();
-        self.measure();
-        self.w.before.clone_from(lambda);
+        self.w.before.clear();
+        self.w.before.extend_from_slice(lambda);
+        self.w.best.forget();
         self.guess(lambda);
         self.factor(convergence);
         self.first_solve(motions, coordinates, lambda);
@@ -220,130 +256,78 @@ impl Newton<'_> {
             convergence.converged = true;
             return;
         }
-        self.refine(motions, coordinates, lambda);
+        self.approach(motions, coordinates, lambda);
         convergence.iterations = 2;
+        if !self.iterate(motions, coordinates, lambda, convergence) {
+            self.settle_for_less(motions, coordinates, lambda, convergence);
+        }
+    }
+
+    /// Newton steps from a motion and forces for which (2) holds; true when all laws are met.
+    fn iterate(
+        &mut self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) -> bool {
+        let settings = self.problem.settings;
+        let end = (convergence.iterations + MOST_STEPS).min(settings.max_iterations);
+        let (mut whole, mut last) = (true, f64::INFINITY);
         loop {
-            self.read(motions, coordinates);
-            // With these forces (2) holds; if (1) does, too, this is the solution.
-            lambda.copy_from_slice(&self.w.predicted);
-            if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
-                self.confine(lambda);
-                break;
+            self.problem.departures.read(self.graph, motions, coordinates);
+            let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
+            if whole && lawful {
+                return true;
             }
-            self.update_radii(lambda);
+            if whole && convergence.iterations >= PATIENCE {
+                self.w.best.keep(motions, coordinates, lambda, convergence);
+            }
+            if whole {
+                self.update_radii(lambda);
+                self.w.trial.copy_from_slice(lambda);
+            }
             self.evaluate(lambda);
-            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            if self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale {
-                self.recenter(lambda);
+            let alike = self.alike(lambda);
+            if convergence.iterations >= end {
+                return false;
+            }
+            if whole && alike {
+                let before = last;
+                if self.stuck(convergence.residual, &mut last) {
+                    return false;
+                }
+                self.recenter(lambda, convergence.residual < STEADY * before);
+            } else if !alike {
+                self.w.mixing.forget();
+                last = f64::INFINITY;
             }
             if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
-            self.newton_step(motions, coordinates, lambda);
+            whole = self.newton_step(motions, coordinates, lambda, whole && alike);
             convergence.iterations += 1;
         }
     }
 
-    /// ρ from the rows' mobilities; the scale of departures.
-    fn measure(&mut self) {
-        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-        let free = |body: usize| {
-            let (terms, b) = (&self.graph.bodies[body], &self.graph.wrenches[body]);
-            let mean = terms.inertia.trace() / 3.0;
-            let share = |x: f64, inertia: f64| if inertia > 0.0 { x / inertia } else { 0.0 };
-            let (m, i) = (terms.mass, mean);
-            Six::new(share(b[0], i), share(b[1], i), share(b[2], i), share(b[3], m), share(b[4], m), share(b[5], m))
-        };
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                let mobility = self.graph.mobility(group, row);
-                self.w.mobility[row] = mobility;
-                if mobility > 0.0 {
-                    (least, most) = (least.min(mobility), most.max(mobility));
-                }
-                let terms = &self.graph.rows[row];
-                let [first, second] = match group.on {
-                    Acting::Coordinate { body, coordinate } => {
-                        let s = &self.graph.terms.directions[coordinate];
-                        [(s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility, 0.0]
-                    }
-                    Acting::Bodies { first, second } => {
-                        [terms.on_first.dot(&free(first)), second.map_or(0.0, |s| terms.on_second.dot(&free(s)))]
-                    }
-                };
-                let departure = unforced(group, row, first + second - terms.target, mobility);
-                let size = first.abs() + second.abs() + terms.target.abs();
-                self.scale = self.scale.max(departure).max(SMALLEST_SCALE * size);
-            }
+    /// What Newton steps could not solve: the best they came to, if that is next to a solution; else the convex problem.
+    fn settle_for_less(
+        &mut self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
+        let slips = self.graph.groups.iter().any(|group| matches!(group.law, Law::Contact { .. }));
+        if slips && self.w.best.residual() > NEARLY {
+            relaxed::solve(self.problem, &mut self.w.relaxed, motions, coordinates, lambda, convergence);
+        } else {
+            convergence.residual = f64::INFINITY;
         }
-        self.rho = if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS };
-        if self.scale <= 0.0 {
-            self.scale = 1.0;
-        }
-    }
-
-    /// Curvatures by the guess: pushing contacts stick, or slip where they slipped.
-    fn guess(&mut self, lambda: &[f64]) {
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            let first = group.rows.start;
-            let h = |row: usize| self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
-            self.w.curvature[number] = match group.law {
-                Law::HELD => diagonal(group, h),
-                Law::Bounded { least, most } => {
-                    diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
-                }
-                Law::Contact { friction, .. } => {
-                    let tangential = lambda[first + 1].hypot(lambda[first + 2]);
-                    let pushing = lambda[first] > 0.0;
-                    let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
-                    let normal = if pushing { h(first) } else { 0.0 };
-                    let rho = if pushing && !slips { self.rho } else { 0.0 };
-                    self.w.radius[number] = if slips || !pushing { tangential } else { f64::INFINITY };
-                    Curvature::Contact(normal, [rho, 0.0, rho])
-                }
-            };
-        }
-    }
-
-    /// A + Jᵀ H J, factored.
-    fn factor(&mut self, convergence: &mut Convergence) {
-        convergence.factorizations += 1;
-        let GraphWorkspace { factors, curvature, factored, blocks, .. } = &mut *self.w;
-        factors.begin(self.elimination, &self.graph.bodies);
-        for link in 0..self.graph.links.len() {
-            for coordinate in self.elimination.coordinates_of(link) {
-                let rotor = self.graph.rotors[coordinate];
-                factors.add_to_coordinate(self.elimination, coordinate, link, rotor);
-            }
-        }
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            add_group(self.graph, self.elimination, group, &curvature[number], blocks[number], factors);
-        }
-        factored.clone_from(curvature);
-        self.elimination.factor(&self.graph.terms, factors);
-    }
-
-    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts.
-    fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
-        motions.clone_from(&self.graph.wrenches);
-        coordinates.clone_from(&self.graph.efforts);
-        for (number, group) in self.graph.groups.iter().enumerate() {
-            let start = group.rows.start;
-            for row in group.rows.clone() {
-                let target = self.graph.rows[row].target;
-                lambda[row] = match self.w.curvature[number] {
-                    Curvature::Diagonal(h) if h[row - start] > 0.0 => h[row - start] * target,
-                    Curvature::Diagonal(_) => clamp_to(group.law, lambda[row]),
-                    Curvature::Contact(normal, _) if row == start => normal * target,
-                    Curvature::Contact(_, h) if h[0] > 0.0 => h[0] * target,
-                    Curvature::Contact(normal, _) => if normal > 0.0 { lambda[row] } else { 0.0 },
-                };
-            }
-        }
-        self.graph.push(lambda, motions, coordinates);
-        self.elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, &self.w.factors);
-        self.read(motions, coordinates);
-        self.respond(lambda);
+        self.w.best.restore(motions, coordinates, lambda, convergence);
+        // Displacements are projected on what holds now.
+        self.guess(lambda);
+        self.factor(convergence);
     }
 
     /// One round with everything as guessed: small forces beside large ones are not yet right after the first, and would be
@@ -351,16 +335,17 @@ impl Newton<'_> {
     ///
     /// Where forces are not unique, the first round has found the least-squares ones; they may lie outside their cones where
     /// others do not. So λ° goes from the guess as far towards them as all cones allow.
-    fn refine(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+    fn approach(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
         let share = self.share_of_least_squares(lambda);
+        self.problem.departures.read(self.graph, motions, coordinates);
+        let NewtonWorkspace { before, center, factored, .. } = &mut *self.w;
         for group in &self.graph.groups {
-            let start = group.rows.start;
             for row in group.rows.clone() {
-                let (before, now) = (self.w.before[row], lambda[row]);
-                self.w.center[row] = if before == 0.0 { now } else { before + share * (now - before) };
+                let (past, now) = (before[row], lambda[row]);
+                center[row] = if past == 0.0 { now } else { past + share * (now - past) };
             }
-            if let (Law::Contact { friction, .. }, false) = (group.law, known(group, &self.w.before)) {
-                let center = &mut self.w.center[start..start + 3];
+            if let (Law::Contact { friction, .. }, false) = (group.law, known(group, before)) {
+                let center = &mut center[group.rows.clone()];
                 center[0] = center[0].max(0.0);
                 let (length, radius) = (center[1].hypot(center[2]), WITHIN * friction * center[0]);
                 if length > radius {
@@ -368,67 +353,31 @@ impl Newton<'_> {
                 }
             }
         }
-        self.respond(lambda);
-        self.increment(motions, coordinates, lambda);
-        self.advance(motions, coordinates, 1.0);
-        self.predict(lambda, 1.0);
-    }
-
-    /// The forces with which (2) holds after a step s Δ, to rounding: s (λ - H J Δ), and 1 - s of those before. What (1)
-    /// makes of the new motion is known less well: there ρ multiplies the rounding of u.
-    fn predict(&mut self, lambda: &[f64], s: f64) {
-        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
-            let start = group.rows.start;
-            for row in group.rows.clone() {
-                let c = |k: usize| self.w.change[start + k];
-                let fall = match curvature {
-                    Curvature::Diagonal(h) => h[row - start] * c(row - start),
-                    Curvature::Contact(normal, [xx, xy, yy]) => match row - start {
-                        0 => normal * c(0),
-                        1 => xx * c(1) + xy * c(2),
-                        _ => xy * c(1) + yy * c(2),
-                    },
-                };
-                self.w.predicted[row] = s * (lambda[row] - fall) + (1.0 - s) * self.w.predicted[row];
-            }
+        let law = Proximal { graph: self.graph, rho: self.rho, center };
+        for (group, curvature) in self.graph.groups.iter().zip(&*factored) {
+            law.hold(group, &self.problem.departures.u, curvature, lambda);
         }
-    }
-
-    /// Forces that are within the tolerance of their laws, within them.
-    fn confine(&self, lambda: &mut [f64]) {
-        for group in &self.graph.groups {
-            let start = group.rows.start;
-            match group.law {
-                Law::Bounded { least, most } => {
-                    group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
-                }
-                Law::Contact { friction, bound } => {
-                    lambda[start] = lambda[start].clamp(0.0, bound);
-                    let (length, radius) = (lambda[start + 1].hypot(lambda[start + 2]), friction * lambda[start]);
-                    if length > radius {
-                        lambda[start + 1] *= radius / length;
-                        lambda[start + 2] *= radius / length;
-                    }
-                }
-            }
-        }
+        self.newton_step(motions, coordinates, lambda, true);
     }
 
     /// The largest share, up to all, of the way from the guess to `lambda` on which no contact that sticks leaves its cone.
     fn share_of_least_squares(&self, lambda: &[f64]) -> f64 {
         let mut share = 1.0_f64;
         for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
-            let (Law::Contact { friction, .. }, Curvature::Contact(normal, h)) = (group.law, curvature) else { continue };
-            if *normal <= 0.0 || h[0] <= 0.0 || !known(group, &self.w.before) {
+            let (Law::Contact { friction, .. }, Curvature::Contact { normal, sticks: true, .. }) =
+                (group.law, curvature)
+            else {
+                continue;
+            };
+            if *normal <= 0.0 || !known(group, &self.w.before) {
                 continue;
             }
             let start = group.rows.start;
-            let at = |s: f64| [0, 1, 2].map(|k| {
-                let before = self.w.before[start + k];
-                before + s * (lambda[start + k] - before)
-            });
             let inside = |s: f64| {
-                let [n, x, y] = at(s);
+                let [n, x, y] = [0, 1, 2].map(|k| {
+                    let past = self.w.before[start + k];
+                    past + s * (lambda[start + k] - past)
+                });
                 x.hypot(y) <= WITHIN * friction * n
             };
             if inside(share) {
@@ -445,151 +394,213 @@ impl Newton<'_> {
         share
     }
 
-    /// λ° - H u, without regard to laws; rows without curvature keep their force.
-    fn respond(&self, lambda: &mut [f64]) {
-        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+    /// Curvatures by the guess: pushing contacts stick, or slip where they slipped.
+    fn guess(&mut self, lambda: &[f64]) {
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            let first = group.rows.start;
+            let h = |row: usize| self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
+            self.w.curvature[number] = match group.law {
+                Law::HELD => diagonal(group, h),
+                Law::Bounded { least, most } => {
+                    diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
+                }
+                Law::Contact { friction, .. } => {
+                    let tangential = lambda[first + 1].hypot(lambda[first + 2]);
+                    let pushing = lambda[first] > 0.0;
+                    let slips = tangential >= friction * lambda[first] * (1.0 - 1e-9);
+                    let sticks = pushing && !slips;
+                    let normal = if pushing { h(first) } else { 0.0 };
+                    let rho = if sticks { self.rho } else { 0.0 };
+                    self.w.radius[number] = if slips || !pushing { tangential } else { f64::INFINITY };
+                    Curvature::Contact { normal, tangential: [rho, 0.0, rho], sticks }
+                }
+            };
+        }
+    }
+
+    /// A + Jᵀ H J, factored.
+    fn factor(&mut self, convergence: &mut Convergence) {
+        convergence.factorizations += 1;
+        self.problem.begin();
+        let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
+        for (number, group) in graph.groups.iter().enumerate() {
+            add_group(graph, elimination, group, &self.w.curvature[number], blocks[number], factors);
+        }
+        self.w.factored.clone_from(&self.w.curvature);
+        elimination.factor(&graph.terms, factors);
+    }
+
+    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts. λ = H c - H J a.
+    fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
+        motions.clone_from(&self.graph.wrenches);
+        coordinates.clone_from(&self.graph.efforts);
+        for (number, group) in self.graph.groups.iter().enumerate() {
             let start = group.rows.start;
             for row in group.rows.clone() {
-                let h = match curvature {
-                    Curvature::Diagonal(h) => h[row - start],
-                    Curvature::Contact(normal, _) if row == start => *normal,
-                    Curvature::Contact(_, h) => h[0],
+                let target = self.graph.rows[row].target;
+                lambda[row] = match self.w.curvature[number] {
+                    Curvature::Diagonal(h) if h[row - start] > 0.0 => h[row - start] * target,
+                    Curvature::Diagonal(_) => clamp_to(group.law, lambda[row]),
+                    Curvature::Contact { normal, .. } if row == start => normal * target,
+                    Curvature::Contact { sticks: true, tangential: h, .. } => h[0] * target,
+                    Curvature::Contact { normal, .. } if normal > 0.0 => lambda[row],
+                    Curvature::Contact { .. } => 0.0,
                 };
-                if h > 0.0 {
-                    lambda[row] = self.w.center[row] / self.softening(row) - h * self.w.u[row];
+            }
+        }
+        self.graph.push(lambda, motions, coordinates);
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, factors);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.change[row] = self.graph.reading(group, row, motions, coordinates);
+            }
+        }
+        self.follow(lambda);
+    }
+
+    /// λ := λ - H J Δ with the factored H.
+    fn follow(&self, lambda: &mut [f64]) {
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let start = group.rows.start;
+            let change = &self.w.change[group.rows.clone()];
+            match curvature {
+                Curvature::Diagonal(h) => {
+                    (0..change.len()).for_each(|k| lambda[start + k] -= h[k] * change[k]);
+                }
+                Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
+                    lambda[start] -= normal * change[0];
+                    lambda[start + 1] -= xx * change[1] + xy * change[2];
+                    lambda[start + 2] -= xy * change[1] + yy * change[2];
                 }
             }
         }
     }
 
-    /// 1 + ρ R.
-    fn softening(&self, row: usize) -> f64 {
-        1.0 + self.rho * self.graph.rows[row].compliance
+    /// Whether the same rows hold as in the system that was factored, the others are at the same bounds, and the same
+    /// contacts stick.
+    fn alike(&self, lambda: &[f64]) -> bool {
+        let same_bound = |group: &ConstraintGroup, curvature: &Curvature| match curvature {
+            Curvature::Contact { .. } => true,
+            Curvature::Diagonal(h) => {
+                let start = group.rows.start;
+                group.rows.clone().all(|row| h[row - start] > 0.0 || (lambda[row] - self.w.trial[row]).abs() <= 0.0)
+            }
+        };
+        let groups = self.graph.groups.iter().zip(self.w.curvature.iter().zip(&self.w.factored));
+        groups.into_iter().all(|(group, (now, then))| now.holds_alike(then) && same_bound(group, now))
     }
 
-    /// u = J a - c.
-    fn read(&mut self, motions: &[Six], coordinates: &[f64]) {
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                self.w.u[row] =
-                    self.graph.reading(group, row, motions, coordinates) - self.graph.rows[row].target;
+    /// Whether the same rows fail as a round ago, and as much, however stiff: they contradict each other. If they fail nearly
+    /// as much, ρ rises: modes of a mobility far below that of single rows (a tall tower that bends: its levels' to the
+    /// fourth power) want it so.
+    fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
+        let slow = residual > SLOW * *last;
+        let stiff = self.rho >= self.stiffest;
+        let stuck = slow && stiff && residual > STUCK * *last && !self.slips();
+        if slow && !stiff {
+            self.rho *= STIFFER;
+        }
+        *last = residual;
+        stuck
+    }
+
+    fn slips(&self) -> bool {
+        self.w.curvature.iter().any(Curvature::slips)
+    }
+
+    /// λ° := λ for which (2) holds (`trial`); radii of slipping contacts from the last rounds; λ and H for both at the same
+    /// motion, as if the same rows went on to hold: λ° is where they hold, while λ° - ρ u has moved on by as much again.
+    fn recenter(&mut self, lambda: &mut [f64], steady: bool) {
+        let slips = self.slips();
+        let NewtonWorkspace { mixing, last_radius, radius, center, trial, curvature, .. } = &mut *self.w;
+        center.copy_from_slice(trial);
+        if slips {
+            for (number, curvature) in curvature.iter().enumerate() {
+                if !curvature.slips() {
+                    (last_radius[number], radius[number]) = (0.0, 0.0);
+                }
             }
+            if steady {
+                mixing.mix(last_radius, radius);
+            } else {
+                mixing.forget();
+            }
+            for (number, group) in self.graph.groups.iter().enumerate() {
+                if let Law::Contact { friction, .. } = group.law {
+                    let plain = friction * center[group.rows.start].max(0.0);
+                    let slips = curvature[number].slips();
+                    radius[number] = if slips { radius[number].clamp(0.5 * plain, 2.0 * plain) } else { plain };
+                }
+            }
+        }
+        let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            curvature[number] = map.extend(group, radius[number], u, curvature[number], lambda);
         }
     }
 
     fn update_radii(&mut self, lambda: &[f64]) {
+        self.w.last_radius.clone_from(&self.w.radius);
         for (number, group) in self.graph.groups.iter().enumerate() {
             if let Law::Contact { friction, .. } = group.law {
-                // A guess that turns out to pull has no friction.
                 self.w.radius[number] = friction * lambda[group.rows.start].max(0.0);
             }
         }
     }
 
-    /// λ by (1) and H at the present motion.
+    /// λ by (1) and H at the present motion. A contact that begins to push has no friction for one step: what -ρ u would
+    /// allow it is many times what it will bear, opens it again, and so on without end.
     fn evaluate(&mut self, lambda: &mut [f64]) {
+        let NewtonWorkspace { center, radius, curvature, .. } = &mut *self.w;
+        let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
         for (number, group) in self.graph.groups.iter().enumerate() {
-            self.w.curvature[number] =
-                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, |row| self.w.u[row], lambda);
-            if let (Law::Contact { friction, .. }, true) = (group.law, self.w.radius[number] <= 0.0) {
-                // A contact that begins to push may stick at once.
-                let normal = lambda[group.rows.start];
-                if normal > 0.0 {
-                    self.w.radius[number] = friction * normal;
-                    self.w.curvature[number] = project(
-                        self.graph,
-                        group,
-                        self.rho,
-                        self.w.radius[number],
-                        &self.w.center,
-                        |row| self.w.u[row],
-                        lambda,
-                    );
-                }
-            }
+            curvature[number] = map.project(group, radius[number], |row| u[row], lambda);
         }
     }
 
-    /// The residual of the laws, at unit step 1/W; true if it is within the tolerance.
-    fn settle(&mut self, lambda: &[f64], convergence: &mut Convergence) -> bool {
-        let (mut worst, mut at) = (0.0_f64, None);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                let departure = self.departure(group, row, lambda);
-                // Not a number counts as the worst.
-                if !(departure <= worst) || at.is_none() {
-                    (worst, at) = (departure, Some(row));
-                }
-            }
-        }
-        convergence.residual = worst / self.scale;
-        convergence.worst = at;
-        convergence.converged = convergence.residual <= self.settings.tolerance;
-        convergence.converged
-    }
-
-    /// How far a row is from its law, in units of motion: W |λ - Π(λ - u/W)|.
-    fn departure(&self, group: &ConstraintGroup, row: usize, lambda: &[f64]) -> f64 {
-        let start = group.rows.start;
-        let w = self.w.mobility[row].max(f64::MIN_POSITIVE);
-        let whole = |row: usize| self.w.u[row] + self.graph.rows[row].compliance * lambda[row];
-        match group.law {
-            Law::Bounded { least, most } => w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(least, most)).abs(),
-            Law::Contact { bound, .. } if row == start => {
-                w * (lambda[row] - (lambda[row] - whole(row) / w).clamp(0.0, bound)).abs()
-            }
-            Law::Contact { friction, .. } => {
-                let radius = friction * lambda[start];
-                let z = [1, 2].map(|k| lambda[start + k] - self.w.u[start + k] / w);
-                let length = z[0].hypot(z[1]);
-                let shrink = if length > radius { radius / length } else { 1.0 };
-                w * (lambda[row] - z[row - start - 1] * shrink).abs()
-            }
-        }
-    }
-
-    /// λ° := λ, and λ, H for it at the same motion.
-    fn recenter(&mut self, lambda: &mut [f64]) {
-        self.w.center.copy_from_slice(lambda);
-        self.evaluate(lambda);
-    }
-
-    /// Δ, guarded by a line search, added to the motion.
-    fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
-        self.increment(motions, coordinates, lambda);
-        let length = self.step_length(motions, coordinates, lambda);
-        self.advance(motions, coordinates, length);
-        self.predict(lambda, length);
-    }
-
-    /// (A + Jᵀ H J) Δ = b + Jᵀ λ - A a.
-    fn increment(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64]) {
-        let GraphWorkspace { step, step_coordinates, factors, .. } = &mut *self.w;
-        let known = self.graph.bodies.iter().zip(&self.graph.wrenches);
-        for (r, ((body, b), a)) in step.iter_mut().zip(known.zip(motions)) {
+    /// Δ, guarded by a line search, added to the motion; true of a whole step, after which (2) holds.
+    fn newton_step(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        recentered: bool,
+    ) -> bool {
+        let NewtonWorkspace { step, step_coordinates, .. } = &mut *self.w;
+        for ((r, body), (b, a)) in
+            step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
+        {
             *r = b - body.times(a);
         }
-        let known = self.graph.efforts.iter().zip(&self.graph.rotors);
-        for (r, ((effort, rotor), q)) in step_coordinates.iter_mut().zip(known.zip(coordinates)) {
+        for ((r, effort), (rotor, q)) in
+            step_coordinates.iter_mut().zip(&self.graph.efforts).zip(self.graph.rotors.iter().zip(coordinates.iter()))
+        {
             *r = effort - rotor * q;
         }
         self.graph.push(lambda, step, step_coordinates);
-        self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
         for group in &self.graph.groups {
             for row in group.rows.clone() {
                 self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
             }
         }
-    }
-
-    /// a += s Δ.
-    fn advance(&self, motions: &mut [Six], coordinates: &mut [f64], length: f64) {
+        // A step below the tolerance is whole: the line search would read rounding.
+        let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let small = largest <= self.problem.settings.tolerance * self.problem.departures.scale;
+        let length = if recentered || small { 1.0 } else { self.step_length(motions, coordinates, lambda) };
         for (a, step) in motions.iter_mut().zip(&self.w.step) {
             a.axpy(length, step, 1.0);
         }
         for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
             *q += length * step;
         }
+        let whole = length >= 1.0;
+        if whole {
+            self.follow(lambda);
+        }
+        whole
     }
 
     /// Where φ along Δ is least: φ'(s) = Δᵀ(A a - b) + s Δᵀ A Δ - (J Δ)ᵀ λ(s), which rises with s.
@@ -607,15 +618,17 @@ impl Newton<'_> {
             constant += d * (self.graph.rotors[k] * coordinates[k] - self.graph.efforts[k]);
             linear += d * d * self.graph.rotors[k];
         }
-        let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&self.w.change).map(|(l, c)| l * c).sum() };
+        let NewtonWorkspace { trial, change, radius, center, .. } = &mut *self.w;
+        let (graph, departures) = (self.graph, &self.problem.departures);
+        let map = Proximal { graph, rho: self.rho, center };
+        let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&*change).map(|(l, c)| l * c).sum() };
         let start = constant - work(lambda);
-        let mut trial = lambda.to_vec();
         let mut slope = |s: f64| {
-            for (number, group) in self.graph.groups.iter().enumerate() {
-                let u = |row: usize| self.w.u[row] + s * self.w.change[row];
-                project(self.graph, group, self.rho, self.w.radius[number], &self.w.center, u, &mut trial);
+            for (number, group) in graph.groups.iter().enumerate() {
+                let u = |row: usize| departures.u[row] + s * change[row];
+                map.project(group, radius[number], u, trial);
             }
-            constant + s * linear - work(&trial)
+            constant + s * linear - work(trial)
         };
         if slope(1.0) <= 0.5 * start.abs() {
             return 1.0;
@@ -633,128 +646,9 @@ impl Newton<'_> {
     }
 }
 
-/// How far a row without force is from its law at a motion u: limits and contacts that are open ask for nothing.
-fn unforced(group: &ConstraintGroup, row: usize, u: f64, mobility: f64) -> f64 {
-    match group.law {
-        Law::HELD => u.abs(),
-        Law::Bounded { least, most } if mobility > 0.0 => mobility * (-u / mobility).clamp(least, most).abs(),
-        Law::Contact { .. } if row == group.rows.start => (-u).max(0.0),
-        _ => u.abs(),
-    }
-}
-
-fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
-    let mut values = [0.0; 6];
-    for (value, row) in values.iter_mut().zip(group.rows.clone()) {
-        *value = h(row);
-    }
-    Curvature::Diagonal(values)
-}
-
-/// Whether a contact has a past: more than the mark of a new one.
-fn known(group: &ConstraintGroup, before: &[f64]) -> bool {
-    before[group.rows.start] > f64::MIN_POSITIVE
-}
-
 fn clamp_to(law: Law, lambda: f64) -> f64 {
     match law {
         Law::Bounded { least, most } => lambda.clamp(least, most),
         Law::Contact { .. } => lambda,
-    }
-}
-
-/// λ of one group by (1), and its H.
-#[inline]
-fn project(
-    graph: &ConstraintGraph,
-    group: &ConstraintGroup,
-    rho: f64,
-    radius: f64,
-    center: &[f64],
-    u: impl Fn(usize) -> f64,
-    lambda: &mut [f64],
-) -> Curvature {
-    let start = group.rows.start;
-    // One row confined to [least, most].
-    let clamped = |row: usize, least: f64, most: f64| {
-        let soft = 1.0 + rho * graph.rows[row].compliance;
-        let z = (center[row] - rho * u(row)) / soft;
-        if z <= least {
-            (least, 0.0)
-        } else if z >= most {
-            (most, 0.0)
-        } else {
-            (z, rho / soft)
-        }
-    };
-    match group.law {
-        Law::Bounded { least, most } => {
-            let mut h = [0.0; 6];
-            for row in group.rows.clone() {
-                (lambda[row], h[row - start]) = clamped(row, least, most);
-            }
-            Curvature::Diagonal(h)
-        }
-        Law::Contact { bound, .. } => {
-            let (normal, h) = clamped(start, 0.0, bound);
-            lambda[start] = normal;
-            let z = [1, 2].map(|k| center[start + k] - rho * u(start + k));
-            let length = z[0].hypot(z[1]);
-            if length <= radius {
-                (lambda[start + 1], lambda[start + 2]) = (z[0], z[1]);
-                return Curvature::Contact(h, [rho, 0.0, rho]);
-            }
-            let (x, y) = (z[0] / length, z[1] / length);
-            (lambda[start + 1], lambda[start + 2]) = (radius * x, radius * y);
-            let across = rho * radius / length;
-            Curvature::Contact(h, [across * y * y, -across * x * y, across * x * x])
-        }
-    }
-}
-
-/// Adds Jᵀ H J of one group.
-fn add_group(
-    graph: &ConstraintGraph,
-    elimination: &Elimination,
-    group: &ConstraintGroup,
-    curvature: &Curvature,
-    block: Option<(usize, bool)>,
-    factors: &mut EliminationWorkspace,
-) {
-    let start = group.rows.start;
-    let (first, second) = match group.on {
-        Acting::Coordinate { body, coordinate } => {
-            if let Curvature::Diagonal(h) = curvature {
-                factors.add_to_coordinate(elimination, coordinate, body, h[0]);
-            }
-            return;
-        }
-        Acting::Bodies { first, second } => (first, second),
-    };
-    let mut add = |m: usize, n: usize, h: f64| {
-        if h == 0.0 {
-            return;
-        }
-        let (one, other) = (&graph.rows[start + m], &graph.rows[start + n]);
-        factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
-        if let (Some(second), Some((block, swapped))) = (second, block) {
-            factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
-            let place: &mut Block = factors.off_mut(block);
-            if swapped {
-                place.add_outer(&one.on_second, &other.on_first, h);
-            } else {
-                place.add_outer(&one.on_first, &other.on_second, h);
-            }
-        }
-    };
-    match curvature {
-        Curvature::Diagonal(h) => (0..group.rows.len()).for_each(|k| add(k, k, h[k])),
-        Curvature::Contact(normal, [xx, xy, yy]) => {
-            add(0, 0, *normal);
-            add(1, 1, *xx);
-            add(1, 2, *xy);
-            add(2, 1, *xy);
-            add(2, 2, *yy);
-        }
     }
 }

@@ -15,9 +15,7 @@
 use super::joint::{JointKind, MOST, rotation_vector};
 use super::state::{RowKey, State};
 use super::world::{Closure, Joint, JointCoordinate, World};
-use crate::dynamics::{
-    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows,
-};
+use crate::dynamics::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
@@ -275,8 +273,5 @@ pub(crate) fn closing_rows(
 
 /// Velocity of a body from the solver's six numbers.
 pub(crate) fn twist(motion: &Six) -> Twist {
-    Twist {
-        angular: Vec3::new(motion[0], motion[1], motion[2]),
-        linear: Vec3::new(motion[3], motion[4], motion[5]),
-    }
+    Twist { angular: Vec3::new(motion[0], motion[1], motion[2]), linear: Vec3::new(motion[3], motion[4], motion[5]) }
 }

@@ -17,9 +17,7 @@ use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
 use super::world::{Joint, World};
-use crate::dynamics::{
-    Convergence, GraphWorkspace, Law, LinkError, Six, project_displacements, solve_graph,
-};
+use crate::dynamics::{Convergence, GraphWorkspace, Law, LinkError, Six, project_displacements, solve_graph};
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -164,7 +162,9 @@ impl StepWorkspace {
         for (key, group) in self.assembly.keys.iter().zip(&self.assembly.graph.groups) {
             match state.guess.get(key) {
                 Some(impulses) => lambda[group.rows.clone()].copy_from_slice(&impulses[..group.rows.len()]),
-                None => lambda[group.rows.start] = if matches!(key, RowKey::Contact(..)) { f64::MIN_POSITIVE } else { 0.0 },
+                None => {
+                    lambda[group.rows.start] = if matches!(key, RowKey::Contact(..)) { f64::MIN_POSITIVE } else { 0.0 }
+                }
             }
         }
     }
@@ -172,7 +172,8 @@ impl StepWorkspace {
     /// Drives whose effort exceeds their limit; or, where the solver failed, reason.
     fn overloaded(&self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
         let failed = !self.solution.convergence.converged;
-        let limited = |j: &Joint| j.coordinates.iter().any(|c| c.drive.as_ref().is_some_and(|d| failed || d.max.is_some()));
+        let limited =
+            |j: &Joint| j.coordinates.iter().any(|c| c.drive.as_ref().is_some_and(|d| failed || d.max.is_some()));
         if !world.joints.iter().any(limited) {
             return Vec::new();
         }
@@ -195,9 +196,7 @@ impl StepWorkspace {
     fn bound(&mut self, most: f64) {
         for group in &mut self.assembly.graph.groups {
             group.law = match group.law {
-                Law::Bounded { least, most: upper } => {
-                    Law::Bounded { least: least.max(-most), most: upper.min(most) }
-                }
+                Law::Bounded { least, most: upper } => Law::Bounded { least: least.max(-most), most: upper.min(most) },
                 Law::Contact { friction, bound } => Law::Contact { friction, bound: bound.min(most) },
             };
         }
@@ -370,14 +369,16 @@ fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool
 /// Largest distance of any joint or closure from where it holds [m].
 #[must_use]
 pub fn largest_joint_error(world: &World, state: &State) -> f64 {
-    let joints = world.joints.iter().zip(&state.coordinates).filter(|(j, _)| j.follows.is_none()).map(|(joint, last)| {
-        let (_, shift) = drift(joint.kind, &state.frames(joint), last);
-        shift.norm()
-    });
-    joints.chain((0..world.closures.len()).filter(|c| world.closures[*c].active).map(|closure| {
-        let (frames, _) = closure_errors(world, state, closure);
-        let (_, shift): (Vec3, Vec3) = drift(world.closures[closure].kind, &frames, &[]);
-        shift.norm()
-    }))
-    .fold(0.0, f64::max)
+    let joints =
+        world.joints.iter().zip(&state.coordinates).filter(|(j, _)| j.follows.is_none()).map(|(joint, last)| {
+            let (_, shift) = drift(joint.kind, &state.frames(joint), last);
+            shift.norm()
+        });
+    joints
+        .chain((0..world.closures.len()).filter(|c| world.closures[*c].active).map(|closure| {
+            let (frames, _) = closure_errors(world, state, closure);
+            let (_, shift): (Vec3, Vec3) = drift(world.closures[closure].kind, &frames, &[]);
+            shift.norm()
+        }))
+        .fold(0.0, f64::max)
 }

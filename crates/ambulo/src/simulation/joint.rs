@@ -98,10 +98,9 @@ impl JointKind {
             JointKind::Universal => turn(rotation(&Vec3::new(q[0], 0.0, 0.0)) * rotation(&Vec3::new(0.0, q[1], 0.0))),
             JointKind::Ball => turn(rotation(&Vec3::new(q[0], q[1], q[2]))),
             JointKind::Planar => Pose { rotation: about_z(q[2]), translation: Vec3::new(q[0], q[1], 0.0) },
-            JointKind::Free => Pose {
-                rotation: rotation(&Vec3::new(q[0], q[1], q[2])),
-                translation: Vec3::new(q[3], q[4], q[5]),
-            },
+            JointKind::Free => {
+                Pose { rotation: rotation(&Vec3::new(q[0], q[1], q[2])), translation: Vec3::new(q[3], q[4], q[5]) }
+            }
         }
     }
 

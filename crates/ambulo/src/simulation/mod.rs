@@ -68,10 +68,10 @@ pub mod scene;
 pub use check::WorldError;
 pub use energy::{Energy, energy};
 pub use forces::{ContactForce, StepForces};
+pub use impulse::largest_joint_error;
 pub use joint::JointKind;
 pub use signal::Signal;
 pub use state::{RowKey, State};
-pub use impulse::largest_joint_error;
 pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
     Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,

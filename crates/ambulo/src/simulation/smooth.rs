@@ -17,10 +17,10 @@
 //! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
+use super::impulse::closure_errors;
 use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
 use super::rates::rates;
 use super::state::{RowKey, State};
-use super::impulse::closure_errors;
 use super::world::{Joint, World};
 use crate::dynamics::{
     BodyTerms, Constraint, GraphSolution, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements,
@@ -81,8 +81,10 @@ pub(crate) fn runge_kutta(
     let start = Motion { delta: vec![0.0; tree.coordinates], rates: tree.start_rates(state) };
     let time = state.time_s;
     let slope1 = tree.slope(world, &start, time, &mut here, settings, solver, first)?;
-    let slope2 = tree.slope(world, &start.plus(&slope1, 0.5 * h), time + 0.5 * h, &mut here, settings, solver, later)?;
-    let slope3 = tree.slope(world, &start.plus(&slope2, 0.5 * h), time + 0.5 * h, &mut here, settings, solver, later)?;
+    let slope2 =
+        tree.slope(world, &start.plus(&slope1, 0.5 * h), time + 0.5 * h, &mut here, settings, solver, later)?;
+    let slope3 =
+        tree.slope(world, &start.plus(&slope2, 0.5 * h), time + 0.5 * h, &mut here, settings, solver, later)?;
     let slope4 = tree.slope(world, &start.plus(&slope3, h), time + h, &mut here, settings, solver, later)?;
     let mut end = start.clone();
     for (slope, weight) in [(slope1, 1.0), (slope2, 2.0), (slope3, 2.0), (slope4, 1.0)] {
@@ -169,7 +171,10 @@ impl Tree {
     }
 
     /// (δ̇, q̈) at these coordinates.
-    #[expect(clippy::too_many_arguments, reason = "the parts of one evaluation; a struct would hold them for four calls")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the parts of one evaluation; a struct would hold them for four calls"
+    )]
     fn slope(
         &self,
         world: &World,
@@ -238,7 +243,8 @@ impl Tree {
         solver: &mut GraphWorkspace,
         stage: &mut Stage<'_>,
     ) -> Result<(), LinkError> {
-        let mut motion = Motion { delta: vec![0.0; self.coordinates], rates: Tree::new(world, state).start_rates(state) };
+        let mut motion =
+            Motion { delta: vec![0.0; self.coordinates], rates: Tree::new(world, state).start_rates(state) };
         let mut slope = motion.clone();
         let tree = Tree::new(world, state);
         motion.delta.iter_mut().for_each(|d| *d = 0.0);
@@ -406,7 +412,8 @@ impl Branch {
         let mut offset = Six::zeros();
         let Some(joint) = self.joint(world) else { return offset };
         let frames = self.frames(state);
-        let directions = self.kind.directions(&frames, &(state.poses[self.body].translation - frames.child.translation));
+        let directions =
+            self.kind.directions(&frames, &(state.poses[self.body].translation - frames.child.translation));
         for k in 0..self.kind.freedom() {
             let driven = joint.follows.is_some() || joint.coordinates[k].drive.is_some();
             if driven {
@@ -544,12 +551,8 @@ impl Goals {
         let follows = joint.follows?;
         let motions = &self.0[follows.figure];
         let child = &motions[follows.body];
-        let still = BodyMotion {
-            pose: Pose::IDENTITY,
-            center: Vec3::zeros(),
-            twist: Twist::ZERO,
-            acceleration: Twist::ZERO,
-        };
+        let still =
+            BodyMotion { pose: Pose::IDENTITY, center: Vec3::zeros(), twist: Twist::ZERO, acceleration: Twist::ZERO };
         let parent = follows.parent.map_or(still, |p| motions[p]);
         let back = parent.pose.rotation.transpose();
         let r = child.center - parent.center;

@@ -117,9 +117,7 @@ impl TouchWorkspace {
     pub(crate) fn approaches(&self, world: &World, state: &State, obstacles: &ObstacleMotion, touching: f64) -> bool {
         self.touches.iter().filter(|touch| touch.at.gap <= touching).any(|touch| {
             let velocity = |surface: usize| match world.surfaces[surface].owner {
-                Owner::Body(body) => {
-                    state.twists[body].velocity_at(touch.at.point - state.poses[body].translation)
-                }
+                Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
                 Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
             };
             let (a, b) = touch.surfaces;
@@ -302,7 +300,8 @@ fn owner_motion(state: &State, obstacles: &ObstacleMotion, surface: &Surface) ->
         Owner::Body(body) => (state.poses[body], state.twists[body]),
         Owner::Obstacle(obstacle) => obstacles[obstacle],
     };
-    let arm = surface.shape.bounding(&surface.owner_from_shape).map_or(0.0, |(low, high)| low.abs().sup(&high.abs()).norm());
+    let arm =
+        surface.shape.bounding(&surface.owner_from_shape).map_or(0.0, |(low, high)| low.abs().sup(&high.abs()).norm());
     (pose, twist.linear.norm() + arm * twist.angular.norm())
 }
 

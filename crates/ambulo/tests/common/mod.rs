@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 pub(crate) mod assembly;
+pub(crate) mod graphs;
 pub(crate) mod random;
 pub(crate) mod worlds;
 

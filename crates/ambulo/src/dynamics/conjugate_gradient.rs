@@ -1,0 +1,618 @@
+//! Motions and constraint forces of a graph with loops and contacts by conjugate gradient: the solver of the 1997 paper.
+//!
+//! Trees are solved exactly; what closes loops or touches is refined. With a(λ) = A⁻¹ (b + Jᵀ λ), one tree solve, rows
+//! u = J a(λ) - c and the rows that hold, the forces are where
+//!
+//!   f(λ) = ½ λᵀ (W + R) λ - λᵀ (c - J a(0))        W = J A⁻¹ Jᵀ, R the compliances
+//!
+//! is least, since its gradient is the departure u + R λ. From r = -(u + R λ), p = r:
+//!
+//!   α = rᵀ r / pᵀ (W + R) p        λ += α p        r' = r - α (W + R) p
+//!   β = max(0, r'ᵀ (r' - r) / rᵀ r)                p := r' + β p
+//!
+//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière; f is a quadratic, so
+//! in exact numbers r'ᵀ r = 0, it is Fletcher's and Reeves's r'ᵀ r' / rᵀ r, and both are the linear method of Hestenes and
+//! Stiefel. Rounded, β = 0 restarts where the directions have ceased to be conjugate. All p are in the range of W: redundant
+//! rows get the forces nearest to the guess, without one the least-squares forces. A p that W maps to nothing is a set of
+//! forces that moves nothing and yet is asked for something: rows contradict each other. It is taken out of r, the rest is
+//! solved on, and `converged` stays false; rows get the force along p that a compliance of 1/ρ would give (as with
+//! [`super::proximal`]).
+//!
+//! Contacts and bounds are an active set around it (section 3.3 of the paper): a row at its bound is out while its departure
+//! pushes further out; a contact whose force would pull is opened and all is solved again; one that closes is back in. Beyond
+//! the cone a sticking contact slips, with friction r = μ λ_n of the force before along d opposite to slip; where friction
+//! would help the slip, it sticks. While it slips, λ_t = r d + s e with e across: at the solution u_t = -κ r d, and turning
+//! with the slip, to first order, is a row along e of compliance κ = |u_t| / r. If a bound was met on the way, f along the
+//! way decides how far to go.
+//!
+//! Rows with a compliance are scaled by 1/√(1 + R/W), so that they need no rounds of their own.
+//!
+//! | code      | symbol | unit          | shape     |
+//! | `lambda`  | λ      | N.m, N        | one a row |
+//! | `left`    | r      | as the motion | one a row |
+//! | `toward`  | p      | N.m, N        | one a row |
+//! | `applied` | (W+R)p | as the motion | one a row |
+//!
+//! Source: Faure, Debunne, Cani, Multon 1997, sections 3.1 and 3.3 (which names Fletcher-Reeves-Polak-Ribière after Press
+//! et al. 1992, unverified page). The equations are derived above.
+//! Cost: one factorisation of the trees; one tree solve an iteration.
+//! Pinned by: tests/constraint_graph.rs
+
+use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
+use super::departure::Departures;
+use super::elimination::Offsets;
+use super::proximal::stiffness;
+use super::solve::Problem;
+
+/// pᵀ W p below this share of pᵀ p times the rows' largest mobility is none: sums over a tree round to some 1e-15.
+const NO_CURVATURE: f64 = 1e-13;
+/// Within one active set, until the departure has fallen to this share: the set is likely to change.
+const SHARE: f64 = 1e-2;
+/// Friction this close to the cone's edge is on it.
+const EDGE: f64 = 1e-10;
+/// Friction that slip turns by less than this in units of its own mobility does not turn.
+const RIGID: f64 = 1e12;
+/// Slope of f at the end of the way, as a share of that at its start, beyond which the way was too long.
+const OVERSHOOT: f64 = 0.1;
+/// A way this short is compared with another one.
+const SHORT: f64 = 0.5;
+/// A round that leaves more than this share of the departure has come to nothing.
+const STUCK: f64 = 0.9;
+/// Share of a random probe that may be left within the range of W.
+const PROBE_SHARE: f64 = 1e-9;
+/// Displacements need only undo drift: share of what was asked that may be left.
+const DISPLACEMENT_SHARE: f64 = 1e-6;
+
+/// Scratch of the method.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ConjugateWorkspace {
+    /// What each group's rows do now.
+    states: Vec<State>,
+    left: Vec<f64>,
+    last_left: Vec<f64>,
+    toward: Vec<f64>,
+    applied: Vec<f64>,
+    /// The change of λ that a round arrives at.
+    change: Vec<f64>,
+    /// What of `left` no force can bring about.
+    null: Vec<f64>,
+    /// Forces to be tried, and what they lead to.
+    forces: Vec<f64>,
+    u: Vec<f64>,
+    motions: Vec<Six>,
+    coordinates: Vec<f64>,
+}
+
+/// Which forces of a group are sought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum State {
+    /// Each of up to six rows, or not.
+    Rows([bool; 6]),
+    /// Normal, and within the plane of friction.
+    Contact { pushes: bool, friction: Friction },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Friction {
+    /// As it is.
+    Given,
+    /// Whatever keeps the point.
+    Sticks,
+    /// On the cone along `along`, turning across it with a compliance.
+    Slips { along: [f64; 2], compliance: f64 },
+}
+
+/// See [`super::solve_graph`].
+pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, solution: &mut GraphSolution) {
+    workspace.resize(problem.graph);
+    problem.begin();
+    problem.elimination.factor(&problem.graph.terms, problem.factors);
+    Rounds { graph: problem.graph, problem, w: workspace, contradicted: false, rounds: 0 }.run(solution);
+}
+
+/// See [`super::solve::project_displacements`].
+pub(super) fn project(
+    problem: &mut Problem<'_>,
+    workspace: &mut ConjugateWorkspace,
+    targets: &[f64],
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+) {
+    let graph = problem.graph;
+    let mut rounds = Rounds { graph, problem, w: workspace, contradicted: false, rounds: 0 };
+    rounds.w.forces.fill(0.0);
+    rounds.displace(Offsets::Prescribed);
+    let mut asked = 0.0_f64;
+    for group in &graph.groups {
+        for row in group.rows.clone() {
+            let there = graph.reading(group, row, &rounds.w.motions, &rounds.w.coordinates);
+            rounds.w.left[row] = targets[row] - there;
+            asked = asked.max(rounds.w.left[row].abs());
+        }
+    }
+    rounds.descend(DISPLACEMENT_SHARE * asked, &mut Convergence::default());
+    rounds.w.forces.copy_from_slice(&rounds.w.change);
+    rounds.displace(Offsets::Prescribed);
+    motions.clone_from(&workspace.motions);
+    coordinates.clone_from(&workspace.coordinates);
+}
+
+/// Takes from `rows` what forces of the rows that hold can bring about. Rows that do not hold, and those that yield, become
+/// zero.
+pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, rows: &mut [f64]) {
+    workspace.left.copy_from_slice(rows);
+    let mut rounds = Rounds { graph: problem.graph, problem, w: workspace, contradicted: false, rounds: 0 };
+    rounds.descend(PROBE_SHARE, &mut Convergence::default());
+    rows.copy_from_slice(&workspace.null);
+}
+
+impl ConjugateWorkspace {
+    fn resize(&mut self, graph: &ConstraintGraph) {
+        let rows = graph.rows.len();
+        let lists = [
+            &mut self.left,
+            &mut self.last_left,
+            &mut self.toward,
+            &mut self.applied,
+            &mut self.change,
+            &mut self.null,
+            &mut self.forces,
+            &mut self.u,
+        ];
+        for list in lists {
+            list.clear();
+            list.resize(rows, 0.0);
+        }
+        self.states.clear();
+        self.states.resize(graph.groups.len(), State::Rows([false; 6]));
+    }
+}
+
+struct Rounds<'p, 'a> {
+    graph: &'a ConstraintGraph,
+    problem: &'p mut Problem<'a>,
+    w: &'p mut ConjugateWorkspace,
+    /// Rows that hold were asked for what no force can bring about.
+    contradicted: bool,
+    /// Active sets so far.
+    rounds: usize,
+}
+
+impl Rounds<'_, '_> {
+    fn run(&mut self, solution: &mut GraphSolution) {
+        let GraphSolution { motions, coordinates, lambda, convergence } = solution;
+        let settings = self.problem.settings;
+        *convergence = Convergence { factorizations: 1, iterations: 1, ..Convergence::default() };
+        self.graph.groups.iter().for_each(|group| confine(group, lambda));
+        self.w.forces.copy_from_slice(lambda);
+        self.animate();
+        motions.clone_from(&self.w.motions);
+        coordinates.clone_from(&self.w.coordinates);
+        self.problem.departures.read(self.graph, motions, coordinates);
+        let mut last = f64::INFINITY;
+        loop {
+            let departures = &*self.problem.departures;
+            if departures.settle(self.graph, lambda, settings.tolerance, convergence) {
+                break;
+            }
+            let stuck = self.contradicted && convergence.residual > STUCK * last;
+            if stuck || convergence.iterations >= settings.max_iterations {
+                break;
+            }
+            last = convergence.residual;
+            self.round(lambda, convergence);
+            self.go(motions, coordinates, lambda, convergence);
+            self.rounds += 1;
+            convergence.iterations += 1;
+        }
+        if self.contradicted && !convergence.converged {
+            let rho = stiffness(&self.problem.departures.mobility);
+            lambda.iter_mut().zip(&self.w.null).for_each(|(l, n)| *l += rho * n);
+            self.graph.groups.iter().for_each(|group| confine(group, lambda));
+        }
+    }
+
+    /// One active set: the forces that it calls for, confined to what laws allow, and the motion under them.
+    fn round(&mut self, lambda: &[f64], convergence: &mut Convergence) {
+        self.choose(lambda);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.left[row] = -self.departure(group, row, self.problem.departures.u[row], lambda);
+            }
+        }
+        let Departures { scale, .. } = *self.problem.departures;
+        let enough = 0.5 * self.problem.settings.tolerance;
+        let share = if self.graph.groups.iter().all(|g| g.law == Law::HELD) { 0.0 } else { SHARE };
+        self.descend(scale * enough.max(share * convergence.residual), convergence);
+        if self.contradicted {
+            self.ride(lambda);
+        }
+        for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
+            *force = l + change;
+        }
+        self.confine_forces(lambda);
+        self.animate();
+        self.read_forces();
+    }
+
+    /// Along forces that move nothing, f falls without end unless a bound is met: then that row is the one to let go.
+    fn ride(&mut self, lambda: &[f64]) {
+        self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)).for_each(|(f, (l, c))| *f = l + c);
+        let t = self.reach(&self.w.forces, &self.w.null);
+        if t.is_finite() {
+            self.contradicted = false;
+            axpy(t, &self.w.null, &mut self.w.change);
+        }
+    }
+
+    /// How far `from` can go along `way` until a force that is sought meets its bound.
+    fn reach(&self, from: &[f64], way: &[f64]) -> f64 {
+        let mut reach = f64::INFINITY;
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            let (least, most, rows) = match group.law {
+                Law::Bounded { least, most } => (least, most, group.rows.clone()),
+                Law::Contact { bound, .. } => (0.0, bound, group.rows.start..group.rows.start + 1),
+            };
+            for row in rows.filter(|row| state.seeks(row - group.rows.start)) {
+                let room = if way[row] > 0.0 { most - from[row] } else { least - from[row] };
+                if way[row].abs() > 0.0 {
+                    reach = reach.min((room / way[row]).max(0.0));
+                }
+            }
+        }
+        reach
+    }
+
+    fn confine_forces(&mut self, lambda: &[f64]) {
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            confine(group, &mut self.w.forces);
+            if let State::Contact { friction: Friction::Slips { along, .. }, .. } = state {
+                let turn = &self.w.change[group.rows.start + 1..];
+                rub_fully(group, lambda, *along, [turn[0], turn[1]], &mut self.w.forces);
+            }
+        }
+    }
+
+    /// u under the forces tried.
+    fn read_forces(&mut self) {
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                let there = self.graph.reading(group, row, &self.w.motions, &self.w.coordinates);
+                self.w.u[row] = there - self.graph.rows[row].target;
+            }
+        }
+    }
+
+    /// On the way from λ to the forces tried: all of it, or to where f is least. Where that is not far, straight to the first
+    /// bound met on the way to what the active set calls for, if that lowers f by more. Motions are affine in forces.
+    fn go(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64], convergence: &mut Convergence) {
+        let (here, there) = self.slopes(lambda);
+        let mut s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
+        if s < SHORT {
+            let straight = self.slope(&self.w.change, lambda);
+            let t = self.reach(lambda, &self.w.change).min(1.0);
+            if straight * (t - 0.5 * t * t) < 0.5 * here * s {
+                for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
+                    *force = l + t * change;
+                }
+                self.graph.groups.iter().for_each(|group| confine(group, &mut self.w.forces));
+                self.animate();
+                self.read_forces();
+                convergence.iterations += 1;
+                s = 1.0;
+            }
+        }
+        let toward = |from: &mut f64, to: &f64| *from += s * (to - *from);
+        lambda.iter_mut().zip(&self.w.forces).for_each(|(x, y)| toward(x, y));
+        coordinates.iter_mut().zip(&self.w.coordinates).for_each(|(x, y)| toward(x, y));
+        self.problem.departures.u.iter_mut().zip(&self.w.u).for_each(|(x, y)| toward(x, y));
+        motions.iter_mut().zip(&self.w.motions).for_each(|(x, y)| *x += (y - *x) * s);
+    }
+
+    /// Slopes of f on the way from λ to the forces tried, at its ends.
+    fn slopes(&self, lambda: &[f64]) -> (f64, f64) {
+        let (mut here, mut there) = (0.0, 0.0);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                let way = self.w.forces[row] - lambda[row];
+                here += way * self.departure(group, row, self.problem.departures.u[row], lambda);
+                there += way * self.departure(group, row, self.w.u[row], &self.w.forces);
+            }
+        }
+        (here, there)
+    }
+
+    /// Slope of f at λ along `way`.
+    fn slope(&self, way: &[f64], lambda: &[f64]) -> f64 {
+        let u = &self.problem.departures.u;
+        let of = |group: &ConstraintGroup, row: usize| way[row] * self.departure(group, row, u[row], lambda);
+        self.graph.groups.iter().flat_map(|g| g.rows.clone().map(move |row| of(g, row))).sum()
+    }
+
+    /// u + R λ.
+    fn departure(&self, group: &ConstraintGroup, row: usize, u: f64, lambda: &[f64]) -> f64 {
+        u + compliance(self.graph, group, row) * lambda[row]
+    }
+
+    /// Which forces are sought, from where λ stands within its bounds and where the rows would push it.
+    fn choose(&mut self, lambda: &[f64]) {
+        for (number, group) in self.graph.groups.iter().enumerate() {
+            let start = group.rows.start;
+            let u = &self.problem.departures.u;
+            let inside = |row: usize, least: f64, most: f64| {
+                let push = -self.departure(group, row, u[row], lambda);
+                (lambda[row] > least || push > 0.0) && (lambda[row] < most || push < 0.0)
+            };
+            self.w.states[number] = match group.law {
+                Law::Bounded { least, most } => {
+                    let mut free = [false; 6];
+                    group.rows.clone().for_each(|row| free[row - start] = inside(row, least, most));
+                    State::Rows(free)
+                }
+                Law::Contact { friction, bound } => {
+                    let pushes = inside(start, 0.0, bound);
+                    let friction =
+                        if self.rounds == 0 && pushes && friction > 0.0 && lambda[start + 1..start + 3] == [0.0; 2] {
+                            Friction::Sticks
+                        } else {
+                            let slipped = matches!(
+                                self.w.states[number],
+                                State::Contact { friction: Friction::Slips { .. }, .. }
+                            );
+                            let ut = [u[start + 1], u[start + 2]];
+                            let w = self.problem.departures.mobility[start + 1];
+                            rub(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
+                        };
+                    State::Contact { pushes, friction }
+                }
+            };
+        }
+    }
+
+    /// From `left`, the change of λ that carries it below `enough`.
+    fn descend(&mut self, enough: f64, convergence: &mut Convergence) {
+        let most = self.problem.departures.mobility.iter().fold(0.0_f64, |m, w| m.max(*w));
+        self.contradicted = false;
+        self.reduce(Field::Left);
+        self.w.change.fill(0.0);
+        self.w.null.fill(0.0);
+        self.w.toward.copy_from_slice(&self.w.left);
+        let mut squares = dot(&self.w.left, &self.w.left);
+        while self.worst_left() > enough && convergence.iterations < self.problem.settings.max_iterations {
+            self.apply();
+            convergence.iterations += 1;
+            let bend = dot(&self.w.toward, &self.w.applied);
+            if bend <= NO_CURVATURE * most * dot(&self.w.toward, &self.w.toward) {
+                self.set_aside();
+                squares = dot(&self.w.left, &self.w.left);
+                continue;
+            }
+            let alpha = squares / bend;
+            let ConjugateWorkspace { left, last_left, toward, applied, change, .. } = &mut *self.w;
+            last_left.copy_from_slice(left);
+            axpy(alpha, toward, change);
+            axpy(-alpha, applied, left);
+            let now = dot(left, left);
+            let beta = ((now - dot(left, last_left)) / squares).max(0.0);
+            squares = now;
+            toward.iter_mut().zip(left.iter()).for_each(|(p, r)| *p = r + beta * *p);
+        }
+        self.expand(Field::Change);
+    }
+
+    /// `toward` moves nothing: no force brings about what `left` has along it, and `change` needs nothing along it.
+    fn set_aside(&mut self) {
+        self.contradicted = true;
+        let ConjugateWorkspace { left, toward, change, null, .. } = &mut *self.w;
+        let squares = dot(toward, toward);
+        let share = dot(left, toward) / squares;
+        axpy(share, toward, null);
+        axpy(-share, toward, left);
+        axpy(-dot(change, toward) / squares, toward, change);
+        toward.copy_from_slice(left);
+    }
+
+    /// (W + R) p.
+    fn apply(&mut self) {
+        self.w.forces.copy_from_slice(&self.w.toward);
+        self.expand(Field::Forces);
+        self.displace(Offsets::None);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.applied[row] = self.graph.reading(group, row, &self.w.motions, &self.w.coordinates);
+            }
+        }
+        self.reduce(Field::Applied);
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            for row in group.rows.clone() {
+                let yields = self.yields(group, state, row);
+                let w = self.problem.departures.mobility[row];
+                self.w.applied[row] += self.w.toward[row] * yields / (1.0 + yields / w);
+            }
+        }
+    }
+
+    /// The compliance of a row that is sought: its own; of a slipping contact, that of turning.
+    fn yields(&self, group: &ConstraintGroup, state: &State, row: usize) -> f64 {
+        match state {
+            State::Contact { friction: Friction::Slips { compliance, .. }, .. } if row > group.rows.start => {
+                *compliance
+            }
+            _ => compliance(self.graph, group, row),
+        }
+    }
+
+    /// 1/√(1 + R/W).
+    fn measure(&self, group: &ConstraintGroup, state: &State, row: usize) -> f64 {
+        1.0 / (1.0 + self.yields(group, state, row) / self.problem.departures.mobility[row]).sqrt()
+    }
+
+    /// Readings of rows to those of what is sought.
+    fn reduce(&mut self, field: Field) {
+        let mut x = std::mem::take(field.of(self.w));
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            let start = group.rows.start;
+            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+                x[start + 1] = x1 * x[start + 2] - x2 * x[start + 1];
+            }
+            for row in group.rows.clone() {
+                x[row] *= if state.seeks(row - start) { self.measure(group, state, row) } else { 0.0 };
+            }
+        }
+        *field.of(self.w) = x;
+    }
+
+    /// What is sought to forces of rows: the transpose of [`Self::reduce`].
+    fn expand(&mut self, field: Field) {
+        let mut x = std::mem::take(field.of(self.w));
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                x[row] *= if state.seeks(row - start) { self.measure(group, state, row) } else { 0.0 };
+            }
+            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+                (x[start + 1], x[start + 2]) = (-x2 * x[start + 1], x1 * x[start + 1]);
+            }
+        }
+        *field.of(self.w) = x;
+    }
+
+    /// The largest departure left, without the scaling.
+    fn worst_left(&self) -> f64 {
+        let mut worst = 0.0_f64;
+        for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
+            for row in group.rows.clone().filter(|row| state.seeks(row - group.rows.start)) {
+                worst = worst.max(self.w.left[row].abs() / self.measure(group, state, row));
+            }
+        }
+        worst
+    }
+
+    /// Motion under the known wrenches and `forces`.
+    fn animate(&mut self) {
+        self.w.motions.clone_from(&self.graph.wrenches);
+        self.w.coordinates.clone_from(&self.graph.efforts);
+        self.tree_solve(Offsets::Prescribed);
+    }
+
+    /// Motion under `forces` alone.
+    fn displace(&mut self, offsets: Offsets) {
+        self.w.motions.clear();
+        self.w.motions.resize(self.graph.bodies.len(), Six::zeros());
+        self.w.coordinates.clear();
+        self.w.coordinates.resize(self.graph.efforts.len(), 0.0);
+        self.tree_solve(offsets);
+    }
+
+    fn tree_solve(&mut self, offsets: Offsets) {
+        let ConjugateWorkspace { motions, coordinates, forces, .. } = &mut *self.w;
+        self.graph.push(forces, motions, coordinates);
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, offsets, motions, coordinates, factors);
+    }
+}
+
+impl State {
+    /// Whether the force of the group's row of this number is sought.
+    fn seeks(&self, number: usize) -> bool {
+        match self {
+            State::Rows(free) => free[number],
+            State::Contact { pushes, .. } if number == 0 => *pushes,
+            State::Contact { friction: Friction::Given, .. } => false,
+            State::Contact { friction: Friction::Sticks, .. } => true,
+            State::Contact { friction: Friction::Slips { .. }, .. } => number == 1,
+        }
+    }
+}
+
+/// Vectors that are reduced or expanded.
+#[derive(Debug, Clone, Copy)]
+enum Field {
+    Left,
+    Applied,
+    Change,
+    Forces,
+}
+
+impl Field {
+    fn of(self, w: &mut ConjugateWorkspace) -> &mut Vec<f64> {
+        match self {
+            Field::Left => &mut w.left,
+            Field::Applied => &mut w.applied,
+            Field::Change => &mut w.change,
+            Field::Forces => &mut w.forces,
+        }
+    }
+}
+
+/// R of a row; friction is rigid.
+fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f64 {
+    match group.law {
+        Law::Contact { .. } if row > group.rows.start => 0.0,
+        _ => graph.rows[row].compliance,
+    }
+}
+
+/// Sticks within the cone, and on it where friction would help the slip. Without friction yet, whether it will slip is judged
+/// by the friction that the point alone would need.
+fn rub(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
+    let length = force[0].hypot(force[1]);
+    if radius <= 0.0 {
+        return Friction::Given;
+    }
+    let speed = u[0].hypot(u[1]);
+    if speed > RIGID * radius * mobility {
+        return Friction::Given;
+    }
+    if length <= EDGE * radius {
+        if speed <= radius * mobility {
+            return Friction::Sticks;
+        }
+        return Friction::Slips { along: [-u[0] / speed, -u[1] / speed], compliance: speed / radius };
+    }
+    let power = force[0] * u[0] + force[1] * u[1];
+    if power >= 0.0 || !(slipped || length >= radius * (1.0 - EDGE)) {
+        return Friction::Sticks;
+    }
+    Friction::Slips { along: [force[0] / length, force[1] / length], compliance: -power / (length * radius) }
+}
+
+/// Forces of one group that its law allows, nearest in the normal first.
+fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
+    let start = group.rows.start;
+    match group.law {
+        Law::Bounded { least, most } => {
+            lambda[group.rows.clone()].iter_mut().for_each(|l| *l = l.clamp(least, most));
+        }
+        Law::Contact { friction, bound } => {
+            lambda[start] = lambda[start].clamp(0.0, bound);
+            let radius = friction * lambda[start];
+            let length = lambda[start + 1].hypot(lambda[start + 2]);
+            if length > radius {
+                lambda[start + 1] *= radius / length;
+                lambda[start + 2] *= radius / length;
+            }
+        }
+    }
+}
+
+/// Friction of a slipping contact, as large as it can be: along r d + s e.
+fn rub_fully(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f64; 2], lambda: &mut [f64]) {
+    let Law::Contact { friction, .. } = group.law else { return };
+    let start = group.rows.start;
+    let radius = friction * before[start];
+    let toward = [radius * along[0] + turn[0], radius * along[1] + turn[1]];
+    let length = toward[0].hypot(toward[1]);
+    let longer = if length > 0.0 { friction * lambda[start] / length } else { 0.0 };
+    lambda[start + 1] = longer * toward[0];
+    lambda[start + 2] = longer * toward[1];
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+/// y += a x.
+fn axpy(a: f64, x: &[f64], y: &mut [f64]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += a * x);
+}

@@ -1,0 +1,315 @@
+//! Where Newton's method on Coulomb's law fails: a convex problem near it, which always has an answer.
+//!
+//! With the slip speed held at a guess, u_n + s with s = μ |u_t| instead of u_n, Coulomb's law is the stationarity of a convex
+//! function (normal and friction together in one cone):
+//!
+//!   λ = Π_cone( λ° - ρ (u + s n) )         A a = b + Jᵀ λ
+//!
+//! Newton steps with a line search always lead to its minimum. Then s follows the slip found, and λ° := λ, a few rounds. With
+//! s = 0 slipping surfaces part at μ |u_t|; at the fixed point of s the law is Coulomb's. Whatever round is the last,
+//! forces lie in their cones, work against motion, and meet (2): what Newton's method leaves unsolved in a jumble of boxes
+//! costs accuracy, which the residual states, but no energy appears.
+//!
+//! Source: De Saxcé and Feng 1998 for the shift by μ |u_t|; Anitescu 2006 for s = 0 (unverified pages).
+//! Cost: a factorisation a step.
+//! Pinned by: tests/constraint_graph.rs, tests/simulation_robustness.rs
+
+use super::constraint::{Acting, ConstraintGroup, Convergence, Law, Six};
+use super::elimination::Offsets;
+use super::proximal::stiffness;
+use super::solve::Problem;
+use crate::contact::onto_cone;
+
+/// ρ here, as a share of Newton's: rounds are slower, steps between cones longer.
+const SOFTER: f64 = 1e-2;
+/// Rounds of s and λ°.
+const ROUNDS: usize = 8;
+/// Newton steps in a round, at most.
+const STEPS: usize = 30;
+/// A round is over when rows change by less than this share of the scale.
+const STILL: f64 = 1e-8;
+/// Halvings of the line search.
+const HALVINGS: usize = 25;
+
+/// Scratch.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RelaxedWorkspace {
+    center: Vec<f64>,
+    shift: Vec<f64>,
+    /// Forces with which (2) holds.
+    met: Vec<f64>,
+    lambda: Vec<f64>,
+    trial: Vec<f64>,
+    change: Vec<f64>,
+    slopes: Vec<Slope>,
+    step: Vec<Six>,
+    step_coordinates: Vec<f64>,
+}
+
+/// H = -∂λ/∂u of a group.
+#[derive(Debug, Clone, Copy)]
+enum Slope {
+    Diagonal([f64; 6]),
+    Contact([[f64; 3]; 3]),
+}
+
+/// Replaces motion and forces by those of the relaxed problem.
+pub(super) fn solve(
+    problem: &mut Problem<'_>,
+    w: &mut RelaxedWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+    lambda: &mut [f64],
+    convergence: &mut Convergence,
+) {
+    let rho = SOFTER * stiffness(&problem.departures.mobility);
+    w.begin(problem);
+    Relaxed { problem, w, rho }.run(motions, coordinates, convergence);
+    lambda.copy_from_slice(&w.met);
+    for group in &problem.graph.groups {
+        confine(group, lambda);
+    }
+    problem.departures.read(problem.graph, motions, coordinates);
+    let tolerance = problem.settings.tolerance;
+    problem.departures.settle(problem.graph, lambda, tolerance, convergence);
+}
+
+impl RelaxedWorkspace {
+    fn begin(&mut self, problem: &Problem<'_>) {
+        let graph = problem.graph;
+        for list in [&mut self.center, &mut self.met, &mut self.lambda, &mut self.trial, &mut self.change] {
+            list.clear();
+            list.resize(graph.rows.len(), 0.0);
+        }
+        self.shift.clear();
+        self.shift.resize(graph.groups.len(), 0.0);
+        self.slopes.clear();
+        self.slopes.resize(graph.groups.len(), Slope::Diagonal([0.0; 6]));
+        self.step.resize(graph.bodies.len(), Six::zeros());
+        self.step_coordinates.resize(graph.efforts.len(), 0.0);
+    }
+}
+
+struct Relaxed<'p, 'a> {
+    problem: &'p mut Problem<'a>,
+    w: &'p mut RelaxedWorkspace,
+    rho: f64,
+}
+
+impl Relaxed<'_, '_> {
+    fn run(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, convergence: &mut Convergence) {
+        let graph = self.problem.graph;
+        self.factor(convergence);
+        motions.clone_from(&graph.wrenches);
+        coordinates.clone_from(&graph.efforts);
+        self.problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, self.problem.factors);
+        for _ in 0..ROUNDS {
+            for _ in 0..STEPS {
+                self.problem.departures.read(graph, motions, coordinates);
+                self.evaluate();
+                self.factor(convergence);
+                let moved = self.advance(motions, coordinates);
+                convergence.iterations += 1;
+                if moved <= STILL * self.problem.departures.scale {
+                    break;
+                }
+            }
+            self.problem.departures.read(graph, motions, coordinates);
+            self.evaluate();
+            self.w.center.copy_from_slice(&self.w.lambda);
+            for (shift, group) in self.w.shift.iter_mut().zip(&graph.groups) {
+                if let Law::Contact { friction, .. } = group.law {
+                    let (row, u) = (group.rows.start, &self.problem.departures.u);
+                    let slips = self.w.lambda[row] > 0.0;
+                    *shift = if slips { friction * u[row + 1].hypot(u[row + 2]) } else { 0.0 };
+                }
+            }
+        }
+    }
+
+    /// λ and H at the present motion.
+    fn evaluate(&mut self) {
+        let graph = self.problem.graph;
+        let RelaxedWorkspace { center, shift, lambda, slopes, .. } = &mut *self.w;
+        let u = &self.problem.departures.u;
+        for (number, group) in graph.groups.iter().enumerate() {
+            let compliance = graph.rows[group.rows.start].compliance;
+            slopes[number] = law(group, self.rho, compliance, shift[number], center, |row| u[row], lambda);
+        }
+    }
+
+    /// A + Jᵀ H J, factored.
+    fn factor(&mut self, convergence: &mut Convergence) {
+        convergence.factorizations += 1;
+        self.problem.begin();
+        let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
+        for (number, group) in graph.groups.iter().enumerate() {
+            let slope = &self.w.slopes[number];
+            let Acting::Bodies { first, second } = group.on else {
+                if let (Acting::Coordinate { body, coordinate }, Slope::Diagonal(h)) = (group.on, slope) {
+                    factors.add_to_coordinate(elimination, coordinate, body, h[0]);
+                }
+                continue;
+            };
+            for m in 0..group.rows.len() {
+                for n in 0..group.rows.len() {
+                    let h = slope.at(m, n);
+                    if h == 0.0 {
+                        continue;
+                    }
+                    let (one, other) = (&graph.rows[group.rows.start + m], &graph.rows[group.rows.start + n]);
+                    factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
+                    if let (Some(second), Some((block, swapped))) = (second, blocks[number]) {
+                        factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
+                        let (row, column) =
+                            if swapped { (&one.on_second, &other.on_first) } else { (&one.on_first, &other.on_second) };
+                        factors.off_mut(block).add_outer(row, column, h);
+                    }
+                }
+            }
+        }
+        elimination.factor(&graph.terms, factors);
+    }
+
+    /// One guarded Newton step; the largest change of a row.
+    fn advance(&mut self, motions: &mut [Six], coordinates: &mut [f64]) -> f64 {
+        let graph = self.problem.graph;
+        let RelaxedWorkspace { step, step_coordinates, lambda, change, .. } = &mut *self.w;
+        for (r, (body, (b, a))) in
+            step.iter_mut().zip(graph.bodies.iter().zip(graph.wrenches.iter().zip(motions.iter())))
+        {
+            *r = b - body.times(a);
+        }
+        for (r, (effort, (rotor, q))) in
+            step_coordinates.iter_mut().zip(graph.efforts.iter().zip(graph.rotors.iter().zip(coordinates.iter())))
+        {
+            *r = effort - rotor * q;
+        }
+        graph.push(lambda, step, step_coordinates);
+        self.problem.elimination.solve(&graph.terms, Offsets::None, step, step_coordinates, self.problem.factors);
+        for group in &graph.groups {
+            for row in group.rows.clone() {
+                change[row] = graph.reading(group, row, step, step_coordinates);
+            }
+        }
+        let length = self.step_length(motions, coordinates);
+        let RelaxedWorkspace { step, step_coordinates, lambda, change, met, slopes, .. } = &mut *self.w;
+        for (a, d) in motions.iter_mut().zip(&*step) {
+            a.axpy(length, d, 1.0);
+        }
+        for (q, d) in coordinates.iter_mut().zip(&*step_coordinates) {
+            *q += length * d;
+        }
+        for (group, slope) in graph.groups.iter().zip(&*slopes) {
+            for (m, row) in group.rows.clone().enumerate() {
+                let fall: f64 = (0..group.rows.len()).map(|n| slope.at(m, n) * change[group.rows.start + n]).sum();
+                met[row] = length * (lambda[row] - fall) + (1.0 - length) * met[row];
+            }
+        }
+        length * change.iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+    }
+
+    /// Where the convex function is least along the step.
+    fn step_length(&mut self, motions: &[Six], coordinates: &[f64]) -> f64 {
+        let graph = self.problem.graph;
+        let (mut constant, mut linear) = (0.0, 0.0);
+        for (i, d) in self.w.step.iter().enumerate() {
+            let body = &graph.bodies[i];
+            constant += d.dot(&(body.times(&motions[i]) - graph.wrenches[i]));
+            linear += d.dot(&body.times(d));
+        }
+        for (k, d) in self.w.step_coordinates.iter().enumerate() {
+            constant += d * (graph.rotors[k] * coordinates[k] - graph.efforts[k]);
+            linear += d * d * graph.rotors[k];
+        }
+        let RelaxedWorkspace { trial, change, center, shift, lambda, .. } = &mut *self.w;
+        let (rho, u) = (self.rho, &self.problem.departures.u);
+        let work = |forces: &[f64]| -> f64 { forces.iter().zip(&*change).map(|(l, c)| l * c).sum() };
+        let start = constant - work(lambda);
+        let mut slope = |s: f64| {
+            for (number, group) in graph.groups.iter().enumerate() {
+                let compliance = graph.rows[group.rows.start].compliance;
+                let along = |row: usize| u[row] + s * change[row];
+                law(group, rho, compliance, shift[number], center, along, trial);
+            }
+            constant + s * linear - work(trial)
+        };
+        if slope(1.0) <= 0.1 * start.abs() {
+            return 1.0;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let here = slope(middle);
+            if here.abs() <= 0.1 * start.abs() {
+                return middle;
+            }
+            if here > 0.0 { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    }
+}
+
+impl Slope {
+    fn at(&self, m: usize, n: usize) -> f64 {
+        match self {
+            Slope::Diagonal(h) => {
+                if m == n {
+                    h[m]
+                } else {
+                    0.0
+                }
+            }
+            Slope::Contact(h) => h[m][n],
+        }
+    }
+}
+
+/// λ of one group, and its H.
+fn law(
+    group: &ConstraintGroup,
+    rho: f64,
+    compliance: f64,
+    shift: f64,
+    center: &[f64],
+    u: impl Fn(usize) -> f64,
+    lambda: &mut [f64],
+) -> Slope {
+    let start = group.rows.start;
+    let soft = 1.0 + rho * compliance;
+    match group.law {
+        Law::Bounded { least, most } => {
+            let mut h = [0.0; 6];
+            for row in group.rows.clone() {
+                let z = (center[row] - rho * u(row)) / soft;
+                lambda[row] = z.clamp(least, most);
+                h[row - start] = if z > least && z < most { rho / soft } else { 0.0 };
+            }
+            Slope::Diagonal(h)
+        }
+        Law::Contact { friction, .. } => {
+            let z = [0, 1, 2].map(|k| {
+                let lift = if k == 0 { shift } else { 0.0 };
+                (center[start + k] - rho * (u(start + k) + lift)) / soft
+            });
+            let nearest = onto_cone(z, friction);
+            lambda[start..start + 3].copy_from_slice(&nearest.force);
+            Slope::Contact(nearest.slope.map(|row| row.map(|s| s * rho / soft)))
+        }
+    }
+}
+
+/// Forces that have left their laws by rounding, or by a step that was cut, put back.
+fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
+    let start = group.rows.start;
+    match group.law {
+        Law::Bounded { least, most } => {
+            group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
+        }
+        Law::Contact { friction, bound } => {
+            let force = onto_cone([lambda[start], lambda[start + 1], lambda[start + 2]], friction).force;
+            let share = if force[0] > bound { bound / force[0] } else { 1.0 };
+            (0..3).for_each(|k| lambda[start + k] = force[k] * share);
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Solving a constraint graph: which method, how far, and the scratch that methods share.
+//!
+//! [`Method::Newton`] factors trees and rows together: loops cost a little fill-in, contacts a factorisation each time
+//! that one opens, sticks or slips. [`Method::ConjugateGradient`] factors the trees alone, once, and refines the rows'
+//! forces by tree solves. Measured on ladders, tables, walls and towers in tests/constraint_graph.rs (tree solves and
+//! factorisations of both).
+
+use super::conjugate_gradient::{self, ConjugateWorkspace};
+use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, GraphSolution, Six};
+use super::departure::Departures;
+use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError};
+use super::proximal::{self, NewtonWorkspace};
+use std::collections::BTreeMap;
+
+/// A row whose reading of a probe that nothing can balance is below this share of the probe is determined: regular rows
+/// leave 1e-12 of it, a row that stands twice one half, and one that stands k times (k-1)/k.
+const UNDETERMINED: f64 = 1e-6;
+
+/// How closing rows and contacts are solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Newton steps on an augmented Lagrangian. A guess of the forces has no part in the result beyond rounding, so that
+    /// redundant rows share least-squares forces whatever came before.
+    #[default]
+    Newton,
+    /// Conjugate gradient, as in the paper. Begins at the guess; redundant rows get the forces nearest to it, which for no
+    /// guess are the least-squares ones.
+    ConjugateGradient,
+}
+
+/// How far to iterate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverSettings {
+    /// By which method.
+    pub method: Method,
+    /// Largest residual accepted; see [`Convergence::residual`](super::Convergence::residual).
+    pub tolerance: f64,
+    /// Most tree solves. Newton needs few whatever the scene; conjugate gradient up to some multiple of the number of
+    /// rows.
+    pub max_iterations: usize,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        SolverSettings { method: Method::Newton, tolerance: 1e-10, max_iterations: 100 }
+    }
+}
+
+/// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
+#[derive(Debug, Clone, Default)]
+pub struct GraphWorkspace {
+    links: Vec<Link>,
+    /// Bodies that each group couples.
+    shape: Vec<Option<(usize, usize)>>,
+    elimination: Option<Elimination>,
+    /// Off-diagonal block of each group that couples two bodies, and whether it is transposed.
+    blocks: Vec<Option<(usize, bool)>>,
+    /// As last solved with.
+    settings: SolverSettings,
+    pub(super) factors: EliminationWorkspace,
+    pub(super) departures: Departures,
+    newton: NewtonWorkspace,
+    conjugate: ConjugateWorkspace,
+}
+
+/// What a method works on.
+pub(super) struct Problem<'a> {
+    pub(super) graph: &'a ConstraintGraph,
+    pub(super) elimination: &'a Elimination,
+    pub(super) settings: SolverSettings,
+    pub(super) blocks: &'a [Option<(usize, bool)>],
+    pub(super) factors: &'a mut EliminationWorkspace,
+    pub(super) departures: &'a mut Departures,
+}
+
+impl Problem<'_> {
+    /// The inertias of bodies and coordinates, not yet factored.
+    pub(super) fn begin(&mut self) {
+        self.factors.begin(self.elimination, &self.graph.bodies);
+        for body in 0..self.graph.links.len() {
+            for coordinate in self.elimination.coordinates_of(body) {
+                let rotor = self.graph.rotors[coordinate];
+                self.factors.add_to_coordinate(self.elimination, coordinate, body, rotor);
+            }
+        }
+    }
+}
+
+/// Solves the graph. `solution.lambda` holds a guess of the forces, as of the last step: from it comes which contacts are
+/// first taken as pushing and which as slipping, and where conjugate gradient begins. A contact without a past gets a
+/// positive normal force and no other.
+///
+/// Rows whose laws contradict each other (a drive against a wall) leave
+/// [`Convergence::converged`](super::Convergence::converged) false, with the row that departs most; forces stay within their
+/// bounds.
+///
+/// # Errors
+/// A graph whose links are no forest.
+pub fn solve_graph(
+    graph: &ConstraintGraph,
+    settings: &SolverSettings,
+    workspace: &mut GraphWorkspace,
+    solution: &mut GraphSolution,
+) -> Result<(), LinkError> {
+    workspace.settings = *settings;
+    workspace.prepare(graph)?;
+    solution.lambda.resize(graph.rows.len(), 0.0);
+    workspace.departures.measure(graph);
+    workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
+        Method::Newton => proximal::solve(&mut problem, newton, solution),
+        Method::ConjugateGradient => conjugate_gradient::solve(&mut problem, conjugate, solution),
+    });
+    Ok(())
+}
+
+/// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
+/// J δ = targets, and the joints' offsets as they stand in the graph. Uses the last factor and the last method.
+pub(crate) fn project_displacements(
+    graph: &ConstraintGraph,
+    targets: &[f64],
+    workspace: &mut GraphWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+) {
+    motions.clear();
+    motions.resize(graph.bodies.len(), Six::zeros());
+    coordinates.clear();
+    coordinates.resize(graph.efforts.len(), 0.0);
+    workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
+        Method::Newton => proximal::project(&mut problem, newton, targets, motions, coordinates),
+        Method::ConjugateGradient => {
+            conjugate_gradient::project(&mut problem, conjugate, targets, motions, coordinates);
+        }
+    });
+}
+
+/// Rows that hold at the last solution and whose forces the motion does not determine: some combination of them with
+/// others moves nothing (a flat foot on four points, a loop in the plane closed by rows for space). Uses the last factor.
+///
+/// A probe z of random targets is asked of the rows. What no force can bring about is its part in the null space of
+/// J A⁻¹ Jᵀ; with probability one it shows in exactly the rows that the null space touches. Costs a few tree solves with
+/// Newton's method, as many as a solution with conjugate gradient.
+#[must_use]
+pub fn undetermined_rows(graph: &ConstraintGraph, workspace: &mut GraphWorkspace) -> Vec<usize> {
+    let mut left = probe(graph.rows.len());
+    workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
+        Method::Newton => proximal::without_range(&mut problem, newton, &mut left),
+        Method::ConjugateGradient => conjugate_gradient::without_range(&mut problem, conjugate, &mut left),
+    });
+    (0..left.len()).filter(|row| left[*row].abs() > UNDETERMINED).collect()
+}
+
+/// Numbers between 1/2 and 3/2 without a pattern, the same ones each time: fractions of multiples of the golden section's
+/// square, bent.
+fn probe(count: usize) -> Vec<f64> {
+    let golden = 0.618_033_988_749_895;
+    (0..count)
+        .map(|k| {
+            let x = (k as f64 * golden * (1.0 + golden * k as f64)).fract();
+            0.5 + x
+        })
+        .collect()
+}
+
+impl GraphWorkspace {
+    /// The elimination for this graph, made anew only if its shape has changed.
+    fn prepare(&mut self, graph: &ConstraintGraph) -> Result<(), LinkError> {
+        let method = self.settings.method;
+        let pair = |group: &ConstraintGroup| match group.on {
+            Acting::Bodies { first, second: Some(second) } if method == Method::Newton => Some((first, second)),
+            _ => None,
+        };
+        let shape = graph.groups.iter().map(pair);
+        if self.elimination.is_some() && self.links == graph.links && shape.clone().eq(self.shape.iter().copied()) {
+            return Ok(());
+        }
+        self.elimination = None;
+        self.shape.clear();
+        self.shape.extend(shape);
+        self.links.clone_from(&graph.links);
+        let mut numbers = BTreeMap::new();
+        let mut couplings = Vec::new();
+        self.blocks.clear();
+        for pair in &self.shape {
+            self.blocks.push(pair.map(|(first, second)| {
+                let block = *numbers.entry((first.min(second), first.max(second))).or_insert_with(|| {
+                    couplings.push((first, second));
+                    couplings.len() - 1
+                });
+                (block, first > second)
+            }));
+        }
+        self.elimination = Some(Elimination::new(&graph.links, &couplings)?);
+        Ok(())
+    }
+
+    /// Bodies with their parents, parents first, as last prepared.
+    #[must_use]
+    pub fn outwards(&self) -> Vec<(usize, Option<usize>)> {
+        self.elimination.iter().flat_map(Elimination::outwards).collect()
+    }
+
+    /// Nothing happens before the first solution.
+    fn with_problem(
+        &mut self,
+        graph: &ConstraintGraph,
+        work: impl FnOnce(Problem<'_>, &mut NewtonWorkspace, &mut ConjugateWorkspace),
+    ) {
+        let GraphWorkspace { elimination, settings, blocks, factors, departures, newton, conjugate, .. } = self;
+        if let Some(elimination) = elimination {
+            work(Problem { graph, elimination, settings: *settings, blocks, factors, departures }, newton, conjugate);
+        }
+    }
+}
