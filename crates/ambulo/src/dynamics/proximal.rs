@@ -61,8 +61,6 @@ const WITHIN: f64 = 0.95;
 const SHARE_HALVINGS: usize = 20;
 /// After so many steps the best motion so far is kept.
 const PATIENCE: usize = 10;
-/// Steps after which Newton's method is given up.
-const MOST_STEPS: usize = 50;
 /// A residual that is taken for a solution where Newton's method ends without one.
 const NEARLY: f64 = 1e-6;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
@@ -85,6 +83,8 @@ pub(super) struct NewtonWorkspace {
     step_coordinates: Vec<f64>,
     /// λ along the line of a line search.
     trial: Vec<f64>,
+    /// Forces for which (2) held last.
+    met: Vec<f64>,
     /// The guess.
     before: Vec<f64>,
     best: Best,
@@ -167,7 +167,7 @@ impl NewtonWorkspace {
 pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
     workspace.resize(problem.graph);
     let rho = stiffness(&problem.departures.mobility);
-    Newton { graph: problem.graph, problem, w: workspace, rho, stiffest: STIFFEST * rho }.run(solution);
+    Newton { graph: problem.graph, problem, w: workspace, rho, plain: rho, stiffest: STIFFEST * rho }.run(solution);
 }
 
 /// ρ for rows of these mobilities.
@@ -235,7 +235,8 @@ struct Newton<'p, 'a> {
     problem: &'p mut Problem<'a>,
     w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// The largest ρ that leaves digits to A.
+    /// ρ at first, and the largest one that leaves digits to A.
+    plain: f64,
     stiffest: f64,
 }
 
@@ -272,12 +273,11 @@ impl Newton<'_, '_> {
         convergence: &mut Convergence,
     ) -> bool {
         let settings = self.problem.settings;
-        let end = (convergence.iterations + MOST_STEPS).min(settings.max_iterations);
-        let (mut whole, mut last) = (true, f64::INFINITY);
+        let (mut whole, mut refined, mut last) = (true, false, f64::INFINITY);
         loop {
             self.problem.departures.read(self.graph, motions, coordinates);
             let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
-            if whole && lawful {
+            if whole && lawful && (self.rho <= self.plain || refined) {
                 return true;
             }
             if whole && convergence.iterations >= PATIENCE {
@@ -286,15 +286,19 @@ impl Newton<'_, '_> {
             if whole {
                 self.update_radii(lambda);
                 self.w.trial.copy_from_slice(lambda);
+                self.w.met.clear();
+                self.w.met.extend_from_slice(lambda);
             }
             self.evaluate(lambda);
             let alike = self.alike(lambda);
-            if convergence.iterations >= end {
+            if convergence.iterations >= settings.max_iterations {
                 return false;
             }
             if whole && alike {
+                // A stiff factor rounds: once more, on what is left.
+                refined = lawful;
                 let before = last;
-                if self.stuck(convergence.residual, &mut last) {
+                if !lawful && self.stuck(convergence.residual, &mut last) {
                     return false;
                 }
                 self.recenter(lambda, convergence.residual < STEADY * before);
@@ -305,8 +309,26 @@ impl Newton<'_, '_> {
             if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
+            // Slips that turn about from step to step come to rest between.
+            let share = if whole && self.slips() && convergence.iterations >= PATIENCE { 0.5 } else { 1.0 };
             whole = self.newton_step(motions, coordinates, lambda, whole && alike);
+            if whole && share < 1.0 {
+                self.step_back(1.0 - share, motions, coordinates, lambda);
+            }
             convergence.iterations += 1;
+        }
+    }
+
+    /// Part of the last whole step undone, and of what it changed in the forces for which (2) holds.
+    fn step_back(&self, share: f64, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+        for (a, step) in motions.iter_mut().zip(&self.w.step) {
+            a.axpy(-share, step, 1.0);
+        }
+        for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
+            *q -= share * step;
+        }
+        for (force, met) in lambda.iter_mut().zip(&self.w.met) {
+            *force += share * (met - *force);
         }
     }
 
@@ -498,7 +520,7 @@ impl Newton<'_, '_> {
         let slow = residual > SLOW * *last;
         let stiff = self.rho >= self.stiffest;
         let stuck = slow && stiff && residual > STUCK * *last && !self.slips();
-        if slow && !stiff {
+        if slow && !stiff && !self.slips() {
             self.rho *= STIFFER;
         }
         *last = residual;

@@ -16,6 +16,7 @@
 
 use super::constraint::{Acting, ConstraintGroup, Convergence, Law, Six};
 use super::elimination::Offsets;
+use super::mixing::Mixing;
 use super::proximal::stiffness;
 use super::solve::Problem;
 use crate::contact::onto_cone;
@@ -23,7 +24,7 @@ use crate::contact::onto_cone;
 /// ρ here, as a share of Newton's: rounds are slower, steps between cones longer.
 const SOFTER: f64 = 1e-2;
 /// Rounds of s and λ°.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 30;
 /// Newton steps in a round, at most.
 const STEPS: usize = 30;
 /// A round is over when rows change by less than this share of the scale.
@@ -36,6 +37,8 @@ const HALVINGS: usize = 25;
 pub(super) struct RelaxedWorkspace {
     center: Vec<f64>,
     shift: Vec<f64>,
+    slip: Vec<f64>,
+    mixing: Mixing,
     /// Forces with which (2) holds.
     met: Vec<f64>,
     lambda: Vec<f64>,
@@ -81,6 +84,7 @@ impl RelaxedWorkspace {
             list.clear();
             list.resize(graph.rows.len(), 0.0);
         }
+        self.mixing.forget();
         self.shift.clear();
         self.shift.resize(graph.groups.len(), 0.0);
         self.slopes.clear();
@@ -103,7 +107,7 @@ impl Relaxed<'_, '_> {
         motions.clone_from(&graph.wrenches);
         coordinates.clone_from(&graph.efforts);
         self.problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, self.problem.factors);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             for _ in 0..STEPS {
                 self.problem.departures.read(graph, motions, coordinates);
                 self.evaluate();
@@ -117,14 +121,28 @@ impl Relaxed<'_, '_> {
             self.problem.departures.read(graph, motions, coordinates);
             self.evaluate();
             self.w.center.copy_from_slice(&self.w.lambda);
-            for (shift, group) in self.w.shift.iter_mut().zip(&graph.groups) {
-                if let Law::Contact { friction, .. } = group.law {
-                    let (row, u) = (group.rows.start, &self.problem.departures.u);
-                    let slips = self.w.lambda[row] > 0.0;
-                    *shift = if slips { friction * u[row + 1].hypot(u[row + 2]) } else { 0.0 };
-                }
+            if self.update_shifts() <= STILL * self.problem.departures.scale && round > 0 {
+                break;
             }
         }
+    }
+
+    /// s := μ |u_t| of contacts that push, foreseen from the last rounds; the largest change.
+    fn update_shifts(&mut self) -> f64 {
+        let RelaxedWorkspace { shift, slip, lambda, mixing, .. } = &mut *self.w;
+        let u = &self.problem.departures.u;
+        slip.clear();
+        slip.extend(self.problem.graph.groups.iter().map(|group| match group.law {
+            Law::Contact { friction, .. } if lambda[group.rows.start] > 0.0 => {
+                friction * u[group.rows.start + 1].hypot(u[group.rows.start + 2])
+            }
+            _ => 0.0,
+        }));
+        let change = shift.iter().zip(&*slip).fold(0.0, |m: f64, (old, new)| m.max((old - new).abs()));
+        for (shift, next) in shift.iter_mut().zip(&*slip) {
+            *shift = next.max(0.0);
+        }
+        change
     }
 
     /// λ and H at the present motion.

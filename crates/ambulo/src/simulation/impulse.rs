@@ -21,9 +21,11 @@ use crate::dynamics::{Convergence, GraphWorkspace, Law, LinkError, Six, project_
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// Where a solver cannot satisfy all rows, forces beyond so many times the weight of everything are taken as a sign that
-/// rows contradict each other.
+/// Forces beyond so many times the weight of everything are taken as a sign that rows contradict each other: drives without
+/// a limit give way there, and where the solver fails no force is larger.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
+/// What things weigh where there is little gravity [m/s²].
+const STANDARD_GRAVITY: f64 = 9.80665;
 /// Rows that depart by more than this share contradict each other; less is slow convergence, as where a loop is stretched.
 const CONTRADICTION: f64 = 1e-6;
 /// Fastest that position projection pulls loops together or bodies apart [m/s, rad/s].
@@ -126,7 +128,7 @@ impl StepWorkspace {
         prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
-        let unreasonable = UNREASONABLE_WEIGHTS * (world.mass() * world.gravity.norm()).max(1.0);
+        let unreasonable = UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY);
         let mut yielding: Yielding = Vec::new();
         self.touch.detect(world, state, &self.obstacles, h);
         if instant {
@@ -169,12 +171,10 @@ impl StepWorkspace {
         }
     }
 
-    /// Drives whose effort exceeds their limit; or, where the solver failed, reason.
+    /// Drives whose effort exceeds their limit, or reason.
     fn overloaded(&self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
-        let failed = !self.solution.convergence.converged;
-        let limited =
-            |j: &Joint| j.coordinates.iter().any(|c| c.drive.as_ref().is_some_and(|d| failed || d.max.is_some()));
-        if !world.joints.iter().any(limited) {
+        let driven = |j: &Joint| j.coordinates.iter().any(|c| c.drive.is_some());
+        if !world.joints.iter().any(driven) {
             return Vec::new();
         }
         let forces = self.forces(world);
@@ -183,7 +183,7 @@ impl StepWorkspace {
             for (k, acting) in joint.coordinates.iter().enumerate() {
                 let Some(drive) = &acting.drive else { continue };
                 let known = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
-                let most = drive.max.unwrap_or(if failed { unreasonable } else { f64::INFINITY });
+                let most = drive.max.unwrap_or(unreasonable);
                 if !known && forces.efforts[number][k].abs() > most {
                     more.push((number, k, most));
                 }
