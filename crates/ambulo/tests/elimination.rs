@@ -543,3 +543,43 @@ fn a_loop_left_open_is_noticed() {
     let apart = |bar: usize| (solved(&open).motions[bar] - solved(&four_bar(3)).motions[bar]).norm();
     assert!(apart(2) > 0.1, "{}", apart(2));
 }
+
+#[test]
+fn two_hinges_on_one_line_with_nothing_between_count_as_one() {
+    let mut r = Random::new(4);
+    for _ in 0..50 {
+        let (axis, point) = (r.unit(), r.vector(1.0));
+        let mut graph = ConstraintGraph::default();
+        let first = add_hinged(
+            &mut graph,
+            None,
+            (Vec3::zeros(), Vec3::zeros()),
+            axis,
+            BodyTerms { mass: 0.0, inertia: Mat3::zeros() },
+        );
+        let turn = r.rotation();
+        let inertia = turn * Mat3::from_diagonal(&Vec3::new(0.3, 0.5, 0.7)) * turn.transpose();
+        add_hinged(&mut graph, Some(first), (r.within(1.0) * axis, point), axis, BodyTerms { mass: 2.0, inertia });
+        let (motions, q, inertialess) = by_tree(&graph);
+        assert_eq!((inertialess, q[0]), (1, 0.0));
+        // The outer hinge turns as if it hung on ground.
+        let arm = point - point.dot(&axis) * axis;
+        let moment = axis.dot(&(inertia * axis)) + 2.0 * arm.norm_squared();
+        let expected = axis.dot(&point.cross(&Vec3::new(0.0, 0.0, -2.0 * 9.81))) / moment;
+        assert!((q[1] - expected).abs() < 1e-12 * expected.abs().max(1.0), "{} and {expected}", q[1]);
+        assert!((motions[1].fixed_rows::<3>(0) - axis * expected).norm() < 1e-10);
+    }
+}
+
+#[test]
+fn a_chain_of_ten_thousand_links_loses_no_joint_to_rounding() {
+    let mut graph = ConstraintGraph::default();
+    let mut parent = None;
+    let link = BodyTerms { mass: 1.0, inertia: Mat3::identity() * 0.1 };
+    for i in 0..10_000 {
+        let arm = Vec3::new(0.5, 0.1, 0.2);
+        let axis = if i % 2 == 0 { Vec3::y() } else { Vec3::z() };
+        parent = Some(add_hinged(&mut graph, parent, (arm, arm), axis, link));
+    }
+    assert_eq!(by_tree(&graph).2, 0);
+}

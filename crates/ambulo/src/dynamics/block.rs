@@ -125,9 +125,9 @@ pub(crate) fn transport(a: &Six, arm: &Vec3) -> Six {
 }
 
 /// L D Lᵀ of a symmetric matrix of `rows.len()` ≤ 6 rows, in place: unit L below the diagonal, 1/D on it. Pivots that vanish
-/// are switched off (1/D = 0); their number is returned.
+/// are switched off (1/D = 0), as are those up to `least`; their number is returned.
 #[inline(always)]
-pub(crate) fn factor_small(rows: &mut [[f64; 6]]) -> usize {
+pub(crate) fn factor_small(rows: &mut [[f64; 6]], least: &[f64; 6]) -> usize {
     let size = rows.len();
     let mut off = 0;
     let mut d = [0.0; 6];
@@ -137,7 +137,7 @@ pub(crate) fn factor_small(rows: &mut [[f64; 6]]) -> usize {
         for k in 0..j {
             pivot -= rows[j][k] * rows[j][k] * d[k];
         }
-        let vanishes = pivot <= VANISHED * own.abs() || pivot <= 0.0;
+        let vanishes = pivot <= VANISHED * own.abs() || pivot <= least[j];
         off += usize::from(vanishes);
         d[j] = if vanishes { 0.0 } else { pivot };
         let inverse = if vanishes { 0.0 } else { 1.0 / pivot };
