@@ -5,9 +5,9 @@
 use super::constraint::Six;
 use crate::spatial::Vec3;
 
-/// A pivot below this share of its own diagonal has vanished: sums of six products round to a few 1e-16, and inertias of
-/// real bodies span 1e4.
-const VANISHED: f64 = 1e-11;
+/// A pivot below this share of its own diagonal has vanished: sums of six products round to a few 1e-16, while rows held
+/// stiffly beside it (see `proximal`) leave it 1e-10.
+const VANISHED: f64 = 1e-13;
 
 /// A 6 x 6 block, row by row.
 #[derive(Debug, Clone, Copy, PartialEq)]
