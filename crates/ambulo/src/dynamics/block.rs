@@ -5,9 +5,9 @@
 use super::constraint::Six;
 use crate::spatial::Vec3;
 
-/// A pivot below this share of its own diagonal has vanished: sums of six products round to a few 1e-16, and inertias of
-/// real bodies span 1e4.
-const VANISHED: f64 = 1e-11;
+/// A pivot below this share of its own diagonal has vanished: sums of six products round to a few 1e-16, while rows held
+/// stiffly beside it (see `proximal`) leave it 1e-10.
+const VANISHED: f64 = 1e-13;
 
 /// A 6 x 6 block, row by row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,9 +125,9 @@ pub(crate) fn transport(a: &Six, arm: &Vec3) -> Six {
 }
 
 /// L D Lᵀ of a symmetric matrix of `rows.len()` ≤ 6 rows, in place: unit L below the diagonal, 1/D on it. Pivots that vanish
-/// are switched off (1/D = 0); their number is returned.
+/// are switched off (1/D = 0), as are those up to `least`; their number is returned.
 #[inline(always)]
-pub(crate) fn factor_small(rows: &mut [[f64; 6]]) -> usize {
+pub(crate) fn factor_small(rows: &mut [[f64; 6]], least: &[f64; 6]) -> usize {
     let size = rows.len();
     let mut off = 0;
     let mut d = [0.0; 6];
@@ -137,7 +137,7 @@ pub(crate) fn factor_small(rows: &mut [[f64; 6]]) -> usize {
         for k in 0..j {
             pivot -= rows[j][k] * rows[j][k] * d[k];
         }
-        let vanishes = pivot <= VANISHED * own.abs() || pivot <= 0.0;
+        let vanishes = pivot <= VANISHED * own.abs() || pivot <= least[j];
         off += usize::from(vanishes);
         d[j] = if vanishes { 0.0 } else { pivot };
         let inverse = if vanishes { 0.0 } else { 1.0 / pivot };

@@ -58,8 +58,8 @@ const OVERSHOOT: f64 = 0.1;
 const SHORT: f64 = 0.5;
 /// A round that leaves more than this share of the departure has come to nothing.
 const STUCK: f64 = 0.9;
-/// Share of a random probe that may be left within the range of W.
-const PROBE_SHARE: f64 = 1e-9;
+/// Share of a random probe, times the rows' mobility, that W may still make of what is left of it.
+const PROBE_SHARE: f64 = 1e-10;
 /// Displacements need only undo drift: share of what was asked that may be left.
 const DISPLACEMENT_SHARE: f64 = 1e-6;
 
@@ -138,12 +138,42 @@ pub(super) fn project(
 }
 
 /// Takes from `rows` what forces of the rows that hold can bring about. Rows that do not hold, and those that yield, become
-/// zero.
+/// zero. Conjugate residuals: r - W y is least, and what is left of r is what W maps to nothing.
+///
+///   α = rᵀ W r / |W p|²          r' = r - α W p          β = r'ᵀ W r' / rᵀ W r          W p := W r' + β W p
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, rows: &mut [f64]) {
-    workspace.left.copy_from_slice(rows);
+    let most = problem.departures.mobility.iter().fold(0.0_f64, |m, w| m.max(*w));
     let mut rounds = Rounds { graph: problem.graph, problem, w: workspace, contradicted: false, rounds: 0 };
-    rounds.descend(PROBE_SHARE, &mut Convergence::default());
-    rows.copy_from_slice(&workspace.null);
+    rounds.w.left.copy_from_slice(rows);
+    rounds.reduce(Field::Left);
+    rounds.w.toward.copy_from_slice(&rounds.w.left);
+    rounds.apply();
+    // W r, and W p as it goes along.
+    rounds.w.null.copy_from_slice(&rounds.w.applied);
+    rounds.w.last_left.copy_from_slice(&rounds.w.applied);
+    let mut bend = dot(&rounds.w.left, &rounds.w.null);
+    for _ in 0..rounds.problem.settings.max_iterations {
+        let ConjugateWorkspace { left, null, last_left: along, .. } = &mut *rounds.w;
+        if dot(null, null).sqrt() <= PROBE_SHARE * most * dot(left, left).sqrt() || bend <= 0.0 {
+            break;
+        }
+        axpy(-bend / dot(along, along), along, left);
+        rounds.w.toward.copy_from_slice(&rounds.w.left);
+        rounds.apply();
+        let ConjugateWorkspace { left, null, last_left: along, applied, .. } = &mut *rounds.w;
+        null.copy_from_slice(applied);
+        let now = dot(left, null);
+        let beta = now / bend;
+        bend = now;
+        along.iter_mut().zip(null.iter()).for_each(|(p, r)| *p = r + beta * *p);
+    }
+    rounds.expand(Field::Left);
+    rows.copy_from_slice(&rounds.w.left);
+    for group in &rounds.graph.groups {
+        for row in group.rows.clone().filter(|row| compliance(rounds.graph, group, *row) > 0.0) {
+            rows[row] = 0.0;
+        }
+    }
 }
 
 impl ConjugateWorkspace {

@@ -183,6 +183,23 @@ impl ConstraintGraph {
         }
     }
 
+    /// The same, with the sum of the magnitudes that it adds up.
+    #[inline]
+    pub(crate) fn reading_and_terms(
+        &self,
+        group: &ConstraintGroup,
+        row: usize,
+        motions: &[Six],
+        coordinates: &[f64],
+    ) -> (f64, f64) {
+        let sum = self.reading(group, row, motions, coordinates);
+        let Acting::Bodies { first, second } = group.on else { return (sum, sum.abs()) };
+        let terms = |j: &Six, a: &Six| (0..6).map(|k| (j[k] * a[k]).abs()).sum::<f64>();
+        let row = &self.rows[row];
+        let of_second = second.map_or(0.0, |s| terms(&row.on_second, &motions[s]));
+        (sum, terms(&row.on_first, &motions[first]) + of_second)
+    }
+
     /// Adds Jᵀ λ of all rows.
     pub(crate) fn push(&self, lambda: &[f64], wrenches: &mut [Six], efforts: &mut [f64]) {
         for group in &self.groups {

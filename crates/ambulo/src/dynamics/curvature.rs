@@ -84,7 +84,7 @@ impl Proximal<'_> {
                 let (force, normal) = clamped(start, 0.0, bound);
                 lambda[start] = force;
                 let z = [1, 2].map(|k| self.center[start + k] - self.rho * u(start + k));
-                let sticks = z[0].hypot(z[1]) <= radius;
+                let sticks = radius > 0.0 && z[0].hypot(z[1]) <= radius;
                 let (forces, tangential) = rub(z, radius, self.rho, sticks);
                 (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
                 Curvature::Contact { normal, tangential, sticks }

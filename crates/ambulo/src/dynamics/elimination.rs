@@ -41,6 +41,9 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
+/// Sums of a few dozen products round to less than this share of their largest terms.
+const ROUNDING: f64 = 1e-14;
+
 /// How a body is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Link {
@@ -154,6 +157,9 @@ pub struct EliminationWorkspace {
     g_neighbor: Vec<[Six; 6]>,
     /// Factor of D, one row a coordinate.
     d: Vec<[f64; 6]>,
+    /// Linear and angular size of what was summed up on each body's diagonal, before joints took their share: it rounds to
+    /// `ROUNDING` of this. (Of two hinges on one line with nothing between, the inner one sees but rounding.)
+    carried: Vec<(f64, f64)>,
     inertialess: usize,
 }
 
@@ -347,6 +353,8 @@ impl EliminationWorkspace {
         let coordinates = elimination.coordinates();
         self.inertialess = 0;
         self.diagonal.resize(bodies.len(), Block::ZERO);
+        self.carried.clear();
+        self.carried.resize(bodies.len(), (0.0, 0.0));
         self.g_parent.resize(coordinates, Six::zeros());
         self.d.resize(coordinates, [0.0; 6]);
         self.off.clear();
@@ -381,6 +389,24 @@ impl EliminationWorkspace {
         self.d[coordinate][coordinate - elimination.first[body]] += amount;
     }
 
+    /// A pivot along a direction up to which it is rounding.
+    #[inline(always)]
+    fn least(&self, body: usize, s: &Six) -> f64 {
+        let (linear, angular) = self.carried[body];
+        let turn = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+        let shift = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+        ROUNDING * (angular * turn + linear * shift)
+    }
+
+    /// A body's diagonal is about to be added to its parent's.
+    #[inline(always)]
+    fn hang(&mut self, body: usize, parent: usize, arm: &Vec3) {
+        let Block(own) = &self.diagonal[body];
+        let (angular, linear) = (own[0][0] + own[1][1] + own[2][2], own[3][3] + own[4][4] + own[5][5]);
+        self.carried[parent].0 += linear;
+        self.carried[parent].1 += angular + linear * arm.norm_squared();
+    }
+
     /// Directions that move no mass; they do not move.
     #[must_use]
     pub fn inertialess(&self) -> usize {
@@ -412,8 +438,9 @@ impl Elimination {
             let s = &terms.directions[k];
             u = passed.times(s);
             let pivot = s.dot(&u) + w.d[k][0];
-            inverse = if pivot > 0.0 { 1.0 / pivot } else { 0.0 };
-            w.inertialess += usize::from(pivot <= 0.0);
+            let moves = pivot > w.least(body, s);
+            inverse = if moves { 1.0 / pivot } else { 0.0 };
+            w.inertialess += usize::from(!moves);
             w.d[k][0] = inverse;
         }
         let Some(parent) = link.parent else { return };
@@ -425,6 +452,7 @@ impl Elimination {
         passed.carry_rows(arm);
         passed.carry_columns(arm);
         w.diagonal[parent].add(&passed);
+        w.hang(body, parent, arm);
     }
 
     fn factor_step(
@@ -448,7 +476,11 @@ impl Elimination {
                 w.d[range.start + i][j] += s[i].dot(&u[j]);
             }
         }
-        w.inertialess += factor_small(&mut w.d[range.clone()]);
+        let mut least = [0.0; 6];
+        for k in 0..f {
+            least[k] = w.least(step.body, &s[k]);
+        }
+        w.inertialess += factor_small(&mut w.d[range.clone()], &least);
         let with_parent = step.with_parent.map(|place| self.read(place, w));
         if let Some(parent) = link.parent {
             for k in 0..f {
@@ -466,6 +498,7 @@ impl Elimination {
                 passed.add_transposed(&block);
             }
             w.diagonal[parent].add(&passed);
+            w.hang(step.body, parent, arm);
         }
         self.factor_neighbors(step, link, range, terms, w);
     }

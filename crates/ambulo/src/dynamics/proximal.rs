@@ -11,7 +11,8 @@
 //! 1/(1 + ρ W) each time, W = J A⁻¹ Jᵀ. Redundant rows do no harm: starting at λ° = 0 every λ° stays in the range of J, so the
 //! forces of a table on four legs are the least-squares ones.
 //!
-//! A whole step leaves (2) true of λ - H J Δ, whatever (1) then says; a solution is where laws agree with those forces. If
+//! A whole step leaves (2) true of λ - H J Δ, whatever (1) then says, but for rounding, which a second, small step mends; a
+//! solution is where laws agree with those forces. If
 //! they do not, but the same rows hold as were factored, those forces are the next λ°, and ρ rises if the last rounds were
 //! slow.
 //!
@@ -45,10 +46,10 @@ use super::solve::Problem;
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
 pub(super) const STIFFNESS: f64 = 1e6;
-/// By how much ρ rises where rows' departures fall too slowly, and how far. At 1e10 of A ten digits of a step are lost and
-/// the next step mends them.
-const STIFFER: f64 = 100.0;
-const STIFFEST: f64 = 1e4;
+/// By how much ρ rises where rows' departures fall too slowly, and how far. At 1e9 of A nine digits of a step are lost and
+/// the next step mends them; at 1e12, pivots of A would be taken for rounding.
+const STIFFER: f64 = 32.0;
+const STIFFEST: f64 = 1e3;
 /// A round that leaves more than this share of the departure is slow.
 const SLOW: f64 = 0.5;
 /// A round that leaves less than this share is one of a steady approach, which can be foreseen.
@@ -60,7 +61,7 @@ const WITHIN: f64 = 0.95;
 /// Halvings in finding how far that allows to go.
 const SHARE_HALVINGS: usize = 20;
 /// After so many steps the best motion so far is kept.
-const PATIENCE: usize = 10;
+const PATIENCE: usize = 12;
 /// A residual that is taken for a solution where Newton's method ends without one.
 const NEARLY: f64 = 1e-6;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
@@ -167,7 +168,7 @@ impl NewtonWorkspace {
 pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
     workspace.resize(problem.graph);
     let rho = stiffness(&problem.departures.mobility);
-    Newton { graph: problem.graph, problem, w: workspace, rho, plain: rho, stiffest: STIFFEST * rho }.run(solution);
+    Newton { graph: problem.graph, problem, w: workspace, rho, stiffest: STIFFEST * rho, rounding: 0.0 }.run(solution);
 }
 
 /// ρ for rows of these mobilities.
@@ -235,9 +236,10 @@ struct Newton<'p, 'a> {
     problem: &'p mut Problem<'a>,
     w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// ρ at first, and the largest one that leaves digits to A.
-    plain: f64,
+    /// The largest ρ that leaves digits to A.
     stiffest: f64,
+    /// Of the last step's forces, in units of motion.
+    rounding: f64,
 }
 
 impl Newton<'_, '_> {
@@ -257,8 +259,10 @@ impl Newton<'_, '_> {
             convergence.converged = true;
             return;
         }
-        self.approach(motions, coordinates, lambda);
-        convergence.iterations = 2;
+        if !self.slips() {
+            self.approach(motions, coordinates, lambda);
+            convergence.iterations = 2;
+        }
         if !self.iterate(motions, coordinates, lambda, convergence) {
             self.settle_for_less(motions, coordinates, lambda, convergence);
         }
@@ -273,11 +277,11 @@ impl Newton<'_, '_> {
         convergence: &mut Convergence,
     ) -> bool {
         let settings = self.problem.settings;
-        let (mut whole, mut refined, mut last) = (true, false, f64::INFINITY);
+        let (mut whole, mut last) = (true, f64::INFINITY);
         loop {
             self.problem.departures.read(self.graph, motions, coordinates);
             let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
-            if whole && lawful && (self.rho <= self.plain || refined) {
+            if whole && lawful && self.rounding <= settings.tolerance * self.problem.departures.scale {
                 return true;
             }
             if whole && convergence.iterations >= PATIENCE {
@@ -295,8 +299,6 @@ impl Newton<'_, '_> {
                 return false;
             }
             if whole && alike {
-                // A stiff factor rounds: once more, on what is left.
-                refined = lawful;
                 let before = last;
                 if !lawful && self.stuck(convergence.residual, &mut last) {
                     return false;
@@ -473,12 +475,22 @@ impl Newton<'_, '_> {
         self.graph.push(lambda, motions, coordinates);
         let Problem { elimination, factors, .. } = &*self.problem;
         elimination.solve(&self.graph.terms, Offsets::Prescribed, motions, coordinates, factors);
+        self.read_change(motions, coordinates);
+        self.follow(lambda);
+    }
+
+    /// J Δ, and how far λ - H J Δ may be rounded, in units of motion: W H times the rounding of J Δ.
+    fn read_change(&mut self, step: &[Six], coordinates: &[f64]) {
+        self.rounding = 0.0;
         for group in &self.graph.groups {
             for row in group.rows.clone() {
-                self.w.change[row] = self.graph.reading(group, row, motions, coordinates);
+                let (change, terms) = self.graph.reading_and_terms(group, row, step, coordinates);
+                self.w.change[row] = change;
+                let stiffness = self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
+                let shown = f64::EPSILON * self.problem.departures.mobility[row] * stiffness * terms;
+                self.rounding = self.rounding.max(shown);
             }
         }
-        self.follow(lambda);
     }
 
     /// λ := λ - H J Δ with the factored H.
@@ -520,8 +532,8 @@ impl Newton<'_, '_> {
         let slow = residual > SLOW * *last;
         let stiff = self.rho >= self.stiffest;
         let stuck = slow && stiff && residual > STUCK * *last && !self.slips();
-        if slow && !stiff && !self.slips() {
-            self.rho *= STIFFER;
+        if slow && !stiff {
+            self.rho = (self.rho * STIFFER).min(self.stiffest);
         }
         *last = residual;
         stuck
@@ -603,11 +615,9 @@ impl Newton<'_, '_> {
         self.graph.push(lambda, step, step_coordinates);
         let Problem { elimination, factors, .. } = &*self.problem;
         elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
-            }
-        }
+        let (step, step_coordinates) = (std::mem::take(&mut self.w.step), std::mem::take(&mut self.w.step_coordinates));
+        self.read_change(&step, &step_coordinates);
+        (self.w.step, self.w.step_coordinates) = (step, step_coordinates);
         // A step below the tolerance is whole: the line search would read rounding.
         let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let small = largest <= self.problem.settings.tolerance * self.problem.departures.scale;

@@ -16,7 +16,6 @@
 
 use super::constraint::{Acting, ConstraintGroup, Convergence, Law, Six};
 use super::elimination::Offsets;
-use super::mixing::Mixing;
 use super::proximal::stiffness;
 use super::solve::Problem;
 use crate::contact::onto_cone;
@@ -38,7 +37,6 @@ pub(super) struct RelaxedWorkspace {
     center: Vec<f64>,
     shift: Vec<f64>,
     slip: Vec<f64>,
-    mixing: Mixing,
     /// Forces with which (2) holds.
     met: Vec<f64>,
     lambda: Vec<f64>,
@@ -84,7 +82,6 @@ impl RelaxedWorkspace {
             list.clear();
             list.resize(graph.rows.len(), 0.0);
         }
-        self.mixing.forget();
         self.shift.clear();
         self.shift.resize(graph.groups.len(), 0.0);
         self.slopes.clear();
@@ -127,9 +124,9 @@ impl Relaxed<'_, '_> {
         }
     }
 
-    /// s := μ |u_t| of contacts that push, foreseen from the last rounds; the largest change.
+    /// s := μ |u_t| of contacts that push; the largest change.
     fn update_shifts(&mut self) -> f64 {
-        let RelaxedWorkspace { shift, slip, lambda, mixing, .. } = &mut *self.w;
+        let RelaxedWorkspace { shift, slip, lambda, .. } = &mut *self.w;
         let u = &self.problem.departures.u;
         slip.clear();
         slip.extend(self.problem.graph.groups.iter().map(|group| match group.law {

@@ -212,3 +212,80 @@ impl GraphWorkspace {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{BodyTerms, Constraint, Law};
+    use crate::spatial::{Mat3, Vec3};
+
+    /// Two free bodies, three rows between them and one to ground.
+    fn pair() -> ConstraintGraph {
+        let mut graph = ConstraintGraph::default();
+        for mass in [1.0, 3.0] {
+            graph.links.push(Link { parent: None, freedom: 6 });
+            graph.bodies.push(BodyTerms { mass, inertia: Mat3::identity() * (0.2 * mass) });
+            graph.wrenches.push(Six::new(0.3, 0.1, -0.2, 1.0, 0.0, -9.81 * mass));
+            graph.terms.arm.push(Vec3::zeros());
+            graph.terms.offset.push(Six::zeros());
+            graph.terms.directions.extend((0..6).map(|k| Six::ith(k, 1.0)));
+            graph.efforts.extend([0.0; 6]);
+            graph.rotors.extend([0.0; 6]);
+        }
+        for k in 0..3 {
+            let on_first = Six::ith(3 + k, 1.0) + Six::ith(k, 0.3);
+            graph.rows.push(Constraint { on_first, on_second: -Six::ith(3 + k, 1.0), target: 0.0, compliance: 0.0 });
+        }
+        let upright = Six::ith(5, 1.0);
+        graph.rows.push(Constraint { on_first: upright, on_second: Six::zeros(), target: 0.0, compliance: 0.0 });
+        let on = Acting::Bodies { first: 0, second: Some(1) };
+        graph.groups.push(ConstraintGroup { on, rows: 0..3, law: Law::HELD });
+        let on = Acting::Bodies { first: 1, second: None };
+        let pushes = Law::Bounded { least: 0.0, most: f64::INFINITY };
+        graph.groups.push(ConstraintGroup { on, rows: 3..4, law: pushes });
+        graph
+    }
+
+    #[test]
+    fn displacements_carry_rows_that_hold_to_their_targets_by_either_method() {
+        let graph = pair();
+        let targets = [1e-3, -2e-3, 5e-4, 3e-3];
+        let mut found = Vec::new();
+        for method in [Method::Newton, Method::ConjugateGradient] {
+            let settings = SolverSettings { method, ..SolverSettings::default() };
+            let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
+            solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
+            assert!(solution.convergence.converged && solution.lambda[3] > 0.0);
+            let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
+            project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
+            for group in &graph.groups {
+                for row in group.rows.clone() {
+                    let reading = graph.reading(group, row, &motions, &coordinates);
+                    // A stiffness of 1e6, and drift that needs only be undone.
+                    assert!((reading - targets[row]).abs() < 1e-8, "{method:?}, row {row}: {reading}");
+                }
+            }
+            found.push(motions);
+        }
+        for (one, other) in found[0].iter().zip(&found[1]) {
+            assert!((one - other).norm() < 1e-8, "the least mass moved is one: {one} {other}");
+        }
+    }
+
+    #[test]
+    fn displacements_leave_alone_the_rows_that_do_not_hold() {
+        let mut graph = pair();
+        // Pulled up, the limit is not met.
+        graph.wrenches[1][5] = 50.0;
+        for method in [Method::Newton, Method::ConjugateGradient] {
+            let settings = SolverSettings { method, ..SolverSettings::default() };
+            let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
+            solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
+            assert_eq!(solution.lambda[3], 0.0);
+            let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
+            let targets = [0.0, 0.0, 0.0, 1e-3];
+            project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
+            assert!(motions.iter().all(|d| d.norm() < 1e-12), "{method:?}: {motions:?}");
+        }
+    }
+}
