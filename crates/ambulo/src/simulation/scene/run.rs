@@ -9,7 +9,7 @@ use crate::findings::Findings;
 use crate::kinematics::{Posture, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
-use crate::simulation::impulse::largest_joint_error;
+use crate::simulation::impulse::{closure_errors, largest_joint_error};
 use crate::simulation::state::{RowKey, State};
 use crate::simulation::step::{StepSettings, step};
 use crate::simulation::world::World;
@@ -268,6 +268,14 @@ impl Scene {
         let mut workspace = Workspace::new(&figure.model);
         let tau = project_wrenches(&mut workspace, posture, &wrenches);
         values.iter().zip(tau).map(|([value, rate, _], tau)| [*value, *rate, *tau]).collect()
+    }
+
+    /// How far the two points that a closure keeps together are apart, as far as it minds [m].
+    #[must_use]
+    pub fn closure_gap(&self, closure: usize) -> f64 {
+        let (frames, errors) = closure_errors(&self.world, &self.state, closure);
+        let (turns, _) = self.world.closures[closure].kind.held(&frames);
+        errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
     /// Largest distance of any joint or closure from where it holds [m].
