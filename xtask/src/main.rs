@@ -7,6 +7,7 @@ mod figures;
 
 mod npz;
 mod peers;
+mod simulators;
 mod workspace;
 
 use std::process::ExitCode;
@@ -17,6 +18,7 @@ usage: cargo xtask <command>
   check       what CI runs: format, lints, tests, documentation; stops at the first failure
   bench       time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
   peers       time other engines on the same model and motion  [--env DIR] [--scripts DIR]
+  simulators  time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures     draw docs/images/ anew with the `ambulo` command and a headless Chromium
   demo-input  make the built-in walk of `ambulo demo` anew, beside its figure
   help        this text
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
         ("peers", _) => peers::run(rest),
+        ("simulators", _) => simulators::command(rest),
         ("check", []) => check::run(),
         ("bench", []) => bench::run(),
         ("sim", []) => {

@@ -168,7 +168,8 @@ impl HeightField {
         for [i, j] in self.inner_points(low, high) {
             let peak = self.point(i, j);
             for (number, face) in solid.faces.iter().enumerate() {
-                if self.is_peak(i, j, -face.normal) && solid.is_over(number, peak, 0.0) {
+                // Only faces that look down: the ground's lowest point is no peak below their backs.
+                if face.normal.y < 0.0 && self.is_peak(i, j, -face.normal) && solid.is_over(number, peak, 0.0) {
                     let gap = face.normal.dot(&peak) - face.height;
                     let point = peak - face.normal * (gap / 2.0);
                     report(Touch { point, outward: -face.normal, gap, feature: [2, i * self.columns + j, number, 0] });

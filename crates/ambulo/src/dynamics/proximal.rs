@@ -36,6 +36,9 @@ use std::collections::BTreeMap;
 /// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
 /// the digits of A.
 const STIFFNESS: f64 = 1e6;
+/// Least scale of departures, as a share of the velocities that a row compares: what these cancel to is known to 1e-16 of
+/// them, a tolerance of 1e-10 must stay above.
+const SMALLEST_SCALE: f64 = 1e-4;
 /// Where forces are not unique, those of contacts that stick are kept within this share of their cone.
 const WITHIN: f64 = 0.95;
 /// Halvings in finding how far that allows to go.
@@ -72,6 +75,8 @@ pub struct GraphWorkspace {
     /// J Δ.
     change: Vec<f64>,
     center: Vec<f64>,
+    /// Forces with which (2) holds.
+    predicted: Vec<f64>,
     /// The guess.
     before: Vec<f64>,
     mobility: Vec<f64>,
@@ -128,7 +133,7 @@ impl GraphWorkspace {
 
     fn resize(&mut self, graph: &ConstraintGraph) {
         let rows = graph.rows.len();
-        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.mobility] {
+        for list in [&mut self.u, &mut self.change, &mut self.center, &mut self.predicted, &mut self.mobility] {
             list.clear();
             list.resize(rows, 0.0);
         }
@@ -219,32 +224,23 @@ impl Newton<'_> {
         convergence.iterations = 2;
         loop {
             self.read(motions, coordinates);
+            // With these forces (2) holds; if (1) does, too, this is the solution.
+            lambda.copy_from_slice(&self.w.predicted);
+            if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
+                self.confine(lambda);
+                break;
+            }
             self.update_radii(lambda);
             self.evaluate(lambda);
-            if self.w.curvature == self.w.factored {
-                // (2) holds: the factored system was this one.
-                if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
-                    break;
-                }
+            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            if self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale {
                 self.recenter(lambda);
-            } else if convergence.iterations >= self.settings.max_iterations {
-                self.settle(lambda, convergence);
-                break;
-            } else {
+            }
+            if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
             self.newton_step(motions, coordinates, lambda);
             convergence.iterations += 1;
-            let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            if self.slipping() && largest <= self.settings.tolerance * self.scale {
-                self.read(motions, coordinates);
-                self.update_radii(lambda);
-                self.evaluate(lambda);
-                if self.settle(lambda, convergence) {
-                    break;
-                }
-                self.recenter(lambda);
-            }
         }
     }
 
@@ -266,16 +262,18 @@ impl Newton<'_> {
                     (least, most) = (least.min(mobility), most.max(mobility));
                 }
                 let terms = &self.graph.rows[row];
-                let departure = match group.on {
+                let [first, second] = match group.on {
                     Acting::Coordinate { body, coordinate } => {
                         let s = &self.graph.terms.directions[coordinate];
-                        (s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility
+                        [(s.dot(&self.graph.wrenches[body]) + self.graph.efforts[coordinate]) * mobility, 0.0]
                     }
                     Acting::Bodies { first, second } => {
-                        terms.on_first.dot(&free(first)) + second.map_or(0.0, |s| terms.on_second.dot(&free(s)))
+                        [terms.on_first.dot(&free(first)), second.map_or(0.0, |s| terms.on_second.dot(&free(s)))]
                     }
                 };
-                self.scale = self.scale.max((departure - terms.target).abs());
+                let departure = unforced(group, row, first + second - terms.target, mobility);
+                let size = first.abs() + second.abs() + terms.target.abs();
+                self.scale = self.scale.max(departure).max(SMALLEST_SCALE * size);
             }
         }
         self.rho = if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS };
@@ -373,8 +371,47 @@ impl Newton<'_> {
         self.respond(lambda);
         self.increment(motions, coordinates, lambda);
         self.advance(motions, coordinates, 1.0);
-        self.read(motions, coordinates);
-        self.respond(lambda);
+        self.predict(lambda, 1.0);
+    }
+
+    /// The forces with which (2) holds after a step s Δ, to rounding: s (λ - H J Δ), and 1 - s of those before. What (1)
+    /// makes of the new motion is known less well: there ρ multiplies the rounding of u.
+    fn predict(&mut self, lambda: &[f64], s: f64) {
+        for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
+            let start = group.rows.start;
+            for row in group.rows.clone() {
+                let c = |k: usize| self.w.change[start + k];
+                let fall = match curvature {
+                    Curvature::Diagonal(h) => h[row - start] * c(row - start),
+                    Curvature::Contact(normal, [xx, xy, yy]) => match row - start {
+                        0 => normal * c(0),
+                        1 => xx * c(1) + xy * c(2),
+                        _ => xy * c(1) + yy * c(2),
+                    },
+                };
+                self.w.predicted[row] = s * (lambda[row] - fall) + (1.0 - s) * self.w.predicted[row];
+            }
+        }
+    }
+
+    /// Forces that are within the tolerance of their laws, within them.
+    fn confine(&self, lambda: &mut [f64]) {
+        for group in &self.graph.groups {
+            let start = group.rows.start;
+            match group.law {
+                Law::Bounded { least, most } => {
+                    group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
+                }
+                Law::Contact { friction, bound } => {
+                    lambda[start] = lambda[start].clamp(0.0, bound);
+                    let (length, radius) = (lambda[start + 1].hypot(lambda[start + 2]), friction * lambda[start]);
+                    if length > radius {
+                        lambda[start + 1] *= radius / length;
+                        lambda[start + 2] *= radius / length;
+                    }
+                }
+            }
+        }
     }
 
     /// The largest share, up to all, of the way from the guess to `lambda` on which no contact that sticks leaves its cone.
@@ -443,7 +480,8 @@ impl Newton<'_> {
     fn update_radii(&mut self, lambda: &[f64]) {
         for (number, group) in self.graph.groups.iter().enumerate() {
             if let Law::Contact { friction, .. } = group.law {
-                self.w.radius[number] = friction * lambda[group.rows.start];
+                // A guess that turns out to pull has no friction.
+                self.w.radius[number] = friction * lambda[group.rows.start].max(0.0);
             }
         }
     }
@@ -470,10 +508,6 @@ impl Newton<'_> {
                 }
             }
         }
-    }
-
-    fn slipping(&self) -> bool {
-        self.w.curvature.iter().any(|c| matches!(c, Curvature::Contact(n, [xx, xy, yy]) if *n > 0.0 && (*xy != 0.0 || xx != yy)))
     }
 
     /// The residual of the laws, at unit step 1/W; true if it is within the tolerance.
@@ -523,13 +557,9 @@ impl Newton<'_> {
     /// Δ, guarded by a line search, added to the motion.
     fn newton_step(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &[f64]) {
         self.increment(motions, coordinates, lambda);
-        for group in &self.graph.groups {
-            for row in group.rows.clone() {
-                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
-            }
-        }
         let length = self.step_length(motions, coordinates, lambda);
         self.advance(motions, coordinates, length);
+        self.predict(lambda, length);
     }
 
     /// (A + Jᵀ H J) Δ = b + Jᵀ λ - A a.
@@ -545,6 +575,11 @@ impl Newton<'_> {
         }
         self.graph.push(lambda, step, step_coordinates);
         self.elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        for group in &self.graph.groups {
+            for row in group.rows.clone() {
+                self.w.change[row] = self.graph.reading(group, row, &self.w.step, &self.w.step_coordinates);
+            }
+        }
     }
 
     /// a += s Δ.
@@ -595,6 +630,16 @@ impl Newton<'_> {
             if here > 0.0 { high = middle } else { low = middle }
         }
         0.5 * (low + high)
+    }
+}
+
+/// How far a row without force is from its law at a motion u: limits and contacts that are open ask for nothing.
+fn unforced(group: &ConstraintGroup, row: usize, u: f64, mobility: f64) -> f64 {
+    match group.law {
+        Law::HELD => u.abs(),
+        Law::Bounded { least, most } if mobility > 0.0 => mobility * (-u / mobility).clamp(least, most).abs(),
+        Law::Contact { .. } if row == group.rows.start => (-u).max(0.0),
+        _ => u.abs(),
     }
 }
 

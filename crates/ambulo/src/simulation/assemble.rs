@@ -106,8 +106,11 @@ impl Assembly {
         self.joint_of = world.joint_of_body();
     }
 
-    /// Adds the rows of a closure.
+    /// Adds the rows of a closure; one that holds nothing has none.
     pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: Vec<Constraint>) {
+        if rows.is_empty() {
+            return;
+        }
         let start = self.graph.rows.len();
         self.graph.rows.extend(rows);
         let on = Acting::Bodies { first: closure.first, second: closure.second };
@@ -162,11 +165,19 @@ impl Assembly {
         let directions = joint.kind.directions(&frames, &(center - frames.child.translation));
         let mut offset = Six::zeros();
         let mut freedom = 0;
-        for (k, acting) in joint.coordinates.iter().enumerate() {
+        let q = &state.coordinates[number];
+        let drive_of = |k: usize| {
             let gives_way = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
-            if let (Some(drive), false) = (&acting.drive, gives_way) {
-                let target = drive.signal.at(state.time_s + h)[0];
-                offset.axpy((target - state.coordinates[number][k]) / h, &directions[k], 1.0);
+            joint.coordinates[k].drive.as_ref().filter(|_| !gives_way)
+        };
+        let mut goal = [0.0; MOST];
+        for k in 0..q.len() {
+            goal[k] = drive_of(k).map_or(q[k], |drive| drive.signal.at(state.time_s + h)[0]);
+        }
+        let way = joint.kind.way(q, &goal);
+        for k in 0..q.len() {
+            if drive_of(k).is_some() {
+                offset.axpy(way[k] / h, &directions[k], 1.0);
                 continue;
             }
             freedom += 1;
@@ -190,6 +201,7 @@ impl Assembly {
             self.graph.rotors[slot] += acting.rotor;
             self.graph.efforts[slot] += acting.rotor * state.rates(joint)[coordinate];
         }
+        self.graph.efforts[slot] += h * acting.effort;
         if let Some(spring) = &acting.spring {
             self.graph.rotors[slot] += h * spring.damping + h * h * spring.stiffness;
             self.graph.efforts[slot] += h * spring.stiffness * (spring.rest - q);

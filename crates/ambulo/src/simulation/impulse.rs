@@ -264,10 +264,15 @@ impl StepWorkspace {
         self.targets.clear();
         self.targets.resize(graph.rows.len(), 0.0);
         for (key, group) in self.assembly.keys.iter().zip(&graph.groups) {
-            let RowKey::Closure(number) = key else { continue };
-            let (_, errors) = closure_errors(world, state, *number);
-            for (row, error) in group.rows.clone().zip(errors) {
-                self.targets[row] = -error.clamp(-most, most);
+            if let RowKey::Closure(number) = key {
+                let (_, errors) = closure_errors(world, state, *number);
+                for (row, error) in group.rows.clone().zip(errors) {
+                    self.targets[row] = -error.clamp(-most, most);
+                }
+            } else if let Some((joint, k, limit)) = limit_of(world, *key) {
+                let row = group.rows.start;
+                let rate = graph.reading(group, row, &self.solution.motions, &self.solution.coordinates);
+                self.targets[row] = (limit - state.coordinates[joint][k] - h * rate).clamp(-most, most);
             }
         }
         for touch in self.touch.touches.iter().filter(|t| t.rigid) {
@@ -281,6 +286,16 @@ impl StepWorkspace {
         for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
             advance(pose, &twist(displacement), 1.0);
         }
+    }
+}
+
+/// Joint, coordinate and value of a limit.
+fn limit_of(world: &World, key: RowKey) -> Option<(usize, usize, f64)> {
+    let limits = |joint: usize, k: usize| world.joints[joint].coordinates[k].limits;
+    match key {
+        RowKey::LowerLimit(joint, k) => limits(joint, k).0.map(|limit| (joint, k, limit)),
+        RowKey::UpperLimit(joint, k) => limits(joint, k).1.map(|limit| (joint, k, limit)),
+        _ => None,
     }
 }
 
@@ -324,7 +339,7 @@ fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool
             let mut q = state.measured(joint, &state.coordinates[number]);
             if exactly {
                 for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
-                    if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
+                    if let Some(drive) = &acting.drive {
                         let target = drive.signal.at(state.time_s)[0];
                         // A drive that gave way stays where it is.
                         if (target - *value).abs() < 1e-3 {

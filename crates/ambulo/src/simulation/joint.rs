@@ -119,17 +119,31 @@ impl JointKind {
                 q[0] = near(f64::atan2(r[(2, 1)], r[(1, 1)]), 0);
                 q[1] = near(f64::atan2(r[(0, 2)], r[(0, 0)]), 1);
             }
-            JointKind::Ball => q[..3].copy_from_slice(rotation_vector(r).as_slice()),
+            JointKind::Ball => q[..3].copy_from_slice(near_vector(rotation_vector(r), last).as_slice()),
             JointKind::Planar => {
                 (q[0], q[1]) = (p.x, p.y);
                 q[2] = near(f64::atan2(r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]), 2);
             }
             JointKind::Free => {
-                q[..3].copy_from_slice(rotation_vector(r).as_slice());
+                q[..3].copy_from_slice(near_vector(rotation_vector(r), last).as_slice());
                 q[3..].copy_from_slice(p.as_slice());
             }
         }
         q
+    }
+
+    /// The motion along the free directions that leads from `q` to `goal`: their difference, but for rotation vectors the
+    /// turn between them.
+    pub(crate) fn way(self, q: &[f64], goal: &Coordinates) -> Coordinates {
+        let mut way = [0.0; MOST];
+        for (way, (goal, q)) in way.iter_mut().zip(goal.iter().zip(q)) {
+            *way = goal - q;
+        }
+        if matches!(self, JointKind::Ball | JointKind::Free) {
+            let [now, then] = [q, goal].map(|q| rotation(&Vec3::new(q[0], q[1], q[2])));
+            way[..3].copy_from_slice(rotation_vector(&(then * now.transpose())).as_slice());
+        }
+        way
     }
 
     /// T without its drift: the nearest one that the joint allows.
@@ -232,6 +246,17 @@ pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
 /// R (3 - RᵀR)/2: one Newton step back to a rotation; rounding grows by no more than it undoes.
 pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
     r * (Mat3::identity() * 3.0 - r.transpose() * r) * 0.5
+}
+
+/// Of the vectors of one rotation, v + 2π k v/|v|, the nearest one to the first three of `last`.
+fn near_vector(v: Vec3, last: &[f64]) -> Vec3 {
+    let &[x, y, z, ..] = last else { return v };
+    let angle = v.norm();
+    // Near no turn the axis is that of `last`, if that has whole turns.
+    let near = Vec3::new(x, y, z);
+    let axis = if angle > 1e-9 { Some(v / angle) } else { near.try_normalize(1.0) };
+    let Some(axis) = axis else { return v };
+    axis * nearest_turn(v.dot(&axis), near.dot(&axis))
 }
 
 fn nearest_turn(angle: f64, last: f64) -> f64 {

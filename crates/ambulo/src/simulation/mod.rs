@@ -1,6 +1,56 @@
 //! Worlds stepped through time: figures, obstacles, driven joints, collisions, scenes.
+//!
+//! A [`World`] describes bodies, the [`Joint`]s that make trees of them, [`Closure`]s that close loops, and [`Surface`]s that
+//! may touch. A [`State`] says where everything is; [`step`] advances it, and [`StepWorkspace::forces`] reads the forces off the
+//! multipliers. Bodies have six coordinates each; there is no limit on their number but memory.
+//!
+//! A pendulum, a point of 1 kg on a rod of 1 m, let go at the level of its hinge, passes below it at √(2 g l):
+//!
+//! ```
+//! use ambulo::findings::Findings;
+//! use ambulo::simulation::{
+//!     Body, Integrator, Joint, JointCoordinate, JointKind, State, StepSettings, StepWorkspace, World, step,
+//! };
+//! use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
+//!
+//! let mut world = World::default();
+//! world.bodies.push(Body {
+//!     name: "bob".to_owned(),
+//!     mass: 1.0,
+//!     inertia: Mat3::zeros(),
+//!     pose: Pose::at(Vec3::new(1.0, 0.0, 0.0)),
+//!     twist: Twist::ZERO,
+//!     load: Wrench::ZERO,
+//! });
+//! world.joints.push(Joint {
+//!     name: "hinge".to_owned(),
+//!     child: 0,
+//!     parent: None,                                              // the world
+//!     parent_from_joint: Pose::IDENTITY,                         // turns about z
+//!     child_from_joint: Pose::at(Vec3::new(-1.0, 0.0, 0.0)),
+//!     kind: JointKind::Revolute,
+//!     coordinates: vec![JointCoordinate::default()],
+//!     follows: None,
+//! });
+//! world.check()?;
+//!
+//! let settings = StepSettings { integrator: Integrator::RungeKutta, ..StepSettings::default() };
+//! let (mut state, mut workspace, mut findings) = (State::new(&world), StepWorkspace::default(), Findings::default());
+//! let mut fastest = 0.0_f64;
+//! for _ in 0..2000 {
+//!     step(&world, &mut state, &settings, &mut workspace, &mut findings)?;
+//!     fastest = fastest.max(state.twists[0].linear.norm());
+//! }
+//! assert!((fastest - (2.0 * 9.80665_f64).sqrt()).abs() < 1e-5);
+//! // The rod's force on the bob, there: three times its weight at most.
+//! println!("force of the hinge now: {:?} N", workspace.forces(&world).joints[0].force);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! How it works and what it is measured to do: docs/SIMULATION.md and docs/BENCHMARKS.md.
 
 mod assemble;
+mod check;
 mod energy;
 mod forces;
 mod impulse;
@@ -15,13 +65,14 @@ mod world;
 
 pub mod scene;
 
+pub use check::WorldError;
 pub use energy::{Energy, energy};
 pub use forces::{ContactForce, StepForces};
 pub use joint::JointKind;
 pub use signal::Signal;
 pub use state::{RowKey, State};
 pub use impulse::largest_joint_error;
-pub use step::{Integrator, StepSettings, StepWorkspace, step};
+pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
     Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
     Owner, Spring, Surface, World,

@@ -100,6 +100,20 @@ pub(crate) fn runge_kutta(
     Ok(())
 }
 
+/// Accelerations of all bodies at their mass centres, world axes, as nothing touched; forces stay in `first`.
+pub(crate) fn accelerations(
+    world: &World,
+    state: &State,
+    settings: &SolverSettings,
+    solver: &mut GraphWorkspace,
+    first: &mut Stage<'_>,
+) -> Result<Vec<Twist>, LinkError> {
+    let tree = Tree::new(world, state);
+    let motion = Motion { delta: vec![0.0; tree.coordinates], rates: tree.start_rates(state) };
+    tree.slope(world, &motion, state.time_s, &mut state.clone(), settings, solver, first)?;
+    Ok(first.solution.motions.iter().map(twist).collect())
+}
+
 impl Motion {
     fn plus(&self, slope: &Motion, h: f64) -> Motion {
         let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + h * b).collect();

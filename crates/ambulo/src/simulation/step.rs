@@ -7,12 +7,13 @@
 use super::assemble::Assembly;
 use super::forces::{ContactForce, StepForces};
 use super::impulse::{impact, impulse_step, obstacle_motion};
-use super::smooth::{Stage, runge_kutta};
+use super::smooth::{self, Stage, runge_kutta};
 use super::state::State;
 use super::touch::{ObstacleMotion, TouchWorkspace};
 use super::world::{ContactLaw, World};
 use crate::dynamics::{Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings};
 use crate::findings::Findings;
+use crate::spatial::Twist;
 
 /// Surfaces nearer than this touch [m]; what an instant of contact is found to.
 const TOUCHING_M: f64 = 1e-10;
@@ -106,6 +107,23 @@ pub fn step(
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
     }
+}
+
+/// Accelerations of all bodies at their mass centres [rad/s², m/s²], world axes, of a world in which nothing touches; the
+/// forces that go with them stay in the workspace.
+///
+/// # Errors
+/// Joints that are no forest.
+pub fn accelerations(
+    world: &World,
+    state: &State,
+    solver: &SolverSettings,
+    w: &mut StepWorkspace,
+) -> Result<Vec<Twist>, LinkError> {
+    w.step_s = 1.0;
+    w.touch.clear();
+    let mut first = Stage { assembly: &mut w.assembly, solution: &mut w.solution };
+    smooth::accelerations(world, state, solver, &mut w.solver, &mut first)
 }
 
 /// Smooth stretches and the collisions between them.

@@ -107,6 +107,8 @@ pub struct JointCoordinate {
     pub motor: Option<Motor>,
     /// Lowest and highest value.
     pub limits: (Option<f64>, Option<f64>),
+    /// A force that acts until it is changed [N.m or N].
+    pub effort: f64,
     /// Dry friction [N.m or N].
     pub friction: f64,
     /// Inertia of a rotor [kg.m² or kg].
@@ -114,14 +116,14 @@ pub struct JointCoordinate {
 }
 
 impl JointCoordinate {
-    /// Effort of spring, damper and motor at a value and rate, at an instant [s].
+    /// Effort of force, spring, damper and motor at a value and rate, at an instant [s].
     pub(crate) fn smooth_effort(&self, q: f64, rate: f64, t: f64) -> f64 {
         let spring = self.spring.map_or(0.0, |s| s.stiffness * (s.rest - q) - s.damping * rate);
         let motor = self.motor.as_ref().map_or(0.0, |m| {
             let [target, target_rate, _] = m.target.at(t);
             (m.kp * (target - q) + m.kd * (target_rate - rate)).clamp(-m.max, m.max)
         });
-        spring + motor
+        self.effort + spring + motor
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub(crate) mod assembly;
 pub(crate) mod random;
+pub(crate) mod worlds;
 
 use ambulo::dynamics::{BodyLoad, LoadSeries};
 use ambulo::kinematics::{Posture, Trajectory};

@@ -1,0 +1,112 @@
+//! Whether a world's description makes sense.
+
+use super::world::{Joint, Owner, World};
+use crate::spatial::{Inertia, Mat3, Pose, Vec3};
+
+/// Departure of a frame's axes from an orthonormal right-handed set that is more than rounding.
+const SKEW: f64 = 1e-9;
+
+/// What is wrong with a world.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[error("{what} `{name}`: {complaint}")]
+pub struct WorldError {
+    /// Body, joint, closure, obstacle or surface.
+    pub what: &'static str,
+    /// Its name, or its number.
+    pub name: String,
+    /// What was found and what was expected.
+    pub complaint: String,
+}
+
+impl World {
+    /// Looks for masses, inertias, frames and references that no simulation can use.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self) -> Result<(), WorldError> {
+        self.check_bodies()?;
+        self.joints.iter().try_for_each(|joint| self.check_joint(joint))?;
+        let last = self.joint_of_body();
+        for (number, joint) in self.joints.iter().enumerate() {
+            if let Some(other) = last[joint.child].filter(|other| *other != number) {
+                let (child, other) = (&self.bodies[joint.child].name, &self.joints[other].name);
+                let complaint = format!("carries `{child}`, which `{other}` carries too; close loops by closures");
+                return Err(WorldError { what: "joint", name: joint.name.clone(), complaint });
+            }
+        }
+        for closure in &self.closures {
+            let wrong = |complaint| WorldError { what: "closure", name: closure.name.clone(), complaint };
+            self.known(closure.first).map_err(wrong)?;
+            closure.second.map_or(Ok(()), |second| self.known(second)).map_err(wrong)?;
+            frame(&closure.first_from_joint).and_then(|()| frame(&closure.second_from_joint)).map_err(wrong)?;
+        }
+        for (number, surface) in self.surfaces.iter().enumerate() {
+            let wrong = |complaint| WorldError { what: "surface", name: number.to_string(), complaint };
+            match surface.owner {
+                Owner::Body(body) => self.known(body).map_err(wrong)?,
+                Owner::Obstacle(obstacle) if obstacle >= self.obstacles.len() => {
+                    return Err(wrong(format!("names obstacle {obstacle} of {}", self.obstacles.len())));
+                }
+                Owner::Obstacle(_) => {}
+            }
+            frame(&surface.owner_from_shape).map_err(wrong)?;
+            if surface.material >= self.materials.len() {
+                return Err(wrong(format!("names material {} of {}", surface.material, self.materials.len())));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_bodies(&self) -> Result<(), WorldError> {
+        for body in &self.bodies {
+            let wrong = |complaint| WorldError { what: "body", name: body.name.clone(), complaint };
+            let inertia =
+                Inertia::new(body.mass, Vec3::zeros(), body.inertia).map_err(|error| wrong(error.to_string()))?;
+            if let Some(defect) = inertia.defect() {
+                return Err(wrong(format!("no rigid body has this inertia: {defect}")));
+            }
+            frame(&body.pose).map_err(wrong)?;
+            if !body.twist.angular.iter().chain(body.twist.linear.iter()).all(|x| x.is_finite()) {
+                return Err(wrong("its velocity is not finite".to_owned()));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_joint(&self, joint: &Joint) -> Result<(), WorldError> {
+        let wrong = |complaint| WorldError { what: "joint", name: joint.name.clone(), complaint };
+        self.known(joint.child).map_err(wrong)?;
+        joint.parent.map_or(Ok(()), |parent| self.known(parent)).map_err(wrong)?;
+        frame(&joint.parent_from_joint).and_then(|()| frame(&joint.child_from_joint)).map_err(wrong)?;
+        let (found, expected) = (joint.coordinates.len(), joint.kind.freedom());
+        if found != expected {
+            return Err(wrong(format!("has {found} coordinates; expected {expected} for its kind")));
+        }
+        match joint.follows {
+            Some(follows) if follows.figure >= self.figures.len() => {
+                Err(wrong(format!("follows figure {} of {}", follows.figure, self.figures.len())))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn known(&self, body: usize) -> Result<(), String> {
+        if body < self.bodies.len() { Ok(()) } else { Err(format!("names body {body} of {}", self.bodies.len())) }
+    }
+}
+
+/// Finite, orthonormal and right-handed.
+fn frame(pose: &Pose) -> Result<(), String> {
+    let r = &pose.rotation;
+    if !r.iter().chain(pose.translation.iter()).all(|x| x.is_finite()) {
+        return Err("a frame with a number that is not finite".to_owned());
+    }
+    if (r.transpose() * r - Mat3::identity()).amax() > SKEW {
+        return Err("a frame whose axes are not orthonormal".to_owned());
+    }
+    if r.determinant() < 0.0 {
+        return Err("a left-handed frame".to_owned());
+    }
+    Ok(())
+}
