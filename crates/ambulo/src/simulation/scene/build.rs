@@ -265,6 +265,7 @@ fn acting(asked: &Coordinate, place: &Place, sources: &mut Sources<'_, '_>) -> R
         limits: asked.limits.map_or((None, None), |limits| (limit(limits.lower), limit(limits.upper))),
         friction: asked.friction,
         rotor: 0.0,
+        effort: 0.0,
     })
 }
 
