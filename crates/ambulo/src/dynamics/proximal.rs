@@ -43,6 +43,9 @@ const SMALLEST_SCALE: f64 = 1e-4;
 const WITHIN: f64 = 0.95;
 /// Halvings in finding how far that allows to go.
 const SHARE_HALVINGS: usize = 20;
+/// Iterations within which friction follows normal forces at once. After them it does so only where the motion for the last
+/// radii has been found: what this converges to is slower to come, but no cycle, and dissipates wherever it is left.
+const PATIENCE: usize = 15;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
 const HALVINGS: usize = 30;
 
@@ -85,6 +88,44 @@ pub struct GraphWorkspace {
     factored: Vec<Curvature>,
     step: Vec<Six>,
     step_coordinates: Vec<f64>,
+    last: Iterate,
+}
+
+/// The last motion that solves the problem for some radii of friction: it dissipates, which those between do not.
+#[derive(Debug, Clone, Default)]
+struct Iterate {
+    /// Zero if there is none.
+    iterations: usize,
+    residual: f64,
+    worst: Option<usize>,
+    motions: Vec<Six>,
+    coordinates: Vec<f64>,
+    lambda: Vec<f64>,
+}
+
+impl Iterate {
+    fn keep(&mut self, convergence: &Convergence, motions: &[Six], coordinates: &[f64], lambda: &[f64]) {
+        if convergence.iterations <= PATIENCE {
+            return;
+        }
+        (self.iterations, self.residual, self.worst) =
+            (convergence.iterations, convergence.residual, convergence.worst);
+        self.motions.clear();
+        self.motions.extend_from_slice(motions);
+        for (mine, theirs) in [(&mut self.coordinates, coordinates), (&mut self.lambda, lambda)] {
+            mine.clear();
+            mine.extend_from_slice(theirs);
+        }
+    }
+
+    fn give(&self, convergence: &mut Convergence, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+        if self.iterations > 0 {
+            (convergence.residual, convergence.worst) = (self.residual, self.worst);
+            motions.copy_from_slice(&self.motions);
+            coordinates.copy_from_slice(&self.coordinates);
+            lambda.copy_from_slice(&self.lambda);
+        }
+    }
 }
 
 /// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
@@ -210,6 +251,7 @@ impl Newton<'_> {
     fn run(&mut self, solution: &mut GraphSolution) {
         let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         *convergence = Convergence::default();
+        self.w.last.iterations = 0;
         self.measure();
         self.w.before.clone_from(lambda);
         self.guess(lambda);
@@ -222,18 +264,29 @@ impl Newton<'_> {
         }
         self.refine(motions, coordinates, lambda);
         convergence.iterations = 2;
+        let mut convex = true;
         loop {
             self.read(motions, coordinates);
             // With these forces (2) holds; if (1) does, too, this is the solution.
             lambda.copy_from_slice(&self.w.predicted);
-            if self.settle(lambda, convergence) || convergence.iterations >= self.settings.max_iterations {
+            let settled = self.settle(lambda, convergence);
+            if !settled && convex {
+                self.w.last.keep(convergence, motions, coordinates, lambda);
+            }
+            if settled || convergence.iterations >= self.settings.max_iterations {
+                if !settled {
+                    self.w.last.give(convergence, motions, coordinates, lambda);
+                }
                 self.confine(lambda);
                 break;
             }
-            self.update_radii(lambda);
+            if convex || convergence.iterations < PATIENCE {
+                self.update_radii(lambda);
+            }
             self.evaluate(lambda);
             let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            if self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale {
+            convex = self.w.curvature == self.w.factored || largest <= self.settings.tolerance * self.scale;
+            if convex {
                 self.recenter(lambda);
             }
             if self.w.curvature != self.w.factored {
