@@ -151,7 +151,7 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
 fn print_efforts(summary: &SceneSummary) -> Result<()> {
     /// Longer lists are in summary.json.
     const MOST: usize = 12;
-    let acting: Vec<_> = summary.peaks.iter().filter(|p| p.max.abs().max(p.min.abs()) > 1e-9).collect();
+    let acting: Vec<_> = summary.peaks.iter().filter(|p| p.max.abs().max(p.min.abs()) >= 0.005).collect();
     if acting.is_empty() {
         return Ok(());
     }

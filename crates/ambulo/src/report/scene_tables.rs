@@ -249,7 +249,8 @@ struct Coordinate {
 }
 
 fn begin(text: &mut String, time_s: f64, names: &[&str]) {
-    let _ = write!(text, "{time_s}");
+    // 350 steps of 1 ms are 0.35000000000000003 s: the last digits say nothing.
+    let _ = write!(text, "{}", (time_s * 1e12).round() / 1e12);
     for name in names {
         if name.contains([',', '"']) {
             let _ = write!(text, ",\"{}\"", name.replace('"', "\"\""));
