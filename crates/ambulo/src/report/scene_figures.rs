@@ -117,11 +117,13 @@ impl SceneCurves {
         let all = plots.is_empty();
         let wants = |plot: &Plot| all || plots.contains(plot);
         let title = if scene.title().is_empty() { "Scene" } else { scene.title() };
+        let times = &self.energy[0];
+        let span = times.first().zip(times.last()).map_or((0.0, 1.0), |(first, last)| (first.0, last.0));
         let mut files = Vec::new();
         let mut draw = |name: &'static str, panels: Vec<Panel>| -> Result<(), FigureError> {
             let panels: Vec<Panel> = panels.into_iter().filter(|p| p.curves.iter().any(|(_, c)| !c.is_empty())).collect();
             if !panels.is_empty() {
-                let svg = figure(title, &panels).map_err(|e| FigureError { name, reason: e.to_string() })?;
+                let svg = figure(title, &panels, span).map_err(|e| FigureError { name, reason: e.to_string() })?;
                 files.push(OutputFile { name: format!("figures/{name}"), bytes: svg.into_bytes() });
             }
             Ok(())
@@ -238,7 +240,8 @@ fn largest(curves: impl Iterator<Item = (String, Vec<(f64, f64)>)>) -> Vec<(Stri
     curves
 }
 
-fn figure(title: &str, panels: &[Panel]) -> Result<String, Box<dyn std::error::Error>> {
+/// Panels one below the other, all over the same time.
+fn figure(title: &str, panels: &[Panel], span: (f64, f64)) -> Result<String, Box<dyn std::error::Error>> {
     let (width, height) = (PANEL.0 + NAMES, TITLE + PANEL.1 * panels.len() as u32);
     let mut svg = String::new();
     {
@@ -248,7 +251,7 @@ fn figure(title: &str, panels: &[Panel]) -> Result<String, Box<dyn std::error::E
         top.draw_text(title, &font(15), ((FINE * 14) as i32, (FINE * 12) as i32)).map_err(|e| e.to_string())?;
         for (panel, area) in panels.iter().zip(body.split_evenly((panels.len(), 1))) {
             let (chart, names) = area.split_horizontally(FINE * PANEL.0);
-            draw_panel(&chart, panel)?;
+            draw_panel(&chart, panel, span)?;
             draw_names(&names, panel)?;
         }
         root.present().map_err(|e| e.to_string())?;
@@ -256,13 +259,10 @@ fn figure(title: &str, panels: &[Panel]) -> Result<String, Box<dyn std::error::E
     Ok(shown_at(&svg, width, height))
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel) -> DrawResult {
-    let points = || panel.curves.iter().flat_map(|(_, curve)| curve);
-    let range = |pick: fn(&(f64, f64)) -> f64| {
-        points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
-    let (start, end) = range(|p| p.0);
-    let (low, high) = spread(range(|p| p.1));
+fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64)) -> DrawResult {
+    let values = panel.curves.iter().flat_map(|(_, curve)| curve).map(|(_, y)| *y);
+    let range = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (low, high) = spread(range);
     let digits = digits(high - low);
     let mut chart = ChartBuilder::on(area)
         .caption(panel.title, font(13))

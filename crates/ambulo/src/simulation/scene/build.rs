@@ -47,6 +47,8 @@ pub struct Scene {
     pub(super) joint_names: Vec<String>,
     pub(super) walkers: Vec<Walker>,
     pub(super) workspace: StepWorkspace,
+    /// Poses at the beginning of the last step, where its forces are taken; only where there are figures.
+    pub(super) before: Vec<Pose>,
 }
 
 /// What differs from the file.
@@ -108,6 +110,7 @@ impl Scene {
             joint_names: file.joints.iter().map(|joint| joint.name.clone()).collect(),
             walkers,
             workspace: StepWorkspace::default(),
+            before: Vec::new(),
             world,
             state,
         })

@@ -6,7 +6,7 @@ use super::output::Outputs;
 use super::walker::Walker;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::Findings;
-use crate::kinematics::{Posture, body_motion};
+use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::impulse::{closure_errors, largest_joint_error};
@@ -170,6 +170,9 @@ impl Scene {
     /// As [`Scene::run`].
     pub fn step(&mut self, findings: &mut Findings) -> Result<Convergence, RunError> {
         self.fire_events();
+        if !self.walkers.is_empty() {
+            self.before.clone_from(&self.state.poses);
+        }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         self.steps += 1;
         // Counted, so that times do not drift.
@@ -248,26 +251,29 @@ impl Scene {
 
     fn of_walker(&self, walker: &Walker, forces: &StepForces) -> Vec<[f64; 3]> {
         let figure = &self.world.figures[walker.figure];
-        let values: Vec<[f64; 3]> = figure.coordinates.iter().map(|signal| signal.at(self.state.time_s)).collect();
-        let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
+        let recorded = |time_s: f64| {
+            let values = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect::<Vec<[f64; 3]>>();
+            [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>())
+        };
+        // The step's forces belong to the posture at its beginning.
+        let [q, qd, qdd] = recorded(self.state.time_s - self.settings.step_s);
         let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
-        let recorded = body_motion(&figure.model, posture);
+        let motions = body_motion(&figure.model, posture);
         let joint_of = self.world.joint_of_body();
         // The recording may stand elsewhere than the figure does; what a joint carries is turned with its child.
-        let wrench = |(i, motion): (usize, &crate::kinematics::BodyMotion)| {
+        let wrench = |(i, motion): (usize, &BodyMotion)| {
             let body = walker.first_body + i;
             let follows = joint_of[body].is_some_and(|j| self.world.joints[j].follows.is_some());
-            if !follows {
-                return Wrench::ZERO;
-            }
-            let turn = motion.pose.rotation * self.state.poses[body].rotation.transpose();
+            let (Some(pose), true) = (self.before.get(body), follows) else { return Wrench::ZERO };
+            let turn = motion.pose.rotation * pose.rotation.transpose();
             let Wrench { moment, force } = forces.joints[body];
             Wrench { moment: turn * moment, force: turn * force }
         };
-        let wrenches: Vec<Wrench> = recorded.iter().enumerate().map(wrench).collect();
+        let wrenches: Vec<Wrench> = motions.iter().enumerate().map(wrench).collect();
         let mut workspace = Workspace::new(&figure.model);
         let tau = project_wrenches(&mut workspace, posture, &wrenches);
-        values.iter().zip(tau).map(|([value, rate, _], tau)| [*value, *rate, *tau]).collect()
+        let [q, qd, _] = recorded(self.state.time_s);
+        q.iter().zip(qd).zip(tau).map(|((value, rate), tau)| [*value, rate, *tau]).collect()
     }
 
     /// How far the two points that a closure keeps together are apart, as far as it minds [m].
