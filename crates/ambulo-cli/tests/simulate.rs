@@ -38,7 +38,8 @@ fn a_run_writes_the_documented_files_with_the_documented_columns() {
         ),
         ("energy.csv", "time,kinetic,gravity,springs,total,iterations,factorizations,residual,converged"),
     ];
-    let documented = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/OUTPUTS.md")).unwrap();
+    let documented =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/OUTPUTS.md")).unwrap();
     for (file, names) in columns {
         assert_eq!(header(&bench, &format!("out/{file}")), names);
         assert!(documented.contains(&format!("`{file}`")), "{file} is not documented");
@@ -71,7 +72,8 @@ fn the_summary_has_its_documented_keys() {
     let printed: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     let summary = bench.json("out/summary.json");
     assert_eq!(printed, summary);
-    let documented = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/OUTPUTS.md")).unwrap();
+    let documented =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/OUTPUTS.md")).unwrap();
     for key in summary.as_object().unwrap().keys() {
         assert!(documented.contains(&format!("`{key}`")), "{key} is not documented");
     }

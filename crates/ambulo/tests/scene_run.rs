@@ -93,7 +93,8 @@ fn the_top_precesses_and_nods_as_lagranges_equations_have_it() {
     run(&mut scene, |frame| {
         let p = frame.scene.state().poses[0].translation;
         let angle = f64::atan2(p.z, -p.x);
-        let step = last.map_or(0.0, |last| (angle - last + 9.0).rem_euclid(std::f64::consts::TAU) - 9.0 + std::f64::consts::TAU);
+        let step = last
+            .map_or(0.0, |last| (angle - last + 9.0).rem_euclid(std::f64::consts::TAU) - 9.0 + std::f64::consts::TAU);
         turned += if step > 3.0 { step - std::f64::consts::TAU } else { step };
         last = Some(angle);
         lowest = lowest.min(p.y);
@@ -264,7 +265,10 @@ fn coordinates_begin_as_they_are_called_and_move_along_their_axes() {
         assert!(near && scene.largest_joint_error() < 1e-15, "{way}: {:?}", start.coordinates);
         let rates = start.rates(&scene.world().joints[0]);
         let moving = rates.iter().filter(|rate| (*rate - 0.5).abs() < 1e-12).count();
-        assert!(moving == 1 && rates.iter().filter(|rate| rate.abs() < 1e-12).count() == rates.len() - 1, "{way}: {rates:?}");
+        assert!(
+            moving == 1 && rates.iter().filter(|rate| rate.abs() < 1e-12).count() == rates.len() - 1,
+            "{way}: {rates:?}"
+        );
         for joint in &scene.world().joints {
             for frame in [joint.parent_from_joint, joint.child_from_joint] {
                 assert!((frame.rotation.determinant() - 1.0).abs() < 1e-12, "{way}");

@@ -119,11 +119,6 @@ fn span(times: &[f64]) -> [f64; 2] {
     [times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0)]
 }
 
-fn through(
-    name: &str,
-    times: &[f64],
-    values: &[f64],
-    findings: &mut Findings,
-) -> Result<NaturalSpline, MotionError> {
+fn through(name: &str, times: &[f64], values: &[f64], findings: &mut Findings) -> Result<NaturalSpline, MotionError> {
     spline_through(name, times, &fill_gaps(name, times, values, findings)?)
 }

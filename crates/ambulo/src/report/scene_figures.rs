@@ -27,28 +27,42 @@ const COLORS: [RGBColor; MOST_CURVES] = [
     RGBColor(120, 120, 120),
 ];
 
+/// A quantity over time: (instant [s], value).
+type Curve = Vec<(f64, f64)>;
+
+/// What is drawn of one coordinate of a joint.
+#[derive(Debug, Clone, Default)]
+struct JointCurves {
+    /// Whether it is an angle.
+    turns: bool,
+    /// Value [rad, m].
+    value: Curve,
+    /// [N.m, N].
+    effort: Curve,
+}
+
 /// Curves of a run, gathered frame by frame.
 #[derive(Debug, Clone, Default)]
 pub struct SceneCurves {
     /// Energies: kinetic, gravity, springs, total [J].
-    energy: [Vec<(f64, f64)>; 4],
+    energy: [Curve; 4],
     /// Iterations and the logarithm of the residual.
-    solver: [Vec<(f64, f64)>; 2],
+    solver: [Curve; 2],
     /// By pair of owners: normal force and friction [N].
-    contacts: BTreeMap<String, [Vec<(f64, f64)>; 2]>,
-    /// By joint and coordinate: whether it turns; value [rad, m] and effort [N.m, N].
-    joints: BTreeMap<(String, &'static str), (bool, [Vec<(f64, f64)>; 2])>,
+    contacts: BTreeMap<String, [Curve; 2]>,
+    /// By joint and coordinate.
+    joints: BTreeMap<(String, &'static str), JointCurves>,
     /// By body: place along x, y, z [m].
-    bodies: Vec<(String, [Vec<(f64, f64)>; 3])>,
+    bodies: Vec<(String, [Curve; 3])>,
     /// By closure: force and moment.
-    closures: BTreeMap<String, [Vec<(f64, f64)>; 2]>,
+    closures: BTreeMap<String, [Curve; 2]>,
 }
 
 /// One set of axes.
 struct Panel {
     title: &'static str,
     label: &'static str,
-    curves: Vec<(String, Vec<(f64, f64)>)>,
+    curves: Vec<(String, Curve)>,
 }
 
 impl SceneCurves {
@@ -75,9 +89,9 @@ impl SceneCurves {
         for (number, joint) in world.joints.iter().enumerate() {
             for (k, name) in joint.kind.coordinate_names().iter().enumerate() {
                 let entry = self.joints.entry((joint.name.clone(), *name)).or_default();
-                entry.0 = joint.kind.turns(k);
-                entry.1[0].push((t, state.coordinates[number][k]));
-                entry.1[1].push((t, forces.efforts[number][k]));
+                entry.turns = joint.kind.turns(k);
+                entry.value.push((t, state.coordinates[number][k]));
+                entry.effort.push((t, forces.efforts[number][k]));
             }
         }
         for (number, wrench) in &forces.closing {
@@ -121,7 +135,8 @@ impl SceneCurves {
         let span = times.first().zip(times.last()).map_or((0.0, 1.0), |(first, last)| (first.0, last.0));
         let mut files = Vec::new();
         let mut draw = |name: &'static str, panels: Vec<Panel>| -> Result<(), FigureError> {
-            let panels: Vec<Panel> = panels.into_iter().filter(|p| p.curves.iter().any(|(_, c)| !c.is_empty())).collect();
+            let panels: Vec<Panel> =
+                panels.into_iter().filter(|p| p.curves.iter().any(|(_, c)| !c.is_empty())).collect();
             if !panels.is_empty() {
                 let svg = figure(title, &panels, span).map_err(|e| FigureError { name, reason: e.to_string() })?;
                 files.push(OutputFile { name: format!("figures/{name}"), bytes: svg.into_bytes() });
@@ -137,7 +152,8 @@ impl SceneCurves {
         if wants(&Plot::Contacts) {
             draw("contacts.svg", self.contact_panels())?;
         }
-        let joint = |name: &str| all || plots.iter().any(|p| matches!(p, Plot::Joint(j) if scene.joint_name(*j) == name));
+        let joint =
+            |name: &str| all || plots.iter().any(|p| matches!(p, Plot::Joint(j) if scene.joint_name(*j) == name));
         draw("joints.svg", self.joint_panels(joint))?;
         let bodies = &scene.world().bodies;
         let body = |name: &str| all || plots.iter().any(|p| matches!(p, Plot::Body(b) if bodies[*b].name == name));
@@ -187,19 +203,19 @@ impl SceneCurves {
     }
 
     fn joint_panels(&self, wanted: impl Fn(&str) -> bool) -> Vec<Panel> {
-        let of = |turning: bool, k: usize, unit: f64| {
-            let chosen = self.joints.iter().filter(|((joint, _), (turns, _))| *turns == turning && wanted(joint));
-            largest(chosen.map(|((joint, coordinate), (_, curves))| {
+        let of = |turning: bool, pick: fn(&JointCurves) -> &Curve, unit: f64| {
+            let chosen = self.joints.iter().filter(|((joint, _), curves)| curves.turns == turning && wanted(joint));
+            largest(chosen.map(|((joint, coordinate), curves)| {
                 let plain = matches!(*coordinate, "angle" | "distance");
                 let name = if plain { joint.clone() } else { format!("{joint} {coordinate}") };
-                (name, curves[k].iter().map(|(t, x)| (*t, unit * x)).collect())
+                (name, pick(curves).iter().map(|(t, x)| (*t, unit * x)).collect())
             }))
         };
         vec![
-            Panel { title: "Joint angles", label: "angle (deg)", curves: of(true, 0, 1.0_f64.to_degrees()) },
-            Panel { title: "Joint moments", label: "moment (N.m)", curves: of(true, 1, 1.0) },
-            Panel { title: "Slides", label: "distance (m)", curves: of(false, 0, 1.0) },
-            Panel { title: "Forces along slides", label: "force (N)", curves: of(false, 1, 1.0) },
+            Panel { title: "Joint angles", label: "angle (deg)", curves: of(true, |c| &c.value, 1.0_f64.to_degrees()) },
+            Panel { title: "Joint moments", label: "moment (N.m)", curves: of(true, |c| &c.effort, 1.0) },
+            Panel { title: "Slides", label: "distance (m)", curves: of(false, |c| &c.value, 1.0) },
+            Panel { title: "Forces along slides", label: "force (N)", curves: of(false, |c| &c.effort, 1.0) },
         ]
     }
 
@@ -227,8 +243,8 @@ impl SceneCurves {
 }
 
 /// The curves with the largest values, in the order in which they came.
-fn largest(curves: impl Iterator<Item = (String, Vec<(f64, f64)>)>) -> Vec<(String, Vec<(f64, f64)>)> {
-    let mut curves: Vec<(String, Vec<(f64, f64)>)> = curves.collect();
+fn largest(curves: impl Iterator<Item = (String, Curve)>) -> Vec<(String, Curve)> {
+    let mut curves: Vec<(String, Curve)> = curves.collect();
     if curves.len() > MOST_CURVES {
         let size = |curve: &[(f64, f64)]| curve.iter().fold(0.0_f64, |m, (_, y)| m.max(y.abs()));
         let mut sizes: Vec<f64> = curves.iter().map(|(_, curve)| size(curve)).collect();
@@ -292,7 +308,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64)) -> DrawR
     }
     for (number, (_, curve)) in panel.curves.iter().enumerate() {
         let every = curve.len().div_ceil(MOST_POINTS).max(1);
-        let thinned: Vec<(f64, f64)> = curve.iter().step_by(every).copied().collect();
+        let thinned: Curve = curve.iter().step_by(every).copied().collect();
         let style = COLORS[number % COLORS.len()].stroke_width(3 * FINE / 2);
         chart.draw_series(LineSeries::new(thinned, style))?;
     }

@@ -18,7 +18,8 @@ use crate::findings::Findings;
 use crate::simulation::state::State;
 use crate::simulation::step::{Integrator, StepSettings, StepWorkspace};
 use crate::simulation::world::{
-    Body, Closure, ContactLaw, Drive, Joint, JointCoordinate, Motor, Obstacle, ObstaclePath, Owner, Spring, Surface, World,
+    Body, Closure, ContactLaw, Drive, Joint, JointCoordinate, Motor, Obstacle, ObstaclePath, Owner, Spring, Surface,
+    World,
 };
 use crate::spatial::{Pose, Twist, Wrench};
 
@@ -130,11 +131,7 @@ fn settings(file: &SceneFile, changes: Changes) -> StepSettings {
 }
 
 /// Bodies of the file, obstacles and figures, with their surfaces and the figures' joints.
-fn add_bodies(
-    world: &mut World,
-    file: &SceneFile,
-    sources: &mut Sources<'_, '_>,
-) -> Result<Vec<Walker>, SceneError> {
+fn add_bodies(world: &mut World, file: &SceneFile, sources: &mut Sources<'_, '_>) -> Result<Vec<Walker>, SceneError> {
     for (i, body) in file.bodies.iter().enumerate() {
         world.bodies.push(Body {
             name: body.name.clone(),
@@ -213,7 +210,8 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
     let Bodies { file, world, .. } = bodies;
     let (mut joints, mut starts, mut rates) = (Vec::new(), Vec::new(), Vec::new());
     for (i, asked) in file.joints.iter().enumerate() {
-        let parent = bodies.of(&asked.parent, || Place { line: asked.line, key: format!("joint[{}].parent", i + 1) })?;
+        let parent =
+            bodies.of(&asked.parent, || Place { line: asked.line, key: format!("joint[{}].parent", i + 1) })?;
         let mut coordinates = Vec::new();
         for (k, coordinate) in asked.coordinates.iter().enumerate() {
             let key = format!("joint[{}].coordinate[{}]", i + 1, k + 1);
@@ -229,9 +227,8 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
         let (values, speeds): (Vec<f64>, Vec<f64>) = asked.coordinates.iter().zip(&coordinates).map(start).unzip();
         let placed = place(&asked.kind, asked.at, &values);
         let order = order(placed.kind);
-        let on = |body: Option<usize>, frame: Pose| {
-            body.map_or(frame, |body| world.bodies[body].pose.inverse() * frame)
-        };
+        let on =
+            |body: Option<usize>, frame: Pose| body.map_or(frame, |body| world.bodies[body].pose.inverse() * frame);
         joints.push(Joint {
             name: asked.name.clone(),
             child: asked.child,
@@ -286,7 +283,8 @@ fn add_closures(world: &mut World, file: &SceneFile, walkers: &[Walker]) -> Resu
         let [on, other] = [world.bodies[closing.first].pose, pose(closing.second)];
         let gap = closing.gap(&on, &other);
         if asked.active && gap > LARGEST_GAP_M {
-            let found = format!("found points that are {gap:.4} m apart; expected points that meet at the start, within 1 mm");
+            let found =
+                format!("found points that are {gap:.4} m apart; expected points that meet at the start, within 1 mm");
             let advice = "move the bodies, or set active = false and add the closure by an [[event]]";
             return Err(place("on_second").error(found).hint(advice));
         }

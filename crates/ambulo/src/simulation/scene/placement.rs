@@ -68,9 +68,7 @@ pub(super) fn axes(asked: &Asked) -> Mat3 {
     match asked {
         Asked::Weld | Asked::Ball | Asked::Free => Mat3::identity(),
         Asked::Revolute { axis } | Asked::Prismatic { axis } => with_z(axis),
-        Asked::Universal { axis, second_axis } => {
-            Mat3::from_columns(&[*axis, *second_axis, axis.cross(second_axis)])
-        }
+        Asked::Universal { axis, second_axis } => Mat3::from_columns(&[*axis, *second_axis, axis.cross(second_axis)]),
         Asked::Planar { normal, along } => Mat3::from_columns(&[*along, normal.cross(along), *normal]),
     }
 }

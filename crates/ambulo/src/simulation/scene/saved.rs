@@ -1,7 +1,7 @@
 //! The state of a scene as plain numbers: saved and resumed bit for bit.
 
 use super::build::Scene;
-use super::event::Change;
+use super::event::{Change, Event};
 use crate::simulation::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
@@ -83,11 +83,12 @@ impl Scene {
         agree("the number of closures is", &saved.closures.len(), &self.world.closures.len())?;
         agree("the number of poses is", &saved.poses.len(), &names.len())?;
         agree("the number of twists is", &saved.twists.len(), &names.len())?;
-        for event in self.events[..saved.events].to_vec() {
-            if let Change::RemoveJoint(joint) = event.change {
-                self.let_go(joint);
-            }
-        }
+        let gone = |event: &Event| match event.change {
+            Change::RemoveJoint(joint) => Some(joint),
+            _ => None,
+        };
+        let gone: Vec<usize> = self.events[..saved.events].iter().filter_map(gone).collect();
+        gone.into_iter().for_each(|joint| self.let_go(joint));
         let counts = |list: &[Vec<f64>]| format!("{:?}", list.iter().map(Vec::len).collect::<Vec<_>>());
         agree("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
         (self.steps, self.fired) = (saved.steps, saved.events);
@@ -120,10 +121,7 @@ fn twelve(pose: &Pose) -> [f64; 12] {
 }
 
 fn pose(numbers: &[f64; 12]) -> Pose {
-    Pose {
-        rotation: Mat3::from_row_slice(&numbers[3..]),
-        translation: Vec3::new(numbers[0], numbers[1], numbers[2]),
-    }
+    Pose { rotation: Mat3::from_row_slice(&numbers[3..]), translation: Vec3::new(numbers[0], numbers[1], numbers[2]) }
 }
 
 fn six(twist: &Twist) -> [f64; 6] {

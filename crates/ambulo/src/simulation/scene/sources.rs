@@ -46,12 +46,9 @@ impl<'a, 'f> Sources<'a, 'f> {
     pub(super) fn signal(&mut self, of: &Place, function: &Function, turns: bool) -> Result<Signal, SceneError> {
         Ok(match function {
             Function::Constant(value) => Signal::Constant(*value),
-            Function::Sine { amplitude, frequency_hz, phase, offset } => Signal::Sine {
-                amplitude: *amplitude,
-                frequency_hz: *frequency_hz,
-                phase: *phase,
-                offset: *offset,
-            },
+            Function::Sine { amplitude, frequency_hz, phase, offset } => {
+                Signal::Sine { amplitude: *amplitude, frequency_hz: *frequency_hz, phase: *phase, offset: *offset }
+            }
             Function::Stops(stops) => Signal::Stops(stops.clone()),
             Function::Points(points) => {
                 let (times, values): (Vec<f64>, Vec<f64>) = four_or_more(points).into_iter().unzip();
@@ -79,7 +76,8 @@ impl<'a, 'f> Sources<'a, 'f> {
     ) -> Result<f64, SceneError> {
         let start = from_s.unwrap_or(first);
         if !(first..=last).contains(&start) {
-            let message = format!("{file}: found `from` = {start} s; expected an instant of it, from {first} s to {last} s");
+            let message =
+                format!("{file}: found `from` = {start} s; expected an instant of it, from {first} s to {last} s");
             return Err(place.error(message));
         }
         // A clock that was printed with four digits.

@@ -19,10 +19,8 @@ pub(super) fn start_moving(world: &mut World, file: &SceneFile, rates: &[Vec<f64
             // What is given of the spin carries the mass centre with it.
             linear = relative.at_joint + asked.angular_velocity.unwrap_or(angular).cross(&relative.to_center);
         }
-        world.bodies[body].twist = Twist {
-            angular: asked.angular_velocity.unwrap_or(angular),
-            linear: asked.velocity.unwrap_or(linear),
-        };
+        world.bodies[body].twist =
+            Twist { angular: asked.angular_velocity.unwrap_or(angular), linear: asked.velocity.unwrap_or(linear) };
     }
 }
 

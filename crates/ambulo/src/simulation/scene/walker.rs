@@ -12,9 +12,9 @@ use super::sources::Sources;
 use crate::contact::Shape;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
+use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{Body, Figure, Follows, Joint, JointCoordinate, Owner, Surface, World};
-use crate::simulation::joint::rotation;
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
 /// Cosine of the angle between axes that should be square.
@@ -53,8 +53,8 @@ pub(super) fn add(
     sources: &mut Sources<'_, '_>,
 ) -> Result<Walker, SceneError> {
     let model = sources.model(&asked.model_place, &asked.model)?;
-    let model = standing_at(&model, &asked.pose)
-        .map_err(|e| asked.model_place.error(format!("{}: {e}", asked.model)))?;
+    let model =
+        standing_at(&model, &asked.pose).map_err(|e| asked.model_place.error(format!("{}: {e}", asked.model)))?;
     refuse_unknown(asked, number, &model)?;
     let signals = signals(asked, &model, sources)?;
     let values: Vec<[f64; 3]> = signals.iter().map(|signal| signal.at(0.0)).collect();
