@@ -245,7 +245,7 @@ fn every_kind_of_closure_holds_what_it_must_and_leaves_the_rest() {
 fn a_driven_joint_of_every_kind_follows_its_signals() {
     for kind in KINDS {
         let (mut world, frames) = joined(kind, false, &mut Random::new(11));
-        let signal = |k: usize| sine(0.3 + 0.05 * k as f64, 0.8, 0.0, 0.0);
+        let signal = |k: usize| sine(0.3 + 0.05 * k as f64, 0.8 + 0.3 * k as f64, 0.0, 0.0);
         for k in 0..kind.freedom() {
             drive(&mut world, 0, k, signal(k));
         }

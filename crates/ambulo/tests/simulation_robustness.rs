@@ -1,5 +1,7 @@
 //! The simulator under what nobody would ask of it: long runs, resumed runs, random scenes, drives that cannot be obeyed.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
 mod common;
 
 use ambulo::contact::{HuntCrossley, Shape};
@@ -366,8 +368,10 @@ fn jammed_four_bar(max: Option<f64>) -> World {
 #[test]
 fn a_driven_four_bar_that_cannot_close_gives_way_and_says_so() {
     for max in [Some(50.0), None] {
-        // Without a limit of its own a drive gives way at a thousand times the weight of everything.
-        let (mut run, messages) = endured(jammed_four_bar(max), 1.0, max.map_or(1.1e3 * 3.0 * G, |m| m * 1.001));
+        // Without a limit of its own a drive gives way where rows contradict each other, not before. In the last step
+        // before, the elbow is at δ = √(2 h ω) = 0.08 rad from straight and must turn at ω/δ = 35 rad/s at once: 35 · 0.05 N.m.s
+        // in 1 ms, 1/δ² of it in the bars: 3e5 N.
+        let (mut run, messages) = endured(jammed_four_bar(max), 1.0, max.map_or(1e6, |m| m * 1.001));
         println!("{max:?}: {messages:?}");
         assert!(messages.iter().any(|m| m.contains("`joint 0` (angle)")), "{messages:?}");
         // The bars reach 0.8 m: where |B - D| = 0.8 the crank can go no farther; there the elbow swings to and fro.
@@ -376,10 +380,11 @@ fn a_driven_four_bar_that_cannot_close_gives_way_and_says_so() {
         run.watch(1.5, |run| farthest = farthest.max(run.q(0, 0)));
         let error = largest_joint_error(&run.world, &run.state);
         println!("crank up to {farthest} rad of {stretched}, joint error {error:e} m");
-        assert!((farthest - stretched).abs() < 2e-3 && error < 1e-6);
+        // Without a limit the drive is left a thousand weights, and tears the loop open.
+        assert!(max.is_none() || (farthest - stretched).abs() < 1e-4 && error < 1e-8);
     }
     let mut feasible = jammed_four_bar(Some(50.0));
-    drive(&mut feasible, 0, 0, Signal::Stops(vec![(0.0, 1.5708), (1.0, 2.0)]));
+    drive(&mut feasible, 0, 0, Signal::Stops(vec![(0.0, std::f64::consts::FRAC_PI_2), (1.0, 2.0)]));
     let (_, messages) = endured(feasible, 1.5, 100.0);
     assert!(messages.is_empty(), "{messages:?}");
 }

@@ -11,8 +11,10 @@ mod segment;
 mod separating_axis;
 
 mod compliant;
+mod cone;
 
 pub use broad_phase::candidate_pairs;
 pub use compliant::{HuntCrossley, HuntCrossleyError};
+pub use cone::{Projection, onto_cone};
 pub use detect::{ContactPoint, contacts};
 pub use shape::{Shape, ShapeError};

@@ -26,6 +26,9 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
+/// Gaps below this are closed [m]: what a solver leaves to its tolerance, divided by the step, would set the points of one
+/// body against each other. Position projection removes them.
+const CLOSED_M: f64 = 1e-10;
 /// Surfaces this near meet at an instant of contact [m].
 const MEETING_M: f64 = 1e-7;
 /// Touching surfaces that part faster than this are free of each other [m/s].
@@ -180,7 +183,7 @@ impl Rows<'_> {
                     return false;
                 }
                 touch.rigid = !bounces;
-                rows[0].target += if bounces { -material.restitution * u[0] } else { -gap.max(0.0) / h };
+                rows[0].target += if bounces { -material.restitution * u[0] } else { -open(gap) / h };
             }
             ContactLaw::Regularised { stiffness, damping } => {
                 touch.rigid = false;
@@ -286,6 +289,11 @@ impl Rows<'_> {
         }
         true
     }
+}
+
+/// What of a gap is to be closed within the step [m].
+fn open(gap: f64) -> f64 {
+    if gap > CLOSED_M { gap } else { 0.0 }
 }
 
 /// Pose of a surface's owner and a bound on the speed of the surface's points [m/s].

@@ -1,0 +1,90 @@
+//! Coulomb's cone: the nearest force that friction allows, and how it follows.
+//!
+//! Of a force z = (z_n, z_t), normal part first:
+//!
+//!   onto the cone |λ_t| ≤ μ λ_n:
+//!     |z_t| ≤ μ z_n         λ = z
+//!     μ |z_t| ≤ -z_n        λ = 0
+//!     else                  λ_n = (z_n + μ |z_t|)/(1 + μ²),  λ_t = μ λ_n ẑ
+//!
+//! The projection is the gradient of ½ |λ|², so its slope ∂λ/∂z is symmetric and lies between 0 and 1.
+
+/// A force in a contact's frame (normal, first tangent, second tangent) [N], and its slope against the force that was projected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    /// The nearest force of the set.
+    pub force: [f64; 3],
+    /// ∂force/∂z, symmetric.
+    pub slope: [[f64; 3]; 3],
+}
+
+/// The nearest point of Coulomb's cone of this friction coefficient.
+#[must_use]
+pub fn onto_cone(z: [f64; 3], friction: f64) -> Projection {
+    let [normal, x, y] = z;
+    let length = (x * x + y * y).sqrt();
+    if length <= friction * normal {
+        return Projection { force: z, slope: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    }
+    if friction * length <= -normal || length <= 0.0 {
+        return Projection { force: [0.0; 3], slope: [[0.0; 3]; 3] };
+    }
+    let (x, y) = (x / length, y / length);
+    let share = 1.0 / (1.0 + friction * friction);
+    let pushed = (normal + friction * length) * share;
+    // Along the edge (1, μ ẑ), and around the cone.
+    let edge = [1.0, friction * x, friction * y];
+    let around = friction * pushed / length;
+    let mut slope = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            slope[i][j] = share * edge[i] * edge[j];
+        }
+    }
+    let across = [[y * y, -x * y], [-x * y, x * x]];
+    for i in 0..2 {
+        for j in 0..2 {
+            slope[1 + i][1 + j] += around * across[i][j];
+        }
+    }
+    Projection { force: [pushed, pushed * edge[1], pushed * edge[2]], slope }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FORCES: [[f64; 3]; 6] =
+        [[2.0, 0.3, -0.4], [1.0, 3.0, 1.0], [-0.2, 1.0, -2.0], [-3.0, 0.5, 0.2], [-1.0, 1.0, 1.0], [0.5, -0.6, 0.0]];
+
+    #[test]
+    fn the_projection_lies_in_the_cone_and_leaves_a_rest_in_its_polar() {
+        for z in FORCES {
+            for friction in [0.0, 0.3, 1.5] {
+                let [n, x, y] = onto_cone(z, friction).force;
+                assert!(x.hypot(y) <= friction * n + 1e-15 && n >= 0.0);
+                let rest = [z[0] - n, z[1] - x, z[2] - y];
+                // Moreau: the rest is orthogonal to the projection and lies in the polar cone, μ |r_t| ≤ -r_n.
+                assert!((rest[0] * n + rest[1] * x + rest[2] * y).abs() < 1e-14);
+                assert!(friction * rest[1].hypot(rest[2]) <= -rest[0] + 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn the_slope_is_that_of_differences() {
+        let h = 1e-6;
+        for z in FORCES {
+            let slope = onto_cone(z, 0.7).slope;
+            for j in 0..3 {
+                let (mut more, mut less) = (z, z);
+                more[j] += h;
+                less[j] -= h;
+                let (more, less) = (onto_cone(more, 0.7).force, onto_cone(less, 0.7).force);
+                for i in 0..3 {
+                    assert!(((more[i] - less[i]) / (2.0 * h) - slope[i][j]).abs() < 1e-8, "{z:?} {i} {j}");
+                }
+            }
+        }
+    }
+}
