@@ -20,6 +20,8 @@ pub(crate) enum Command {
     Forces(Box<ForcesArgs>),
     /// The main job on built-in input: no file needed.
     Demo(DemoArgs),
+    /// A scene file stepped through time: poses, joint efforts, contact forces, energies.
+    Simulate(SimulateArgs),
     /// What a file holds.
     Info(InfoArgs),
     /// How far two tables agree, column by column.
@@ -115,6 +117,38 @@ pub(crate) struct DemoArgs {
 }
 
 #[derive(Debug, ClapArgs)]
+#[command(after_help = "Example (in the folder of the source, which holds examples/):
+  ambulo simulate examples/pendulum.toml --plot -o out
+
+Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, summary.json, with
+figures moments.sto, with --plot figures/*.svg; those that the scene has nothing for are left out. Results of an earlier
+run in DIR are removed. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
+pub(crate) struct SimulateArgs {
+    /// The scene: .toml.
+    pub(crate) scene: PathBuf,
+    /// Folder for the results.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
+    /// Draw figures/*.svg: what the scene lists under `plot`, or energy, contacts, joints and heights.
+    #[arg(long)]
+    pub(crate) plot: bool,
+    /// The instant at which the scene ends [s] [default: the scene's own].
+    #[arg(long, value_name = "S", value_parser = above_zero)]
+    pub(crate) duration: Option<f64>,
+    /// Time step [s] [default: the scene's own].
+    #[arg(long, value_name = "S", value_parser = above_zero)]
+    pub(crate) step: Option<f64>,
+    /// Save the state at the end.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save: Option<PathBuf>,
+    /// Begin where a run with --save ended; the results go on with the row after its last.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) resume: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+#[derive(Debug, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo info demo/input/figure.osim
 
@@ -163,6 +197,13 @@ fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         _ => Err("expected a number of seconds".into()),
+    }
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
+        _ => Err("expected a number of seconds above 0".into()),
     }
 }
 

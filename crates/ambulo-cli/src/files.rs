@@ -48,7 +48,7 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 10] = [
+const RESULTS: [&str; 22] = [
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -59,6 +59,18 @@ const RESULTS: [&str; 10] = [
     "events.csv",
     "cycles.csv",
     "figures/moments.svg",
+    "poses.csv",
+    "joints.csv",
+    "reactions.csv",
+    "contacts.csv",
+    "closures.csv",
+    "energy.csv",
+    "figures/energy.svg",
+    "figures/solver.svg",
+    "figures/contacts.svg",
+    "figures/joints.svg",
+    "figures/bodies.svg",
+    "figures/closures.svg",
 ];
 
 /// Puts the results of a run in place of an earlier run's, unless that would write over something that was read.

@@ -15,6 +15,7 @@ fn main() -> ExitCode {
         None => printer::guide().map(|()| Verdict::Accepted),
         Some(Command::Forces(args)) => commands::forces::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
+        Some(Command::Simulate(args)) => commands::simulate::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Compare(args)) => commands::compare::run(&args),
     };

@@ -406,8 +406,9 @@ fn figures_materials_and_obstacles_read_as_they_say() {
     assert_eq!(motion.displacement[1], Function::Constant(0.0));
     assert_eq!(motion.displacement[2], Function::Stops(vec![(0.0, 0.0), (1.0, 1.0)]));
     assert_eq!(motion.angle, Function::Constant(0.0));
-    let column = Function::Motion { file: "belt.sto".into(), column: "x".into(), from_s: None };
-    assert_eq!(motion.displacement[0], column);
+    let Function::Motion { place, file, column, from_s: None } = &motion.displacement[0] else { panic!("a column") };
+    assert_eq!((file.as_str(), column.as_str()), ("belt.sto", "x"));
+    assert!(place.line > 1 && place.key.starts_with("obstacle[1].motion.displacement[1]"), "{place:?}");
     assert!(matches!(scene.obstacles[1].shape, ObstacleShape::Solid(Solid::Capsule { .. })));
 
     assert_eq!(scene.carrier_name(&scene.closures[0].first), "walker/hand_r");

@@ -114,6 +114,11 @@ impl Stopwatch {
         Stopwatch { last: Instant::now(), laps: Vec::new() }
     }
 
+    /// What each stage took [ms].
+    pub(super) fn into_laps(self) -> std::collections::BTreeMap<String, f64> {
+        self.laps.into_iter().collect()
+    }
+
     pub(super) fn lap(&mut self, stage: &str) {
         let now = Instant::now();
         self.laps.push((stage.to_owned(), 1e3 * (now - self.last).as_secs_f64()));

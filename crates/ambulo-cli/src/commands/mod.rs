@@ -5,3 +5,4 @@ pub(crate) mod demo;
 pub(crate) mod forces;
 mod ground_input;
 pub(crate) mod info;
+pub(crate) mod simulate;

@@ -166,6 +166,25 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
     forces
 }
 
+/// Generalised forces of wrenches that joints are known to carry, one coordinate each [N.m or N]: the last step of
+/// [`inverse_frame`] alone. `wrenches` has one entry a body: of its parent on it, at its mass centre, world axes.
+///
+/// # Panics
+/// If a slice of `posture` has another length than the model has coordinates, or `wrenches` than it has bodies.
+pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, wrenches: &[Wrench]) -> &'w [f64] {
+    let Workspace { plan, one: kernel, .. } = workspace;
+    assert_eq!(wrenches.len(), plan.segments.len(), "one wrench a body");
+    kernel.scratch.load_posture(posture);
+    sweep::forward(plan, &mut kernel.scratch);
+    kernel.tau.fill([0.0; 1]);
+    for (i, (segment, wrench)) in plan.segments.iter().zip(wrenches).enumerate() {
+        let force = V3::splat(wrench.force);
+        let moment = V3::splat(wrench.moment) + kernel.scratch.states[i + 1].to_center.cross(force);
+        kernel.project(plan, segment, i, force, moment);
+    }
+    kernel.tau.as_flattened()
+}
+
 impl FrameForces<'_> {
     /// Generalised forces [N.m or N], one a coordinate.
     #[must_use]

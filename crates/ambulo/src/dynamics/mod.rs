@@ -18,7 +18,9 @@ pub use constraint::{
     relative_rows,
 };
 pub use elimination::{Elimination, EliminationWorkspace, Link, LinkError, LinkTerms, Offsets};
-pub use inverse::{Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames};
+pub use inverse::{
+    Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames, project_wrenches,
+};
 pub use load::{BodyLoad, LoadSeries};
 pub(crate) use solve::project_displacements;
 pub use solve::{GraphWorkspace, Method, SolverSettings, solve_graph, undetermined_rows};

@@ -107,6 +107,26 @@ pub enum ImportError {
     Model(#[from] ModelError),
 }
 
+/// Why the bytes of an `.osim` file make no model.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OsimError {
+    /// No OpenSim document.
+    #[error(transparent)]
+    File(#[from] ambulo_formats::Error),
+    /// A document that describes no body.
+    #[error(transparent)]
+    Model(#[from] ImportError),
+}
+
+/// The model that the bytes of an `.osim` file describe; as [`from_osim`].
+///
+/// # Errors
+/// Bytes that are no OpenSim document, or one that describes no body that can be computed.
+pub fn from_osim_bytes(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {
+    Ok(from_osim(&OsimModel::read(bytes)?, findings)?)
+}
+
 /// A model from an OpenSim document. What plays no part in the dynamics is noted once, with counts; odd inertias,
 /// massless bodies and constraints that close loops are warned about.
 ///

@@ -11,7 +11,7 @@ mod side;
 mod simm_spline;
 
 pub use function::Function;
-pub use import::{ImportError, from_osim};
+pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
 pub use knots::Knots;
 pub use side::Side;

@@ -3,6 +3,7 @@
 //! A [`Motion`] is a recording of coordinates as it stands in a file, in SI units. [`smooth`] puts it on a uniform
 //! [`TimeGrid`], filters it and differentiates it. A [`ForceRecording`] is what force plates or other sensors measured.
 
+mod curves;
 mod device_recording;
 pub mod filter;
 mod force_recording;
@@ -12,6 +13,7 @@ mod recording;
 mod smooth;
 mod time_grid;
 
+pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use import::coordinates_from_table;

@@ -16,7 +16,7 @@ pub struct FigureError {
 }
 
 /// The library rounds coordinates to whole pixels, so figures are drawn on a canvas this much larger than they are shown.
-const FINE: u32 = 4;
+pub(super) const FINE: u32 = 4;
 /// Width and height of one panel as shown [px].
 const PANEL: (u32, u32) = (330, 270);
 /// Height of the title line as shown [px].
@@ -74,8 +74,8 @@ pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str) -> Result<
     Ok(shown_at(&svg, width, height))
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type DrawResult = Result<(), Box<dyn std::error::Error>>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type DrawResult = Result<(), Box<dyn std::error::Error>>;
 
 /// +1 if knee flexion is the positive direction of `knee_angle`, -1 if it is the negative one.
 fn knee_flexion_sign(rows: &[CycleRow]) -> f64 {
@@ -84,7 +84,7 @@ fn knee_flexion_sign(rows: &[CycleRow]) -> f64 {
     if largest < 0.0 { -1.0 } else { 1.0 }
 }
 
-fn font(size: u32) -> TextStyle<'static> {
+pub(super) fn font(size: u32) -> TextStyle<'static> {
     ("sans-serif", FINE * size).into_font().color(&RGBColor(40, 40, 40))
 }
 
@@ -179,7 +179,7 @@ fn span(curves: &[(&CycleRow, Vec<f64>)]) -> (f64, f64) {
 }
 
 /// Keeps the fine canvas as the view box and shows it at its real size.
-fn shown_at(svg: &str, width: u32, height: u32) -> String {
+pub(super) fn shown_at(svg: &str, width: u32, height: u32) -> String {
     let fine = format!("width=\"{}\" height=\"{}\" viewBox", FINE * width, FINE * height);
     svg.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\" viewBox"), 1)
 }

@@ -3,12 +3,20 @@
 mod cycle_table;
 mod figure;
 mod files;
+mod scene_figures;
+mod scene_summary;
+mod scene_tables;
 mod summary;
 mod tables;
 
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
+pub use scene_figures::SceneCurves;
+pub use scene_summary::{
+    ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
+};
+pub use scene_tables::SceneTables;
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };

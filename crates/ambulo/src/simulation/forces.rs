@@ -17,6 +17,8 @@ pub struct StepForces {
     pub contacts: Vec<ContactForce>,
     /// Closure and its forces, one a held direction: turns [N.m], then slides [N].
     pub closures: Vec<(usize, Vec<f64>)>,
+    /// The same forces as a wrench on the closure's first body, at its mass centre, world axes.
+    pub closing: Vec<(usize, Wrench)>,
     /// How far the solver came.
     pub convergence: Convergence,
 }
@@ -61,11 +63,20 @@ impl StepForces {
             RowKey::Closure(number) => Some((*number, lambda[group.rows.clone()].iter().map(|l| l / h).collect())),
             _ => None,
         });
+        let closing = w.assembly.keys.iter().zip(&graph.groups).filter_map(|(key, group)| match key {
+            RowKey::Closure(number) => {
+                let sum: Six = group.rows.clone().map(|row| graph.rows[row].on_first * (lambda[row] / h)).sum();
+                let (moment, force) = (Vec3::new(sum[0], sum[1], sum[2]), Vec3::new(sum[3], sum[4], sum[5]));
+                Some((*number, Wrench { moment, force }))
+            }
+            _ => None,
+        });
         StepForces {
             joints: (0..world.bodies.len()).map(wrench).collect(),
             efforts: (0..world.joints.len()).map(effort).collect(),
             contacts: w.touch.touches.iter().map(|touch| w.contact_force(touch)).collect(),
             closures: closures.collect(),
+            closing: closing.collect(),
             convergence: w.solution.convergence,
         }
     }

@@ -60,7 +60,8 @@ pub(super) fn impulse_step(
     if settings.projection {
         w.project(world, state, &prescribed, h);
     }
-    seat(world, state, &prescribed, settings.projection, &w.solver);
+    let gave_way = |joint: usize, coordinate: usize| w.assembly.keys.contains(&RowKey::Drive(joint, coordinate));
+    seat(world, state, &prescribed, settings.projection, &w.solver, gave_way);
     Ok(w.solution.convergence)
 }
 
@@ -329,7 +330,14 @@ pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (su
 }
 
 /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool, solver: &GraphWorkspace) {
+fn seat(
+    world: &World,
+    state: &mut State,
+    prescribed: &Prescribed,
+    exactly: bool,
+    solver: &GraphWorkspace,
+    gave_way: impl Fn(usize, usize) -> bool,
+) {
     let joint_of = world.joint_of_body();
     for (body, _) in solver.outwards() {
         let Some(number) = joint_of[body] else { continue };
@@ -337,10 +345,9 @@ fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool
         if joint.follows.is_none() {
             let mut q = state.measured(joint, &state.coordinates[number]);
             if exactly {
-                for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
-                    if let Some(drive) = &acting.drive {
+                for (k, (value, acting)) in q.iter_mut().zip(&joint.coordinates).enumerate() {
+                    if let (Some(drive), false) = (&acting.drive, gave_way(number, k)) {
                         let target = drive.signal.at(state.time_s)[0];
-                        // A drive that gave way stays where it is.
                         if (target - *value).abs() < 1e-3 {
                             *value = target;
                         }

@@ -1,5 +1,6 @@
 //! Functions of time that drives, motors and obstacles follow.
 
+use crate::model::Function;
 use crate::numerics::NaturalSpline;
 use std::f64::consts::TAU;
 
@@ -24,6 +25,10 @@ pub enum Signal {
     Stops(Vec<(f64, f64)>),
     /// A natural spline and the time of the spline at which the scene begins [s]; held constant outside it.
     Spline(NaturalSpline, f64),
+    /// A function of the time, counted from that instant of it at which the scene begins [s].
+    OfTime(Function, f64),
+    /// A function of another signal: a coordinate that follows a coupler.
+    Of(Function, Box<Signal>),
 }
 
 impl Signal {
@@ -45,6 +50,12 @@ impl Signal {
                     (_, Some(last)) if t + start > *last => [spline.value(*last), 0.0, 0.0],
                     _ => spline.value_and_two_derivatives(t + start),
                 }
+            }
+            Signal::OfTime(function, start) => function.at(t + start),
+            Signal::Of(function, leader) => {
+                let [x, rate, acceleration] = leader.at(t);
+                let [y, dy, ddy] = function.at(x);
+                [y, dy * rate, dy * acceleration + ddy * rate * rate]
             }
         }
     }

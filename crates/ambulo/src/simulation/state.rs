@@ -21,7 +21,7 @@ pub struct State {
 }
 
 /// What a group of rows stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum RowKey {
     /// A closure.
     Closure(usize),

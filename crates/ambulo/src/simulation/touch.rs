@@ -308,6 +308,9 @@ fn owner_motion(state: &State, obstacles: &ObstacleMotion, surface: &Surface) ->
 fn may_touch(world: &World, a: &Surface, b: &Surface) -> bool {
     let joined = |x: usize, y: usize| {
         world.joints.iter().any(|j| (j.child == x && j.parent == Some(y)) || (j.child == y && j.parent == Some(x)))
+            || world.closures.iter().filter(|c| c.active).any(|c| {
+                (c.first == x && c.second == Some(y)) || (c.first == y && c.second == Some(x))
+            })
     };
     let ignored = || world.ignored.iter().any(|p| *p == (a.owner, b.owner) || *p == (b.owner, a.owner));
     match (a.owner, b.owner) {

@@ -24,7 +24,7 @@ pub struct World {
     pub surfaces: Vec<Surface>,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
-    /// Pairs of owners that pass through each other, beside bodies that a joint connects.
+    /// Pairs of owners that pass through each other, beside bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
     /// Recordings that joints follow.
     pub figures: Vec<Figure>,

@@ -13,6 +13,23 @@ pub struct SceneError {
     pub message: String,
 }
 
+/// Where something stands in a scene file, for errors that show only when the files it names are read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Line of the file, counted from 1.
+    pub line: usize,
+    /// Path of the key, entries of lists counted from 1.
+    pub key: String,
+}
+
+impl Place {
+    /// An error here.
+    #[must_use]
+    pub fn error(&self, message: impl Into<String>) -> SceneError {
+        SceneError::new(self.line, self.key.clone(), message)
+    }
+}
+
 fn place(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!(", `{key}`") }
 }

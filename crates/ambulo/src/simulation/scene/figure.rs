@@ -1,6 +1,6 @@
 //! Figures: bodies and joints of an OpenSim model, moved by a recording.
 
-use super::SceneError;
+use super::error::{Place, SceneError};
 use super::material::{self, Material};
 use super::names::{Item, Names};
 use super::reader::{Table, Value};
@@ -13,8 +13,12 @@ pub struct Figure {
     pub name: String,
     /// Line of its header.
     pub line: usize,
+    /// Where the path of the model stands.
+    pub model_place: Place,
     /// Path of the `.osim` file as it stands in the scene, relative to the scene.
     pub model: String,
+    /// Where the path of the motion stands; the model's place if there is none.
+    pub motion_place: Place,
     /// Path of the `.mot` or `.sto` file with coordinates, in the same way.
     pub motion: Option<String>,
     /// Time of the recording [s] at which the scene begins; `None` is its first instant.
@@ -77,12 +81,16 @@ impl Figure {
     }
 
     fn read(table: &Table<'_>, name: String, materials: &[Material]) -> Result<Figure, SceneError> {
+        let model = table.need("model", "the path of an .osim file")?;
+        let motion_place = table.get("motion").map_or_else(|| model.place(), |value| value.place());
         let motion = table.get("motion").map(|value| value.filled_text()).transpose()?;
         let sphere = |sphere: &Table<'_>| FigureSphere::read(sphere, materials);
         let figure = Figure {
             name,
             line: table.line,
-            model: table.need("model", "the path of an .osim file")?.filled_text()?,
+            model_place: model.place(),
+            model: model.filled_text()?,
+            motion_place,
             from_s: table.get("from").map(|value| value.number()).transpose()?,
             driven: table.get("drive").map_or_else(|| Ok(Driven::of_file(motion.as_ref())), |value| driven(&value))?,
             root: table

@@ -1,6 +1,6 @@
 //! Functions of time: what drives, motors and moving obstacles follow.
 
-use super::SceneError;
+use super::error::{Place, SceneError};
 use super::reader::{Table, Value};
 
 /// A function of the scene's time [s]; values in rad or m, as what it is for says.
@@ -27,6 +27,8 @@ pub enum Function {
     Points(Vec<(f64, f64)>),
     /// A column of a recording, in the unit that the file states.
     Motion {
+        /// Where the path stands.
+        place: Place,
         /// Path as it stands in the scene, relative to the scene.
         file: String,
         /// Name of the column.
@@ -141,6 +143,7 @@ fn motion(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<Function, S
         return Err(error.hint("the file itself says whether its angles are degrees"));
     }
     Ok(Function::Motion {
+        place: value.place(),
         file: value.filled_text()?,
         column: table.need("column", "the name of a column of that file")?.filled_text()?,
         from_s: table.get("from").map(|value| value.number()).transpose()?,

@@ -44,7 +44,7 @@ pub enum JointKind {
         /// Fixed in the child, at right angles to `axis`.
         second_axis: Vec3,
     },
-    /// Every turn: angles about the child's x, y, z, in this order, whose axes are the world's at the start.
+    /// Every turn: the rotation vector along axes of the parent, the world's at the start.
     Ball,
     /// A slide along an axis of both.
     Prismatic {
@@ -58,7 +58,7 @@ pub enum JointKind {
         /// In the plane, fixed in the parent.
         along: Vec3,
     },
-    /// Every motion: angles as those of a ball, then slides along x, y, z of the parent, the world's at the start.
+    /// Every motion: turns as those of a ball, then slides along x, y, z of the parent, the world's at the start.
     Free,
 }
 

@@ -1,9 +1,12 @@
 //! Scenes: a world, its outputs and its duration as a TOML file (docs/SCENES.md).
 //!
 //! [`SceneFile::parse`] turns text into plain records, in SI units and radians, every reference resolved and every number
-//! checked; a [`SceneError`] names line and key. Files that a scene names (models, motions) are not opened here.
+//! checked; a [`SceneError`] names line and key. Files that a scene names (models, motions) are not opened here: the caller
+//! reads them for [`Scene::build`], which makes a world of the records. [`Scene::run`] steps it to its end.
 
 mod body;
+mod build;
+mod closing;
 mod closure;
 mod coordinate;
 mod error;
@@ -16,16 +19,24 @@ mod material;
 mod names;
 mod obstacle;
 mod output;
+mod placement;
 mod reader;
+mod run;
+mod saved;
 mod shape;
 mod solver;
+mod sources;
+mod starting;
+mod surfaces;
 mod tree;
 mod uniform;
+mod walker;
 
 pub use body::Body;
+pub use build::{Changes, Scene};
 pub use closure::{Anchor, Closure};
 pub use coordinate::{Coordinate, CoordinateKind, Drive, Limits, Motor, Spring};
-pub use error::SceneError;
+pub use error::{Place, SceneError};
 pub use event::{Change, Event};
 pub use figure::{Driven, Figure, FigureSphere, Root};
 pub use file::{IgnoredPair, SceneFile};
@@ -35,5 +46,8 @@ pub use material::{ContactLaw, Material};
 pub use names::{Carrier, Partner};
 pub use obstacle::{Obstacle, ObstacleMotion, ObstacleShape};
 pub use output::{Outputs, Plot};
+pub use run::{Frame, RunError, RunStatistics};
+pub use saved::{ResumeError, SavedState};
 pub use shape::{Shape, Solid};
 pub use solver::{Integrator, Method, Solver};
+pub use sources::Load;

@@ -1,6 +1,6 @@
 //! TOML values with their place: whatever is refused is refused with line and key.
 
-use super::SceneError;
+use super::error::{Place, SceneError};
 use super::names::{listed, nearest};
 use crate::spatial::{Mat3, Pose, Vec3};
 use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion};
@@ -62,6 +62,11 @@ pub(super) struct Value<'t> {
 impl<'t> Value<'t> {
     pub(super) fn line(&self) -> usize {
         self.source.line(self.raw.span().start)
+    }
+
+    /// Where it stands.
+    pub(super) fn place(&self) -> Place {
+        Place { line: self.line(), key: self.path.clone() }
     }
 
     /// The error that this value is not what was expected.

@@ -1,0 +1,111 @@
+//! `ambulo simulate`: a scene file stepped through time.
+
+use super::forces::Stopwatch;
+use crate::args::SimulateArgs;
+use crate::{Verdict, files, printer};
+use ambulo::findings::Findings;
+use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables};
+use ambulo::simulation::scene::{Changes, SavedState, Scene, SceneFile};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+
+/// More steps than this are a slip.
+const MOST_STEPS: f64 = 1e9;
+
+pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
+    let mut clock = Stopwatch::new();
+    let mut findings = Findings::default();
+    let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
+    let mut inputs = vec![args.scene.clone()];
+    let mut scene = build(args, &mut inputs, &mut findings)?;
+    input.files = inputs[1..].iter().map(|path| path.display().to_string()).collect();
+    if let Some(path) = &args.resume {
+        resume(&mut scene, path)?;
+        inputs.push(path.clone());
+        input.resumed = Some(path.display().to_string());
+    }
+    refuse_to_write_over(args.save.as_deref(), &inputs)?;
+    clock.lap("read");
+
+    let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
+    let mut curves = args.plot.then(SceneCurves::default);
+    let statistics = scene
+        .run(&mut findings, |frame| {
+            tables.add(frame);
+            extremes.add(frame);
+            if let Some(curves) = &mut curves {
+                curves.add(frame);
+            }
+        })
+        .with_context(|| args.scene.display().to_string())?;
+    clock.lap("simulate");
+
+    let mut written = tables.files(&scene)?;
+    if let Some(curves) = &curves {
+        written.extend(curves.files(&scene)?);
+    }
+    files::replace_results(&args.output, &written, &inputs)?;
+    if let Some(path) = &args.save {
+        write_json(path, &scene.save())?;
+    }
+    clock.lap("write");
+    let mut summary = extremes.summary(&scene, &statistics, input, &findings);
+    summary.timing_ms = clock.into_laps();
+    write_json(&args.output.join("summary.json"), &summary)?;
+    printer::simulate(&summary, &args.output, args.voice)?;
+    Ok(Verdict::Accepted)
+}
+
+/// The scene, with every file that it names; their paths are added to `inputs`.
+fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
+    let shown = || args.scene.display().to_string();
+    let bytes = files::read(&args.scene)?;
+    let text = String::from_utf8(bytes).map_err(|e| {
+        anyhow::anyhow!("{}: byte {} is not UTF-8; expected a scene in TOML", shown(), e.utf8_error().valid_up_to())
+    })?;
+    let file = SceneFile::parse(&text).with_context(shown)?;
+    let changes = Changes { step_s: args.step, duration_s: args.duration };
+    let (step_s, end_s) = (args.step.unwrap_or(file.step_s), args.duration.unwrap_or(file.duration_s));
+    if step_s > end_s || end_s / step_s > MOST_STEPS {
+        bail!("{}: steps of {step_s} s over {end_s} s; expected one step at least and 1e9 at most", shown());
+    }
+    let folder = args.scene.parent().unwrap_or(Path::new(""));
+    let mut load = |path: &str| {
+        let path = folder.join(path);
+        let bytes = files::read(&path).map_err(|error| error.to_string())?;
+        inputs.push(path);
+        Ok(bytes)
+    };
+    Scene::build(&file, changes, &mut load, findings).with_context(shown)
+}
+
+fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
+    let shown = || path.display().to_string();
+    let saved: SavedState = serde_json::from_slice(&files::read(path)?)
+        .with_context(|| format!("{}: this is no state that `ambulo simulate --save` wrote", shown()))?;
+    scene.resume(&saved).with_context(shown)?;
+    if scene.steps_made() >= scene.steps_in_all() {
+        bail!(
+            "{}: the state is that of {} s, and the scene ends at {} s. hint: --duration sets the instant of its end",
+            shown(),
+            scene.state().time_s,
+            scene.duration_s()
+        );
+    }
+    Ok(())
+}
+
+fn refuse_to_write_over(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
+    let Some(save) = save else { return Ok(()) };
+    let same = |path: &PathBuf| path.canonicalize().is_ok_and(|path| save.canonicalize().is_ok_and(|s| s == path));
+    if inputs.iter().any(same) {
+        bail!("{}: this file was read and would be written over. hint: another name for --save", save.display());
+    }
+    Ok(())
+}
+
+fn write_json(path: &Path, content: &impl serde::Serialize) -> Result<()> {
+    let mut json = serde_json::to_vec_pretty(content)?;
+    json.push(b'\n');
+    files::write(path, &json)
+}

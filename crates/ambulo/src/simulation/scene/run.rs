@@ -1,0 +1,305 @@
+//! A scene stepped through time, its events, and what is seen of it.
+
+use super::build::Scene;
+use super::event::Change;
+use super::output::Outputs;
+use super::walker::Walker;
+use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
+use crate::findings::Findings;
+use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::simulation::energy::{Energy, energy};
+use crate::simulation::forces::{ContactForce, StepForces};
+use crate::simulation::impulse::{closure_errors, largest_joint_error};
+use crate::simulation::state::{RowKey, State};
+use crate::simulation::step::{StepSettings, step};
+use crate::simulation::world::World;
+use crate::spatial::{Pose, Wrench};
+
+/// Instants nearer than this share of a step are one: rounding of times that were typed.
+const SAME_INSTANT: f64 = 1e-6;
+
+/// Why a scene could not be stepped to its end.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// Joints that are no forest.
+    #[error(transparent)]
+    Links(#[from] LinkError),
+    /// A number that is not finite.
+    #[error("at {time_s:.6} s the place or velocity of `{body}` is no longer a finite number. hint: a shorter step")]
+    NotFinite {
+        /// The body.
+        body: String,
+        /// The instant [s].
+        time_s: f64,
+    },
+}
+
+/// What is seen of a scene at an instant of output.
+#[derive(Debug)]
+pub struct Frame<'a> {
+    /// The scene as it then stands.
+    pub scene: &'a Scene,
+    /// Forces of the step that ends here; none at the start.
+    pub forces: Option<StepForces>,
+    /// Collisions within steps since the last frame: time [s], and impulses [N.s] for forces.
+    pub impacts: Vec<(f64, ContactForce)>,
+    /// Energies.
+    pub energy: Energy,
+}
+
+/// How a run went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RunStatistics {
+    /// Steps made.
+    pub steps: usize,
+    /// Tree solves of all steps.
+    pub iterations: usize,
+    /// Most tree solves of one step.
+    pub most_iterations: usize,
+    /// Factorisations of all steps.
+    pub factorizations: usize,
+    /// Largest residual of a step.
+    pub largest_residual: f64,
+    /// Steps whose residual stayed above the tolerance.
+    pub not_converged: usize,
+}
+
+impl RunStatistics {
+    fn add(&mut self, convergence: &Convergence) {
+        self.steps += 1;
+        self.iterations += convergence.iterations;
+        self.most_iterations = self.most_iterations.max(convergence.iterations);
+        self.factorizations += convergence.factorizations;
+        self.largest_residual = self.largest_residual.max(convergence.residual);
+        self.not_converged += usize::from(!convergence.converged);
+    }
+}
+
+impl Scene {
+    /// What is simulated. Joints and closures come and go with events.
+    #[must_use]
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Where everything is now.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// How it is stepped.
+    #[must_use]
+    pub fn settings(&self) -> &StepSettings {
+        &self.settings
+    }
+
+    /// The instant at which it ends [s].
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.duration_s
+    }
+
+    /// What it is called; empty if it is not.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Which results are kept.
+    #[must_use]
+    pub fn outputs(&self) -> &Outputs {
+        &self.outputs
+    }
+
+    /// Name of a joint of the file, which an event may have removed.
+    #[must_use]
+    pub fn joint_name(&self, joint: usize) -> &str {
+        &self.joint_names[joint]
+    }
+
+    /// Names of the figures, in the order of [`World::figures`].
+    pub fn figure_names(&self) -> impl Iterator<Item = &str> {
+        self.walkers.iter().map(|walker| walker.name.as_str())
+    }
+
+    /// Steps made since the beginning of the scene, those before a resumption too.
+    #[must_use]
+    pub fn steps_made(&self) -> usize {
+        self.steps
+    }
+
+    /// Steps of the whole scene: as many as reach its end.
+    #[must_use]
+    pub fn steps_in_all(&self) -> usize {
+        (self.duration_s / self.settings.step_s - SAME_INSTANT).ceil().max(0.0) as usize
+    }
+
+    /// Steps to the end, calling back at the output rate. A scene that has not begun is seen at its start as well; one that was
+    /// resumed is not, as that instant was seen before.
+    ///
+    /// # Errors
+    /// Joints that are no forest, numbers that run out of bounds.
+    pub fn run(
+        &mut self,
+        findings: &mut Findings,
+        mut visit: impl FnMut(&Frame<'_>),
+    ) -> Result<RunStatistics, RunError> {
+        let mut statistics = RunStatistics::default();
+        let mut impacts = Vec::new();
+        if self.steps == 0 {
+            let energy = energy(&self.world, &self.state);
+            visit(&Frame { scene: self, forces: None, impacts: Vec::new(), energy });
+        }
+        while self.steps < self.steps_in_all() {
+            statistics.add(&self.step(findings)?);
+            impacts.extend_from_slice(self.workspace.impacts());
+            if self.is_seen() {
+                let forces = Some(self.workspace.forces(&self.world));
+                let energy = energy(&self.world, &self.state);
+                visit(&Frame { scene: self, forces, impacts: std::mem::take(&mut impacts), energy });
+            }
+        }
+        Ok(statistics)
+    }
+
+    /// What is due happens, then one step.
+    ///
+    /// # Errors
+    /// As [`Scene::run`].
+    pub fn step(&mut self, findings: &mut Findings) -> Result<Convergence, RunError> {
+        self.fire_events();
+        if !self.walkers.is_empty() {
+            self.before.clone_from(&self.state.poses);
+        }
+        let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
+        self.steps += 1;
+        // Counted, so that times do not drift.
+        self.state.time_s = self.steps as f64 * self.settings.step_s;
+        let finite = |body: usize| {
+            let (pose, twist) = (&self.state.poses[body], &self.state.twists[body]);
+            let numbers = pose.translation.iter().chain(pose.rotation.iter());
+            numbers.chain(twist.linear.iter()).chain(twist.angular.iter()).all(|x| x.is_finite())
+        };
+        match (0..self.world.bodies.len()).find(|body| !finite(*body)) {
+            None => Ok(convergence),
+            Some(body) => {
+                let body = self.world.bodies[body].name.clone();
+                Err(RunError::NotFinite { body, time_s: self.state.time_s })
+            }
+        }
+    }
+
+    /// Forces of the last step.
+    #[must_use]
+    pub fn forces(&self) -> StepForces {
+        self.workspace.forces(&self.world)
+    }
+
+    /// Whether the last step has passed an instant of output.
+    fn is_seen(&self) -> bool {
+        let every = self.output_rate_hz * self.settings.step_s;
+        let rows = |steps: usize| (steps as f64 * every + SAME_INSTANT).floor();
+        rows(self.steps) > rows(self.steps.saturating_sub(1))
+    }
+
+    /// Events up to now.
+    fn fire_events(&mut self) {
+        let now = self.state.time_s + SAME_INSTANT * self.settings.step_s;
+        while let Some(event) = self.events.get(self.fired).filter(|event| event.time_s <= now) {
+            let change = event.change;
+            self.fired += 1;
+            match change {
+                Change::AddClosure(closure) => self.close(closure),
+                Change::RemoveClosure(closure) => {
+                    self.world.closures[closure].active = false;
+                    self.state.guess.remove(&RowKey::Closure(closure));
+                }
+                Change::RemoveJoint(joint) => self.let_go(joint),
+            }
+        }
+    }
+
+    fn close(&mut self, number: usize) {
+        let closing = &self.closings[number];
+        let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| self.state.poses[body]);
+        let frames = closing.frames(&pose(Some(closing.first)), &pose(closing.second));
+        let closure = &mut self.world.closures[number];
+        (closure.first_from_joint, closure.second_from_joint) = frames;
+        closure.active = true;
+    }
+
+    /// Takes a joint of the file away; its child is free.
+    pub(super) fn let_go(&mut self, joint: usize) {
+        let Some(number) = self.joint_numbers[joint].take() else { return };
+        self.world.joints.remove(number);
+        self.state.coordinates.remove(number);
+        for other in self.joint_numbers.iter_mut().flatten().filter(|other| **other > number) {
+            *other -= 1;
+        }
+        let guess = std::mem::take(&mut self.state.guess);
+        self.state.guess = guess.into_iter().filter_map(|(key, rows)| Some((without(key, number)?, rows))).collect();
+    }
+
+    /// Generalised forces of each figure, one a coordinate of its model [N.m or N], with the coordinates themselves and
+    /// their rates: (value, rate, force). Zero where nothing holds or drives a joint; values are those of the recording.
+    #[must_use]
+    pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
+        self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
+    }
+
+    fn of_walker(&self, walker: &Walker, forces: &StepForces) -> Vec<[f64; 3]> {
+        let figure = &self.world.figures[walker.figure];
+        let recorded = |time_s: f64| {
+            let values = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect::<Vec<[f64; 3]>>();
+            [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>())
+        };
+        // The step's forces belong to the posture at its beginning.
+        let [q, qd, qdd] = recorded(self.state.time_s - self.settings.step_s);
+        let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
+        let motions = body_motion(&figure.model, posture);
+        let joint_of = self.world.joint_of_body();
+        // The recording may stand elsewhere than the figure does; what a joint carries is turned with its child.
+        let wrench = |(i, motion): (usize, &BodyMotion)| {
+            let body = walker.first_body + i;
+            let follows = joint_of[body].is_some_and(|j| self.world.joints[j].follows.is_some());
+            let (Some(pose), true) = (self.before.get(body), follows) else { return Wrench::ZERO };
+            let turn = motion.pose.rotation * pose.rotation.transpose();
+            let Wrench { moment, force } = forces.joints[body];
+            Wrench { moment: turn * moment, force: turn * force }
+        };
+        let wrenches: Vec<Wrench> = motions.iter().enumerate().map(wrench).collect();
+        let mut workspace = Workspace::new(&figure.model);
+        let tau = project_wrenches(&mut workspace, posture, &wrenches);
+        let [q, qd, _] = recorded(self.state.time_s);
+        q.iter().zip(qd).zip(tau).map(|((value, rate), tau)| [*value, rate, *tau]).collect()
+    }
+
+    /// How far the two points that a closure keeps together are apart, as far as it minds [m].
+    #[must_use]
+    pub fn closure_gap(&self, closure: usize) -> f64 {
+        let (frames, errors) = closure_errors(&self.world, &self.state, closure);
+        let (turns, _) = self.world.closures[closure].kind.held(&frames);
+        errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
+    }
+
+    /// Largest distance of any joint or closure from where it holds [m].
+    #[must_use]
+    pub fn largest_joint_error(&self) -> f64 {
+        largest_joint_error(&self.world, &self.state)
+    }
+}
+
+/// The key once a joint is gone; `None` if it was the joint's own.
+fn without(key: RowKey, gone: usize) -> Option<RowKey> {
+    let rest = |joint: usize| (joint != gone).then(|| joint - usize::from(joint > gone));
+    Some(match key {
+        RowKey::Drive(joint, k) => RowKey::Drive(rest(joint)?, k),
+        RowKey::Motor(joint, k) => RowKey::Motor(rest(joint)?, k),
+        RowKey::Friction(joint, k) => RowKey::Friction(rest(joint)?, k),
+        RowKey::LowerLimit(joint, k) => RowKey::LowerLimit(rest(joint)?, k),
+        RowKey::UpperLimit(joint, k) => RowKey::UpperLimit(rest(joint)?, k),
+        other => other,
+    })
+}
