@@ -15,13 +15,14 @@ use std::process::ExitCode;
 const HELP: &str = "\
 usage: cargo xtask <command>
 
-  check       what CI runs: format, lints, tests, documentation; stops at the first failure
-  bench       time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
-  peers       time other engines on the same model and motion  [--env DIR] [--scripts DIR]
-  simulators  time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
-  figures     draw docs/images/ anew with the `ambulo` command and a headless Chromium
-  demo-input  make the built-in walk of `ambulo demo` anew, beside its figure
-  help        this text
+  check             what CI runs: format, lints, tests, documentation; stops at the first failure
+  bench             time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
+  bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
+  peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
+  simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
+  figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
+  demo-input        make the built-in walk of `ambulo demo` anew, beside its figure
+  help              this text
 
 environment:
   AMBULO_DATA       folder that holds `data` and `reference`; without it ../shared beside this workspace
@@ -43,10 +44,7 @@ fn main() -> ExitCode {
         ("simulators", _) => simulators::command(rest),
         ("check", []) => check::run(),
         ("bench", []) => bench::run(),
-        ("sim", []) => {
-            bench::simulation::all();
-            Ok(())
-        }
+        ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
 

@@ -219,7 +219,7 @@ impl PeerTiming {
     }
 
     /// `MuJoCo 4.0.0, Euler`, without the version where it is not known.
-    fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let version = self.measurement().map(|m| format!(" {}", m.version)).unwrap_or_default();
         format!("{}{version}, {}", self.peer.name(), self.setting)
     }

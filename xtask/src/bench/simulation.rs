@@ -1,38 +1,103 @@
-//! Time per step of our simulator on the peers' scenes.
+//! Forward simulation, timed and checked, ours and others': `cargo xtask bench-simulation [--write] [--without-peers]`.
+//!
+//! | part       | what                                                                                    |
+//! |------------|-----------------------------------------------------------------------------------------|
+//! | `scaling`  | chains and random trees of 10 to 10,000 bodies, with and without position projection    |
+//! | `ladder`   | ladders of 10 to 1,000 closed loops; one of 1,000 rungs with ever more of them closed   |
+//! | `stance`   | the human on 12 spheres: time, forces, what its contacts leave of the laws of contact   |
+//! | `accuracy` | energy of a chain without damping, joints of a flailing one                             |
+//! | `peers`    | what `cargo xtask simulators` runs, right after ours                                    |
+//!
+//! What is printed is the page docs/BENCHMARKS.md; with `--write` it is written there with its pictures. A missed time is
+//! told, a wrong answer fails the command.
+
+mod accuracy;
+mod asked;
+mod figure;
+mod ladder;
+mod markdown;
+mod page;
+mod run;
+mod scaling;
+mod stance;
 
 use super::worlds;
-use ambulo::findings::Findings;
-use ambulo::simulation::{State, StepSettings, StepWorkspace, World, largest_joint_error, step};
-use cpu_time::ThreadTime;
+use crate::simulators::{self, PeerTiming};
+use crate::workspace;
+use ambulo::dynamics::SolverSettings;
+use std::fs;
 
-pub(crate) fn run(name: &str, w: &World, steps: usize, settings: StepSettings) {
-    let mut s = State::new(w);
-    let mut ws = StepWorkspace::default();
-    let mut f = Findings::default();
-    let (mut worst, mut its, mut facs, mut res) = (0.0_f64, 0, 0, 0.0_f64);
-    let mut t = Vec::new();
-    for _ in 0..steps {
-        let a = ThreadTime::now();
-        let c = step(w, &mut s, &settings, &mut ws, &mut f).expect("forest");
-        t.push(a.elapsed().as_secs_f64());
-        if w.surfaces.len() > 5 && (t.len() % 50 == 1 || t.len() < 8) && t.len() < 200 { println!("{} it {} fac {} res {:.1e} contacts {} pelvis {:?} E {:.3}", t.len(), c.iterations, c.factorizations, c.residual, ws.forces(w).contacts.len(), s.poses[0].translation.as_slice(), ambulo::simulation::energy(w, &s).total()); }
-        its += c.iterations; facs += c.factorizations; res = res.max(c.residual);
-        worst = worst.max(largest_joint_error(w, &s));
-    }
-    t.sort_by(f64::total_cmp);
-    println!("{name}: median {:.2} us/step p10 {:.2} p90 {:.2}, it {:.2} fac {:.2} worst res {res:.1e}, joint error {worst:.1e}; findings {:?}", t[steps/2] * 1e6, t[steps/10]*1e6, t[steps*9/10]*1e6, its as f64 / steps as f64, facs as f64 / steps as f64, f.as_slice().first());
-    if !w.surfaces.is_empty() {
-        let fo = ws.forces(w);
-        let sum: ambulo::spatial::Vec3 = fo.contacts.iter().map(|c| c.force).sum();
-        println!("   contacts {} sum {:?} weight {} pelvis {:?}", fo.contacts.len(), sum.as_slice(), w.mass() * w.gravity.norm(), s.poses[0].translation.as_slice());
-        for c in fo.contacts.iter().take(12) { println!("     {:?} {:?} gap {:.2e} slip {:.2e}", c.surfaces, c.force.as_slice(), c.gap, c.slip.norm()); }
-    }
+/// Folder of the page and its pictures, relative to the workspace root.
+const DOCS: &str = "docs";
+/// The human of the scene, in the peers' data folder.
+const HUMAN: &str = "human_contact.xml";
+
+/// Everything measured in one run.
+struct Results {
+    machine: String,
+    scaling: scaling::Scaling,
+    ladders: ladder::Ladders,
+    /// None without the human's file.
+    stance: Option<stance::Standing>,
+    accuracy: accuracy::Accuracy,
+    peers: Vec<PeerTiming>,
 }
 
-pub(crate) fn all() {
-    let d = StepSettings::default();
-    let xml = std::fs::read_to_string("/work/shared/reference/peers/data/human_contact.xml").unwrap();
-    let h = worlds::human(&xml).unwrap();
-    run("human", &h, 10000, d);
-    run("chain 1000", &worlds::chain(1000), 200, d);
+/// A way to solve loops and contacts, by name.
+struct NamedSolver {
+    name: &'static str,
+    solver: SolverSettings,
+}
+
+/// All that there are; the first is what a user gets.
+fn methods() -> Vec<NamedSolver> {
+    vec![NamedSolver { name: "augmented Lagrangian", solver: SolverSettings::default() }]
+}
+
+/// Runs the verb. An error means a wrong answer or a broken file, never a long time.
+#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let (mut write, mut with_peers) = (false, true);
+    for word in words {
+        match word.as_str() {
+            "--write" => write = true,
+            "--without-peers" => with_peers = false,
+            _ => return Err(format!("unknown option `{word}`, expected --write or --without-peers")),
+        }
+    }
+    let results = measure(with_peers)?;
+    let asked = asked::all(&results);
+    let page = page::text(&results, &asked);
+    println!("{page}");
+    if write {
+        let folder = workspace::root().join(DOCS);
+        let save = |name: &str, text: &str| {
+            let path = folder.join(name);
+            fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
+        };
+        save("images/simulation_scaling.svg", &figure::scaling(&results)?)?;
+        save("images/simulation_ladder.svg", &figure::ladder(&results)?)?;
+        save("BENCHMARKS.md", &page)?;
+        eprintln!("written: {}", folder.join("BENCHMARKS.md").display());
+    }
+    let wrong = asked.iter().filter(|a| a.wrong()).count();
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} answers are not as exact as asked, see the table")) }
+}
+
+#[expect(clippy::print_stderr, reason = "minutes pass before the page is complete")]
+fn measure(with_peers: bool) -> Result<Results, String> {
+    eprintln!("chains and trees");
+    let scaling = scaling::measure()?;
+    eprintln!("ladders");
+    let ladders = ladder::measure(&methods())?;
+    eprintln!("human");
+    let settings = simulators::Settings::default();
+    let stance = match fs::read_to_string(settings.data.join(HUMAN)) {
+        Ok(xml) => Some(stance::measure(&worlds::human(&xml)?)?),
+        Err(_) => None,
+    };
+    eprintln!("accuracy");
+    let accuracy = accuracy::measure()?;
+    let peers = if with_peers { simulators::run(&settings) } else { Vec::new() };
+    Ok(Results { machine: super::machine(), scaling, ladders, stance, accuracy, peers })
 }

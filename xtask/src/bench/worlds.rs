@@ -73,7 +73,7 @@ pub(crate) fn random_tree(count: usize) -> World {
         let parent = i.checked_sub(back).filter(|_| i > 0);
         let start = parent.map_or(Vec3::zeros(), |p| world.bodies[p].pose.translation + half);
         world.bodies.push(body(format!("link {i}"), 1.0, LINK_INERTIA, start + half));
-        let axis = if (seed >> 40) % 2 == 0 { Vec3::y() } else { Vec3::z() };
+        let axis = if (seed >> 40).is_multiple_of(2) { Vec3::y() } else { Vec3::z() };
         let in_parent = if parent.is_none() { Vec3::zeros() } else { half };
         world.joints.push(hinge(i, parent, in_parent, -half, axis));
     }
@@ -114,7 +114,8 @@ pub(crate) fn ladder(count: usize, loops: usize) -> World {
 /// spheres as there.
 pub(crate) fn human(xml: &str) -> Result<World, String> {
     let document = roxmltree::Document::parse(xml).map_err(|e| format!("the human's file: {e}"))?;
-    let top = document.descendants().find(|n| n.has_tag_name("worldbody")).ok_or("the human's file has no worldbody")?;
+    let top =
+        document.descendants().find(|n| n.has_tag_name("worldbody")).ok_or("the human's file has no worldbody")?;
     let mut world = empty();
     world.obstacles.push(Obstacle { name: "floor".into(), pose: Pose::IDENTITY, path: None });
     world.materials.push(Material::default());

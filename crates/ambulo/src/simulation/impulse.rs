@@ -12,12 +12,12 @@
 
 use super::assemble::{Assembly, Prescribed, Yielding, twist};
 use super::forces::{ContactForce, StepForces};
-use super::joint::{drift, orthonormal, rotation};
+use super::joint::{MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
 use super::world::{Joint, World};
-use crate::dynamics::{Convergence, GraphWorkspace, Law, LinkError, Six, project_displacements, solve_graph};
+use crate::dynamics::{Convergence, Law, LinkError, Six, project_displacements, solve_graph};
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -60,8 +60,7 @@ pub(super) fn impulse_step(
     if settings.projection {
         w.project(world, state, &prescribed, h);
     }
-    let gave_way = |joint: usize, coordinate: usize| w.assembly.keys.contains(&RowKey::Drive(joint, coordinate));
-    seat(world, state, &prescribed, settings.projection, &w.solver, gave_way);
+    w.seat(world, state, &prescribed, settings.projection);
     Ok(w.solution.convergence)
 }
 
@@ -113,6 +112,7 @@ pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMot
     world.obstacles.iter().map(over_step).collect()
 }
 
+#[inline(always)]
 fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
     pose.translation += twist.linear * h;
     pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
@@ -287,6 +287,43 @@ impl StepWorkspace {
             advance(pose, &twist(displacement), 1.0);
         }
     }
+
+    /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
+    fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
+        for (body, _) in self.solver.outwards() {
+            let Some(number) = self.assembly.joint_of[body] else { continue };
+            let joint = &world.joints[number];
+            let mut q = [0.0; MOST];
+            if joint.follows.is_none() {
+                q = state.measured(joint, &state.coordinates[number]);
+                if exactly {
+                    for (k, (value, acting)) in q.iter_mut().zip(&joint.coordinates).enumerate() {
+                        // A drive that gave way stays where it is.
+                        let gave_way = || self.assembly.keys.contains(&RowKey::Drive(number, k));
+                        if let (Some(drive), false) = (&acting.drive, acting.drive.is_some() && gave_way()) {
+                            let target = drive.signal.at(state.time_s)[0];
+                            if (target - *value).abs() < 1e-3 {
+                                *value = target;
+                            }
+                        }
+                    }
+                }
+                state.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
+            }
+            if !exactly {
+                continue;
+            }
+            let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
+            state.poses[body] = match prescribed.goal(joint) {
+                Some(goal) => parent * goal,
+                None => {
+                    let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
+                    let pose = seat * joint.child_from_joint.inverse();
+                    Pose { rotation: orthonormal(&pose.rotation), ..pose }
+                }
+            };
+        }
+    }
 }
 
 /// Joint, coordinate and value of a limit.
@@ -327,50 +364,6 @@ pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (su
     let (turns, slides) = closure.kind.held(&frames);
     let errors = turns.iter().map(|e| e.dot(&turn)).chain(slides.iter().map(|e| e.dot(&shift))).collect();
     (frames, errors)
-}
-
-/// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-fn seat(
-    world: &World,
-    state: &mut State,
-    prescribed: &Prescribed,
-    exactly: bool,
-    solver: &GraphWorkspace,
-    gave_way: impl Fn(usize, usize) -> bool,
-) {
-    let joint_of = world.joint_of_body();
-    for (body, _) in solver.outwards() {
-        let Some(number) = joint_of[body] else { continue };
-        let joint = &world.joints[number];
-        if joint.follows.is_none() {
-            let mut q = state.measured(joint, &state.coordinates[number]);
-            if exactly {
-                for (k, (value, acting)) in q.iter_mut().zip(&joint.coordinates).enumerate() {
-                    if let (Some(drive), false) = (&acting.drive, gave_way(number, k)) {
-                        let target = drive.signal.at(state.time_s)[0];
-                        if (target - *value).abs() < 1e-3 {
-                            *value = target;
-                        }
-                    }
-                }
-            }
-            state.coordinates[number] = q;
-        }
-        if !exactly {
-            continue;
-        }
-        let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
-        state.poses[body] = match prescribed.goal(joint) {
-            Some(goal) => parent * goal,
-            None => {
-                let mut q = [0.0; super::joint::MOST];
-                q[..joint.kind.freedom()].copy_from_slice(&state.coordinates[number]);
-                let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
-                let pose = seat * joint.child_from_joint.inverse();
-                Pose { rotation: orthonormal(&pose.rotation), ..pose }
-            }
-        };
-    }
 }
 
 /// Largest distance of any joint or closure from where it holds [m].

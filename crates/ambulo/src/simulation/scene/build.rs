@@ -7,13 +7,13 @@ use super::file::SceneFile;
 use super::names::{Carrier, Partner};
 use super::output::Outputs;
 use super::placement::{order, place};
-use super::solver::{Integrator as AskedIntegrator, Method};
+use super::solver::{Integrator as AskedIntegrator, Method as AskedMethod};
 use super::sources::{Load, Sources};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
 use super::walker::{self, Walker};
 use super::{Coordinate, coordinate::CoordinateKind};
-use crate::dynamics::SolverSettings;
+use crate::dynamics::{Method, SolverSettings};
 use crate::findings::Findings;
 use crate::simulation::state::State;
 use crate::simulation::step::{Integrator, StepSettings, StepWorkspace};
@@ -75,10 +75,6 @@ impl Scene {
         findings: &mut Findings,
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
-        if file.solver.method == Method::ConjugateGradient {
-            let message = "conjugate gradients are not here yet; the scene is solved by Newton steps";
-            findings.warn("solver.method", message);
-        }
         let mut sources = Sources::new(load, findings, duration_s);
         let mut world = World { gravity: file.gravity, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
@@ -95,7 +91,8 @@ impl Scene {
         report_untouchable(&world, findings);
         let mut state = State::new(&world);
         for (number, start) in starts.iter().enumerate() {
-            state.coordinates[number] = state.measured(&world.joints[number], start);
+            state.coordinates[number].copy_from_slice(start);
+            state.measure(&world, number);
         }
         Ok(Scene {
             settings: settings(file, changes),
@@ -126,7 +123,14 @@ fn settings(file: &SceneFile, changes: Changes) -> StepSettings {
             AskedIntegrator::RungeKutta => Integrator::RungeKutta,
         },
         projection: file.projection,
-        solver: SolverSettings { tolerance: file.solver.tolerance, max_iterations: file.solver.max_iterations },
+        solver: SolverSettings {
+            method: match file.solver.method {
+                AskedMethod::Newton => Method::Newton,
+                AskedMethod::ConjugateGradient => Method::ConjugateGradient,
+            },
+            tolerance: file.solver.tolerance,
+            max_iterations: file.solver.max_iterations,
+        },
     }
 }
 
