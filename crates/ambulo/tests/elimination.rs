@@ -519,7 +519,9 @@ fn four_bar(cut: usize) -> ConstraintGraph {
     let rows = relative_rows([Vec3::x(), Vec3::y(), Vec3::z()], center(cut - 1) - corners[cut], from_second);
     add_rows(&mut graph, on, &[rows[3], rows[5]], Law::HELD);
     // In the order of bars, whoever hangs on whom.
-    permuted(&graph, &std::array::from_fn::<usize, 3, _>(|b| place.iter().position(|p| *p == b).unwrap()))
+    let mut to = [0; 3];
+    place.iter().enumerate().for_each(|(bar, p)| to[*p] = bar);
+    permuted(&graph, &to)
 }
 
 #[test]
