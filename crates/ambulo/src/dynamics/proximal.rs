@@ -131,7 +131,8 @@ impl Best {
         lambda: &mut [f64],
         convergence: &mut Convergence,
     ) {
-        let Some(found) = self.found.filter(|found| !(found.residual > convergence.residual)) else { return };
+        let better = |found: &Convergence| found.residual <= convergence.residual || convergence.residual.is_nan();
+        let Some(found) = self.found.filter(better) else { return };
         motions.clone_from(&self.motions);
         coordinates.clone_from(&self.coordinates);
         lambda.copy_from_slice(&self.lambda);
@@ -271,8 +272,8 @@ impl Newton<'_, '_> {
     /// Newton steps from a motion and forces for which (2) holds; true when all laws are met.
     fn iterate(
         &mut self,
-        motions: &mut Vec<Six>,
-        coordinates: &mut Vec<f64>,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
         lambda: &mut [f64],
         convergence: &mut Convergence,
     ) -> bool {

@@ -217,7 +217,8 @@ impl StepWorkspace {
             );
         }
         let convergence = &self.solution.convergence;
-        if let (true, Some(row)) = (!(convergence.residual <= CONTRADICTION), convergence.worst) {
+        let contradicts = convergence.residual > CONTRADICTION || convergence.residual.is_nan();
+        if let (true, Some(row)) = (contradicts, convergence.worst) {
             let name = self.row_name(world, row);
             findings.warn(
                 "solver.not_converged",
