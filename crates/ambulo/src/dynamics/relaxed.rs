@@ -124,16 +124,14 @@ impl Relaxed<'_, '_> {
         }
     }
 
-    /// s := μ |u_t| of contacts that push; the largest change.
+    /// s := μ |u_t| of all contacts, of open ones too: with it they may stay open; the largest change.
     fn update_shifts(&mut self) -> f64 {
-        let RelaxedWorkspace { shift, slip, lambda, .. } = &mut *self.w;
+        let RelaxedWorkspace { shift, slip, .. } = &mut *self.w;
         let u = &self.problem.departures.u;
         slip.clear();
         slip.extend(self.problem.graph.groups.iter().map(|group| match group.law {
-            Law::Contact { friction, .. } if lambda[group.rows.start] > 0.0 => {
-                friction * u[group.rows.start + 1].hypot(u[group.rows.start + 2])
-            }
-            _ => 0.0,
+            Law::Contact { friction, .. } => friction * u[group.rows.start + 1].hypot(u[group.rows.start + 2]),
+            Law::Bounded { .. } => 0.0,
         }));
         let change = shift.iter().zip(&*slip).fold(0.0, |m: f64, (old, new)| m.max((old - new).abs()));
         for (shift, next) in shift.iter_mut().zip(&*slip) {
