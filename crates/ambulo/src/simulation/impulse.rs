@@ -112,6 +112,7 @@ pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMot
     world.obstacles.iter().map(over_step).collect()
 }
 
+#[inline(always)]
 fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
     pose.translation += twist.linear * h;
     pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));

@@ -12,9 +12,12 @@
 //! | ball      | R                       | rotation vector in P; rates: angular velocity in P       |
 //! | planar    | t(q₁ x + q₂ y) R_z(q₃)  | distances along x and y of P, angle about z              |
 //! | free      | t R                     | rotation vector and place in P; rates in P               |
+//!
+//! What runs for every joint in every step is inlined, for the reason that `Pose` has.
 
 use crate::dynamics::Six;
 use crate::spatial::{Mat3, Pose, Vec3};
+use std::f64::consts::TAU;
 
 /// Which motions a joint leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,6 +141,7 @@ impl JointKind {
             // No way through angles where nothing is held of the rotation.
             JointKind::Ball => Pose { rotation: t.rotation, translation: Vec3::zeros() },
             JointKind::Free => *t,
+            JointKind::Revolute => Pose { rotation: nearest_about_z(&t.rotation), translation: Vec3::zeros() },
             _ => self.parent_from_child(&self.coordinates(t, last)),
         }
     }
@@ -184,14 +188,16 @@ impl JointKind {
 }
 
 /// How a child has drifted: the turn [rad] and shift [m] of C, world axes, from where the joint would have it.
+#[inline(always)]
 pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Vec3) {
     let t = frames.parent.inverse() * frames.child;
-    let seat = frames.parent * kind.seated(&t, last);
-    let turn = rotation_vector(&(frames.child.rotation * seat.rotation.transpose()));
-    (turn, frames.child.translation - seat.translation)
+    let seat = kind.seated(&t, last);
+    let turn = rotation_vector(&(t.rotation * seat.rotation.transpose()));
+    (frames.parent.rotation * turn, frames.parent.rotation * (t.translation - seat.translation))
 }
 
 /// exp of a rotation vector [rad] (Rodrigues).
+#[inline(always)]
 pub(crate) fn rotation(v: &Vec3) -> Mat3 {
     let squared = v.norm_squared();
     // sin θ/θ and (1 - cos θ)/θ²; below 1e-4 rad the next terms of the series are under 1e-17.
@@ -202,12 +208,35 @@ pub(crate) fn rotation(v: &Vec3) -> Mat3 {
         let (sin, cos) = angle.sin_cos();
         (sin / angle, (1.0 - cos) / squared)
     };
-    let k = v.cross_matrix();
-    Mat3::identity() + k * a + k * k * b
+    // 1 + a [v]× + b [v]×², where [v]×² = v vᵀ - v² 1.
+    let (x, y, z) = (v.x, v.y, v.z);
+    let (xy, xz, yz) = (b * x * y, b * x * z, b * y * z);
+    Mat3::new(
+        1.0 - b * (y * y + z * z),
+        xy - a * z,
+        xz + a * y,
+        xy + a * z,
+        1.0 - b * (x * x + z * z),
+        yz - a * x,
+        xz - a * y,
+        yz + a * x,
+        1.0 - b * (x * x + y * y),
+    )
 }
 
 fn about_z(angle: f64) -> Mat3 {
     let (sin, cos) = angle.sin_cos();
+    Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// The turn about z that is nearest to a rotation; none for half a turn about another axis.
+fn nearest_about_z(r: &Mat3) -> Mat3 {
+    let (y, x) = (r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]);
+    let length = (x * x + y * y).sqrt();
+    if length <= 0.0 {
+        return Mat3::identity();
+    }
+    let (sin, cos) = (y / length, x / length);
     Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
@@ -216,12 +245,12 @@ pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
     let twice_sine = Vec3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
     let sine = 0.5 * twice_sine.norm();
     let cosine = 0.5 * (r.trace() - 1.0);
+    if sine <= 1e-6 && cosine > 0.0 {
+        return twice_sine * 0.5;
+    }
     let angle = sine.atan2(cosine);
     if sine > 1e-6 {
         return twice_sine * (0.5 * angle / sine);
-    }
-    if cosine > 0.0 {
-        return twice_sine * 0.5;
     }
     // Near half a turn: the axis is the largest column of R + 1 = 2 u uᵀ.
     let m = r + Mat3::identity();
@@ -230,10 +259,16 @@ pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
 }
 
 /// R (3 - RᵀR)/2: one Newton step back to a rotation; rounding grows by no more than it undoes.
+#[inline(always)]
 pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
-    r * (Mat3::identity() * 3.0 - r.transpose() * r) * 0.5
+    let [x, y, z] = [0, 1, 2].map(|k| r.column(k).into_owned());
+    // Columns of R times those of (3 - RᵀR)/2, which is symmetric.
+    let (xx, yy, zz) = (1.5 - 0.5 * x.dot(&x), 1.5 - 0.5 * y.dot(&y), 1.5 - 0.5 * z.dot(&z));
+    let (xy, xz, yz) = (0.5 * x.dot(&y), 0.5 * x.dot(&z), 0.5 * y.dot(&z));
+    Mat3::from_columns(&[x * xx - y * xy - z * xz, y * yy - x * xy - z * yz, z * zz - x * xz - y * yz])
 }
 
 fn nearest_turn(angle: f64, last: f64) -> f64 {
-    angle + std::f64::consts::TAU * ((last - angle) / std::f64::consts::TAU).round()
+    let turns = (last - angle) / TAU;
+    if turns.abs() < 0.5 { angle } else { angle + TAU * turns.round() }
 }

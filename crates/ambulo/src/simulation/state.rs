@@ -57,6 +57,7 @@ impl State {
     }
 
     /// Frames of a joint.
+    #[inline(always)]
     pub(crate) fn frames(&self, joint: &Joint) -> Frames {
         let parent = joint.parent.map_or(Pose::IDENTITY, |p| self.poses[p]);
         Frames { parent: parent * joint.parent_from_joint, child: self.poses[joint.child] * joint.child_from_joint }
