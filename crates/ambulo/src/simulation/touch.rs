@@ -56,6 +56,10 @@ pub(crate) struct TouchWorkspace {
     pub(crate) touches: Vec<Touch>,
     boxes: Vec<Option<(Vec3, Vec3)>>,
     poses: Vec<Pose>,
+    /// Bounds on the speeds of the surfaces' points [m/s].
+    speeds: Vec<f64>,
+    /// What each body hangs on.
+    parents: Vec<Option<usize>>,
     pairs: Vec<(usize, usize)>,
     points: Vec<ContactPoint>,
 }
@@ -72,20 +76,24 @@ impl TouchWorkspace {
         }
         self.poses.clear();
         self.boxes.clear();
+        self.speeds.clear();
         for surface in &world.surfaces {
             let (owner, speed) = owner_motion(state, obstacles, surface);
             let pose = owner * surface.owner_from_shape;
             let reach = Vec3::repeat(MARGIN_M + step_s * speed);
             self.boxes.push(surface.shape.bounding(&pose).map(|(low, high)| (low - reach, high + reach)));
             self.poses.push(pose);
+            self.speeds.push(speed);
         }
-        let apart = |a: usize, b: usize| may_touch(world, &world.surfaces[a], &world.surfaces[b]);
+        self.parents.clear();
+        self.parents.resize(world.bodies.len(), None);
+        world.joints.iter().for_each(|joint| self.parents[joint.child] = joint.parent);
+        let apart = |a: usize, b: usize| may_touch(world, &self.parents, &world.surfaces[a], &world.surfaces[b]);
         candidate_pairs(&self.boxes, apart, &mut self.pairs);
         for &(a, b) in &self.pairs {
             let (first, second) = (&world.surfaces[a], &world.surfaces[b]);
-            let speed = owner_motion(state, obstacles, first).1 + owner_motion(state, obstacles, second).1;
             self.points.clear();
-            let reach = MARGIN_M + step_s * speed;
+            let reach = MARGIN_M + step_s * (self.speeds[a] + self.speeds[b]);
             contacts(&first.shape, &self.poses[a], &second.shape, &self.poses[b], reach, &mut self.points);
             self.touches.extend(self.points.iter().map(|point| Touch {
                 surfaces: (a, b),
@@ -298,10 +306,8 @@ fn owner_motion(state: &State, obstacles: &ObstacleMotion, surface: &Surface) ->
     (pose, twist.linear.norm() + arm * twist.angular.norm())
 }
 
-fn may_touch(world: &World, a: &Surface, b: &Surface) -> bool {
-    let joined = |x: usize, y: usize| {
-        world.joints.iter().any(|j| (j.child == x && j.parent == Some(y)) || (j.child == y && j.parent == Some(x)))
-    };
+fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface) -> bool {
+    let joined = |x: usize, y: usize| parents[x] == Some(y) || parents[y] == Some(x);
     let ignored = || world.ignored.iter().any(|p| *p == (a.owner, b.owner) || *p == (b.owner, a.owner));
     match (a.owner, b.owner) {
         (Owner::Obstacle(_), Owner::Obstacle(_)) => false,
