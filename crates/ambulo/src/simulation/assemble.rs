@@ -103,7 +103,11 @@ impl Assembly {
         self.slots.clear();
         self.directions.clear();
         self.directions.resize(world.joints.len(), [Six::zeros(); MOST]);
-        self.joint_of = world.joint_of_body();
+        self.joint_of.clear();
+        self.joint_of.resize(world.bodies.len(), None);
+        for (number, joint) in world.joints.iter().enumerate() {
+            self.joint_of[joint.child] = Some(number);
+        }
     }
 
     /// Adds the rows of a closure.

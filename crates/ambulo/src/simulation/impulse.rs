@@ -12,13 +12,13 @@
 
 use super::assemble::{Assembly, Prescribed, Yielding, twist};
 use super::forces::{ContactForce, StepForces};
-use super::joint::{drift, orthonormal, rotation};
+use super::joint::{MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
 use super::world::{Joint, World};
 use crate::dynamics::{
-    Convergence, GraphWorkspace, Law, LinkError, Six, project_displacements, solve_graph,
+    Convergence, Law, LinkError, Six, project_displacements, solve_graph,
 };
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
@@ -60,7 +60,7 @@ pub(super) fn impulse_step(
     if settings.projection {
         w.project(world, state, &prescribed, h);
     }
-    seat(world, state, &prescribed, settings.projection, &w.solver);
+    w.seat(world, state, &prescribed, settings.projection);
     Ok(w.solution.convergence)
 }
 
@@ -283,6 +283,42 @@ impl StepWorkspace {
             advance(pose, &twist(displacement), 1.0);
         }
     }
+
+    /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
+    fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
+        for (body, _) in self.solver.outwards() {
+            let Some(number) = self.assembly.joint_of[body] else { continue };
+            let joint = &world.joints[number];
+            let mut q = [0.0; MOST];
+            if joint.follows.is_none() {
+                q = state.measured(joint, &state.coordinates[number]);
+                if exactly {
+                    for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
+                        if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
+                            let target = drive.signal.at(state.time_s)[0];
+                            // A drive that gave way stays where it is.
+                            if (target - *value).abs() < 1e-3 {
+                                *value = target;
+                            }
+                        }
+                    }
+                }
+                state.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
+            }
+            if !exactly {
+                continue;
+            }
+            let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
+            state.poses[body] = match prescribed.goal(joint) {
+                Some(goal) => parent * goal,
+                None => {
+                    let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
+                    let pose = seat * joint.child_from_joint.inverse();
+                    Pose { rotation: orthonormal(&pose.rotation), ..pose }
+                }
+            };
+        }
+    }
 }
 
 /// The displacement of a child's mass centre against its parent that undoes its drift.
@@ -313,44 +349,6 @@ pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (su
     let (turns, slides) = closure.kind.held(&frames);
     let errors = turns.iter().map(|e| e.dot(&turn)).chain(slides.iter().map(|e| e.dot(&shift))).collect();
     (frames, errors)
-}
-
-/// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-fn seat(world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool, solver: &GraphWorkspace) {
-    let joint_of = world.joint_of_body();
-    for (body, _) in solver.outwards() {
-        let Some(number) = joint_of[body] else { continue };
-        let joint = &world.joints[number];
-        if joint.follows.is_none() {
-            let mut q = state.measured(joint, &state.coordinates[number]);
-            if exactly {
-                for (value, acting) in q.iter_mut().zip(&joint.coordinates) {
-                    if let (Some(drive), true) = (&acting.drive, joint.kind != super::joint::JointKind::Ball) {
-                        let target = drive.signal.at(state.time_s)[0];
-                        // A drive that gave way stays where it is.
-                        if (target - *value).abs() < 1e-3 {
-                            *value = target;
-                        }
-                    }
-                }
-            }
-            state.coordinates[number] = q;
-        }
-        if !exactly {
-            continue;
-        }
-        let parent = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]);
-        state.poses[body] = match prescribed.goal(joint) {
-            Some(goal) => parent * goal,
-            None => {
-                let mut q = [0.0; super::joint::MOST];
-                q[..joint.kind.freedom()].copy_from_slice(&state.coordinates[number]);
-                let seat = parent * joint.parent_from_joint * joint.kind.parent_from_child(&q);
-                let pose = seat * joint.child_from_joint.inverse();
-                Pose { rotation: orthonormal(&pose.rotation), ..pose }
-            }
-        };
-    }
 }
 
 /// Largest distance of any joint or closure from where it holds [m].

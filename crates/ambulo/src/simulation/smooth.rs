@@ -90,9 +90,7 @@ pub(crate) fn runge_kutta(
     }
     state.time_s = time + h;
     tree.place(world, &mut end, state);
-    for (joint, q) in world.joints.iter().zip(0..) {
-        state.coordinates[q] = state.measured(joint, &state.coordinates[q]);
-    }
+    (0..world.joints.len()).for_each(|number| state.measure(world, number));
     state.guess.clear();
     if world.closures.iter().any(|c| c.active) {
         tree.close(world, state, settings, solver, later)?;

@@ -1,6 +1,6 @@
 //! Where everything is and how it moves at one instant.
 
-use super::joint::Frames;
+use super::joint::{Coordinates, Frames};
 use super::world::{Joint, World};
 use crate::spatial::{Pose, Twist};
 use std::collections::BTreeMap;
@@ -52,7 +52,8 @@ impl State {
             coordinates: Vec::new(),
             guess: BTreeMap::new(),
         };
-        state.coordinates = world.joints.iter().map(|joint| state.measured(joint, &[])).collect();
+        let measured = |joint: &Joint| state.measured(joint, &[])[..joint.kind.freedom()].to_vec();
+        state.coordinates = world.joints.iter().map(measured).collect();
         state
     }
 
@@ -63,11 +64,18 @@ impl State {
         Frames { parent: parent * joint.parent_from_joint, child: self.poses[joint.child] * joint.child_from_joint }
     }
 
-    /// Coordinates of a joint as the poses have them.
-    pub(crate) fn measured(&self, joint: &Joint, last: &[f64]) -> Vec<f64> {
+    /// Coordinates of a joint as the poses have them; angles are those nearest to `last`.
+    #[inline(always)]
+    pub(crate) fn measured(&self, joint: &Joint, last: &[f64]) -> Coordinates {
         let Frames { parent, child } = self.frames(joint);
-        let t = parent.inverse() * child;
-        joint.kind.coordinates(&t, last)[..joint.kind.freedom()].to_vec()
+        joint.kind.coordinates(&(parent.inverse() * child), last)
+    }
+
+    /// Reads the coordinates of a joint off the poses.
+    pub(crate) fn measure(&mut self, world: &World, number: usize) {
+        let joint = &world.joints[number];
+        let q = self.measured(joint, &self.coordinates[number]);
+        self.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
     }
 
     /// Rates of a joint's coordinates [rad/s, m/s].
