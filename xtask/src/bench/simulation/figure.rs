@@ -147,8 +147,8 @@ fn draw_legend(area: &Area<'_>, curves: &[Curve]) -> Drawn {
         area.draw(&PathElement::new(vec![at(x, 10), at(x + 22, 10)], curve.color.stroke_width(2 * FINE)))?;
         area.draw(&Circle::new(at(x + 11, 10), 3 * FINE, curve.color.filled()))?;
         area.draw_text(&curve.name, &font(11), at(x + 28, 4))?;
-        // Letters of this size are about six pixels wide.
-        x += 28 + 6 * curve.name.chars().count() as u32 + 20;
+        // Letters of this size are about five and a half pixels wide.
+        x += 28 + 11 * curve.name.chars().count() as u32 / 2 + 20;
     }
     Ok(())
 }

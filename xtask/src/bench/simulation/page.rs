@@ -26,13 +26,12 @@ const NOTES: &str = "\
 
 - **Soft and hard.** Our joints, loops and contacts are hard: what is left of them is rounding and the solver's tolerance
   (1e-10). MuJoCo's contacts and loops are springs and dampers by design, Rapier's joints and contacts as well; they
-  are accurate to what their stiffness allows, and neither was made to do better. The settings `tight` make them as
-  stiff as they go (MuJoCo: `solref` of two steps, impedance 0.9999, tolerance 1e-12; Rapier: more iterations, stiffer
-  joints). All that was set is in `target/simulators.json`.
+  are accurate to what their stiffness allows. The settings `tight` make them as stiff as they go (MuJoCo: `solref` of two steps, impedance 0.9999, tolerance 1e-12; Rapier: more iterations, stiffer
+  joints), and MuJoCo's `discrete tight` stands to nanometres. All that was set is in `target/simulators.json`.
 - **Coordinates.** MuJoCo's joints are coordinates and cannot come apart, so its error on chains is 0 by construction. That is
   what makes its time on long chains grow faster than their length, and a depth of more than 1,024 bodies is refused.
 - **Rapier's tuning.** Rapier is a game engine: constant work a step, little of it, in single precision (f32) by default. Its
-  errors are those of so few iterations. More iterations lower them in proportion at best; `tight` shows it.
+  errors are those of so few iterations; `tight` shows by how much more of them lower the errors.
 - **Springs.** The springs in the human's joints are three hinges in a row in MuJoCo, one ball or universal joint here, one
   joint with motors in Rapier. For small angles that is the same device. In Rapier's default settings they do not hold
   the human: it sags or falls, which says little about its contacts.
@@ -41,8 +40,10 @@ const NOTES: &str = "\
 - **Builds.** Ours runs as `cargo build --release` makes it, for any x86-64. Rapier is built with
   `-C target-cpu=native`; MuJoCo comes as a built library and is stepped from Python in tens, one by one from 1,000
   bodies on.
-- **Singular ladders.** Where a ladder folds so that rails and rungs come to lie along one line, its loops no longer determine
-  the forces; there our loop error is largest too. A ladder of 10 loops swings through such places often within 10 s.
+- **Flat ladders.** A ladder that hangs down is flat: its rails hang from two points of one vertical line, and all rails and
+  rungs lie along it. There its loops no longer determine the forces, nor which way they open again. Our solver then stops
+  at its most iterations (`not converged` in the table) and the worst loop error is made there; the median shows what is
+  left elsewhere. The soft engines pass there with the error that they have anyway, or diverge.
 ";
 
 /// What all scenes have [m/s²].
@@ -78,9 +79,9 @@ fn asked_table(asked: &[Asked]) -> String {
 fn human(standing: &Standing, peers: &[PeerTiming]) -> String {
     let stance = &standing.stance;
     let text = format!(
-        "{:.0} kg, 16 segments, springs and dampers in its joints, 12 spheres under its soles, 10 s. Force, penetration, slip and \
-         creep over the last second;\na contact sticks below 0.95 of its limit of friction. Ours takes {:.2} tree solves and \
-         {:.2} factorisations a step; its joints come apart by {} m.\n\n",
+        "{:.0} kg, 16 segments, springs and dampers in its joints, 12 spheres under its soles, 10 s. Force, penetration, slip\n\
+         and creep over the last second; a contact sticks below 0.95 of its limit of friction. Ours takes {:.2} tree solves\n\
+         and {:.2} factorisations a step; its joints come apart by {} m.\n\n",
         stance.weight_n / GRAVITY,
         stance.iterations,
         stance.factorizations,
@@ -90,7 +91,7 @@ fn human(standing: &Standing, peers: &[PeerTiming]) -> String {
         "engine",
         "time",
         "p10 .. p90",
-        "by ours",
+        "/ ours",
         "force [N]",
         "pelvis [m]",
         "penetration [m]",
@@ -143,8 +144,9 @@ fn laws(standing: &Standing) -> String {
         table.row([name.to_owned(), small(ours), small(pushed)]);
     }
     format!(
-        "\nComputed by the bench from the states before and after each step, of 1 ms, not by the solver; g h is the speed that falling \
-         gains in a step.\nPushed: 180 N on the pelvis for 0.2 s, then 1 s more; up to {} contacts slip at once, down to {} touch.\n\n{}",
+        "\nComputed by the bench from the states before and after each step, not by the solver; g h is the speed that falling\n\
+         gains in a step. Pushed: 180 N on the pelvis for 0.2 s, then 1 s more; up to {} contacts slip at once, down to {}\n\
+         touch.\n\n{}",
         pushed.slipping,
         pushed.touching,
         table.text()
@@ -174,9 +176,9 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
     });
     let ours = scaling.family("chain", true).map_or(&[][..], |f| f.sizes.as_slice());
     format!(
-        "![Time per step and joint error over the number of bodies](images/simulation_scaling.svg)\n\nLinks of 0.2 m and 1 kg, hinged \
-         to each other about y and z by turns, level at the start. In a random tree each hangs on one of the ten before it.\n\n\
-         {}{memory}\nThe chain, all engines; worst and median (ours) or last (theirs) error:\n\n{}{}",
+        "![Time per step and joint error over the number of bodies](images/simulation_scaling.svg)\n\n\
+         Links of 0.2 m and 1 kg, hinged to each other about y and z by turns, level at the start. In a random tree each hangs\n\
+         on one of the ten before it.\n\n{}{memory}\nThe chain, all engines; worst and median (ours) or last (theirs) error:\n\n{}{}",
         table.text(),
         engines("Ambulo", ours, peers, Scene::Chain),
         missing(peers, Scene::Chain),
@@ -185,9 +187,9 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
 
 fn ladder(all: &[OfMethod], first: &OfMethod, peers: &[PeerTiming]) -> String {
     let mut text = format!(
-        "![Time per step and loop error over the number of loops](images/simulation_ladder.svg)\n\nTwo rails of such links, 0.3 m \
-         apart, a rung hinged to each link of the one and closed by a point on the other; three bodies a loop.\nTime grows with \
-         the power {:.2} of the number of loops.\n\n{}{}",
+        "![Time per step and loop error over the number of loops](images/simulation_ladder.svg)\n\n\
+         Two rails of such links, 0.3 m apart, a rung hinged to each link of the one and closed by a point on the other; three\n\
+         bodies a loop. Time grows with the power {:.2} of the number of loops.\n\n{}{}",
         first.slope(),
         engines("Ambulo", &first.whole, peers, Scene::Ladder),
         missing(peers, Scene::Ladder),
@@ -237,7 +239,7 @@ fn engines(name: &str, ours: &[(usize, Run)], peers: &[PeerTiming], scene: Scene
         unit,
         "time",
         "p10 .. p90",
-        "by ours",
+        "/ ours",
         "steps",
         "tree solves",
         "worst error [m]",
@@ -301,8 +303,8 @@ fn accuracy(accuracy: &Accuracy) -> String {
         table.row([format!("joint error in 60 s by impulses, {name} projection"), format!("{} m", small(error))]);
     }
     format!(
-        "Energy: largest distance of the total energy from its start, over the energy turned over, which is the largest kinetic \
-         energy of the motion.\n\n{}",
+        "Energy: largest distance of the total energy from its start, over the energy turned over, which is the largest\n\
+         kinetic energy of the motion.\n\n{}",
         table.text()
     )
 }
