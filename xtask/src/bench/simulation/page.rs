@@ -26,8 +26,9 @@ const NOTES: &str = "\
 
 - **Soft and hard.** Our joints, loops and contacts are hard: what is left of them is rounding and the solver's tolerance
   (1e-10). MuJoCo's contacts and loops are springs and dampers by design, Rapier's joints and contacts as well; they
-  are accurate to what their stiffness allows. The settings `tight` make them as stiff as they go (MuJoCo: `solref` of two steps, impedance 0.9999, tolerance 1e-12; Rapier: more iterations, stiffer
-  joints), and MuJoCo's `discrete tight` stands to nanometres. All that was set is in `target/simulators.json`.
+  are accurate to what their stiffness allows. The settings `tight` make them as stiff as they go (MuJoCo: `solref` of
+  two steps, impedance 0.9999, tolerance 1e-12; Rapier: more iterations, stiffer joints), and MuJoCo's `discrete tight`
+  stands to nanometres. All that was set is in `target/simulators.json`, which `cargo xtask simulators` writes.
 - **Coordinates.** MuJoCo's joints are coordinates and cannot come apart, so its error on chains is 0 by construction. That is
   what makes its time on long chains grow faster than their length, and a depth of more than 1,024 bodies is refused.
 - **Rapier's tuning.** Rapier is a game engine: constant work a step, little of it, in single precision (f32) by default. Its
