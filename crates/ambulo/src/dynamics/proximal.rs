@@ -62,6 +62,8 @@ const WITHIN: f64 = 0.95;
 const SHARE_HALVINGS: usize = 20;
 /// After so many steps the best motion so far is kept.
 const PATIENCE: usize = 12;
+/// Newton steps that follow the convex problem.
+const POLISH: usize = 20;
 /// A residual that is taken for a solution where Newton's method ends without one.
 const NEARLY: f64 = 1e-6;
 /// Halvings of the line search; the slope of a convex function changes sign within them.
@@ -169,7 +171,8 @@ impl NewtonWorkspace {
 pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, solution: &mut GraphSolution) {
     workspace.resize(problem.graph);
     let rho = stiffness(&problem.departures.mobility);
-    Newton { graph: problem.graph, problem, w: workspace, rho, stiffest: STIFFEST * rho, rounding: 0.0 }.run(solution);
+    Newton { graph: problem.graph, problem, w: workspace, rho, plain: rho, stiffest: STIFFEST * rho, rounding: 0.0 }
+        .run(solution);
 }
 
 /// ρ for rows of these mobilities.
@@ -237,7 +240,8 @@ struct Newton<'p, 'a> {
     problem: &'p mut Problem<'a>,
     w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// The largest ρ that leaves digits to A.
+    /// ρ at first, and the largest one that leaves digits to A.
+    plain: f64,
     stiffest: f64,
     /// Of the last step's forces, in units of motion.
     rounding: f64,
@@ -264,7 +268,7 @@ impl Newton<'_, '_> {
             self.approach(motions, coordinates, lambda);
             convergence.iterations = 2;
         }
-        if !self.iterate(motions, coordinates, lambda, convergence) {
+        if !self.iterate(motions, coordinates, lambda, convergence, self.problem.settings.max_iterations) {
             self.settle_for_less(motions, coordinates, lambda, convergence);
         }
     }
@@ -276,6 +280,7 @@ impl Newton<'_, '_> {
         coordinates: &mut [f64],
         lambda: &mut [f64],
         convergence: &mut Convergence,
+        most: usize,
     ) -> bool {
         let settings = self.problem.settings;
         let (mut whole, mut last) = (true, f64::INFINITY);
@@ -296,7 +301,7 @@ impl Newton<'_, '_> {
             }
             self.evaluate(lambda);
             let alike = self.alike(lambda);
-            if convergence.iterations >= settings.max_iterations {
+            if convergence.iterations >= most {
                 return false;
             }
             if whole && alike {
@@ -346,6 +351,18 @@ impl Newton<'_, '_> {
         let slips = self.graph.groups.iter().any(|group| matches!(group.law, Law::Contact { .. }));
         if slips && self.w.best.residual() > NEARLY {
             relaxed::solve(self.problem, &mut self.w.relaxed, motions, coordinates, lambda, convergence);
+            self.w.best.keep(motions, coordinates, lambda, convergence);
+            // From there Newton steps may find the way.
+            self.rho = self.plain;
+            self.guess(lambda);
+            self.factor(convergence);
+            self.w.center.copy_from_slice(lambda);
+            self.w.mixing.forget();
+            let most = convergence.iterations + POLISH;
+            if self.iterate(motions, coordinates, lambda, convergence, most) {
+                return;
+            }
+            convergence.residual = f64::INFINITY;
         } else {
             convergence.residual = f64::INFINITY;
         }

@@ -327,17 +327,18 @@ fn better(results: &Results) -> String {
             let size = if peer.size > 0 { format!(" of {}", peer.size) } else { String::new() };
             let _ = writeln!(
                 list,
-                "- {:?}{size}: {}: {} against {}, error {} m against {} m",
+                "- {:?}{size}: {}: {} against {}, error {} m in {:.0} steps against {} m",
                 peer.scene,
                 peer.name(),
                 time(theirs.median_us),
                 time(us),
                 small_or_none(their_error),
+                theirs.steps,
                 small(error_m),
             );
         }
     }
-    let less = "in less time or with a smaller error than ours (but for errors that are 0 by construction)";
+    let less = "in less time or with a smaller worst error than ours (but for errors that are 0 by construction)";
     if list.is_empty() { format!("No case of this run was done {less}.\n") } else { format!("Done {less}:\n\n{list}") }
 }
 
