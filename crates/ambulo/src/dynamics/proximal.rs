@@ -271,6 +271,13 @@ impl Newton<'_, '_> {
         if !self.iterate(motions, coordinates, lambda, convergence, self.problem.settings.max_iterations) {
             self.settle_for_less(motions, coordinates, lambda, convergence);
         }
+        if self.rho > self.plain {
+            // Displacements are projected with the plain stiffness: what hardly yields to it is where loops are stretched, and
+            // would be carried far to undo little.
+            self.rho = self.plain;
+            self.guess(lambda);
+            self.factor(convergence);
+        }
     }
 
     /// Newton steps from a motion and forces for which (2) holds; true when all laws are met.
@@ -290,7 +297,8 @@ impl Newton<'_, '_> {
             if whole && lawful && self.rounding <= settings.tolerance * self.problem.departures.scale {
                 return true;
             }
-            if whole && convergence.iterations >= PATIENCE {
+            let last_round = convergence.iterations >= most;
+            if whole && (convergence.iterations >= PATIENCE || last_round) {
                 self.w.best.keep(motions, coordinates, lambda, convergence);
             }
             if whole {
@@ -301,12 +309,14 @@ impl Newton<'_, '_> {
             }
             self.evaluate(lambda);
             let alike = self.alike(lambda);
-            if convergence.iterations >= most {
+            if last_round {
                 return false;
             }
             if whole && alike {
                 let before = last;
                 if !lawful && self.stuck(convergence.residual, &mut last) {
+                    let NewtonWorkspace { best, met, .. } = &mut *self.w;
+                    best.keep(motions, coordinates, met, convergence);
                     return false;
                 }
                 self.recenter(lambda, convergence.residual < STEADY * before);

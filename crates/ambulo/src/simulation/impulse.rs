@@ -11,6 +11,7 @@
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
 use super::assemble::{Assembly, Prescribed, Yielding, twist};
+use super::closing::closing;
 use super::forces::{ContactForce, StepForces};
 use super::joint::{MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
@@ -30,6 +31,8 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 const CONTRADICTION: f64 = 1e-6;
 /// Fastest that position projection pulls loops together or bodies apart [m/s, rad/s].
 const CLOSING_SPEED: f64 = 1.0;
+/// Displacements larger than so many times the largest error are cut.
+const MOST_LEVERAGE: f64 = 10.0;
 /// Duration of an impact in a smooth step [s]: gravity gives 1e-8 m/s in it.
 const IMPACT_S: f64 = 1e-9;
 
@@ -45,6 +48,7 @@ pub(super) fn impulse_step(
     w.step_s = h;
     let prescribed = Prescribed::at(world, state.time_s + h);
     w.obstacles = obstacle_motion(world, state.time_s, h);
+    let still_closing = closing(world, state);
     w.solve(world, state, Span { h, instant: false }, settings, &prescribed, findings)?;
     for (body, motion) in w.solution.motions.iter().enumerate() {
         state.twists[body] = twist(motion);
@@ -61,6 +65,9 @@ pub(super) fn impulse_step(
         w.project(world, state, &prescribed, h);
     }
     w.seat(world, state, &prescribed, settings.projection);
+    if settings.projection && !still_closing {
+        w.close(world, state, &prescribed, settings)?;
+    }
     Ok(w.solution.convergence)
 }
 
@@ -113,7 +120,7 @@ pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMot
 }
 
 #[inline(always)]
-fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
+pub(super) fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
     pose.translation += twist.linear * h;
     pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
 }
@@ -283,14 +290,22 @@ impl StepWorkspace {
             let gap = touch.at.gap + h * u;
             self.targets[row] = (-gap).clamp(-most, most);
         }
+        self.displace(state);
+    }
+
+    /// Moves bodies by the displacements that carry rows to their targets.
+    fn displace(&mut self, state: &mut State) {
+        let graph = &self.assembly.graph;
         project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
+        let offsets = &self.assembly.graph.terms.offset;
+        let share = share_of_displacements(&self.targets, offsets, &self.displacements);
         for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
-            advance(pose, &twist(displacement), 1.0);
+            advance(pose, &twist(displacement), share);
         }
     }
 
     /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-    fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
+    pub(super) fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
         for (body, _) in self.solver.outwards() {
             let Some(number) = self.assembly.joint_of[body] else { continue };
             let joint = &world.joints[number];
@@ -325,6 +340,15 @@ impl StepWorkspace {
             };
         }
     }
+}
+
+/// All of the displacements, unless they are far larger than the errors that they undo: where loops are stretched, a small
+/// error along them calls for a large displacement across, and the linear picture ends.
+pub(super) fn share_of_displacements(targets: &[f64], offsets: &[Six], displacements: &[Six]) -> f64 {
+    let slide = |six: &Six| six.fixed_rows::<3>(3).amax();
+    let error = targets.iter().map(|t| t.abs()).chain(offsets.iter().map(slide)).fold(0.0, f64::max);
+    let largest = displacements.iter().map(slide).fold(0.0, f64::max);
+    if largest > MOST_LEVERAGE * error { MOST_LEVERAGE * error / largest } else { 1.0 }
 }
 
 /// Joint, coordinate and value of a limit.

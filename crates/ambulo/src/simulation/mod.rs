@@ -51,6 +51,7 @@
 
 mod assemble;
 mod check;
+mod closing;
 mod energy;
 mod forces;
 mod impulse;

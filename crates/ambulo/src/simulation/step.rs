@@ -63,8 +63,10 @@ pub struct StepWorkspace {
     pub(crate) touch: TouchWorkspace,
     pub(crate) solver: GraphWorkspace,
     pub(crate) solution: GraphSolution,
-    /// Scratch of the later stages of a smooth step.
-    later: (Assembly, GraphSolution),
+    /// Scratch of the later stages of a smooth step, and of closing loops.
+    pub(crate) later: (Assembly, GraphSolution),
+    /// Solver of closing loops.
+    pub(crate) closing: GraphWorkspace,
     pub(crate) targets: Vec<f64>,
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
