@@ -4,9 +4,10 @@
 //! of fourth order where nothing touches, rubs or runs against a limit; where surfaces come to touch within the step, it
 //! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
-use super::assemble::Assembly;
+use super::assemble::{Assembly, Prescribed};
 use super::forces::{ContactForce, StepForces};
 use super::impulse::{impact, impulse_step, obstacle_motion};
+use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::State;
 use super::touch::{ObstacleMotion, TouchWorkspace};
@@ -21,6 +22,11 @@ const TOUCHING_M: f64 = 1e-10;
 const MOST_COLLISIONS: usize = 8;
 /// Bisections of the instant of contact: a step of 1 ms comes down to 1e-18 s.
 const BISECTIONS: usize = 50;
+
+/// A body that turns further in a smooth step [rad] has the step taken in parts, at most so many: the error grows with the
+/// fifth power of the angle.
+const MOST_TURN: f64 = 0.1;
+const MOST_PARTS: f64 = 64.0;
 
 /// How to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +71,8 @@ pub struct StepWorkspace {
     pub(crate) solution: GraphSolution,
     /// Scratch of the later stages of a smooth step, and of closing loops.
     pub(crate) later: (Assembly, GraphSolution),
+    /// First stages of the parts of a smooth step but the first.
+    spare: (Assembly, GraphSolution),
     /// Solver of closing loops.
     pub(crate) closing: GraphWorkspace,
     pub(crate) targets: Vec<f64>,
@@ -172,8 +180,13 @@ fn smooth_step(
 /// Whether nothing touches that does not part, and nothing rubs.
 fn smooth_here(world: &World, state: &State, w: &mut StepWorkspace, h: f64) -> bool {
     let rubs = world.joints.iter().any(|j| j.coordinates.iter().any(|c| c.friction > 0.0));
+    // The derivatives of a driven rotation vector are no angular velocity and acceleration.
+    let turned = world.joints.iter().any(|j| {
+        let turns = matches!(j.kind, JointKind::Ball | JointKind::Free);
+        turns && j.coordinates.iter().take(3).any(|c| c.drive.is_some())
+    });
     let soft = world.materials.iter().any(|m| m.law != ContactLaw::Rigid);
-    if rubs || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
+    if rubs || turned || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
         return false;
     }
     w.obstacles = obstacle_motion(world, state.time_s, h);
@@ -191,9 +204,23 @@ impl StepWorkspace {
     ) -> Result<(), LinkError> {
         self.step_s = 1.0; // multipliers of accelerations are forces
         self.touch.clear();
-        let mut first = Stage { assembly: &mut self.assembly, solution: &mut self.solution };
-        let mut later = Stage { assembly: &mut self.later.0, solution: &mut self.later.1 };
-        runge_kutta(world, state, h, &settings.solver, &mut self.solver, &mut first, &mut later)
+        let fastest = state.twists.iter().map(|t| t.angular.norm()).fold(0.0, f64::max);
+        let parts = (fastest * h / MOST_TURN).ceil().clamp(1.0, MOST_PARTS);
+        for part in 0..parts as usize {
+            // The first part's forces are those of the step.
+            let begun = if part == 0 {
+                (&mut self.assembly, &mut self.solution)
+            } else {
+                (&mut self.spare.0, &mut self.spare.1)
+            };
+            let mut first = Stage { assembly: begun.0, solution: begun.1 };
+            let mut later = Stage { assembly: &mut self.later.0, solution: &mut self.later.1 };
+            runge_kutta(world, state, h / parts, &settings.solver, &mut self.solver, &mut first, &mut later)?;
+        }
+        if settings.projection {
+            self.close(world, state, &Prescribed::at(world, state.time_s), settings)?;
+        }
+        Ok(())
     }
 
     fn overloaded_or_limited(&self, world: &World, end: &State) -> bool {
