@@ -1,5 +1,6 @@
 //! Forces from motion, and motion from forces.
 
+mod best;
 mod block;
 mod conjugate_gradient;
 mod constraint;
@@ -7,6 +8,7 @@ mod curvature;
 mod departure;
 mod elimination;
 mod inverse;
+mod line_search;
 mod load;
 mod mixing;
 mod proximal;

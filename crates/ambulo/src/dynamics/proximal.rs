@@ -36,9 +36,11 @@
 //! Cost: one factorisation when contacts change between open, sticking and slipping; one solve else.
 //! Pinned by: tests/constraint_graph.rs
 
+use super::best::Best;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
 use super::curvature::{Curvature, Proximal, add_group, diagonal};
 use super::elimination::Offsets;
+use super::line_search::{inertial_slope, lowest};
 use super::mixing::Mixing;
 use super::relaxed::{self, RelaxedWorkspace};
 use super::solve::Problem;
@@ -66,8 +68,6 @@ const PATIENCE: usize = 12;
 const POLISH: usize = 20;
 /// A residual that is taken for a solution where Newton's method ends without one.
 const NEARLY: f64 = 1e-6;
-/// Halvings of the line search; the slope of a convex function changes sign within them.
-const HALVINGS: usize = 30;
 /// Rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row that has any mobility to speak of.
 const ROUNDS: usize = 3;
 
@@ -92,56 +92,6 @@ pub(super) struct NewtonWorkspace {
     before: Vec<f64>,
     best: Best,
     relaxed: RelaxedWorkspace,
-}
-
-/// The motion and forces that came nearest to all laws.
-#[derive(Debug, Clone, Default)]
-struct Best {
-    motions: Vec<Six>,
-    coordinates: Vec<f64>,
-    lambda: Vec<f64>,
-    found: Option<Convergence>,
-}
-
-impl Best {
-    fn forget(&mut self) {
-        self.found = None;
-    }
-
-    fn residual(&self) -> f64 {
-        self.found.map_or(f64::INFINITY, |c| c.residual)
-    }
-
-    /// Keeps these if they are better.
-    fn keep(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64], convergence: &Convergence) {
-        if convergence.residual < self.residual() {
-            self.motions.clear();
-            self.motions.extend_from_slice(motions);
-            self.coordinates.clear();
-            self.coordinates.extend_from_slice(coordinates);
-            self.lambda.clear();
-            self.lambda.extend_from_slice(lambda);
-            self.found = Some(*convergence);
-        }
-    }
-
-    /// Puts the kept ones back if they are better than these.
-    fn restore(
-        &self,
-        motions: &mut Vec<Six>,
-        coordinates: &mut Vec<f64>,
-        lambda: &mut [f64],
-        convergence: &mut Convergence,
-    ) {
-        let better = |found: &Convergence| found.residual <= convergence.residual || convergence.residual.is_nan();
-        let Some(found) = self.found.filter(better) else { return };
-        motions.clone_from(&self.motions);
-        coordinates.clone_from(&self.coordinates);
-        lambda.copy_from_slice(&self.lambda);
-        convergence.residual = found.residual;
-        convergence.worst = found.worst;
-        convergence.converged = found.converged;
-    }
 }
 
 /// Whether a contact has a past: more than the mark of a new one.
@@ -668,41 +618,21 @@ impl Newton<'_, '_> {
         if self.graph.groups.iter().all(|g| g.law == Law::HELD) {
             return 1.0;
         }
-        let (mut constant, mut linear) = (0.0, 0.0);
-        for (i, d) in self.w.step.iter().enumerate() {
-            let body = &self.graph.bodies[i];
-            constant += d.dot(&(body.times(&motions[i]) - self.graph.wrenches[i]));
-            linear += d.dot(&body.times(d));
-        }
-        for (k, d) in self.w.step_coordinates.iter().enumerate() {
-            constant += d * (self.graph.rotors[k] * coordinates[k] - self.graph.efforts[k]);
-            linear += d * d * self.graph.rotors[k];
-        }
+        let step = (&self.w.step[..], &self.w.step_coordinates[..]);
+        let inertial = inertial_slope(self.graph, (motions, coordinates), step);
         let NewtonWorkspace { trial, change, radius, center, .. } = &mut *self.w;
         let (graph, departures) = (self.graph, &self.problem.departures);
         let map = Proximal { graph, rho: self.rho, center };
         let work = |lambda: &[f64]| -> f64 { lambda.iter().zip(&*change).map(|(l, c)| l * c).sum() };
-        let start = constant - work(lambda);
-        let mut slope = |s: f64| {
+        let start = inertial[0] - work(lambda);
+        let slope = |s: f64| {
             for (number, group) in graph.groups.iter().enumerate() {
                 let u = |row: usize| departures.u[row] + s * change[row];
                 map.project(group, radius[number], u, trial);
             }
-            constant + s * linear - work(trial)
+            inertial[0] + s * inertial[1] - work(trial)
         };
-        if slope(1.0) <= 0.5 * start.abs() {
-            return 1.0;
-        }
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            let here = slope(middle);
-            if here.abs() <= 0.1 * start.abs() {
-                return middle;
-            }
-            if here > 0.0 { high = middle } else { low = middle }
-        }
-        0.5 * (low + high)
+        lowest(start, 0.5, slope)
     }
 }
 

@@ -16,6 +16,7 @@
 
 use super::constraint::{Acting, ConstraintGroup, Convergence, Law, Six};
 use super::elimination::Offsets;
+use super::line_search::{inertial_slope, lowest};
 use super::proximal::stiffness;
 use super::solve::Problem;
 use crate::contact::onto_cone;
@@ -28,8 +29,6 @@ const ROUNDS: usize = 30;
 const STEPS: usize = 30;
 /// A round is over when rows change by less than this share of the scale.
 const STILL: f64 = 1e-8;
-/// Halvings of the line search.
-const HALVINGS: usize = 25;
 
 /// Scratch.
 #[derive(Debug, Clone, Default)]
@@ -225,41 +224,21 @@ impl Relaxed<'_, '_> {
     /// Where the convex function is least along the step.
     fn step_length(&mut self, motions: &[Six], coordinates: &[f64]) -> f64 {
         let graph = self.problem.graph;
-        let (mut constant, mut linear) = (0.0, 0.0);
-        for (i, d) in self.w.step.iter().enumerate() {
-            let body = &graph.bodies[i];
-            constant += d.dot(&(body.times(&motions[i]) - graph.wrenches[i]));
-            linear += d.dot(&body.times(d));
-        }
-        for (k, d) in self.w.step_coordinates.iter().enumerate() {
-            constant += d * (graph.rotors[k] * coordinates[k] - graph.efforts[k]);
-            linear += d * d * graph.rotors[k];
-        }
+        let step = (&self.w.step[..], &self.w.step_coordinates[..]);
+        let inertial = inertial_slope(graph, (motions, coordinates), step);
         let RelaxedWorkspace { trial, change, center, shift, lambda, .. } = &mut *self.w;
         let (rho, u) = (self.rho, &self.problem.departures.u);
         let work = |forces: &[f64]| -> f64 { forces.iter().zip(&*change).map(|(l, c)| l * c).sum() };
-        let start = constant - work(lambda);
-        let mut slope = |s: f64| {
+        let start = inertial[0] - work(lambda);
+        let slope = |s: f64| {
             for (number, group) in graph.groups.iter().enumerate() {
                 let compliance = graph.rows[group.rows.start].compliance;
                 let along = |row: usize| u[row] + s * change[row];
                 law(group, rho, compliance, shift[number], center, along, trial);
             }
-            constant + s * linear - work(trial)
+            inertial[0] + s * inertial[1] - work(trial)
         };
-        if slope(1.0) <= 0.1 * start.abs() {
-            return 1.0;
-        }
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            let here = slope(middle);
-            if here.abs() <= 0.1 * start.abs() {
-                return middle;
-            }
-            if here > 0.0 { high = middle } else { low = middle }
-        }
-        0.5 * (low + high)
+        lowest(start, 0.1, slope)
     }
 }
 
