@@ -143,7 +143,9 @@ fn the_crank_goes_round_and_the_rocker_to_and_fro() {
         angles = (angles.0.min(angle), angles.1.max(angle));
         gap = gap.max(frame.scene.largest_joint_error());
     });
-    assert!(findings.as_slice().is_empty(), "{:?}", findings.as_slice());
+    // The revolute closure holds three directions that the plane of the other hinges holds already.
+    let codes: Vec<&str> = findings.as_slice().iter().map(|f| f.code).collect();
+    assert_eq!(codes, ["closure.redundant"], "{:?}", findings.as_slice());
     assert!((scene.state().coordinates[crank][0].to_degrees() - 780.0).abs() < 1e-9);
     // After whole turns the rocker is where it was. Its extremes, from crank and coupler in line: law of cosines in the
     // triangle of frame 0.4, rocker 0.3 and 0.25 or 0.45.

@@ -30,6 +30,11 @@
 //! | `radius`    | r      | N               | one a group                   |
 //! | `curvature` | H      | kg, kg.m²       | 3 x 3 a contact, diagonal else |
 //!
+//! A guess of the forces, as of the last step, says which contacts push and slip at first; one round is solved so, before any
+//! changes its mind. Where forces are not unique and the least-squares ones would leave a cone, the guess is carried on as far
+//! towards them as all cones allow. Slips that turn about from step to step are damped; what still does not settle goes
+//! to [`super::relaxed`].
+//!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
 //! Panagiotopoulos (unverified). The equations are derived above.

@@ -9,10 +9,12 @@ use super::forces::{ContactForce, StepForces};
 use super::impulse::{impact, impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
-use super::state::State;
+use super::state::{RowKey, State};
 use super::touch::{ObstacleMotion, TouchWorkspace};
 use super::world::{ContactLaw, World};
-use crate::dynamics::{Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings};
+use crate::dynamics::{
+    ConstraintGroup, Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings, undetermined_rows,
+};
 use crate::findings::Findings;
 use crate::spatial::Twist;
 
@@ -89,6 +91,21 @@ impl StepWorkspace {
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         StepForces::of(world, self)
+    }
+
+    /// Closures some of whose forces the motion of the last step does not determine, because their rows repeat others; they got
+    /// the least-squares ones.
+    #[must_use]
+    pub fn undetermined_closures(&mut self) -> Vec<usize> {
+        let rows = undetermined_rows(&self.assembly.graph, &mut self.solver);
+        let groups = self.assembly.keys.iter().zip(&self.assembly.graph.groups);
+        let repeats = |group: &ConstraintGroup| rows.iter().any(|row| group.rows.contains(row));
+        groups
+            .filter_map(|(key, group)| match key {
+                RowKey::Closure(number) if repeats(group) => Some(*number),
+                _ => None,
+            })
+            .collect()
     }
 
     /// Collisions that a smooth step has found within itself: time [s], and the contact with impulses [N.s] for forces.

@@ -174,6 +174,15 @@ impl Scene {
             self.before.clone_from(&self.state.poses);
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
+        if self.steps == 0 {
+            for closure in self.workspace.undetermined_closures() {
+                let name = &self.world.closures[closure].name;
+                findings.note(
+                    "closure.redundant",
+                    format!("the closure `{name}` holds what others hold already; of its forces the least-squares ones are given"),
+                );
+            }
+        }
         self.steps += 1;
         // Counted, so that times do not drift.
         self.state.time_s = self.steps as f64 * self.settings.step_s;
