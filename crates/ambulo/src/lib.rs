@@ -11,6 +11,7 @@
 pub mod findings;
 pub mod numerics;
 pub mod spatial;
+pub mod toml_reader;
 
 pub mod model;
 pub mod motion;
