@@ -16,6 +16,8 @@ pub mod toml_reader;
 pub mod model;
 pub mod motion;
 
+pub mod gait;
+
 pub mod kinematics;
 
 pub mod contact;

@@ -209,6 +209,11 @@ impl<'t> Table<'t> {
         Table { source, path: String::new(), line: 1, raw }
     }
 
+    /// Where it stands.
+    pub(crate) fn place(&self) -> Place {
+        Place { line: self.line, key: self.path.clone() }
+    }
+
     fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
