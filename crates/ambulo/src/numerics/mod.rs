@@ -1,12 +1,14 @@
-//! Numerical tools without mechanics: natural splines and the banded solver under them.
+//! Numerical tools without mechanics: natural splines and the banded solver under them, periodic splines.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 
 mod banded;
 mod natural_spline;
+mod periodic_spline;
 mod spline_fitter;
 mod spline_grid;
 
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
+pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};

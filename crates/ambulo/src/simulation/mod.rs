@@ -52,6 +52,7 @@
 mod assemble;
 mod check;
 mod closing;
+pub mod consistent;
 mod energy;
 mod forces;
 mod impulse;

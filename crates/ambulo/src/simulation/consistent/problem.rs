@@ -1,0 +1,448 @@
+//! The least-squares problem behind a consistent walk: what counts, and how it follows the splines.
+//!
+//! At each instant the posture gives the soles' depth, speed and slip; the law of soft contact gives their forces; inverse
+//! dynamics under these forces gives what the root lacks and the moments of the joints. Derivatives by the 36 numbers of an instant
+//! (value, rate and acceleration of each curve) are differences; the splines carry them to the coefficients exactly.
+
+use super::{ConsistencyError, ConsistencySettings, PlannedForces};
+use super::least_squares::{NormalEquations, Residuals};
+use super::unknowns::{Input, Kind, Layout, reference};
+use crate::contact::HuntCrossley;
+use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
+use crate::gait::{GroundForceLaws, Walk};
+use crate::kinematics::Posture;
+use crate::model::anthropometry::{ContactSphere, Human};
+use crate::model::{CoordinateId, Side};
+use crate::spatial::{Vec3, Wrench};
+
+/// Numbers that one instant yields: three of the root, twelve of each side.
+const OUTPUTS: usize = 3 + 2 * SIDE;
+const SIDE: usize = 12;
+/// Within a side: moments of hip, knee and ankle, vertical and fore-aft force, force under the toes, three heights, three slips.
+const MOMENTS: usize = 0;
+const VERTICAL: usize = 3;
+const FORE_AFT: usize = 4;
+const TOE: usize = 5;
+const HEIGHTS: usize = 6;
+const SLIPS: usize = 9;
+/// Steps of the differences by value, rate and acceleration.
+const STEPS: [f64; 3] = [1e-7, 1e-6, 1e-3];
+/// Load under which slip counts half [body weights].
+const LIGHT: f64 = 0.05;
+/// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
+const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
+/// How far toes bend up at most in the guess [rad].
+const TOES_LIMIT: f64 = 0.8;
+/// Weak pull of the root's path towards even motion [m/s²].
+const ROOT_ACCELERATION: f64 = 20.0;
+/// Pins the place where the walk begins [m].
+const PLACE: f64 = 1e-3;
+
+/// How strict a pass is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stage {
+    /// Of the shoes' stiffness.
+    pub(super) stiffness: f64,
+    /// Of the creep speed.
+    pub(super) creep: f64,
+    /// Of what the root may lack.
+    pub(super) root: f64,
+    pub(super) iterations: usize,
+}
+
+pub(super) struct Problem<'a> {
+    settings: &'a ConsistencySettings,
+    layout: &'a Layout,
+    workspace: Workspace,
+    shoes: HuntCrossley,
+    root_slack: f64,
+    instants: Vec<Instant>,
+    body: Body<'a>,
+    outputs: Vec<Outputs>,
+}
+
+/// What of the figure plays a part.
+struct Body<'a> {
+    soles: [Vec<&'a ContactSphere>; 2],
+    root: [CoordinateId; 3],
+    moments: [[CoordinateId; 3]; 2],
+    mass: f64,
+    weight: f64,
+    leg_length: f64,
+}
+
+/// What is known of one instant before anything is changed.
+struct Instant {
+    posture: [Vec<f64>; 3],
+    inputs: Vec<Input>,
+    columns: Vec<usize>,
+    sides: [SideTarget; 2],
+}
+
+struct SideTarget {
+    /// Vertical and fore-aft force [body weights].
+    force: [f64; 2],
+    /// Angle of the toes [rad].
+    toes: f64,
+    /// Whether heel, ball and toes have to be clear of the ground.
+    swing: [bool; 3],
+}
+
+/// What one instant yields, and the derivatives by its columns.
+#[derive(Clone)]
+struct Outputs {
+    values: [f64; OUTPUTS],
+    slopes: Vec<[f64; OUTPUTS]>,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        human: &'a Human,
+        walk: &Walk,
+        settings: &'a ConsistencySettings,
+        layout: &'a Layout,
+    ) -> Result<Problem<'a>, ConsistencyError> {
+        let body = Body::of(human)?;
+        let forces = GroundForceLaws::built_in()?;
+        let count = settings.instants;
+        let instants: Vec<Instant> = (0..count)
+            .map(|i| Instant::new(human, walk, layout, &forces, 0.5 * i as f64 / count as f64))
+            .collect();
+        Ok(Problem {
+            settings,
+            layout,
+            workspace: Workspace::new(&human.model),
+            shoes: settings.shoes,
+            root_slack: 1.0,
+            instants,
+            body,
+            outputs: Vec::new(),
+        })
+    }
+
+    pub(super) fn enter(&mut self, stage: Stage) {
+        let shoes = &self.settings.shoes;
+        self.shoes = HuntCrossley {
+            stiffness: shoes.stiffness * stage.stiffness,
+            transition_velocity: shoes.transition_velocity * stage.creep,
+            ..*shoes
+        };
+        self.root_slack = stage.root;
+    }
+
+    /// No change but the height at which the soles carry the body.
+    pub(super) fn first_guess(&mut self) -> Vec<f64> {
+        let mut x = vec![0.0; self.layout.count];
+        let Some(height) = self.layout.range(Kind::Height) else { return x };
+        let (mut low, mut high) = (0.8 * self.body.leg_length, 1.1 * self.body.leg_length);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            x[height.clone()].fill(middle);
+            let mean: f64 = (0..self.instants.len())
+                .map(|i| {
+                    let out = self.outputs_at(i, &x);
+                    out[3 + VERTICAL] + out[3 + SIDE + VERTICAL]
+                })
+                .sum::<f64>()
+                / self.instants.len() as f64;
+            if mean > 1.0 { low = middle } else { high = middle }
+        }
+        x
+    }
+
+    fn outputs_at(&mut self, instant: usize, x: &[f64]) -> [f64; OUTPUTS] {
+        let mut posture = self.posture(instant, x);
+        self.body.outputs(&mut self.workspace, &self.shoes, &mut posture)
+    }
+
+    fn posture(&self, instant: usize, x: &[f64]) -> [Vec<f64>; 3] {
+        let instant = &self.instants[instant];
+        let mut posture = instant.posture.clone();
+        for input in &instant.inputs {
+            for (d, values) in posture.iter_mut().enumerate() {
+                values[input.coordinate] += input.sum(x, d);
+            }
+        }
+        posture
+    }
+
+    fn evaluate(&mut self, x: &[f64], with_slopes: bool) {
+        let mut outputs = std::mem::take(&mut self.outputs);
+        outputs.resize_with(self.instants.len(), || Outputs { values: [0.0; OUTPUTS], slopes: Vec::new() });
+        for (i, out) in outputs.iter_mut().enumerate() {
+            let mut posture = self.posture(i, x);
+            out.values = self.body.outputs(&mut self.workspace, &self.shoes, &mut posture);
+            if with_slopes {
+                self.fill_slopes(i, &mut posture, out);
+            }
+        }
+        self.outputs = outputs;
+    }
+
+    fn fill_slopes(&mut self, instant: usize, posture: &mut [Vec<f64>; 3], out: &mut Outputs) {
+        let inputs = &self.instants[instant].inputs;
+        out.slopes.clear();
+        for input in inputs {
+            let mut by = [[0.0; OUTPUTS]; 3];
+            for (d, slopes) in by.iter_mut().enumerate() {
+                let kept = posture[d][input.coordinate];
+                posture[d][input.coordinate] = kept + STEPS[d];
+                let moved = self.body.outputs(&mut self.workspace, &self.shoes, posture);
+                posture[d][input.coordinate] = kept;
+                *slopes = std::array::from_fn(|k| (moved[k] - out.values[k]) / STEPS[d]);
+            }
+            for k in 0..input.numbers.len() {
+                out.slopes.push(std::array::from_fn(|o| (0..3).map(|d| by[d][o] * input.weights[d][k]).sum()));
+            }
+        }
+    }
+
+    /// Hands every residual with its columns and slopes to `row`.
+    fn rows(&self, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
+        let dev = &self.settings.deviations;
+        for (instant, out) in self.instants.iter().zip(&self.outputs) {
+            let mut of_output = |o: usize, target: f64, deviation: f64| {
+                let slopes: Vec<f64> = out.slopes.iter().map(|s| s[o] / deviation).collect();
+                row((out.values[o] - target) / deviation, &instant.columns, &slopes);
+            };
+            for o in 0..2 {
+                of_output(o, 0.0, dev.root_force * self.root_slack);
+            }
+            of_output(2, 0.0, dev.root_moment * self.root_slack);
+            for (side, target) in instant.sides.iter().enumerate() {
+                let base = 3 + SIDE * side;
+                of_output(base + VERTICAL, target.force[0], dev.ground_force[0]);
+                of_output(base + FORE_AFT, target.force[1], dev.ground_force[1]);
+                of_output(base + TOE, 0.0, dev.toe_force);
+                for k in 0..3 {
+                    of_output(base + SLIPS + k, 0.0, dev.slip);
+                    if target.swing[k] && out.values[base + HEIGHTS + k] < self.settings.clearance {
+                        of_output(base + HEIGHTS + k, self.settings.clearance, dev.clearance);
+                    }
+                }
+            }
+            self.posture_rows(instant, x, row);
+        }
+        self.moment_rows(row);
+        if let Some(range) = self.layout.range(Kind::Forward) {
+            let numbers: Vec<usize> = range.collect();
+            let share = 1.0 / (numbers.len() as f64 * PLACE);
+            let mean: f64 = numbers.iter().map(|&n| x[n] * share).sum();
+            row(mean, &numbers, &vec![share; numbers.len()]);
+        }
+    }
+
+    /// Nearness to the curves of the gait.
+    fn posture_rows(&self, instant: &Instant, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
+        let dev = &self.settings.deviations;
+        let mut near = |input: &Input, d: usize, target: f64, deviation: f64| {
+            let slopes = input.weights[d].map(|w| w / deviation);
+            row((input.sum(x, d) - target) / deviation, &input.numbers, &slopes);
+        };
+        let mut legs = 0;
+        for input in &instant.inputs {
+            let joint = match input.kind {
+                Kind::Hip => Some(0),
+                Kind::Knee => Some(1),
+                Kind::Ankle => Some(2),
+                _ => None,
+            };
+            match input.kind {
+                Kind::Toes => {
+                    let known = instant.posture[0][input.coordinate];
+                    near(input, 0, instant.sides[legs].toes - known, dev.toes);
+                    near(input, 2, 0.0, 3.0 * dev.joint_acceleration);
+                    legs += 1;
+                }
+                Kind::Forward | Kind::Height => near(input, 2, 0.0, ROOT_ACCELERATION),
+                Kind::Pelvis => {
+                    near(input, 0, 0.0, dev.pelvis);
+                    near(input, 2, 0.0, dev.trunk_acceleration);
+                }
+                _ => {}
+            }
+            if let Some(joint) = joint {
+                near(input, 0, 0.0, dev.joints[joint]);
+                near(input, 2, 0.0, dev.joint_acceleration);
+            }
+        }
+        self.trunk_rows(instant, x, row);
+    }
+
+    /// The trunk's lean is what pelvis and lumbar joint turn together.
+    fn trunk_rows(&self, instant: &Instant, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
+        let dev = &self.settings.deviations;
+        let turning: Vec<&Input> =
+            instant.inputs.iter().filter(|i| matches!(i.kind, Kind::Pelvis | Kind::Lumbar)).collect();
+        let numbers: Vec<usize> = turning.iter().flat_map(|i| i.numbers).collect();
+        for (d, deviation) in [(0, dev.trunk), (2, dev.trunk_acceleration)] {
+            let slopes: Vec<f64> = turning.iter().flat_map(|i| i.weights[d].map(|w| w / deviation)).collect();
+            let lean: f64 = turning.iter().map(|i| i.sum(x, d)).sum();
+            row(lean / deviation, &numbers, &slopes);
+        }
+    }
+
+    /// How fast the moments of the joints change; after half a cycle the sides change places.
+    fn moment_rows(&self, row: &mut impl FnMut(f64, &[usize], &[f64])) {
+        let count = self.instants.len();
+        let scale = 2.0 * count as f64 / self.settings.deviations.moment_rate;
+        for i in 0..count {
+            let next = (i + 1) % count;
+            let (here, there) = (&self.outputs[i], &self.outputs[next]);
+            let columns: Vec<usize> =
+                self.instants[i].columns.iter().chain(&self.instants[next].columns).copied().collect();
+            for side in 0..2 {
+                let side_there = if next == 0 { 1 - side } else { side };
+                for joint in 0..3 {
+                    let (a, b) = (3 + SIDE * side + MOMENTS + joint, 3 + SIDE * side_there + MOMENTS + joint);
+                    let slopes: Vec<f64> = here
+                        .slopes
+                        .iter()
+                        .map(|s| -s[a] * scale)
+                        .chain(there.slopes.iter().map(|s| s[b] * scale))
+                        .collect();
+                    row((there.values[b] - here.values[a]) * scale, &columns, &slopes);
+                }
+            }
+        }
+    }
+}
+
+impl Residuals for Problem<'_> {
+    fn count(&self) -> usize {
+        self.layout.count
+    }
+
+    fn cost(&mut self, x: &[f64]) -> f64 {
+        for out in &mut self.outputs {
+            out.slopes.clear();
+        }
+        self.evaluate(x, false);
+        let mut cost = 0.0;
+        self.rows(x, &mut |residual, _, _| cost += residual * residual);
+        cost
+    }
+
+    fn normal(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
+        self.evaluate(x, true);
+        normal.clear();
+        let mut cost = 0.0;
+        self.rows(x, &mut |residual, numbers, slopes| {
+            cost += residual * residual;
+            normal.add(residual, numbers, slopes);
+        });
+        cost
+    }
+}
+
+impl<'a> Body<'a> {
+    fn of(human: &'a Human) -> Result<Body<'a>, ConsistencyError> {
+        let id = |name: &str| {
+            let missing = || ConsistencyError::Coordinate { name: name.to_owned() };
+            human.model.coordinate(name).ok_or_else(missing)
+        };
+        let leg = |letter: &str| -> Result<[CoordinateId; 3], ConsistencyError> {
+            Ok([
+                id(&format!("hip_flexion_{letter}"))?,
+                id(&format!("knee_angle_{letter}"))?,
+                id(&format!("ankle_angle_{letter}"))?,
+            ])
+        };
+        let mass = human.model.mass();
+        Ok(Body {
+            soles: Side::BOTH.map(|side| human.soles.iter().filter(|s| s.side == side).collect()),
+            root: [id("pelvis_tx")?, id("pelvis_ty")?, id("pelvis_tilt")?],
+            moments: [leg("r")?, leg("l")?],
+            mass,
+            weight: mass * human.model.gravity().norm(),
+            leg_length: human.dimensions.leg_length,
+        })
+    }
+
+    fn outputs(&self, workspace: &mut Workspace, shoes: &HuntCrossley, posture: &mut [Vec<f64>; 3]) -> [f64; OUTPUTS] {
+        let mut out = [0.0; OUTPUTS];
+        let posture = Posture { q: &posture[0], qd: &posture[1], qdd: &posture[2] };
+        let mut loads = Vec::with_capacity(6);
+        let free = inverse_frame(workspace, posture, &[]);
+        for (side, soles) in self.soles.iter().enumerate() {
+            let base = 3 + SIDE * side;
+            for (k, sole) in soles.iter().enumerate().take(3) {
+                let motion = free.body_motion(sole.body);
+                let center = motion.pose.rotation * sole.center + motion.pose.translation;
+                let down = Vec3::new(0.0, -sole.radius, 0.0);
+                let velocity = motion.twist.velocity_at(center + down - motion.center);
+                let gap = center.y - sole.radius;
+                let (normal, exact) =
+                    shoes.force(sole.radius, -gap, -velocity.y, Vec3::new(velocity.x, 0.0, 0.0));
+                let friction = if std::env::var("SMOOTH").is_ok() { Vec3::new(-normal*shoes.static_friction*velocity.x/(velocity.x.powi(2)+shoes.transition_velocity.powi(2)).sqrt(),0.0,0.0) } else { exact };
+                let load = normal / self.weight;
+                out[base + VERTICAL] += load;
+                out[base + FORE_AFT] += friction.x / self.weight;
+                if k == 2 {
+                    out[base + TOE] = load;
+                }
+                out[base + HEIGHTS + k] = gap;
+                out[base + SLIPS + k] = velocity.x * load / (load + LIGHT);
+                if normal > 0.0 {
+                    let force = Vec3::new(friction.x, normal, 0.0);
+                    let wrench = Wrench { moment: Vec3::zeros(), force };
+                    loads.push(BodyLoad { body: sole.body, point: Vec3::new(center.x, 0.0, center.z), wrench });
+                }
+            }
+        }
+        let loaded = inverse_frame(workspace, posture, &loads);
+        let tau = loaded.generalized();
+        let scales = [self.weight, self.weight, self.weight * self.leg_length];
+        for (k, scale) in scales.into_iter().enumerate() {
+            out[k] = tau[self.root[k].index()] / scale;
+        }
+        for (side, joints) in self.moments.iter().enumerate() {
+            for (k, joint) in joints.iter().enumerate() {
+                out[3 + SIDE * side + MOMENTS + k] = tau[joint.index()] / self.mass;
+            }
+        }
+        out
+    }
+}
+
+impl Instant {
+    fn new(human: &Human, walk: &Walk, layout: &Layout, forces: &GroundForceLaws, phase: f64) -> Instant {
+        let count = human.model.coordinates().len();
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let time_s = phase * walk.cycle_s();
+        let [q, qd, qdd] = &mut posture;
+        reference(walk, layout, time_s, q, qd, qdd);
+        let inputs = layout.inputs(phase, walk.cycle_s());
+        let columns = inputs.iter().flat_map(|input| input.numbers).collect();
+        let at = walk.at(time_s);
+        let sides = [(&at.right, 0.0), (&at.left, 0.5)].map(|(leg, ahead)| {
+            let place = (phase + ahead) % 1.0;
+            let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;
+            let stands = place < at.phases.foot_off;
+            SideTarget {
+                force: forces.at(place, walk.curve_speed(&walk.clock(time_s)).value),
+                toes: if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 },
+                swing: SWING_MARGINS.map(|[after, before]| place > at.phases.foot_off + after && place < 1.0 - before),
+            }
+        });
+        Instant { posture, inputs, columns, sides }
+    }
+}
+
+/// The forces of one posture (value, rate, acceleration of every coordinate).
+pub(super) fn planned(
+    human: &Human,
+    shoes: &HuntCrossley,
+    posture: &mut [Vec<f64>; 3],
+) -> Result<PlannedForces, ConsistencyError> {
+    let body = Body::of(human)?;
+    let out = body.outputs(&mut Workspace::new(&human.model), shoes, posture);
+    let scales = [body.weight, body.weight, body.weight * body.leg_length];
+    let side = |side: usize| 3 + SIDE * side;
+    Ok(PlannedForces {
+        root: std::array::from_fn(|k| out[k] * scales[k]),
+        moments: [0, 1].map(|s| std::array::from_fn(|k| out[side(s) + MOMENTS + k] * body.mass)),
+        feet: [0, 1].map(|s| [out[side(s) + FORE_AFT] * body.weight, out[side(s) + VERTICAL] * body.weight]),
+        slip: [0, 1].map(|s| (0..3).map(|k| out[side(s) + SLIPS + k].abs()).fold(0.0, f64::max)),
+    })
+}
