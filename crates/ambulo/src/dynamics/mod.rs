@@ -2,6 +2,7 @@
 
 mod best;
 mod block;
+mod carried;
 mod conjugate_gradient;
 mod constraint;
 mod curvature;

@@ -44,19 +44,46 @@ pub(crate) struct Assembly {
     pub(crate) joint_of: Vec<Option<usize>>,
 }
 
-/// Poses of the bodies of every figure at one instant, as its recording has them.
+/// What drives and recordings prescribe at one instant.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Prescribed(pub(crate) Vec<Vec<Pose>>);
+pub(crate) struct Prescribed {
+    /// Poses of the bodies of every figure.
+    figures: Vec<Vec<Pose>>,
+    /// First coordinate of each joint.
+    first: Vec<usize>,
+    /// Where drives take the coordinates; zero for those without one.
+    values: Vec<f64>,
+}
 
 impl Prescribed {
     pub(crate) fn at(world: &World, time_s: f64) -> Prescribed {
-        Prescribed(world.figures.iter().map(|figure| figure.poses(time_s)).collect())
+        let mut this = Prescribed::default();
+        this.fill(world, time_s);
+        this
+    }
+
+    pub(crate) fn fill(&mut self, world: &World, time_s: f64) {
+        self.figures.clear();
+        self.figures.extend(world.figures.iter().map(|figure| figure.poses(time_s)));
+        self.first.clear();
+        self.values.clear();
+        for joint in &world.joints {
+            self.first.push(self.values.len());
+            let value = |c: &JointCoordinate| c.drive.as_ref().map_or(0.0, |drive| drive.signal.at(time_s)[0]);
+            self.values.extend(joint.coordinates.iter().map(value));
+        }
+    }
+
+    /// Where the drive of a coordinate takes it.
+    #[inline(always)]
+    pub(crate) fn value(&self, joint: usize, coordinate: usize) -> f64 {
+        self.values[self.first[joint] + coordinate]
     }
 
     /// Where a joint's child shall be, seen from its parent.
     pub(crate) fn goal(&self, joint: &Joint) -> Option<Pose> {
         let follows = joint.follows?;
-        let poses = &self.0[follows.figure];
+        let poses = &self.figures[follows.figure];
         let parent = follows.parent.map_or(Pose::IDENTITY, |p| poses[p]);
         Some(parent.inverse() * poses[follows.body])
     }
@@ -81,7 +108,7 @@ impl Assembly {
             }
         }
         for slot in 0..self.slots.len() {
-            self.add_coordinate(world, state, yielding, slot, step_s);
+            self.add_coordinate(world, state, prescribed, yielding, slot, step_s);
         }
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
@@ -174,7 +201,7 @@ impl Assembly {
         };
         let mut goal = [0.0; MOST];
         for k in 0..q.len() {
-            goal[k] = drive_of(k).map_or(q[k], |drive| drive.signal.at(state.time_s + h)[0]);
+            goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
         }
         let way = joint.kind.way(q, &goal);
         for k in 0..q.len() {
@@ -194,7 +221,15 @@ impl Assembly {
     }
 
     /// Springs, motors, limits and friction of one coordinate.
-    fn add_coordinate(&mut self, world: &World, state: &State, yielding: &Yielding, slot: usize, h: f64) {
+    fn add_coordinate(
+        &mut self,
+        world: &World,
+        state: &State,
+        prescribed: &Prescribed,
+        yielding: &Yielding,
+        slot: usize,
+        h: f64,
+    ) {
         let Slot { joint: Some(number), coordinate, .. } = self.slots[slot] else { return };
         let joint = &world.joints[number];
         let acting: &JointCoordinate = &joint.coordinates[coordinate];
@@ -217,7 +252,7 @@ impl Assembly {
             self.keys.push(key);
         };
         if let Some((_, _, max)) = yielding.iter().find(|(j, c, _)| (*j, *c) == (number, coordinate)) {
-            let target = acting.drive.as_ref().map_or(q, |drive| drive.signal.at(state.time_s + h)[0]);
+            let target = acting.drive.as_ref().map_or(q, |_| prescribed.value(number, coordinate));
             add(RowKey::Drive(number, coordinate), (target - q) / h, 0.0, -h * max, h * max);
         }
         if let Some(motor) = &acting.motor {

@@ -46,7 +46,7 @@ impl StepForces {
     pub(crate) fn of(world: &World, w: &StepWorkspace) -> StepForces {
         let (graph, h) = (&w.assembly.graph, w.step_s);
         let lambda = &w.solution.lambda;
-        let wrenches = graph.joint_wrenches(&w.solver.outwards(), &w.solution);
+        let wrenches = graph.joint_wrenches(w.solver.outwards(), &w.solution);
         let wrench = |body: usize| match w.assembly.joint_of[body] {
             None => Wrench::ZERO,
             Some(_) => {
@@ -83,6 +83,17 @@ impl StepForces {
 }
 
 impl StepWorkspace {
+    /// Reads the wrenches of the joints off the last solution.
+    pub(crate) fn read_wrenches(&mut self) {
+        self.assembly.graph.read_joint_wrenches(self.solver.outwards(), &self.solution, &mut self.wrenches);
+    }
+
+    /// Effort along a coordinate of a joint [N.m or N], of the wrenches as last read.
+    #[inline(always)]
+    pub(crate) fn effort(&self, child: usize, joint: usize, coordinate: usize) -> f64 {
+        self.assembly.directions[joint][coordinate].dot(&self.wrenches[child]) / self.step_s
+    }
+
     fn contact_force(&self, touch: &super::touch::Touch) -> ContactForce {
         let (graph, h) = (&self.assembly.graph, self.step_s);
         let group = &graph.groups[touch.group];

@@ -13,12 +13,12 @@
 use super::assemble::{Assembly, Prescribed, Yielding, twist};
 use super::closing::closing;
 use super::forces::{ContactForce, StepForces};
-use super::joint::{MOST, drift, orthonormal, rotation};
+use super::joint::{Coordinates, JointKind, MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
 use super::world::{Joint, World};
-use crate::dynamics::{Convergence, Law, LinkError, Six, project_displacements, solve_graph};
+use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, Six, project_displacements, solve_graph};
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
 
@@ -46,27 +46,37 @@ pub(super) fn impulse_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     w.step_s = h;
-    let prescribed = Prescribed::at(world, state.time_s + h);
-    w.obstacles = obstacle_motion(world, state.time_s, h);
+    let mut prescribed = std::mem::take(&mut w.prescribed);
+    prescribed.fill(world, state.time_s + h);
+    let done = prescribed_step(world, state, h, settings, &prescribed, w, findings);
+    w.prescribed = prescribed;
+    done
+}
+
+fn prescribed_step(
+    world: &World,
+    state: &mut State,
+    h: f64,
+    settings: &StepSettings,
+    prescribed: &Prescribed,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<Convergence, LinkError> {
+    obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     let still_closing = closing(world, state);
-    w.solve(world, state, Span { h, instant: false }, settings, &prescribed, findings)?;
+    w.solve(world, state, Span { h, instant: false }, settings, prescribed, findings)?;
     for (body, motion) in w.solution.motions.iter().enumerate() {
         state.twists[body] = twist(motion);
         advance(&mut state.poses[body], &state.twists[body], h);
     }
     state.time_s += h;
-    state.guess.clear();
-    for (key, group) in w.assembly.keys.iter().zip(&w.assembly.graph.groups) {
-        let mut impulses = [0.0; 6];
-        impulses[..group.rows.len()].copy_from_slice(&w.solution.lambda[group.rows.clone()]);
-        state.guess.insert(*key, impulses);
-    }
+    w.remember(state);
     if settings.projection {
-        w.project(world, state, &prescribed, h);
+        w.project(world, state, prescribed, h);
     }
-    w.seat(world, state, &prescribed, settings.projection);
+    w.seat(world, state, prescribed, settings.projection);
     if settings.projection && !still_closing {
-        w.close(world, state, &prescribed, settings)?;
+        w.close(world, state, prescribed, settings)?;
     }
     Ok(w.solution.convergence)
 }
@@ -82,7 +92,7 @@ pub(super) fn impact(
 ) -> Result<(), LinkError> {
     let prescribed = Prescribed::at(world, state.time_s + IMPACT_S);
     w.step_s = IMPACT_S;
-    w.obstacles = obstacle_motion(world, state.time_s, IMPACT_S);
+    obstacle_motion(world, state.time_s, IMPACT_S, &mut w.obstacles);
     w.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, &prescribed, findings)?;
     for (body, motion) in w.solution.motions.iter().enumerate() {
         state.twists[body] = twist(motion);
@@ -106,7 +116,7 @@ struct Span {
 }
 
 /// Poses of obstacles at the start of a step, with the mean twist over it.
-pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMotion {
+pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut ObstacleMotion) {
     let over_step = |obstacle: &super::world::Obstacle| {
         let (now, _) = obstacle.at(time_s);
         if obstacle.path.is_none() {
@@ -116,7 +126,8 @@ pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64) -> ObstacleMot
         let turn = super::joint::rotation_vector(&(then.rotation * now.rotation.transpose()));
         (now, Twist { angular: turn / h, linear: (then.translation - now.translation) / h })
     };
-    world.obstacles.iter().map(over_step).collect()
+    motion.clear();
+    motion.extend(world.obstacles.iter().map(over_step));
 }
 
 #[inline(always)]
@@ -142,9 +153,10 @@ impl StepWorkspace {
         if instant {
             self.touch.close_gaps();
         }
-        let touches = self.touch.touches.clone();
+        let mut found = std::mem::take(&mut self.found);
+        found.clone_from(&self.touch.touches);
         loop {
-            self.touch.touches.clone_from(&touches);
+            self.touch.touches.clone_from(&found);
             self.assembly.fill(world, state, prescribed, &yielding, h);
             let Assembly { graph, keys, .. } = &mut self.assembly;
             self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
@@ -156,12 +168,31 @@ impl StepWorkspace {
             }
             yielding.extend(more);
         }
+        self.found = found;
         if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
             self.bound(h * unreasonable);
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
         }
         self.report(world, &yielding, findings);
         Ok(())
+    }
+
+    /// Keeps the impulses for the next step to guess from.
+    fn remember(&self, state: &mut State) {
+        let groups = || self.assembly.keys.iter().zip(&self.assembly.graph.groups);
+        let impulses = |group: &ConstraintGroup| {
+            let mut impulses = [0.0; 6];
+            impulses[..group.rows.len()].copy_from_slice(&self.solution.lambda[group.rows.clone()]);
+            impulses
+        };
+        if state.guess.len() == groups().count() && groups().all(|(key, _)| state.guess.contains_key(key)) {
+            groups().for_each(|(key, group)| {
+                state.guess.entry(*key).and_modify(|past| *past = impulses(group));
+            });
+            return;
+        }
+        state.guess.clear();
+        state.guess.extend(groups().map(|(key, group)| (*key, impulses(group))));
     }
 
     /// Impulses of the last step as a guess; a new contact is taken to push and to stick.
@@ -180,19 +211,19 @@ impl StepWorkspace {
     }
 
     /// Drives whose effort exceeds their limit, or reason.
-    fn overloaded(&self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
+    fn overloaded(&mut self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
         let driven = |j: &Joint| j.coordinates.iter().any(|c| c.drive.is_some());
         if !world.joints.iter().any(driven) {
             return Vec::new();
         }
-        let forces = self.forces(world);
+        self.read_wrenches();
         let mut more = Vec::new();
         for (number, joint) in world.joints.iter().enumerate() {
             for (k, acting) in joint.coordinates.iter().enumerate() {
                 let Some(drive) = &acting.drive else { continue };
-                let known = yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
                 let most = drive.max.unwrap_or(unreasonable);
-                if !known && forces.efforts[number][k].abs() > most {
+                let known = || yielding.iter().any(|(j, c, _)| (*j, *c) == (number, k));
+                if self.effort(joint.child, number, k).abs() > most && !known() {
                     more.push((number, k, most));
                 }
             }
@@ -290,40 +321,33 @@ impl StepWorkspace {
             let gap = touch.at.gap + h * u;
             self.targets[row] = (-gap).clamp(-most, most);
         }
-        self.displace(state);
+        self.displace(world, state);
     }
 
     /// Moves bodies by the displacements that carry rows to their targets.
-    fn displace(&mut self, state: &mut State) {
+    fn displace(&mut self, world: &World, state: &mut State) {
         let graph = &self.assembly.graph;
         project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
         let offsets = &self.assembly.graph.terms.offset;
         let share = share_of_displacements(&self.targets, offsets, &self.displacements);
-        for (pose, displacement) in state.poses.iter_mut().zip(&self.displacements) {
-            advance(pose, &twist(displacement), share);
+        for (body, (pose, displacement)) in state.poses.iter_mut().zip(&self.displacements).enumerate() {
+            // Those that their joints carry are put in their seats next.
+            let free = graph.links[body].freedom > 0 || self.assembly.joint_of[body].is_none();
+            let straight = |number: usize| goes_straight(world.joints[number].kind);
+            if free || !self.assembly.joint_of[body].is_some_and(straight) {
+                advance(pose, &twist(displacement), share);
+            }
         }
     }
 
     /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
     pub(super) fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
-        for (body, _) in self.solver.outwards() {
+        for &(body, _) in self.solver.outwards() {
             let Some(number) = self.assembly.joint_of[body] else { continue };
             let joint = &world.joints[number];
             let mut q = [0.0; MOST];
             if joint.follows.is_none() {
-                q = state.measured(joint, &state.coordinates[number]);
-                if exactly {
-                    for (k, (value, acting)) in q.iter_mut().zip(&joint.coordinates).enumerate() {
-                        // A drive that gave way stays where it is.
-                        let gave_way = || self.assembly.keys.contains(&RowKey::Drive(number, k));
-                        if let (Some(drive), false) = (&acting.drive, acting.drive.is_some() && gave_way()) {
-                            let target = drive.signal.at(state.time_s)[0];
-                            if (target - *value).abs() < 1e-3 {
-                                *value = target;
-                            }
-                        }
-                    }
-                }
+                q = self.coordinates(state, joint, number, prescribed, exactly);
                 state.coordinates[number].copy_from_slice(&q[..joint.kind.freedom()]);
             }
             if !exactly {
@@ -340,6 +364,42 @@ impl StepWorkspace {
             };
         }
     }
+
+    /// Coordinates of a joint as the poses have them; with `exactly`, driven ones where their drives take them. A drive that
+    /// gave way stays where it is.
+    #[inline(always)]
+    fn coordinates(
+        &self,
+        state: &State,
+        joint: &Joint,
+        number: usize,
+        prescribed: &Prescribed,
+        exactly: bool,
+    ) -> Coordinates {
+        let held = |k: usize| exactly && joint.coordinates[k].drive.is_some() && !self.gave_way(number, k);
+        let drives = 0..joint.kind.freedom();
+        let mut q = if goes_straight(joint.kind) && drives.clone().all(held) {
+            [0.0; MOST]
+        } else {
+            state.measured(joint, &state.coordinates[number])
+        };
+        for k in drives {
+            let target = prescribed.value(number, k);
+            if held(k) && (goes_straight(joint.kind) || (target - q[k]).abs() < 1e-3) {
+                q[k] = target;
+            }
+        }
+        q
+    }
+
+    fn gave_way(&self, joint: usize, coordinate: usize) -> bool {
+        !self.assembly.keys.is_empty() && self.assembly.keys.contains(&RowKey::Drive(joint, coordinate))
+    }
+}
+
+/// Whether a rate held over a step takes a coordinate all the way, however far: not so where turns do not commute.
+fn goes_straight(kind: JointKind) -> bool {
+    matches!(kind, JointKind::Weld | JointKind::Revolute | JointKind::Prismatic | JointKind::Planar)
 }
 
 /// All of the displacements, unless they are far larger than the errors that they undo: where loops are stretched, a small

@@ -10,7 +10,7 @@ use super::impulse::{impact, impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::{RowKey, State};
-use super::touch::{ObstacleMotion, TouchWorkspace};
+use super::touch::{ObstacleMotion, Touch, TouchWorkspace};
 use super::world::{ContactLaw, World};
 use crate::dynamics::{
     ConstraintGroup, Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings, undetermined_rows,
@@ -81,6 +81,11 @@ pub struct StepWorkspace {
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
     pub(crate) obstacles: ObstacleMotion,
+    pub(crate) prescribed: Prescribed,
+    /// Where surfaces touch, before any is dropped.
+    pub(crate) found: Vec<Touch>,
+    /// Wrench impulse of each body's joint on it, at its mass centre, once read.
+    pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,
     /// Collisions within the last step: time [s] and impulse [N.s].
     pub(crate) impacts: Vec<(f64, ContactForce)>,
@@ -206,7 +211,7 @@ fn smooth_here(world: &World, state: &State, w: &mut StepWorkspace, h: f64) -> b
     if rubs || turned || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
         return false;
     }
-    w.obstacles = obstacle_motion(world, state.time_s, h);
+    obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     w.touch.detect(world, state, &w.obstacles, h);
     !w.touch.approaches(world, state, &w.obstacles, TOUCHING_M)
 }
@@ -258,7 +263,8 @@ impl StepWorkspace {
 
     /// Least distance of surfaces that may touch [m]; infinite if none come near.
     fn least_gap(&mut self, world: &World, state: &State) -> f64 {
-        let obstacles = obstacle_motion(world, state.time_s, 1e-9);
+        let mut obstacles = ObstacleMotion::new();
+        obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);
         let mut probe = std::mem::take(&mut self.touch);
         probe.detect(world, state, &obstacles, 0.0);
         let least = probe.touches.iter().map(|t| t.at.gap).fold(f64::INFINITY, f64::min);
