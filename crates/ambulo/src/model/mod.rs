@@ -3,6 +3,7 @@
 //! A [`Model`] is a tree: every body has one joint to its parent or to ground, parents stand before their children.
 //! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
 
+pub mod anthropometry;
 mod function;
 mod import;
 mod joint;

@@ -102,6 +102,17 @@ impl Inertia {
         Inertia::new(total, center, self.about(center) + point.about(center))
     }
 
+    /// This body and another one fixed to it, in the same frame (parallel-axis theorem).
+    #[must_use]
+    pub fn joined(&self, other: &Inertia) -> Inertia {
+        let mass = self.mass + other.mass;
+        if mass <= 0.0 {
+            return *self;
+        }
+        let center = (self.center * self.mass + other.center * other.mass) / mass;
+        Inertia { mass, center, about_center: self.about(center) + other.about(center) }
+    }
+
     /// Inertia about any point [kg.m²]: I + m (|d|² 1 - d dᵀ).
     fn about(&self, point: Vec3) -> Mat3 {
         let d = self.center - point;

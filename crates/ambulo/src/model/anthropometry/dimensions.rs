@@ -1,0 +1,90 @@
+//! Lengths of one figure.
+
+use super::foot::{BALL_RADIUS, FOOT_WIDTH, HEEL_RADIUS, HEEL_TO_ANKLE, HEEL_TO_BALL, TOE_RADIUS};
+use super::proportions::Lengths;
+
+/// Distance of the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read there).
+const HIP_WIDTH: f64 = 0.093;
+/// Distance of the shoulder centres, the same source.
+const SHOULDER_WIDTH: f64 = 0.2401;
+
+/// Lengths of a figure [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dimensions {
+    /// Stature.
+    pub height: f64,
+    /// Hip centre above the ground, standing.
+    pub leg_length: f64,
+    /// Hip to knee.
+    pub thigh: f64,
+    /// Knee to ankle.
+    pub shank: f64,
+    /// Ankle above the ground.
+    pub ankle_height: f64,
+    /// Heel to tip of the toes.
+    pub foot_length: f64,
+    /// Breadth of the foot; no part in planar motion.
+    pub foot_width: f64,
+    /// Rear of the heel to the ankle, along the foot.
+    pub heel_to_ankle: f64,
+    /// Ankle to the ball of the foot, along the foot.
+    pub ankle_to_ball: f64,
+    /// Ball of the foot to the tip of the toes.
+    pub ball_to_toe: f64,
+    /// Radius of the heel's contact sphere.
+    pub heel_radius: f64,
+    /// Radius of the ball's contact sphere; the toe joint stands at its centre.
+    pub ball_radius: f64,
+    /// Radius of the toes' contact sphere.
+    pub toe_radius: f64,
+    /// Distance of the hip centres.
+    pub hip_width: f64,
+    /// Distance of the shoulder centres.
+    pub shoulder_width: f64,
+    /// Lumbar joint above mid-hip, where the trunk is split.
+    pub lumbar_height: Option<f64>,
+    /// Shoulder centres above mid-hip.
+    pub shoulder_height: f64,
+    /// Chin, or the angle of the jaw, to vertex.
+    pub head: f64,
+    /// Shoulder to elbow.
+    pub upper_arm: f64,
+    /// Elbow to wrist.
+    pub forearm: f64,
+    /// Wrist to the tip of the middle finger.
+    pub hand: f64,
+}
+
+impl Dimensions {
+    pub(super) fn new(lengths: &Lengths, height: f64) -> Dimensions {
+        let foot = lengths.foot * height;
+        Dimensions {
+            height,
+            leg_length: lengths.leg() * height,
+            thigh: lengths.thigh * height,
+            shank: lengths.shank * height,
+            ankle_height: lengths.ankle_height * height,
+            foot_length: foot,
+            foot_width: FOOT_WIDTH * height,
+            heel_to_ankle: HEEL_TO_ANKLE * foot,
+            ankle_to_ball: (HEEL_TO_BALL - HEEL_TO_ANKLE) * foot,
+            ball_to_toe: (1.0 - HEEL_TO_BALL) * foot,
+            heel_radius: HEEL_RADIUS * height,
+            ball_radius: BALL_RADIUS * height,
+            toe_radius: TOE_RADIUS * height,
+            hip_width: HIP_WIDTH * height,
+            shoulder_width: SHOULDER_WIDTH * height,
+            lumbar_height: lengths.lumbar.map(|share| share * height),
+            shoulder_height: lengths.shoulder * height,
+            head: lengths.head * height,
+            upper_arm: lengths.upper_arm * height,
+            forearm: lengths.forearm * height,
+            hand: lengths.hand * height,
+        }
+    }
+
+    /// Vertex above mid-hip.
+    pub(super) fn vertex(&self) -> f64 {
+        self.height - self.leg_length
+    }
+}
