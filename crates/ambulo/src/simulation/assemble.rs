@@ -13,6 +13,7 @@
 //! A drive takes its coordinate from where it is to where its signal is at the end of the step: q̇ = (s(t + h) - q)/h.
 
 use super::joint::{JointKind, MOST, rotation_vector};
+use super::rates::rates;
 use super::state::{RowKey, State};
 use super::world::{Closure, Joint, JointCoordinate, World};
 use crate::dynamics::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
@@ -20,6 +21,15 @@ use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
 pub(crate) type Yielding = Vec<(usize, usize, f64)>;
+
+/// Time over which velocities are solved for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Span {
+    /// [s].
+    pub(crate) h: f64,
+    /// Whether it stands for an instant, at which surfaces strike.
+    pub(crate) instant: bool,
+}
 
 /// A coordinate of the graph.
 #[derive(Debug, Clone, Copy)]
@@ -97,13 +107,14 @@ impl Assembly {
         state: &State,
         prescribed: &Prescribed,
         yielding: &Yielding,
-        step_s: f64,
+        span: Span,
     ) {
+        let step_s = span.h;
         self.begin(world);
         for body in 0..world.bodies.len() {
             self.add_body(world, state, body, step_s);
             match self.joint_of[body] {
-                Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, step_s),
+                Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, span),
                 None => self.add_free(body),
             }
         }
@@ -178,7 +189,7 @@ impl Assembly {
         prescribed: &Prescribed,
         yielding: &Yielding,
         number: usize,
-        h: f64,
+        Span { h, instant }: Span,
     ) {
         let joint = &world.joints[number];
         let center = state.poses[joint.child].translation;
@@ -186,7 +197,7 @@ impl Assembly {
         self.graph.terms.arm.push(arm);
         if let Some(goal) = prescribed.goal(joint) {
             self.graph.links.push(Link { parent: joint.parent, freedom: 0 });
-            let offset = following(state, joint, &goal, h);
+            let offset = if instant { carried_along(state, joint) } else { following(state, joint, &goal, h) };
             self.graph.terms.offset.push(offset);
             return;
         }
@@ -203,7 +214,8 @@ impl Assembly {
         for k in 0..q.len() {
             goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
         }
-        let way = joint.kind.way(q, &goal);
+        // At an instant drives hold the rates that they have: a blow is none of their doing.
+        let (way, h) = if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.way(q, &goal), h) };
         for k in 0..q.len() {
             if drive_of(k).is_some() {
                 offset.axpy(way[k] / h, &directions[k], 1.0);
@@ -295,6 +307,16 @@ fn following(state: &State, joint: &Joint, goal: &Pose, h: f64) -> Six {
     let turn = rotation_vector(&(goal.rotation * now.rotation.transpose())) / h;
     let shift = (goal.translation - now.translation) / h;
     Six::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+}
+
+/// The child's motion against its parent as it is.
+fn carried_along(state: &State, joint: &Joint) -> Six {
+    let (child, center) = (state.twists[joint.child], state.poses[joint.child].translation);
+    let (angular, linear) = joint.parent.map_or((child.angular, child.linear), |p| {
+        let parent = state.twists[p];
+        (child.angular - parent.angular, child.linear - parent.velocity_at(center - state.poses[p].translation))
+    });
+    Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
 /// Rows of a closing joint; targets zero.

@@ -10,14 +10,14 @@
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.1 (steps 1-3 for accelerations, velocities, linearised
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
-use super::assemble::{Assembly, Prescribed, Yielding, twist};
+use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
 use super::closing::closing;
 use super::forces::{ContactForce, StepForces};
 use super::joint::{Coordinates, JointKind, MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
-use super::touch::ObstacleMotion;
-use super::world::{Joint, World};
+use super::touch::{ObstacleMotion, Touch};
+use super::world::{Impact, Joint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, Six, project_displacements, solve_graph};
 use crate::findings::Findings;
 use crate::spatial::{Pose, Twist, Vec3};
@@ -64,6 +64,12 @@ fn prescribed_step(
 ) -> Result<Convergence, LinkError> {
     obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     let still_closing = closing(world, state);
+    w.touch.detect(world, state, &w.obstacles, h);
+    if world.impact == Impact::Sticking {
+        w.touch.keep_touching(world, state);
+        w.strike(world, state, settings, prescribed, findings)?;
+        w.step_s = h;
+    }
     w.solve(world, state, Span { h, instant: false }, settings, prescribed, findings)?;
     for (body, motion) in w.solution.motions.iter().enumerate() {
         state.twists[body] = twist(motion);
@@ -93,26 +99,12 @@ pub(super) fn impact(
     let prescribed = Prescribed::at(world, state.time_s + IMPACT_S);
     w.step_s = IMPACT_S;
     obstacle_motion(world, state.time_s, IMPACT_S, &mut w.obstacles);
-    w.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, &prescribed, findings)?;
-    for (body, motion) in w.solution.motions.iter().enumerate() {
-        state.twists[body] = twist(motion);
-    }
+    w.touch.detect(world, state, &w.obstacles, IMPACT_S);
+    w.touch.close_gaps();
+    w.solve_blow(world, state, settings, &prescribed, findings)?;
+    w.take_blow(world, state);
     state.guess.clear();
-    let impulses = StepForces::of(world, w).contacts.into_iter().map(|c| ContactForce {
-        force: c.force * IMPACT_S,
-        normal_force: c.normal_force * IMPACT_S,
-        ..c
-    });
-    w.impacts.extend(impulses.map(|c| (state.time_s, c)));
     Ok(())
-}
-
-/// Time over which velocities are solved for.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    h: f64,
-    /// Whether surfaces that all but touch are taken to touch.
-    instant: bool,
 }
 
 /// Poses of obstacles at the start of a step, with the mean twist over it.
@@ -142,22 +134,23 @@ impl StepWorkspace {
         &mut self,
         world: &World,
         state: &State,
-        Span { h, instant }: Span,
+        span: Span,
         settings: &StepSettings,
         prescribed: &Prescribed,
         findings: &mut Findings,
     ) -> Result<(), LinkError> {
-        let unreasonable = UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY);
+        let h = span.h;
+        let unreasonable = match span.instant {
+            // A blow has an impulse, not a force.
+            true => f64::INFINITY,
+            false => UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY),
+        };
         let mut yielding: Yielding = Vec::new();
-        self.touch.detect(world, state, &self.obstacles, h);
-        if instant {
-            self.touch.close_gaps();
-        }
         let mut found = std::mem::take(&mut self.found);
         found.clone_from(&self.touch.touches);
         loop {
             self.touch.touches.clone_from(&found);
-            self.assembly.fill(world, state, prescribed, &yielding, h);
+            self.assembly.fill(world, state, prescribed, &yielding, span);
             let Assembly { graph, keys, .. } = &mut self.assembly;
             self.touch.add_rows(world, state, &self.obstacles, h, graph, keys);
             self.guess(state);
@@ -175,6 +168,64 @@ impl StepWorkspace {
         }
         self.report(world, &yielding, findings);
         Ok(())
+    }
+
+    fn solve_blow(
+        &mut self,
+        world: &World,
+        state: &State,
+        settings: &StepSettings,
+        prescribed: &Prescribed,
+        findings: &mut Findings,
+    ) -> Result<(), LinkError> {
+        self.step_s = IMPACT_S;
+        self.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, prescribed, findings)
+    }
+
+    /// Velocities change, positions do not. The impulses join those of the step.
+    fn take_blow(&mut self, world: &World, state: &mut State) {
+        for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
+            *twist_now = twist(motion);
+        }
+        let StepForces { contacts, efforts, .. } = StepForces::of(world, self);
+        self.impacts.extend(contacts.into_iter().map(|c| {
+            let (force, normal_force) = (c.force * IMPACT_S, c.normal_force * IMPACT_S);
+            (state.time_s, ContactForce { force, normal_force, ..c })
+        }));
+        let impulses = efforts.into_iter().map(|list| list.into_iter().map(|e| e * IMPACT_S).collect());
+        self.impact_efforts.push((state.time_s, impulses.collect()));
+    }
+
+    /// Every point that has come into touch since the last step strikes, the one that did so first before the others, and
+    /// loses all of its velocity. Points that meanwhile part, or rest already, do not strike.
+    fn strike(
+        &mut self,
+        world: &World,
+        state: &mut State,
+        settings: &StepSettings,
+        prescribed: &Prescribed,
+        findings: &mut Findings,
+    ) -> Result<(), LinkError> {
+        while let Some(number) = self.touch.next_striker(world, state, &self.obstacles) {
+            let touches = self.touch.touches.clone();
+            self.touch.touches[number].sticks = true;
+            self.solve_blow(world, state, settings, prescribed, findings)?;
+            if self.pulls() {
+                // Another point carries the blow: this one is not held.
+                self.touch.touches.clone_from(&touches);
+                self.solve_blow(world, state, settings, prescribed, findings)?;
+            }
+            self.take_blow(world, state);
+            self.touch.touches = touches;
+            self.touch.touches[number].known = true;
+        }
+        Ok(())
+    }
+
+    /// Whether the point that was to stick is not pushed.
+    fn pulls(&self) -> bool {
+        let normal = |touch: &Touch| self.solution.lambda[self.assembly.graph.groups[touch.group].rows.start];
+        self.touch.touches.iter().any(|touch| touch.sticks && normal(touch) <= 0.0)
     }
 
     /// Keeps the impulses for the next step to guess from.

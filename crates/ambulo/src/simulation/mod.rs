@@ -75,6 +75,6 @@ pub use signal::Signal;
 pub use state::{RowKey, State};
 pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
-    Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
+    Body, Closure, ContactLaw, Drive, Figure, Follows, Impact, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
     Owner, Spring, Surface, World,
 };

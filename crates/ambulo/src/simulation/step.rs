@@ -89,6 +89,8 @@ pub struct StepWorkspace {
     pub(crate) step_s: f64,
     /// Collisions within the last step: time [s] and impulse [N.s].
     pub(crate) impacts: Vec<(f64, ContactForce)>,
+    /// What they ask of each joint's coordinates [N.m.s or N.s].
+    pub(crate) impact_efforts: Vec<(f64, Vec<Vec<f64>>)>,
 }
 
 impl StepWorkspace {
@@ -113,10 +115,18 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Collisions that a smooth step has found within itself: time [s], and the contact with impulses [N.s] for forces.
+    /// Blows of the last step that are apart from its forces (a smooth step's collisions, or those of
+    /// [`Impact::Sticking`](super::Impact::Sticking)): time [s], and the contact with impulses [N.s] for forces.
     #[must_use]
     pub fn impacts(&self) -> &[(f64, ContactForce)] {
         &self.impacts
+    }
+
+    /// What each of those blows asks of the joints: time [s], and per joint the impulse along each of its coordinates [N.m.s
+    /// or N.s].
+    #[must_use]
+    pub fn impact_efforts(&self) -> &[(f64, Vec<Vec<f64>>)] {
+        &self.impact_efforts
     }
 }
 
@@ -135,6 +145,7 @@ pub fn step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     w.impacts.clear();
+    w.impact_efforts.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
