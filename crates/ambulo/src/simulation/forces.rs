@@ -42,6 +42,17 @@ pub struct ContactForce {
     pub slip: Vec3,
 }
 
+/// What happens at one instant at which surfaces meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blow {
+    /// When [s].
+    pub time_s: f64,
+    /// Where, with impulses [N.s] for forces.
+    pub contacts: Vec<ContactForce>,
+    /// What it asks of each joint: the impulse along each of its coordinates [N.m.s or N.s].
+    pub efforts: Vec<Vec<f64>>,
+}
+
 impl StepForces {
     pub(crate) fn of(world: &World, w: &StepWorkspace) -> StepForces {
         let (graph, h) = (&w.assembly.graph, w.step_s);
@@ -74,7 +85,7 @@ impl StepForces {
         StepForces {
             joints: (0..world.bodies.len()).map(wrench).collect(),
             efforts: (0..world.joints.len()).map(effort).collect(),
-            contacts: w.touch.touches.iter().map(|touch| w.contact_force(touch)).collect(),
+            contacts: w.contacts().collect(),
             closures: closures.collect(),
             closing: closing.collect(),
             convergence: w.solution.convergence,
@@ -83,6 +94,11 @@ impl StepForces {
 }
 
 impl StepWorkspace {
+    /// The forces of the last step at its points of contact.
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = ContactForce> + '_ {
+        self.touch.touches.iter().map(|touch| self.contact_force(touch))
+    }
+
     /// Reads the wrenches of the joints off the last solution.
     pub(crate) fn read_wrenches(&mut self) {
         self.assembly.graph.read_joint_wrenches(self.solver.outwards(), &self.solution, &mut self.wrenches);

@@ -12,7 +12,7 @@
 
 use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
 use super::closing::closing;
-use super::forces::{ContactForce, StepForces};
+use super::forces::{Blow, StepForces};
 use super::joint::{Coordinates, JointKind, MOST, drift, orthonormal, rotation};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
@@ -165,6 +165,7 @@ impl StepWorkspace {
         if !self.solution.convergence.converged && self.solution.lambda.iter().any(|l| l.abs() > h * unreasonable) {
             self.bound(h * unreasonable);
             solve_graph(&self.assembly.graph, &settings.solver, &mut self.solver, &mut self.solution)?;
+            self.read_wrenches();
         }
         self.report(world, &yielding, findings);
         Ok(())
@@ -187,13 +188,14 @@ impl StepWorkspace {
         for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
             *twist_now = twist(motion);
         }
-        let StepForces { contacts, efforts, .. } = StepForces::of(world, self);
-        self.impacts.extend(contacts.into_iter().map(|c| {
-            let (force, normal_force) = (c.force * IMPACT_S, c.normal_force * IMPACT_S);
-            (state.time_s, ContactForce { force, normal_force, ..c })
-        }));
-        let impulses = efforts.into_iter().map(|list| list.into_iter().map(|e| e * IMPACT_S).collect());
-        self.impact_efforts.push((state.time_s, impulses.collect()));
+        let StepForces { mut contacts, mut efforts, .. } = StepForces::of(world, self);
+        for contact in &mut contacts {
+            contact.force *= IMPACT_S;
+            contact.normal_force *= IMPACT_S;
+        }
+        efforts.iter_mut().flatten().for_each(|effort| *effort *= IMPACT_S);
+        self.blows.push(Blow { time_s: state.time_s, contacts, efforts });
+        self.after_blows.clone_from(&state.twists);
     }
 
     /// Every point that has come into touch since the last step strikes, the one that did so first before the others, and

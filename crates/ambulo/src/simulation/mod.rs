@@ -57,6 +57,7 @@ mod forces;
 mod impulse;
 mod joint;
 mod rates;
+mod samples;
 mod signal;
 mod smooth;
 mod state;
@@ -65,10 +66,12 @@ mod touch;
 mod world;
 
 pub mod scene;
+pub mod walking;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
-pub use forces::{ContactForce, StepForces};
+pub use forces::{Blow, ContactForce, StepForces};
+pub use samples::Samples;
 pub use impulse::largest_joint_error;
 pub use joint::JointKind;
 pub use signal::Signal;

@@ -5,7 +5,7 @@
 //! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
 use super::assemble::{Assembly, Prescribed};
-use super::forces::{ContactForce, StepForces};
+use super::forces::{Blow, StepForces};
 use super::impulse::{impact, impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
@@ -87,10 +87,10 @@ pub struct StepWorkspace {
     /// Wrench impulse of each body's joint on it, at its mass centre, once read.
     pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,
-    /// Collisions within the last step: time [s] and impulse [N.s].
-    pub(crate) impacts: Vec<(f64, ContactForce)>,
-    /// What they ask of each joint's coordinates [N.m.s or N.s].
-    pub(crate) impact_efforts: Vec<(f64, Vec<Vec<f64>>)>,
+    /// Collisions within the last step.
+    pub(crate) blows: Vec<Blow>,
+    /// Twists of all bodies after the last of them; without meaning if there was none.
+    pub(crate) after_blows: Vec<Twist>,
 }
 
 impl StepWorkspace {
@@ -115,18 +115,11 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Blows of the last step that are apart from its forces (a smooth step's collisions, or those of
-    /// [`Impact::Sticking`](super::Impact::Sticking)): time [s], and the contact with impulses [N.s] for forces.
+    /// Blows of the last step that are apart from its forces: a smooth step's collisions, or those of
+    /// [`Impact::Sticking`](super::Impact::Sticking).
     #[must_use]
-    pub fn impacts(&self) -> &[(f64, ContactForce)] {
-        &self.impacts
-    }
-
-    /// What each of those blows asks of the joints: time [s], and per joint the impulse along each of its coordinates [N.m.s
-    /// or N.s].
-    #[must_use]
-    pub fn impact_efforts(&self) -> &[(f64, Vec<Vec<f64>>)] {
-        &self.impact_efforts
+    pub fn blows(&self) -> &[Blow] {
+        &self.blows
     }
 }
 
@@ -144,8 +137,7 @@ pub fn step(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    w.impacts.clear();
-    w.impact_efforts.clear();
+    w.blows.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),

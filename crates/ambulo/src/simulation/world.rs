@@ -250,7 +250,7 @@ pub enum Impact {
     Coulomb,
     /// All of it is cancelled, along the surfaces too, whatever the friction (the paper's rule, section 3.3). Surfaces touch
     /// once their gap has closed; a point that was not in touch before then strikes at an instant of its own, those that
-    /// rest obeying Coulomb's law, and the step goes on from there. The blows are in `StepWorkspace::impacts`, apart from
+    /// rest obeying Coulomb's law, and the step goes on from there. The blows are in `StepWorkspace::blows`, apart from
     /// the forces. Restitution plays no part; materials that give do not strike. Only steps of impulses know it.
     Sticking,
 }

@@ -154,7 +154,8 @@ impl Scene {
         }
         while self.steps < self.steps_in_all() {
             statistics.add(&self.step(findings)?);
-            impacts.extend_from_slice(self.workspace.impacts());
+            let blows = self.workspace.blows().iter();
+            impacts.extend(blows.flat_map(|blow| blow.contacts.iter().map(|contact| (blow.time_s, *contact))));
             if self.is_seen() {
                 let forces = Some(self.workspace.forces(&self.world));
                 let energy = energy(&self.world, &self.state);
