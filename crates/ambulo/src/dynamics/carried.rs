@@ -223,6 +223,17 @@ impl Carried {
         self.targets.extend(targets.iter().zip(&self.shift).map(|(target, shift)| target - shift));
     }
 
+    /// Begins displacements from where bodies have been placed, `off` from where their motion takes them; joints hold.
+    pub(super) fn begin_placed(&mut self, full: &ConstraintGraph, off: &[Six]) {
+        self.graph.terms.offset.fill(Six::zeros());
+        self.beyond.fill(Six::zeros());
+        self.displacements.clear();
+        self.displacements.resize(self.first.len(), Six::zeros());
+        for (body, off) in off.iter().enumerate() {
+            self.displacements[self.of[body]] -= carry(&full.bodies[body].times(off), &self.arm[body]);
+        }
+    }
+
     /// a_c = X a_C + W_c of all bodies.
     pub(super) fn spread(&self, of_graph: &[Six], motions: &mut Vec<Six>) {
         motions.clear();

@@ -162,6 +162,29 @@ pub(crate) fn project_displacements(
     });
 }
 
+/// The same for bodies that have already been placed, `off` from where their motion takes them: displacements of all from
+/// the places where they are, with the least mass moved from where their motion takes them. Of a graph that was solved as
+/// what its bodies carry.
+pub(crate) fn project_placed(
+    graph: &ConstraintGraph,
+    off: &[Six],
+    targets: &[f64],
+    workspace: &mut GraphWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+) {
+    coordinates.clear();
+    coordinates.resize(graph.efforts.len(), 0.0);
+    let mut carried = std::mem::take(&mut workspace.carried);
+    carried.begin_placed(graph, off);
+    let Carried { graph: less, displacements, .. } = &mut carried;
+    workspace.with_problem(less, |mut problem, newton, _| {
+        proximal::project(&mut problem, newton, targets, displacements, coordinates);
+    });
+    carried.spread(&carried.displacements, motions);
+    workspace.carried = carried;
+}
+
 /// Rows that hold at the last solution and whose forces the motion does not determine: some combination of them with
 /// others moves nothing (a flat foot on four points, a loop in the plane closed by rows for space). Uses the last factor.
 ///
@@ -246,6 +269,11 @@ impl GraphWorkspace {
         }
         self.elimination = Some(Elimination::new(&graph.links, &couplings)?);
         Ok(())
+    }
+
+    /// Whether the last graph was solved as what its bodies carry.
+    pub(crate) fn carries(&self) -> bool {
+        self.carries
     }
 
     /// Bodies with their parents, parents first, as last solved.

@@ -5,7 +5,8 @@
 //! moved).
 
 use super::assemble::{Prescribed, Span, twist};
-use super::impulse::{advance, closure_errors, share_of_displacements};
+use super::impulse::advance;
+use super::projection::{closure_errors, share_of_displacements};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::world::World;

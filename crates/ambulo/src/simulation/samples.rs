@@ -89,7 +89,8 @@ mod tests {
     fn a_wave_is_met_between_its_samples_to_the_sixth_order() {
         let period = std::f64::consts::TAU / 3.0;
         let error = |step: f64| {
-            let samples = Samples::new(2, [0.1, period], step, true, |t, row| row.copy_from_slice(&[[0.0; 3], wave(t)]));
+            let samples =
+                Samples::new(2, [0.1, period], step, true, |t, row| row.copy_from_slice(&[[0.0; 3], wave(t)]));
             let off = |k: u32| {
                 let t = -7.0 + 0.013 * f64::from(k);
                 let (found, meant) = (samples.at(1, t), wave(t));
@@ -108,7 +109,8 @@ mod tests {
     #[test]
     fn what_does_not_repeat_stays_where_it_ends() {
         let samples = Samples::new(1, [1.0, 1.0], 0.1, false, |t, row| row[0] = wave(t));
-        assert_eq!(samples.at(0, 0.5), [wave(1.0)[0], 0.0, 0.0]);
+        let [value, rate, acceleration] = samples.at(0, 0.5);
+        assert!((value - wave(1.0)[0]).abs() < 1e-12 && rate.abs() + acceleration.abs() <= 0.0);
         assert!((samples.at(0, 9.0)[0] - wave(2.0)[0]).abs() < 1e-12);
     }
 }

@@ -5,8 +5,9 @@
 //! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
 use super::assemble::{Assembly, Prescribed};
+use super::blow::impact;
 use super::forces::{Blow, StepForces};
-use super::impulse::{impact, impulse_step, obstacle_motion};
+use super::impulse::{impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::{RowKey, State};

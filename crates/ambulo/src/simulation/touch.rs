@@ -116,6 +116,19 @@ impl TouchWorkspace {
         }
     }
 
+    /// How far the origin of a surface has gone since detection [m], where that tells how far its points have: of balls, and of
+    /// what does not move.
+    pub(crate) fn moved(&self, world: &World, state: &State, surface: usize) -> Option<Vec3> {
+        let about = &world.surfaces[surface];
+        match about.owner {
+            Owner::Body(body) if about.shape.is_sphere() => {
+                Some(state.poses[body].place(about.owner_from_shape.translation) - self.poses[surface].translation)
+            }
+            Owner::Obstacle(obstacle) if world.obstacles[obstacle].path.is_none() => Some(Vec3::zeros()),
+            _ => None,
+        }
+    }
+
     /// Forgets all touches.
     pub(crate) fn clear(&mut self) {
         self.touches.clear();
@@ -141,8 +154,11 @@ impl TouchWorkspace {
             let (a, b) = touch.surfaces;
             let law = |surface: usize| world.materials[world.surfaces[surface].material].law;
             let gives = law(a) != ContactLaw::Rigid || law(b) != ContactLaw::Rigid;
-            touch.known = gives || state.guess.contains_key(&RowKey::Contact(a, b, touch.at.feature));
-            gives || touch.at.gap < MEETING_M
+            let past = state.guess.get(&RowKey::Contact(a, b, touch.at.feature));
+            touch.known = gives || past.is_some();
+            // What pressed may have been lifted a little by the second order of the step.
+            let pressed = past.is_some_and(|impulses| impulses[0] > 0.0);
+            gives || touch.at.gap < if pressed { MARGIN_M } else { MEETING_M }
         });
     }
 

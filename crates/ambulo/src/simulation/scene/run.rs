@@ -9,7 +9,7 @@ use crate::findings::Findings;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
-use crate::simulation::impulse::{closure_errors, largest_joint_error};
+use crate::simulation::projection::{closure_errors, largest_joint_error};
 use crate::simulation::state::{RowKey, State};
 use crate::simulation::step::{StepSettings, step};
 use crate::simulation::world::World;

@@ -10,7 +10,9 @@ use crate::simulation::WorldError;
 #[non_exhaustive]
 pub enum WalkingError {
     /// A joint that does not keep to the plane.
-    #[error("joint `{joint}`: {found}; expected one hinge about z, and for the root a turn about z with slides along x and y")]
+    #[error(
+        "joint `{joint}`: {found}; expected one hinge about z, and for the root a turn about z with slides along x and y"
+    )]
     Joint {
         /// The joint.
         joint: String,

@@ -6,7 +6,8 @@ use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
 use crate::simulation::{
-    Body, ContactLaw, Drive, Impact, Joint, JointCoordinate, JointKind, Material, Obstacle, Owner, Signal, Surface, World,
+    Body, ContactLaw, Drive, Impact, Joint, JointCoordinate, JointKind, Material, Obstacle, Owner, Signal, Surface,
+    World,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
@@ -72,12 +73,7 @@ impl Walker {
     ///
     /// # Errors
     /// A model that is not planar, or signals for another one.
-    pub fn new(
-        human: &Human,
-        signals: Vec<Signal>,
-        ground: &Ground,
-        speed_m_s: f64,
-    ) -> Result<Walker, WalkingError> {
+    pub fn new(human: &Human, signals: Vec<Signal>, ground: &Ground, speed_m_s: f64) -> Result<Walker, WalkingError> {
         let model = human.model.clone();
         let expected = model.coordinates().len();
         if signals.len() != expected {
@@ -211,9 +207,7 @@ impl Walker {
         }
         let at = |q: &[f64]| body_motion(&self.model, Posture { q, qd: &qd, qdd: &qdd });
         let motions = at(&q);
-        let low = |sole: &ContactSphere| {
-            motions[sole.body.index()].pose.place(sole.center).y - sole.radius
-        };
+        let low = |sole: &ContactSphere| motions[sole.body.index()].pose.place(sole.center).y - sole.radius;
         let lowest = human.soles.iter().map(low).fold(f64::INFINITY, f64::min);
         if let (Some(y), true) = (y, lowest.is_finite()) {
             q[y] = -self.placed[y].sense * lowest;
