@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod demo_input;
 mod figures;
+mod fit_gait;
 
 mod npz;
 mod peers;
@@ -21,6 +22,7 @@ usage: cargo xtask <command>
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
+  fit-gait          fit the laws of the joints against speed anew from normative curves; prints their errors
   demo-input        make the built-in walk of `ambulo demo` anew, beside its figure
   help              this text
 
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         ("bench", []) => bench::run(),
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
+        ("fit-gait", []) => fit_gait::run(),
         ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
 
         ("help" | "--help" | "-h", []) => {

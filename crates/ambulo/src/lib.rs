@@ -11,9 +11,12 @@
 pub mod findings;
 pub mod numerics;
 pub mod spatial;
+pub mod toml_reader;
 
 pub mod model;
 pub mod motion;
+
+pub mod gait;
 
 pub mod kinematics;
 

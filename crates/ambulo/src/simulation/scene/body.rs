@@ -3,10 +3,10 @@
 use super::SceneError;
 use super::material::Material;
 use super::names::{Item, Names};
-use super::reader::{Table, Value};
 use super::shape::Shape;
 use super::uniform::uniform;
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
+use crate::toml_reader::{Table, Value};
 
 /// A rigid body. Its frame has the origin at the mass centre.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,6 @@
 //! From a scene file to a world that runs.
 
 use super::closing::Closing;
-use super::error::{Place, SceneError};
 use super::event::Event;
 use super::file::SceneFile;
 use super::names::{Carrier, Partner};
@@ -13,6 +12,7 @@ use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
 use super::walker::{self, Walker};
 use super::{Coordinate, coordinate::CoordinateKind};
+use super::{Place, SceneError};
 use crate::dynamics::{Method, SolverSettings};
 use crate::findings::Findings;
 use crate::simulation::state::State;

@@ -4,8 +4,8 @@ use super::SceneError;
 use super::body::Body;
 use super::joint::JointKind;
 use super::names::{Carrier, Names};
-use super::reader::{Table, Value};
 use crate::spatial::Vec3;
+use crate::toml_reader::{Table, Value};
 
 /// A joint that closes a loop. Orientations (of a weld, of axes) are kept as they are at the moment it becomes active.
 #[derive(Debug, Clone, PartialEq)]

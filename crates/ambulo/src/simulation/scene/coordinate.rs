@@ -4,7 +4,7 @@ use super::SceneError;
 use super::body::Body;
 use super::function::{self, Function, Purpose};
 use super::joint::JointKind;
-use super::reader::{Table, Value};
+use crate::toml_reader::{Table, Value};
 
 /// One motion that a joint leaves. Angles [rad] and moments [N.m], or lengths [m] and forces [N].
 #[derive(Debug, Clone, PartialEq)]

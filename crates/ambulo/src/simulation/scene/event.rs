@@ -4,7 +4,7 @@ use super::SceneError;
 use super::closure::Closure;
 use super::joint::Joint;
 use super::names::{Item, Names};
-use super::reader::{Table, Value};
+use crate::toml_reader::{Table, Value};
 
 /// Something that happens at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! Figures: bodies and joints of an OpenSim model, moved by a recording.
 
-use super::error::{Place, SceneError};
 use super::material::{self, Material};
 use super::names::{Item, Names};
-use super::reader::{Table, Value};
+use super::{Place, SceneError};
 use crate::spatial::{Pose, Vec3};
+use crate::toml_reader::{Table, Value};
 
 /// A figure from an OpenSim model. Its files are not opened here.
 #[derive(Debug, Clone, PartialEq)]

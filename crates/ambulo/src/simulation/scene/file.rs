@@ -10,10 +10,10 @@ use super::material::{self, Material};
 use super::names::{Carrier, Item, Names, Partner};
 use super::obstacle::Obstacle;
 use super::output::{self, AllNames, Outputs};
-use super::reader::{Source, Table};
 use super::solver::{Integrator, Solver};
 use super::tree;
 use crate::spatial::Vec3;
+use crate::toml_reader::{Source, Table};
 
 /// A scene as its file says it: SI units and radians, references resolved, numbers checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +99,7 @@ impl SceneFile {
     /// # Errors
     /// The first thing that is wrong, with line and key.
     pub fn parse(text: &str) -> Result<SceneFile, SceneError> {
-        let source = Source::new(text);
+        let source = Source::new(text, "docs/SCENES.md");
         let raw = source.parse()?;
         let root = Table::root(&source, &raw);
         root.only(&[KEYS])?;

@@ -1,7 +1,7 @@
 //! Functions of time: what drives, motors and moving obstacles follow.
 
-use super::error::{Place, SceneError};
-use super::reader::{Table, Value};
+use super::{Place, SceneError};
+use crate::toml_reader::{Table, Value};
 
 /// A function of the scene's time [s]; values in rad or m, as what it is for says.
 #[derive(Debug, Clone, PartialEq)]

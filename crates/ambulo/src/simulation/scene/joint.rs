@@ -4,8 +4,8 @@ use super::SceneError;
 use super::body::Body;
 use super::coordinate::{Coordinate, CoordinateKind};
 use super::names::{Carrier, Names};
-use super::reader::Table;
 use crate::spatial::Vec3;
+use crate::toml_reader::Table;
 
 /// A joint between a child and its parent. The joints form trees; loops are closed by closures.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! What surfaces are made of: friction, bounce, compliance.
 
 use super::SceneError;
-use super::reader::Table;
+use crate::toml_reader::Table;
 
 /// A surface, named by the shapes that have it.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,9 +4,9 @@ use super::SceneError;
 use super::function::{self, Function, Purpose};
 use super::material::{self, Material};
 use super::names::{Item, Names};
-use super::reader::{Table, Value};
 use super::shape::{self, Solid};
 use crate::spatial::{Pose, Vec3};
+use crate::toml_reader::{Table, Value};
 
 /// Something that forces never move.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::names::{Item, Names};
-use super::reader::{Table, Value};
+use crate::toml_reader::{Table, Value};
 
 /// Which results are kept, and drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]

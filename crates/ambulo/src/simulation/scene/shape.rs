@@ -2,8 +2,8 @@
 
 use super::SceneError;
 use super::material::{self, Material};
-use super::reader::Table;
 use crate::spatial::{Pose, Vec3};
+use crate::toml_reader::Table;
 
 /// A shape of a body.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! How a scene is stepped and solved.
 
 use super::SceneError;
-use super::reader::Table;
+use crate::toml_reader::Table;
 
 /// How time goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Files that a scene names, read by the caller, and the functions of time in them.
 
-use super::error::{Place, SceneError};
 use super::function::Function;
+use super::{Place, SceneError};
 use crate::findings::Findings;
 use crate::model::{Model, from_osim_bytes};
 use crate::motion::RecordedTable;

@@ -1,9 +1,9 @@
 //! Shapes and materials of a scene as the simulator has them.
 
-use super::error::{Place, SceneError};
 use super::material::{ContactLaw as Asked, Material as AskedMaterial};
 use super::obstacle::ObstacleShape;
 use super::shape::Solid;
+use super::{Place, SceneError};
 use crate::contact::{HuntCrossley, Shape, ShapeError};
 use crate::simulation::joint::rotation;
 use crate::simulation::world::{ContactLaw, Material};

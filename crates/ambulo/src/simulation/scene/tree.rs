@@ -4,7 +4,7 @@ use super::SceneError;
 use super::body::Body;
 use super::joint::Joint;
 use super::names::Carrier;
-use super::reader::Table;
+use crate::toml_reader::Table;
 
 const ADVICE: &str = "close the loop with a [[closure]]";
 

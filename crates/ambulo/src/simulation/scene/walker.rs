@@ -4,11 +4,11 @@
 //! Others must be of a kind that the simulator has: turns about one fixed axis, two square ones or three, slides along one, the
 //! plane, or everything.
 
-use super::error::{Place, SceneError};
 use super::figure::{Driven, Figure as Asked, Root};
 use super::joint::JointKind as AskedJoint;
 use super::placement::place;
 use super::sources::Sources;
+use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};

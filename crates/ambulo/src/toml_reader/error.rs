@@ -1,10 +1,10 @@
-//! What can be wrong with a scene, said so that the reader can mend it.
+//! What can be wrong with a file, said so that its writer can mend it.
 
-/// Why a scene could not be read: where, what was found, what was allowed, what to do.
+/// Why a file could not be read: where, what was found, what was allowed, what to do.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[error("line {line}{}: {message}", place(key))]
-pub struct SceneError {
+pub struct TomlError {
     /// Line of the file, counted from 1.
     pub line: usize,
     /// Path of the key, entries of lists counted from 1: `body[3].mass`. Empty where the text is no TOML.
@@ -13,7 +13,7 @@ pub struct SceneError {
     pub message: String,
 }
 
-/// Where something stands in a scene file, for errors that show only when the files it names are read.
+/// Where something stands in a file, for errors that show only later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// Line of the file, counted from 1.
@@ -25,8 +25,8 @@ pub struct Place {
 impl Place {
     /// An error here.
     #[must_use]
-    pub fn error(&self, message: impl Into<String>) -> SceneError {
-        SceneError::new(self.line, self.key.clone(), message)
+    pub fn error(&self, message: impl Into<String>) -> TomlError {
+        TomlError::new(self.line, self.key.clone(), message)
     }
 }
 
@@ -34,16 +34,16 @@ fn place(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!(", `{key}`") }
 }
 
-impl SceneError {
-    /// An error at a place of the file; also for what shows only later, when the files a scene names are read.
+impl TomlError {
+    /// An error at a place of the file; also for what shows only later, when other files are read.
     #[must_use]
-    pub fn new(line: usize, key: impl Into<String>, message: impl Into<String>) -> SceneError {
-        SceneError { line, key: key.into(), message: message.into() }
+    pub fn new(line: usize, key: impl Into<String>, message: impl Into<String>) -> TomlError {
+        TomlError { line, key: key.into(), message: message.into() }
     }
 
     /// The same error with advice at its end.
     #[must_use]
-    pub fn hint(mut self, advice: &str) -> SceneError {
+    pub fn hint(mut self, advice: &str) -> TomlError {
         let joined = if self.message.contains(". hint: ") { "; " } else { ". hint: " };
         self.message.push_str(joined);
         self.message.push_str(advice);

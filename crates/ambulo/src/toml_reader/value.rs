@@ -1,7 +1,7 @@
 //! TOML values with their place: whatever is refused is refused with line and key.
 
-use super::error::{Place, SceneError};
-use super::names::{listed, nearest};
+use super::error::{Place, TomlError};
+use super::words::{listed, nearest};
 use crate::spatial::{Mat3, Pose, Vec3};
 use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion};
 use std::ops::Range;
@@ -15,24 +15,26 @@ const SHORTEST_DIRECTION: f64 = 1e-9;
 /// Characters of the file that a message repeats.
 const SHOWN: usize = 40;
 
-/// The text of a scene, and where its lines begin.
-pub(super) struct Source<'t> {
+/// The text of a file, and where its lines begin.
+pub(crate) struct Source<'t> {
     text: &'t str,
+    /// The document that describes such files.
+    document: &'static str,
     starts: Vec<usize>,
 }
 
 impl<'t> Source<'t> {
-    pub(super) fn new(text: &'t str) -> Source<'t> {
+    pub(crate) fn new(text: &'t str, document: &'static str) -> Source<'t> {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        Source { text, starts: std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect() }
+        Source { text, document, starts: std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect() }
     }
 
     /// The table that the text is.
-    pub(super) fn parse(&self) -> Result<DeTable<'t>, SceneError> {
+    pub(crate) fn parse(&self) -> Result<DeTable<'t>, TomlError> {
         DeTable::parse(self.text).map(Spanned::into_inner).map_err(|error| {
             let at = error.span().map_or(self.text.len(), |span| span.start);
-            SceneError::new(self.line(at), "", format!("this is not TOML: {}", error.message().trim()))
-                .hint("texts stand in quotes, lists in [ ], inline tables in { }; see docs/SCENES.md")
+            TomlError::new(self.line(at), "", format!("this is not TOML: {}", error.message().trim()))
+                .hint(&format!("texts stand in quotes, lists in [ ], inline tables in {{ }}; see {}", self.document))
         })
     }
 
@@ -53,46 +55,46 @@ impl<'t> Source<'t> {
 
 /// One value of the file.
 #[derive(Clone)]
-pub(super) struct Value<'t> {
+pub(crate) struct Value<'t> {
     source: &'t Source<'t>,
     path: String,
     raw: &'t Spanned<DeValue<'t>>,
 }
 
 impl<'t> Value<'t> {
-    pub(super) fn line(&self) -> usize {
+    pub(crate) fn line(&self) -> usize {
         self.source.line(self.raw.span().start)
     }
 
     /// Where it stands.
-    pub(super) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         Place { line: self.line(), key: self.path.clone() }
     }
 
     /// The error that this value is not what was expected.
-    pub(super) fn wrong(&self, expected: &str) -> SceneError {
+    pub(crate) fn wrong(&self, expected: &str) -> TomlError {
         let found = self.source.shown(self.raw.span());
-        SceneError::new(self.line(), self.path.clone(), format!("found {found}; expected {expected}"))
+        TomlError::new(self.line(), self.path.clone(), format!("found {found}; expected {expected}"))
     }
 
-    pub(super) fn number(&self) -> Result<f64, SceneError> {
+    pub(crate) fn number(&self) -> Result<f64, TomlError> {
         self.finite("a number")
     }
 
-    pub(super) fn above_zero(&self) -> Result<f64, SceneError> {
+    pub(crate) fn above_zero(&self) -> Result<f64, TomlError> {
         const EXPECTED: &str = "a number above zero";
         let number = self.finite(EXPECTED)?;
         if number > 0.0 { Ok(number) } else { Err(self.wrong(EXPECTED)) }
     }
 
-    pub(super) fn zero_or_more(&self) -> Result<f64, SceneError> {
+    pub(crate) fn zero_or_more(&self) -> Result<f64, TomlError> {
         const EXPECTED: &str = "a number, zero or more";
         let number = self.finite(EXPECTED)?;
         if number >= 0.0 { Ok(number) } else { Err(self.wrong(EXPECTED)) }
     }
 
     /// A finite number; `expected` says what else might stand here.
-    pub(super) fn finite(&self, expected: &str) -> Result<f64, SceneError> {
+    pub(crate) fn finite(&self, expected: &str) -> Result<f64, TomlError> {
         let number = match self.raw.get_ref() {
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64),
@@ -109,27 +111,27 @@ impl<'t> Value<'t> {
         }
     }
 
-    pub(super) fn count(&self) -> Result<usize, SceneError> {
+    pub(crate) fn count(&self) -> Result<usize, TomlError> {
         let whole = self.raw.get_ref().as_integer().and_then(|integer| integer.as_str().parse().ok());
         whole.filter(|count| *count > 0).ok_or_else(|| self.wrong("a whole number, one or more"))
     }
 
-    pub(super) fn truth(&self) -> Result<bool, SceneError> {
+    pub(crate) fn truth(&self) -> Result<bool, TomlError> {
         self.raw.get_ref().as_bool().ok_or_else(|| self.wrong("true or false"))
     }
 
-    pub(super) fn text(&self) -> Result<&'t str, SceneError> {
+    pub(crate) fn text(&self) -> Result<&'t str, TomlError> {
         self.raw.get_ref().as_str().ok_or_else(|| self.wrong("a text in quotes"))
     }
 
     /// A text that names a file or something in a file.
-    pub(super) fn filled_text(&self) -> Result<String, SceneError> {
+    pub(crate) fn filled_text(&self) -> Result<String, TomlError> {
         let text = self.text()?;
         if text.trim().is_empty() { Err(self.wrong("a text that is not empty")) } else { Ok(text.to_owned()) }
     }
 
     /// One of some words.
-    pub(super) fn choice<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, SceneError> {
+    pub(crate) fn choice<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, TomlError> {
         let quoted: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
         let expected = format!("one of {}", quoted.join(", "));
         let Some(found) = self.raw.get_ref().as_str() else { return Err(self.wrong(&expected)) };
@@ -143,40 +145,40 @@ impl<'t> Value<'t> {
         })
     }
 
-    pub(super) fn list(&self, expected: &str) -> Result<Vec<Value<'t>>, SceneError> {
+    pub(crate) fn list(&self, expected: &str) -> Result<Vec<Value<'t>>, TomlError> {
         let Some(array) = self.raw.get_ref().as_array() else { return Err(self.wrong(expected)) };
         let entry = |(i, raw)| Value { source: self.source, path: format!("{}[{}]", self.path, i + 1), raw };
         Ok(array.iter().enumerate().map(entry).collect())
     }
 
-    pub(super) fn numbers<const N: usize>(&self, expected: &str) -> Result<[f64; N], SceneError> {
-        let numbers: Result<Vec<f64>, SceneError> = self.list(expected)?.iter().map(Value::number).collect();
+    pub(crate) fn numbers<const N: usize>(&self, expected: &str) -> Result<[f64; N], TomlError> {
+        let numbers: Result<Vec<f64>, TomlError> = self.list(expected)?.iter().map(Value::number).collect();
         numbers?.try_into().map_err(|_| self.wrong(expected))
     }
 
-    pub(super) fn vector(&self) -> Result<Vec3, SceneError> {
+    pub(crate) fn vector(&self) -> Result<Vec3, TomlError> {
         self.numbers("three numbers [x, y, z]").map(Vec3::from)
     }
 
     /// A vector made one long.
-    pub(super) fn direction(&self) -> Result<Vec3, SceneError> {
+    pub(crate) fn direction(&self) -> Result<Vec3, TomlError> {
         const EXPECTED: &str = "a direction [x, y, z] longer than zero";
         let vector = Vec3::from(self.numbers(EXPECTED)?);
         vector.try_normalize(SHORTEST_DIRECTION).ok_or_else(|| self.wrong(EXPECTED))
     }
 
     /// Whether this is a table; functions are numbers or tables.
-    pub(super) fn is_table(&self) -> bool {
+    pub(crate) fn is_table(&self) -> bool {
         self.raw.get_ref().is_table()
     }
 
-    pub(super) fn table(&self, expected: &str) -> Result<Table<'t>, SceneError> {
+    pub(crate) fn table(&self, expected: &str) -> Result<Table<'t>, TomlError> {
         let Some(raw) = self.raw.get_ref().as_table() else { return Err(self.wrong(expected)) };
         Ok(Table { source: self.source, path: self.path.clone(), line: self.line(), raw })
     }
 
     /// Axis and angle, or a quaternion: `outer_from_inner`.
-    fn rotation(&self) -> Result<Mat3, SceneError> {
+    fn rotation(&self) -> Result<Mat3, TomlError> {
         let table = self.table("{ axis = [x, y, z], angle_deg = 30 } or { quaternion = [w, x, y, z] }")?;
         let Some(value) = table.get("quaternion") else {
             table.only(&[&["axis", "angle_deg", "angle", "quaternion"]])?;
@@ -193,18 +195,23 @@ impl<'t> Value<'t> {
 }
 
 /// A table of the file.
-pub(super) struct Table<'t> {
+pub(crate) struct Table<'t> {
     source: &'t Source<'t>,
     path: String,
     /// Line of its header or brace, counted from 1.
-    pub(super) line: usize,
+    pub(crate) line: usize,
     raw: &'t DeTable<'t>,
 }
 
 impl<'t> Table<'t> {
     /// The whole file.
-    pub(super) fn root(source: &'t Source<'t>, raw: &'t DeTable<'t>) -> Table<'t> {
+    pub(crate) fn root(source: &'t Source<'t>, raw: &'t DeTable<'t>) -> Table<'t> {
         Table { source, path: String::new(), line: 1, raw }
+    }
+
+    /// Where it stands.
+    pub(crate) fn place(&self) -> Place {
+        Place { line: self.line, key: self.path.clone() }
     }
 
     fn path_of(&self, key: &str) -> String {
@@ -212,32 +219,32 @@ impl<'t> Table<'t> {
     }
 
     /// Refuses every key that is not among the lists.
-    pub(super) fn only(&self, allowed: &[&[&str]]) -> Result<(), SceneError> {
+    pub(crate) fn only(&self, allowed: &[&[&str]]) -> Result<(), TomlError> {
         let keys = || allowed.iter().flat_map(|list| list.iter().copied());
         let unknown = self.raw.keys().filter(|key| !keys().any(|known| known == key.get_ref().as_ref()));
         let Some(first) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         let name = first.get_ref().as_ref();
         let message = format!("this key is not known here; expected {}", listed(keys()));
         let shown_name = self.source.shown(first.span());
-        let error = SceneError::new(self.source.line(first.span().start), self.path_of(&shown_name), message);
+        let error = TomlError::new(self.source.line(first.span().start), self.path_of(&shown_name), message);
         Err(match nearest(name, keys()) {
             Some(near) => error.hint(&format!("is `{near}` meant?")),
             None => error,
         })
     }
 
-    pub(super) fn get(&self, key: &str) -> Option<Value<'t>> {
+    pub(crate) fn get(&self, key: &str) -> Option<Value<'t>> {
         self.raw.get(key).map(|raw| Value { source: self.source, path: self.path_of(key), raw })
     }
 
     /// A value that must be there; `meaning` tells a reader who left it out what it is.
-    pub(super) fn need(&self, key: &str, meaning: &str) -> Result<Value<'t>, SceneError> {
+    pub(crate) fn need(&self, key: &str, meaning: &str) -> Result<Value<'t>, TomlError> {
         self.get(key).ok_or_else(|| self.missing(key, meaning))
     }
 
     /// The error that a key is not there.
-    pub(super) fn missing(&self, key: &str, meaning: &str) -> SceneError {
-        let error = SceneError::new(self.line, self.path_of(key), format!("found no `{key}`; expected {meaning}"));
+    pub(crate) fn missing(&self, key: &str, meaning: &str) -> TomlError {
+        let error = TomlError::new(self.line, self.path_of(key), format!("found no `{key}`; expected {meaning}"));
         match nearest(key, self.raw.keys().map(|key| key.get_ref().as_ref())) {
             Some(near) => error.hint(&format!("is `{near}` meant to be `{key}`?")),
             None => error,
@@ -245,36 +252,36 @@ impl<'t> Table<'t> {
     }
 
     /// The error that this table as a whole is not what was expected.
-    pub(super) fn wrong(&self, message: impl Into<String>) -> SceneError {
-        SceneError::new(self.line, self.path.clone(), message)
+    pub(crate) fn wrong(&self, message: impl Into<String>) -> TomlError {
+        TomlError::new(self.line, self.path.clone(), message)
     }
 
-    pub(super) fn number_or(&self, key: &str, default: f64) -> Result<f64, SceneError> {
+    pub(crate) fn number_or(&self, key: &str, default: f64) -> Result<f64, TomlError> {
         self.get(key).map_or(Ok(default), |value| value.number())
     }
 
-    pub(super) fn zero_or_more_or(&self, key: &str, default: f64) -> Result<f64, SceneError> {
+    pub(crate) fn zero_or_more_or(&self, key: &str, default: f64) -> Result<f64, TomlError> {
         self.get(key).map_or(Ok(default), |value| value.zero_or_more())
     }
 
-    pub(super) fn above_zero_or(&self, key: &str, default: f64) -> Result<f64, SceneError> {
+    pub(crate) fn above_zero_or(&self, key: &str, default: f64) -> Result<f64, TomlError> {
         self.get(key).map_or(Ok(default), |value| value.above_zero())
     }
 
-    pub(super) fn truth_or(&self, key: &str, default: bool) -> Result<bool, SceneError> {
+    pub(crate) fn truth_or(&self, key: &str, default: bool) -> Result<bool, TomlError> {
         self.get(key).map_or(Ok(default), |value| value.truth())
     }
 
-    pub(super) fn vector_or_zero(&self, key: &str) -> Result<Vec3, SceneError> {
+    pub(crate) fn vector_or_zero(&self, key: &str) -> Result<Vec3, TomlError> {
         self.get(key).map_or(Ok(Vec3::zeros()), |value| value.vector())
     }
 
     /// The value under `key` or `key_deg`, and the factor to SI; both at once are refused.
-    pub(super) fn either_unit(&self, key: &str) -> Result<Option<(Value<'t>, f64)>, SceneError> {
+    pub(crate) fn either_unit(&self, key: &str) -> Result<Option<(Value<'t>, f64)>, TomlError> {
         match (self.get(key), self.get(&format!("{key}_deg"))) {
             (Some(_), Some(degrees)) => {
                 let message = format!("found both `{key}_deg` and `{key}`; expected one of them");
-                Err(SceneError::new(degrees.line(), degrees.path, message).hint("`_deg` is in degrees"))
+                Err(TomlError::new(degrees.line(), degrees.path, message).hint("`_deg` is in degrees"))
             }
             (Some(value), None) => Ok(Some((value, 1.0))),
             (None, Some(value)) => Ok(Some((value, 1_f64.to_radians()))),
@@ -283,18 +290,18 @@ impl<'t> Table<'t> {
     }
 
     /// An angle [rad] from `key` or `key_deg`.
-    pub(super) fn angle(&self, key: &str) -> Result<Option<f64>, SceneError> {
+    pub(crate) fn angle(&self, key: &str) -> Result<Option<f64>, TomlError> {
         self.either_unit(key)?.map(|(value, unit)| value.number().map(|number| number * unit)).transpose()
     }
 
     /// Where a frame stands: the vector under `at` (`position` for bodies) and `rotation`; each may be left out.
-    pub(super) fn pose(&self, at: &str) -> Result<Pose, SceneError> {
+    pub(crate) fn pose(&self, at: &str) -> Result<Pose, TomlError> {
         let rotation = self.get("rotation").map_or(Ok(Mat3::identity()), |value| value.rotation())?;
         Ok(Pose { rotation, translation: self.vector_or_zero(at)? })
     }
 
     /// The tables of `[[key]]`; one alone may also be written `[key]`.
-    pub(super) fn tables(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
+    pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'t>>, TomlError> {
         let Some(value) = self.get(key) else { return Ok(Vec::new()) };
         let expected = format!("tables, each under the header [[{}]]", self.header(key));
         if value.is_table() {
@@ -311,7 +318,7 @@ impl<'t> Table<'t> {
     }
 
     /// The tables of `[key.NAME]`, with their names, in the order of the file.
-    pub(super) fn named_tables(&self, key: &str) -> Result<Vec<(String, Table<'t>)>, SceneError> {
+    pub(crate) fn named_tables(&self, key: &str) -> Result<Vec<(String, Table<'t>)>, TomlError> {
         let Some(value) = self.get(key) else { return Ok(Vec::new()) };
         let expected = format!("tables, each under a header [{key}.NAME]");
         let outer = value.table(&expected)?;

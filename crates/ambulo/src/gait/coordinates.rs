@@ -1,0 +1,106 @@
+//! A posture as coordinates of a model, by name.
+//!
+//! The signs of the models (docs/CONVENTIONS.md) differ from clinical ones at the knee (extension +), at the pelvis and at the
+//! lumbar joint (backwards +). A model's pelvis stands at 0 in upright standing, where the clinical one is tilted forwards by
+//! [`STANDING_TILT`](super::STANDING_TILT): the tilt counts from there. What is kept in every case is the direction of the thigh,
+//! hip flexion less pelvis tilt.
+//!
+//! ```text
+//! thigh = hip - tilt                                                     forward of the vertical
+//! own pelvis:            forward = tilt - standing,   hip_flexion = thigh + forward = hip - standing
+//!                        pelvis_tilt = -forward,      lumbar_extension = forward - lean
+//! pelvis in the trunk:   forward = lean,              hip_flexion = thigh + lean,    pelvis_tilt = -lean
+//! ```
+
+use super::jet::Jet;
+use super::walk::WalkPosture;
+use crate::model::{CoordinateId, Model};
+
+/// Whether the model's pelvis moves against its trunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trunk {
+    /// Pelvis and trunk are two bodies with the joint `lumbar_extension`.
+    WithPelvis,
+    /// One body.
+    OneBody,
+}
+
+impl Trunk {
+    /// What a model has.
+    #[must_use]
+    pub fn of(model: &Model) -> Trunk {
+        if model.coordinate("lumbar_extension").is_some() { Trunk::WithPelvis } else { Trunk::OneBody }
+    }
+}
+
+/// Names of the coordinates that a posture gives, in the order of [`coordinates`].
+pub const COORDINATE_NAMES: [&str; 12] = [
+    "pelvis_tilt",
+    "lumbar_extension",
+    "hip_flexion_r",
+    "knee_angle_r",
+    "ankle_angle_r",
+    "hip_flexion_l",
+    "knee_angle_l",
+    "ankle_angle_l",
+    "arm_flex_r",
+    "elbow_flex_r",
+    "arm_flex_l",
+    "elbow_flex_l",
+];
+
+/// The model's coordinates [rad] of a posture, one for each of [`COORDINATE_NAMES`].
+#[must_use]
+pub fn coordinates(posture: &WalkPosture, trunk: Trunk) -> [Jet; 12] {
+    let forward = match trunk {
+        Trunk::WithPelvis => posture.pelvis_tilt - posture.standing_tilt,
+        Trunk::OneBody => posture.trunk_lean,
+    };
+    let hip = |hip: Jet| hip - posture.pelvis_tilt + forward;
+    let (right, left) = (&posture.right, &posture.left);
+    [
+        -forward,
+        forward - posture.trunk_lean,
+        hip(right.hip),
+        -right.knee,
+        right.ankle,
+        hip(left.hip),
+        -left.knee,
+        left.ankle,
+        posture.shoulders[0],
+        posture.elbows[0],
+        posture.shoulders[1],
+        posture.elbows[1],
+    ]
+}
+
+/// The joints of a model that a walk moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WalkCoordinates {
+    trunk: Trunk,
+    ids: [Option<CoordinateId>; 12],
+}
+
+impl WalkCoordinates {
+    /// The coordinates of a model that have the names of [`COORDINATE_NAMES`]; others are left alone.
+    #[must_use]
+    pub fn of(model: &Model) -> WalkCoordinates {
+        WalkCoordinates { trunk: Trunk::of(model), ids: COORDINATE_NAMES.map(|name| model.coordinate(name)) }
+    }
+
+    /// Writes coordinates, rates and accelerations of a posture into a model's arrays.
+    pub fn write(&self, posture: &WalkPosture, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
+        for (id, jet) in self.ids.iter().zip(coordinates(posture, self.trunk)) {
+            if let Some(id) = id {
+                q[id.index()] = jet.value;
+                qd[id.index()] = jet.rate;
+                qdd[id.index()] = jet.acceleration;
+            }
+        }
+    }
+
+    /// Names of the coordinates that it writes.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.ids.iter().zip(COORDINATE_NAMES).filter_map(|(id, name)| id.map(|_| name))
+    }
+}

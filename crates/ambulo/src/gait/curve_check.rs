@@ -1,0 +1,89 @@
+//! What a curve must satisfy to be walked with: knots in order, angles that a joint can have, sub-cycles of one sense.
+
+use super::cyclic_curve::CyclicCurve;
+use super::jet::Jet;
+use super::joint::Joint;
+use super::style::Style;
+
+/// Least distance of knots [cycles]; closer ones make accelerations without bound.
+const CLOSEST_KNOTS: f64 = 0.005;
+/// Samples of a cycle on which angles are looked at; half a percent apart.
+const SAMPLES: usize = 200;
+/// Free walking, where sub-cycles have the sense that their names say.
+const REFERENCE_SPEED: f64 = 0.429;
+
+/// What is wrong with a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct CurveFault {
+    /// The knot at fault, or that begins the segment at fault.
+    pub(super) knot: usize,
+    /// What was found and what was expected.
+    pub(super) message: String,
+}
+
+/// Checks a curve at some dimensionless speeds.
+pub(super) fn check(curve: &CyclicCurve, joint: Joint, style: Style, speeds: &[f64]) -> Result<(), CurveFault> {
+    for speed in speeds {
+        check_order(curve, *speed)?;
+        check_angles(curve, joint, *speed)?;
+        if style == Style::Paper1997 {
+            check_senses(curve, *speed)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_order(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
+    for k in 1..=curve.knots().len() {
+        let (before, here) = (curve.knot_phase(k - 1, speed), curve.knot_phase(k, speed));
+        if here - before < CLOSEST_KNOTS {
+            let [before, here] = [before, here].map(|phase| 100.0 * phase);
+            let message = format!(
+                "found {here:.1} % after {before:.1} % at dimensionless speed {speed:.3}; expected knots in the order of \
+                 their times, {} % or more apart, within one cycle",
+                100.0 * CLOSEST_KNOTS
+            );
+            return Err(CurveFault { knot: k % curve.knots().len(), message });
+        }
+    }
+    Ok(())
+}
+
+fn check_angles(curve: &CyclicCurve, joint: Joint, speed: f64) -> Result<(), CurveFault> {
+    let [low, high] = joint.plausible();
+    for i in 0..SAMPLES {
+        let phase = i as f64 / SAMPLES as f64;
+        let angle = curve.at(Jet::constant(phase), Jet::constant(speed)).value;
+        if !(low..=high).contains(&angle) {
+            let message = format!(
+                "found {:.1}° at {:.1} % of the cycle (dimensionless speed {speed:.3}); expected {} angles from {:.0}° to {:.0}°",
+                angle.to_degrees(),
+                100.0 * phase,
+                joint.name(),
+                low.to_degrees(),
+                high.to_degrees()
+            );
+            return Err(CurveFault { knot: curve.segment_at(phase, speed), message });
+        }
+    }
+    Ok(())
+}
+
+/// A sub-cycle that extends at one speed extends at every speed.
+fn check_senses(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
+    let n = curve.knots().len();
+    let turn = |k: usize, speed: f64| curve.knots()[(k + 1) % n].angle.at(speed) - curve.knots()[k].angle.at(speed);
+    for k in 0..n {
+        let (here, usual) = (turn(k, speed), turn(k, REFERENCE_SPEED));
+        if here * usual < 0.0 {
+            let message = format!(
+                "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at {REFERENCE_SPEED}; \
+                 expected one sense at every speed",
+                here.to_degrees(),
+                usual.to_degrees()
+            );
+            return Err(CurveFault { knot: k, message });
+        }
+    }
+    Ok(())
+}

