@@ -13,8 +13,10 @@ mod feet;
 mod figure;
 mod recording;
 mod run;
+mod signals;
 
 pub use error::WalkingError;
 pub use feet::FootRecord;
 pub use figure::{Ground, Shoes, Walker};
 pub use recording::{FootBlow, WalkRecording};
+pub use signals::gait_signals;
