@@ -41,12 +41,15 @@ pub(crate) struct Voice {
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
-  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
-  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml --thresholds demo/input/thresholds.toml -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 --thresholds demo/input/thresholds.toml -o out
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, cycles.csv, summary.json, figures/moments.svg, with --device moments_biological.sto.
-Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.")]
+Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
+
+Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
+forces that nothing supplies; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct ForcesArgs {
     /// Recorded coordinates: .mot or .sto.
     pub(crate) input: PathBuf,
@@ -95,6 +98,9 @@ pub(crate) struct ForcesArgs {
     /// A point mass fixed to a body, place in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
     pub(crate) add_mass: Vec<AddedMass>,
+    /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,

@@ -4,6 +4,7 @@
 
 use crate::args::Voice;
 use ambulo::analysis::Agreement;
+use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::Finding;
 use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary};
 use anyhow::Result;
@@ -74,6 +75,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         ))?;
     }
     print_peaks(summary)?;
+    if let Some(verdict) = &summary.verdict {
+        print_verdict(verdict)?;
+    }
     say(&format!("  written   {}", output.display()))?;
     Ok(())
 }
@@ -179,6 +183,34 @@ fn print_peaks(summary: &Summary) -> Result<()> {
     say("  peaks                               min          max")?;
     for peak in summary.peaks.iter().filter(|p| p.unit == "N.m") {
         say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+    }
+    Ok(())
+}
+
+/// Feasible, and what came nearest to its limit; or why not.
+fn print_verdict(verdict: &Verdict) -> Result<()> {
+    /// Longer lists are in summary.json.
+    const MOST: usize = 6;
+    if verdict.feasible {
+        let nearest = verdict.closest.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        let nearest = nearest.map_or_else(String::new, |c| {
+            format!(
+                ": at most {:.0} % of what is allowed, {} ({}) at {:.3} s",
+                100.0 * c.share,
+                c.check,
+                c.quantity,
+                c.at_s
+            )
+        });
+        return say(&format!("  verdict   feasible{nearest}"));
+    }
+    let count = verdict.reasons.len();
+    say(&format!("  verdict   infeasible, {count} reason{}", if count == 1 { "" } else { "s" }))?;
+    for reason in verdict.reasons.iter().take(MOST) {
+        say(&format!("    {}: {}", reason.check, reason.message))?;
+    }
+    if count > MOST {
+        say(&format!("    and {} more in summary.json", count - MOST))?;
     }
     Ok(())
 }

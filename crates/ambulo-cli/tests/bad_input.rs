@@ -40,7 +40,10 @@ fn a_coordinate_that_the_model_does_not_know_and_one_that_is_missing_are_warned_
     let bench = Workbench::new("unknown_coordinate");
     bench.edit("walk.mot", "knee_angle_r", "knee_flexion_r");
     let unknown = "the model has no such coordinates: `knee_flexion_r`";
-    bench.forces(&RAW).warned(&[unknown, "the recording has no column for `knee_angle_r` (0); the default values"]);
+    bench
+        .forces(&RAW)
+        .infeasible()
+        .warned(&[unknown, "the recording has no column for `knee_angle_r` (0); the default values"]);
     let codes: Vec<String> = bench.json("out/summary.json")["findings"]
         .as_array()
         .unwrap()
@@ -149,7 +152,7 @@ fn a_clock_that_runs_back_and_two_rows_for_one_instant_are_refused_with_their_li
 fn degrees_under_a_header_of_radians_are_warned_about() {
     let bench = Workbench::new("degrees");
     bench.edit("walk.mot", "inDegrees=yes", "inDegrees=no");
-    bench.forces(&RAW).warned(&["look like degrees", "hint: set inDegrees=yes"]);
+    bench.forces(&RAW).infeasible().warned(&["look like degrees", "hint: set inDegrees=yes"]);
 }
 
 #[test]
@@ -165,7 +168,7 @@ fn plates_in_millimetres_are_warned_about() {
     });
     let names = bench.table("walk_grf.mot").names().join(" ");
     assert!(names.contains("ground_torque_r_z ground_force_l_vx"), "columns moved: {names}");
-    bench.forces(&RAW).warned(&["its points look like millimetres", "hint: divide the points by 1000"]);
+    bench.forces(&RAW).infeasible().warned(&["its points look like millimetres", "hint: divide the points by 1000"]);
 }
 
 #[test]
@@ -445,7 +448,7 @@ fn a_hundred_megabytes_of_garbage_are_refused_in_a_gigabyte_and_a_few_seconds() 
 fn exchanged_feet_are_noticed() {
     let bench = Workbench::new("exchanged");
     let swapped = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
-    let run = bench.run(&[&FORCES[..4], &["--grf", "walk_grf.mot"], &swapped, &RAW].concat()).done();
+    let run = bench.run(&[&FORCES[..4], &["--grf", "walk_grf.mot"], &swapped, &RAW].concat()).infeasible();
     run.warned(&["`calcn_r` acts", "from the other foot", "right and left may be exchanged"]);
     assert!(!bench.forces(&RAW).done().stderr.contains("exchanged"));
 }
@@ -461,7 +464,7 @@ fn forces_on_the_plate_in_place_of_forces_on_the_foot_are_noticed() {
         }
         rows
     });
-    let run = bench.forces(&RAW).done();
+    let run = bench.forces(&RAW).infeasible();
     run.warned(&["pulls `calcn_r` down", "hint: change the sign of forces and torques"]);
     run.warned(&["the residual at the root is", "hint: check files, sides and time origin"]);
 }
@@ -471,5 +474,5 @@ fn a_knee_that_bends_the_other_way_is_noticed() {
     let bench = Workbench::new("knee");
     let joint = "<Coordinate name=\"knee_angle_r\"><default_value>0</default_value>";
     bench.edit("figure.osim", joint, &format!("{joint}<range>-0.1 2.1</range>"));
-    bench.forces(&RAW).done().warned(&["`knee_angle_r` runs from -6", "the model allows -6 to 120"]);
+    bench.forces(&RAW).infeasible().warned(&["`knee_angle_r` runs from -6", "the model allows -6 to 120"]);
 }

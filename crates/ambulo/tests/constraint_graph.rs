@@ -88,7 +88,7 @@ impl Departures {
                 }
             }
         }
-        let wrenches = graph.joint_wrenches(&workspace.outwards(), solution);
+        let wrenches = graph.joint_wrenches(workspace.outwards(), solution);
         let mut coordinate = 0;
         for (link, wrench) in graph.links.iter().zip(&wrenches) {
             for _ in 0..link.freedom {

@@ -308,7 +308,7 @@ fn with_every_joint_driven_its_wrench_is_the_reaction_of_inverse_dynamics() {
         let mut workspace = GraphWorkspace::default();
         let mut solution = GraphSolution::default();
         solve_graph(&graph, &SolverSettings::default(), &mut workspace, &mut solution).unwrap();
-        let wrenches = graph.joint_wrenches(&workspace.outwards(), &solution);
+        let wrenches = graph.joint_wrenches(workspace.outwards(), &solution);
         let (mut found, mut expected) = (Vec::new(), Vec::new());
         for ((wrench, reaction), m) in wrenches.iter().zip(&case.reactions).zip(&case.motion) {
             let force = Vec3::new(wrench[3], wrench[4], wrench[5]);

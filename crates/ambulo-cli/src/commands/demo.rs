@@ -7,6 +7,7 @@ use super::forces::{Recording, Stopwatch, compute};
 use crate::args::DemoArgs;
 use crate::{Verdict, files};
 use ambulo::analysis::Settings;
+use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
@@ -20,18 +21,23 @@ const FIGURE: &[u8] = include_bytes!("../../assets/demo/figure.osim");
 const WALK: &[u8] = include_bytes!("../../assets/demo/walk.mot");
 const GROUND_FORCES: &[u8] = include_bytes!("../../assets/demo/walk_grf.mot");
 const LOADS: &[u8] = include_bytes!("../../assets/demo/walk_grf.xml");
+const THRESHOLDS: &str = include_str!("../../assets/demo/thresholds.toml");
 
 pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let input = args.output.join("input");
-    for (name, bytes) in
-        [("figure.osim", FIGURE), ("walk.mot", WALK), ("walk_grf.mot", GROUND_FORCES), ("walk_grf.xml", LOADS)]
-    {
+    for (name, bytes) in [
+        ("figure.osim", FIGURE),
+        ("walk.mot", WALK),
+        ("walk_grf.mot", GROUND_FORCES),
+        ("walk_grf.xml", LOADS),
+        ("thresholds.toml", THRESHOLDS.as_bytes()),
+    ] {
         files::write(&input.join(name), bytes)?;
     }
     let mut findings = Findings::default();
     findings.note(
         "demo.built_in",
-        "an invented walk, not typical of people: figure and motion were made by this project, with the ground forces that they need",
+        "an invented walk, not typical of people: figure and motion were made by this project, with the ground forces that they need; sliding and centre of pressure are not judged",
     );
     let mut clock = Stopwatch::new();
     let recording = read(&mut findings)?;
@@ -55,6 +61,7 @@ fn read(findings: &mut Findings) -> Result<Recording> {
         read: Vec::new(),
         // The walk is free of noise.
         settings: Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None },
+        thresholds: Thresholds::from_toml(THRESHOLDS)?,
         input: Input {
             motion: named("walk.mot"),
             model: named("figure.osim"),

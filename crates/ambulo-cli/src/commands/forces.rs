@@ -3,7 +3,8 @@
 use super::ground_input::{self, GroundTable};
 use crate::args::{AddedMass, Filter, ForcesArgs, Voice};
 use crate::{Verdict, files, printer};
-use ambulo::analysis::{AnalysisError, Settings, analyse};
+use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
+use ambulo::analysis::{Analysis, AnalysisError, Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -33,6 +34,7 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
     let (ground, plates) = read_ground(args, &model, &mut findings)?;
     let device = read_device(args, &model, &mut findings)?;
     clock.lap("read_forces");
+    let thresholds = read_thresholds(args.thresholds.as_deref())?;
     let input = Input {
         motion: args.input.display().to_string(),
         model: args.model.display().to_string(),
@@ -42,9 +44,10 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
         added_mass: args.add_mass.iter().map(ToString::to_string).collect(),
         ground_source: if args.no_ground { GroundSource::None } else { GroundSource::Measured },
     };
-    let optional = [Some(&args.input), Some(&args.model), args.loads.as_ref(), args.device.as_ref()];
+    let optional =
+        [Some(&args.input), Some(&args.model), args.loads.as_ref(), args.device.as_ref(), args.thresholds.as_ref()];
     let read = optional.into_iter().flatten().cloned().chain(ground.map(|g| g.path)).collect();
-    let recording = Recording { model, motion, plates, device, settings: settings(args), input, read };
+    let recording = Recording { model, motion, plates, device, settings: settings(args), thresholds, input, read };
     compute(&recording, findings, clock, &args.output, args.voice)
 }
 
@@ -55,6 +58,7 @@ pub(super) struct Recording {
     pub(super) plates: Vec<ForceRecording>,
     pub(super) device: Option<DeviceRecording>,
     pub(super) settings: Settings,
+    pub(super) thresholds: Thresholds,
     pub(super) input: Input,
     /// Every file that was read; none of them is written over.
     pub(super) read: Vec<PathBuf>,
@@ -68,8 +72,8 @@ pub(super) fn compute(
     output: &Path,
     voice: Voice,
 ) -> Result<Verdict> {
-    let Recording { model, motion, plates, device, settings, input, read: inputs } = recording;
-    let analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
+    let Recording { model, motion, plates, device, settings, thresholds, input, read: inputs } = recording;
+    let mut analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, input))?;
     if let Some(device) = device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
@@ -78,6 +82,8 @@ pub(super) fn compute(
         findings.note("cycles.none", "no whole gait cycle in the window: cycles.csv and the figure were not written");
     }
     let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
+    let feasible = judge(model, &mut analysis, device.as_deref(), thresholds, &mut findings);
+    clock.lap("feasibility");
     let written = output_files(model, &analysis, device.as_deref())?;
     files::replace_results(output, &written, inputs)?;
     clock.lap("write");
@@ -85,7 +91,29 @@ pub(super) fn compute(
     summary.timing_ms = clock.laps.into_iter().collect();
     write_summary(output, &summary)?;
     printer::forces(&summary, output, voice)?;
-    Ok(Verdict::Accepted)
+    Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
+}
+
+/// Whether a person could do this; the verdict stays with the analysis.
+fn judge(
+    model: &Model,
+    analysis: &mut Analysis,
+    device: Option<&[Vec<f64>]>,
+    thresholds: &Thresholds,
+    findings: &mut Findings,
+) -> bool {
+    let Analysis { trajectory, forces, ground, .. } = &*analysis;
+    let evidence = Evidence { model, trajectory, forces, ground, device };
+    let verdict = feasibility::check(&evidence, &Person::of_model(model), thresholds, findings);
+    analysis.verdict.insert(verdict).feasible
+}
+
+/// The thresholds of a file, or the built-in ones.
+pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
+    let Some(path) = path else { return Ok(Thresholds::default()) };
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    Thresholds::from_toml(&text).with_context(shown)
 }
 
 /// The error with the file that it is about.

@@ -3,6 +3,7 @@
 mod comparison;
 mod cycles;
 mod events;
+pub mod feasibility;
 mod peaks;
 mod plausibility;
 mod recording;

@@ -2,12 +2,13 @@
 
 use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts, events};
+use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::residual::{Residual, residual};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
 use crate::ground::{self, MeasuredGround};
-use crate::kinematics::{Trajectory, TrajectoryError, each_body_motion};
+use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, MotionError, SmoothSettings, Smoother, Window, interpolate, smooth};
@@ -45,6 +46,8 @@ pub struct Analysis {
     pub speed_m_s: Option<f64>,
     /// What motion and measured forces disagree by.
     pub residual: Option<Residual>,
+    /// Whether a person could do this; `None` until someone asks [`super::feasibility::check`].
+    pub verdict: Option<Verdict>,
 }
 
 /// Body mass and where it comes from.
@@ -84,8 +87,6 @@ pub enum AnalysisError {
 const WHOLE_BODY_SHARE: f64 = 0.05;
 /// Above this difference between plates and model the reader is told (issue of scaling or of plates).
 const MASS_MISMATCH: f64 = 0.03;
-/// A foot carries enough to stand still on the ground above this share of the body's weight.
-const STANDING_SHARE: f64 = 0.5;
 
 /// Analyses a recording. `stage` is called with a name as each stage ends.
 ///
@@ -125,14 +126,14 @@ pub fn analyse(
         findings.note("events.none", "no foot strike was found in the forces inside the window");
     }
     let mass = mass(model, &vertical, &weighing(&cycles, &events, findings), findings);
-    let speed_m_s = walking_speed(model, &trajectory, &ground, up);
+    let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
     let residual = residual(model, &forces);
     plausibility::report_residual(residual, mass.kg * model.gravity().norm(), !plates.is_empty(), findings);
     plausibility::report_downward(model, &ground, up, findings);
     plausibility::report_far_feet(model, &trajectory, &ground, findings);
     plausibility::report_ranges(model, &trajectory, findings);
     stage("analysis");
-    Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual })
+    Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual, verdict: None })
 }
 
 /// A range that holds too little is named as the user gave it, beside what motion and forces cover together.
@@ -273,33 +274,4 @@ fn cycle_mean(vertical: &[(Side, TimedForce)], cycle: &Cycle) -> Option<f64> {
         mean += area / (cycle.end_s - cycle.start_s);
     }
     (!vertical.is_empty()).then_some(mean)
-}
-
-/// Speed of the body's mass centre against the feet while they carry it: on a treadmill the feet move back with the
-/// belt, so the speed over the belt comes out.
-fn walking_speed(model: &Model, trajectory: &Trajectory, ground: &MeasuredGround, up: Vec3) -> Option<f64> {
-    let weight = model.mass() * model.gravity().norm();
-    let (mut center, mut frames, mut feet) = (Vec3::zeros(), 0.0, Vec::new());
-    each_body_motion(model, trajectory, |frame, bodies| {
-        let momentum: Vec3 = model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
-        center += momentum / model.mass();
-        frames += 1.0;
-        for foot in &ground.bodies {
-            if foot.force[frame].dot(&up) > STANDING_SHARE * weight {
-                let motion = &bodies[foot.body.index()];
-                feet.push(motion.twist.velocity_at(motion.pose.translation - motion.center));
-            }
-        }
-    });
-    if feet.is_empty() {
-        return None;
-    }
-    let mut median = Vec3::zeros();
-    for k in 0..3 {
-        let mut along: Vec<f64> = feet.iter().map(|v| v[k]).collect();
-        along.sort_by(f64::total_cmp);
-        median[k] = along[along.len() / 2];
-    }
-    let relative = center / frames - median;
-    Some((relative - up * relative.dot(&up)).norm())
 }

@@ -244,6 +244,12 @@ impl Shape {
         }
     }
 
+    /// Whether it is a sphere.
+    #[must_use]
+    pub fn is_sphere(&self) -> bool {
+        matches!(self.form, Form::Sphere { .. })
+    }
+
     /// Radius of a sphere or a capsule [m]; `None` for the others.
     #[must_use]
     pub fn radius(&self) -> Option<f64> {

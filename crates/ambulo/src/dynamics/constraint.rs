@@ -222,17 +222,36 @@ impl ConstraintGraph {
     /// hangs on it. Along a free direction it is the effort, but for the solver's residual.
     #[must_use]
     pub fn joint_wrenches(&self, outwards: &[(usize, Option<usize>)], solution: &GraphSolution) -> Vec<Six> {
-        let mut pushed = self.wrenches.clone();
-        self.push(&solution.lambda, &mut pushed, &mut vec![0.0; solution.coordinates.len()]);
-        let mut wrenches: Vec<Six> =
-            self.bodies.iter().zip(&solution.motions).zip(&pushed).map(|((body, a), f)| body.times(a) - f).collect();
+        let mut wrenches = Vec::new();
+        self.read_joint_wrenches(outwards, solution, &mut wrenches);
+        wrenches
+    }
+
+    /// The same, into memory at hand.
+    pub(crate) fn read_joint_wrenches(
+        &self,
+        outwards: &[(usize, Option<usize>)],
+        solution: &GraphSolution,
+        wrenches: &mut Vec<Six>,
+    ) {
+        wrenches.clear();
+        let acting = self.bodies.iter().zip(&solution.motions).zip(&self.wrenches);
+        wrenches.extend(acting.map(|((body, a), b)| body.times(a) - b));
+        for group in &self.groups {
+            let Acting::Bodies { first, second } = group.on else { continue };
+            for row in group.rows.clone() {
+                wrenches[first].axpy(-solution.lambda[row], &self.rows[row].on_first, 1.0);
+                if let Some(second) = second {
+                    wrenches[second].axpy(-solution.lambda[row], &self.rows[row].on_second, 1.0);
+                }
+            }
+        }
         for &(body, parent) in outwards.iter().rev() {
             if let Some(parent) = parent {
                 let carried = super::block::carry(&wrenches[body], &self.terms.arm[body]);
                 wrenches[parent] += carried;
             }
         }
-        wrenches
     }
 
     /// Whether the row's own length of motion is angular or linear plays no part: the inverse inertia that an

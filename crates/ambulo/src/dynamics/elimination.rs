@@ -217,11 +217,6 @@ impl Elimination {
         self.couplings.len()
     }
 
-    /// Bodies in the order of parents before children.
-    pub(crate) fn outwards(&self) -> impl DoubleEndedIterator<Item = (usize, Option<usize>)> + '_ {
-        self.steps.iter().rev().map(|step| (step.body, self.links[step.body].parent))
-    }
-
     /// Fewest neighbours first, among the bodies whose children are gone; the outermost of equals.
     fn order(&mut self, outwards: &[usize], couplings: &[(usize, usize)]) -> Result<(), LinkError> {
         let bodies = self.links.len();
@@ -319,7 +314,7 @@ impl Step {
 }
 
 /// Parents before children.
-fn outwards(links: &[Link]) -> Result<Vec<usize>, LinkError> {
+pub(super) fn outwards(links: &[Link]) -> Result<Vec<usize>, LinkError> {
     let bodies = links.len();
     let mut children = vec![Vec::new(); bodies];
     let mut order = Vec::with_capacity(bodies);

@@ -2,6 +2,7 @@
 
 mod best;
 mod block;
+mod carried;
 mod conjugate_gradient;
 mod constraint;
 mod curvature;
@@ -24,5 +25,5 @@ pub use inverse::{
     Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames, project_wrenches,
 };
 pub use load::{BodyLoad, LoadSeries};
-pub(crate) use solve::project_displacements;
 pub use solve::{GraphWorkspace, Method, SolverSettings, solve_graph, undetermined_rows};
+pub(crate) use solve::{project_displacements, project_placed};

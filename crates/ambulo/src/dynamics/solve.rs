@@ -5,10 +5,11 @@
 //! forces by tree solves. Measured on ladders, tables, walls and towers in tests/constraint_graph.rs (tree solves and
 //! factorisations of both).
 
+use super::carried::Carried;
 use super::conjugate_gradient::{self, ConjugateWorkspace};
 use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, GraphSolution, Six};
 use super::departure::Departures;
-use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError};
+use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError, outwards};
 use super::proximal::{self, NewtonWorkspace};
 use std::collections::BTreeMap;
 
@@ -49,6 +50,13 @@ impl Default for SolverSettings {
 /// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
 #[derive(Debug, Clone, Default)]
 pub struct GraphWorkspace {
+    /// All links, and their bodies with their parents, parents first.
+    all_links: Vec<Link>,
+    outwards: Vec<(usize, Option<usize>)>,
+    carried: Carried,
+    /// Whether the graph was last solved as what its bodies carry.
+    carries: bool,
+    /// Links of the graph that is solved.
     links: Vec<Link>,
     /// Bodies that each group couples.
     shape: Vec<Option<(usize, usize)>>,
@@ -103,14 +111,23 @@ pub fn solve_graph(
     solution: &mut GraphSolution,
 ) -> Result<(), LinkError> {
     workspace.settings = *settings;
-    workspace.prepare(graph)?;
     solution.lambda.resize(graph.rows.len(), 0.0);
-    workspace.departures.measure(graph);
-    workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
-        Method::Newton => proximal::solve(&mut problem, newton, solution),
-        Method::ConjugateGradient => conjugate_gradient::solve(&mut problem, conjugate, solution),
-    });
-    Ok(())
+    workspace.hang(&graph.links)?;
+    let mut carried = std::mem::take(&mut workspace.carried);
+    workspace.carries = settings.method == Method::Newton && carried.take(graph, &workspace.outwards);
+    let done = if workspace.carries {
+        std::mem::swap(&mut carried.solution.lambda, &mut solution.lambda);
+        let done = workspace.solve(&carried.graph, &mut carried.solution);
+        std::mem::swap(&mut carried.solution.lambda, &mut solution.lambda);
+        carried.spread(&carried.solution.motions, &mut solution.motions);
+        solution.coordinates.clone_from(&carried.solution.coordinates);
+        solution.convergence = carried.solution.convergence;
+        done
+    } else {
+        workspace.solve(graph, solution)
+    };
+    workspace.carried = carried;
+    done
 }
 
 /// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
@@ -122,16 +139,50 @@ pub(crate) fn project_displacements(
     motions: &mut Vec<Six>,
     coordinates: &mut Vec<f64>,
 ) {
-    motions.clear();
-    motions.resize(graph.bodies.len(), Six::zeros());
     coordinates.clear();
     coordinates.resize(graph.efforts.len(), 0.0);
+    if workspace.carries {
+        let mut carried = std::mem::take(&mut workspace.carried);
+        carried.begin_displacements(graph, &workspace.outwards, targets);
+        let Carried { graph: less, displacements, targets, .. } = &mut carried;
+        workspace.with_problem(less, |mut problem, newton, _| {
+            proximal::project(&mut problem, newton, targets, displacements, coordinates);
+        });
+        carried.spread(&carried.displacements, motions);
+        workspace.carried = carried;
+        return;
+    }
+    motions.clear();
+    motions.resize(graph.bodies.len(), Six::zeros());
     workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
         Method::Newton => proximal::project(&mut problem, newton, targets, motions, coordinates),
         Method::ConjugateGradient => {
             conjugate_gradient::project(&mut problem, conjugate, targets, motions, coordinates);
         }
     });
+}
+
+/// The same for bodies that have already been placed, `off` from where their motion takes them: displacements of all from
+/// the places where they are, with the least mass moved from where their motion takes them. Of a graph that was solved as
+/// what its bodies carry.
+pub(crate) fn project_placed(
+    graph: &ConstraintGraph,
+    off: &[Six],
+    targets: &[f64],
+    workspace: &mut GraphWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+) {
+    coordinates.clear();
+    coordinates.resize(graph.efforts.len(), 0.0);
+    let mut carried = std::mem::take(&mut workspace.carried);
+    carried.begin_placed(graph, off);
+    let Carried { graph: less, displacements, .. } = &mut carried;
+    workspace.with_problem(less, |mut problem, newton, _| {
+        proximal::project(&mut problem, newton, targets, displacements, coordinates);
+    });
+    carried.spread(&carried.displacements, motions);
+    workspace.carried = carried;
 }
 
 /// Rows that hold at the last solution and whose forces the motion does not determine: some combination of them with
@@ -143,10 +194,13 @@ pub(crate) fn project_displacements(
 #[must_use]
 pub fn undetermined_rows(graph: &ConstraintGraph, workspace: &mut GraphWorkspace) -> Vec<usize> {
     let mut left = probe(graph.rows.len());
-    workspace.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
+    let carried = std::mem::take(&mut workspace.carried);
+    let solved = if workspace.carries { &carried.graph } else { graph };
+    workspace.with_problem(solved, |mut problem, newton, conjugate| match problem.settings.method {
         Method::Newton => proximal::without_range(&mut problem, newton, &mut left),
         Method::ConjugateGradient => conjugate_gradient::without_range(&mut problem, conjugate, &mut left),
     });
+    workspace.carried = carried;
     (0..left.len()).filter(|row| left[*row].abs() > UNDETERMINED).collect()
 }
 
@@ -163,6 +217,29 @@ fn probe(count: usize) -> Vec<f64> {
 }
 
 impl GraphWorkspace {
+    /// Sorts out who hangs on whom, if that has changed.
+    fn hang(&mut self, links: &[Link]) -> Result<(), LinkError> {
+        if self.all_links == links && !self.outwards.is_empty() {
+            return Ok(());
+        }
+        let order = outwards(links)?;
+        self.all_links.clear();
+        self.all_links.extend_from_slice(links);
+        self.outwards.clear();
+        self.outwards.extend(order.into_iter().map(|body| (body, links[body].parent)));
+        Ok(())
+    }
+
+    fn solve(&mut self, graph: &ConstraintGraph, solution: &mut GraphSolution) -> Result<(), LinkError> {
+        self.prepare(graph)?;
+        self.departures.measure(graph);
+        self.with_problem(graph, |mut problem, newton, conjugate| match problem.settings.method {
+            Method::Newton => proximal::solve(&mut problem, newton, solution),
+            Method::ConjugateGradient => conjugate_gradient::solve(&mut problem, conjugate, solution),
+        });
+        Ok(())
+    }
+
     /// The elimination for this graph, made anew only if its shape has changed.
     fn prepare(&mut self, graph: &ConstraintGraph) -> Result<(), LinkError> {
         let method = self.settings.method;
@@ -194,10 +271,15 @@ impl GraphWorkspace {
         Ok(())
     }
 
-    /// Bodies with their parents, parents first, as last prepared.
+    /// Whether the last graph was solved as what its bodies carry.
+    pub(crate) fn carries(&self) -> bool {
+        self.carries
+    }
+
+    /// Bodies with their parents, parents first, as last solved.
     #[must_use]
-    pub fn outwards(&self) -> Vec<(usize, Option<usize>)> {
-        self.elimination.iter().flat_map(Elimination::outwards).collect()
+    pub fn outwards(&self) -> &[(usize, Option<usize>)] {
+        &self.outwards
     }
 
     /// Nothing happens before the first solution.

@@ -77,6 +77,14 @@ pub fn feet(model: &Model, ground: &MeasuredGround) -> Vec<(Side, BodyForces)> {
 }
 
 impl BodyForces {
+    /// From forces and moments about the world's origin, whoever made them, one entry a frame; the ground stands at
+    /// `surface_height` along `up` [m]. Series of different length are cut to the shorter.
+    #[must_use]
+    pub fn on_level_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: f64) -> BodyForces {
+        let frames = force.len().min(moment.len());
+        combine(body, &[(&force[..frames], &moment[..frames], &vec![surface_height; frames])], up)
+    }
+
     fn load(&self) -> LoadSeries {
         let wrench = |(force, moment): (&Vec3, &Vec3)| Wrench { moment: *moment, force: *force };
         LoadSeries {

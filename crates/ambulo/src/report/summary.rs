@@ -1,6 +1,7 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
 use super::tables::UNLOADED_N;
+use crate::analysis::feasibility::Verdict;
 use crate::analysis::{Analysis, MassSource, Settings, peak};
 use crate::findings::{Finding, Findings};
 use crate::model::Model;
@@ -48,8 +49,8 @@ pub struct Summary {
     pub convergence: Option<()>,
     /// What was odd on the way.
     pub findings: Vec<Finding>,
-    /// Whether the motion is feasible; not judged yet.
-    pub verdict: Option<()>,
+    /// Whether a person could do this.
+    pub verdict: Option<Verdict>,
     /// Prediction against plates; filled when forces are predicted.
     pub comparison: Option<()>,
     /// Time that each stage took [ms].
@@ -184,7 +185,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         peaks: peaks(model, analysis),
         convergence: None,
         findings: findings.as_slice().to_vec(),
-        verdict: None,
+        verdict: analysis.verdict.clone(),
         comparison: None,
         timing_ms: BTreeMap::new(),
     }

@@ -13,6 +13,7 @@
 //! A drive takes its coordinate from where it is to where its signal is at the end of the step: q̇ = (s(t + h) - q)/h.
 
 use super::joint::{JointKind, MOST, rotation_vector};
+use super::rates::rates;
 use super::state::{RowKey, State};
 use super::world::{Closure, Joint, JointCoordinate, World};
 use crate::dynamics::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
@@ -20,6 +21,15 @@ use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
 pub(crate) type Yielding = Vec<(usize, usize, f64)>;
+
+/// Time over which velocities are solved for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Span {
+    /// [s].
+    pub(crate) h: f64,
+    /// Whether it stands for an instant, at which surfaces strike.
+    pub(crate) instant: bool,
+}
 
 /// A coordinate of the graph.
 #[derive(Debug, Clone, Copy)]
@@ -44,19 +54,46 @@ pub(crate) struct Assembly {
     pub(crate) joint_of: Vec<Option<usize>>,
 }
 
-/// Poses of the bodies of every figure at one instant, as its recording has them.
+/// What drives and recordings prescribe at one instant.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Prescribed(pub(crate) Vec<Vec<Pose>>);
+pub(crate) struct Prescribed {
+    /// Poses of the bodies of every figure.
+    figures: Vec<Vec<Pose>>,
+    /// First coordinate of each joint.
+    first: Vec<usize>,
+    /// Where drives take the coordinates; zero for those without one.
+    values: Vec<f64>,
+}
 
 impl Prescribed {
     pub(crate) fn at(world: &World, time_s: f64) -> Prescribed {
-        Prescribed(world.figures.iter().map(|figure| figure.poses(time_s)).collect())
+        let mut this = Prescribed::default();
+        this.fill(world, time_s);
+        this
+    }
+
+    pub(crate) fn fill(&mut self, world: &World, time_s: f64) {
+        self.figures.clear();
+        self.figures.extend(world.figures.iter().map(|figure| figure.poses(time_s)));
+        self.first.clear();
+        self.values.clear();
+        for joint in &world.joints {
+            self.first.push(self.values.len());
+            let value = |c: &JointCoordinate| c.drive.as_ref().map_or(0.0, |drive| drive.signal.at(time_s)[0]);
+            self.values.extend(joint.coordinates.iter().map(value));
+        }
+    }
+
+    /// Where the drive of a coordinate takes it.
+    #[inline(always)]
+    pub(crate) fn value(&self, joint: usize, coordinate: usize) -> f64 {
+        self.values[self.first[joint] + coordinate]
     }
 
     /// Where a joint's child shall be, seen from its parent.
     pub(crate) fn goal(&self, joint: &Joint) -> Option<Pose> {
         let follows = joint.follows?;
-        let poses = &self.0[follows.figure];
+        let poses = &self.figures[follows.figure];
         let parent = follows.parent.map_or(Pose::IDENTITY, |p| poses[p]);
         Some(parent.inverse() * poses[follows.body])
     }
@@ -70,18 +107,19 @@ impl Assembly {
         state: &State,
         prescribed: &Prescribed,
         yielding: &Yielding,
-        step_s: f64,
+        span: Span,
     ) {
+        let step_s = span.h;
         self.begin(world);
         for body in 0..world.bodies.len() {
             self.add_body(world, state, body, step_s);
             match self.joint_of[body] {
-                Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, step_s),
+                Some(joint) => self.add_joint(world, state, prescribed, yielding, joint, span),
                 None => self.add_free(body),
             }
         }
         for slot in 0..self.slots.len() {
-            self.add_coordinate(world, state, yielding, slot, step_s);
+            self.add_coordinate(world, state, prescribed, yielding, slot, step_s);
         }
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
@@ -151,7 +189,7 @@ impl Assembly {
         prescribed: &Prescribed,
         yielding: &Yielding,
         number: usize,
-        h: f64,
+        Span { h, instant }: Span,
     ) {
         let joint = &world.joints[number];
         let center = state.poses[joint.child].translation;
@@ -159,7 +197,7 @@ impl Assembly {
         self.graph.terms.arm.push(arm);
         if let Some(goal) = prescribed.goal(joint) {
             self.graph.links.push(Link { parent: joint.parent, freedom: 0 });
-            let offset = following(state, joint, &goal, h);
+            let offset = if instant { carried_along(state, joint) } else { following(state, joint, &goal, h) };
             self.graph.terms.offset.push(offset);
             return;
         }
@@ -174,9 +212,10 @@ impl Assembly {
         };
         let mut goal = [0.0; MOST];
         for k in 0..q.len() {
-            goal[k] = drive_of(k).map_or(q[k], |drive| drive.signal.at(state.time_s + h)[0]);
+            goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
         }
-        let way = joint.kind.way(q, &goal);
+        // At an instant drives hold the rates that they have: a blow is none of their doing.
+        let (way, h) = if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.way(q, &goal), h) };
         for k in 0..q.len() {
             if drive_of(k).is_some() {
                 offset.axpy(way[k] / h, &directions[k], 1.0);
@@ -194,7 +233,15 @@ impl Assembly {
     }
 
     /// Springs, motors, limits and friction of one coordinate.
-    fn add_coordinate(&mut self, world: &World, state: &State, yielding: &Yielding, slot: usize, h: f64) {
+    fn add_coordinate(
+        &mut self,
+        world: &World,
+        state: &State,
+        prescribed: &Prescribed,
+        yielding: &Yielding,
+        slot: usize,
+        h: f64,
+    ) {
         let Slot { joint: Some(number), coordinate, .. } = self.slots[slot] else { return };
         let joint = &world.joints[number];
         let acting: &JointCoordinate = &joint.coordinates[coordinate];
@@ -217,7 +264,7 @@ impl Assembly {
             self.keys.push(key);
         };
         if let Some((_, _, max)) = yielding.iter().find(|(j, c, _)| (*j, *c) == (number, coordinate)) {
-            let target = acting.drive.as_ref().map_or(q, |drive| drive.signal.at(state.time_s + h)[0]);
+            let target = acting.drive.as_ref().map_or(q, |_| prescribed.value(number, coordinate));
             add(RowKey::Drive(number, coordinate), (target - q) / h, 0.0, -h * max, h * max);
         }
         if let Some(motor) = &acting.motor {
@@ -260,6 +307,16 @@ fn following(state: &State, joint: &Joint, goal: &Pose, h: f64) -> Six {
     let turn = rotation_vector(&(goal.rotation * now.rotation.transpose())) / h;
     let shift = (goal.translation - now.translation) / h;
     Six::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+}
+
+/// The child's motion against its parent as it is.
+fn carried_along(state: &State, joint: &Joint) -> Six {
+    let (child, center) = (state.twists[joint.child], state.poses[joint.child].translation);
+    let (angular, linear) = joint.parent.map_or((child.angular, child.linear), |p| {
+        let parent = state.twists[p];
+        (child.angular - parent.angular, child.linear - parent.velocity_at(center - state.poses[p].translation))
+    });
+    Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
 /// Rows of a closing joint; targets zero.

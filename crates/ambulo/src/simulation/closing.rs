@@ -4,8 +4,9 @@
 //! not: then M δ = Jᵀ ν, J δ = -error is solved anew at the present places, a few times (Gauss and Newton, the least mass
 //! moved).
 
-use super::assemble::{Prescribed, twist};
-use super::impulse::{advance, closure_errors, share_of_displacements};
+use super::assemble::{Prescribed, Span, twist};
+use super::impulse::advance;
+use super::projection::{closure_errors, share_of_displacements};
 use super::state::{RowKey, State};
 use super::step::{StepSettings, StepWorkspace};
 use super::world::World;
@@ -42,7 +43,7 @@ impl StepWorkspace {
                 break;
             }
             let (assembly, solution) = &mut self.later;
-            assembly.fill(world, state, prescribed, &Vec::new(), h);
+            assembly.fill(world, state, prescribed, &Vec::new(), Span { h, instant: false });
             let graph = &mut assembly.graph;
             graph.wrenches.fill(Six::zeros());
             graph.efforts.fill(0.0);

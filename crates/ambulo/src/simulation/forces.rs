@@ -42,11 +42,22 @@ pub struct ContactForce {
     pub slip: Vec3,
 }
 
+/// What happens at one instant at which surfaces meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blow {
+    /// When [s].
+    pub time_s: f64,
+    /// Where, with impulses [N.s] for forces.
+    pub contacts: Vec<ContactForce>,
+    /// What it asks of each joint: the impulse along each of its coordinates [N.m.s or N.s].
+    pub efforts: Vec<Vec<f64>>,
+}
+
 impl StepForces {
     pub(crate) fn of(world: &World, w: &StepWorkspace) -> StepForces {
         let (graph, h) = (&w.assembly.graph, w.step_s);
         let lambda = &w.solution.lambda;
-        let wrenches = graph.joint_wrenches(&w.solver.outwards(), &w.solution);
+        let wrenches = graph.joint_wrenches(w.solver.outwards(), &w.solution);
         let wrench = |body: usize| match w.assembly.joint_of[body] {
             None => Wrench::ZERO,
             Some(_) => {
@@ -74,7 +85,7 @@ impl StepForces {
         StepForces {
             joints: (0..world.bodies.len()).map(wrench).collect(),
             efforts: (0..world.joints.len()).map(effort).collect(),
-            contacts: w.touch.touches.iter().map(|touch| w.contact_force(touch)).collect(),
+            contacts: w.contacts().collect(),
             closures: closures.collect(),
             closing: closing.collect(),
             convergence: w.solution.convergence,
@@ -83,6 +94,22 @@ impl StepForces {
 }
 
 impl StepWorkspace {
+    /// The forces of the last step at its points of contact.
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = ContactForce> + '_ {
+        self.touch.touches.iter().map(|touch| self.contact_force(touch))
+    }
+
+    /// Reads the wrenches of the joints off the last solution.
+    pub(crate) fn read_wrenches(&mut self) {
+        self.assembly.graph.read_joint_wrenches(self.solver.outwards(), &self.solution, &mut self.wrenches);
+    }
+
+    /// Effort along a coordinate of a joint [N.m or N], of the wrenches as last read.
+    #[inline(always)]
+    pub(crate) fn effort(&self, child: usize, joint: usize, coordinate: usize) -> f64 {
+        self.assembly.directions[joint][coordinate].dot(&self.wrenches[child]) / self.step_s
+    }
+
     fn contact_force(&self, touch: &super::touch::Touch) -> ContactForce {
         let (graph, h) = (&self.assembly.graph, self.step_s);
         let group = &graph.groups[touch.group];

@@ -203,6 +203,16 @@ impl JointKind {
 /// How a child has drifted: the turn [rad] and shift [m] of C, world axes, from where the joint would have it.
 #[inline(always)]
 pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Vec3) {
+    if kind == JointKind::Revolute {
+        // A rotation is a turn about z and one across it, which takes z of P to z of C.
+        let (p, c) = (frames.parent.rotation.column(2), frames.child.rotation.column(2));
+        let across = p.cross(&c);
+        let (sine, cosine) = (across.norm(), p.dot(&c));
+        let stretch = if sine <= 1e-6 { 1.0 } else { sine.atan2(cosine) / sine };
+        if cosine > 0.0 {
+            return (across * stretch, frames.child.translation - frames.parent.translation);
+        }
+    }
     let t = frames.parent.inverse() * frames.child;
     let seat = kind.seated(&t, last);
     let turn = rotation_vector(&(t.rotation * seat.rotation.transpose()));
@@ -213,9 +223,11 @@ pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Ve
 #[inline(always)]
 pub(crate) fn rotation(v: &Vec3) -> Mat3 {
     let squared = v.norm_squared();
-    // sin θ/θ and (1 - cos θ)/θ²; below 1e-4 rad the next terms of the series are under 1e-17.
-    let (a, b) = if squared < 1e-8 {
-        (1.0 - squared / 6.0, 0.5 - squared / 24.0)
+    // sin θ/θ and (1 - cos θ)/θ²; below 0.03 rad the next terms of the series are under 1e-17.
+    let (a, b) = if squared < 1e-3 {
+        let s = squared;
+        let a = 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0)));
+        (a, 0.5 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0)))))
     } else {
         let angle = squared.sqrt();
         let (sin, cos) = angle.sin_cos();

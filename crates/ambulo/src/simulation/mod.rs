@@ -50,6 +50,7 @@
 //! How it works and what it is measured to do: docs/SIMULATION.md and docs/BENCHMARKS.md.
 
 mod assemble;
+mod blow;
 mod check;
 mod closing;
 pub mod consistent;
@@ -57,8 +58,11 @@ mod energy;
 mod forces;
 mod impulse;
 mod joint;
+mod projection;
 mod rates;
+mod samples;
 mod signal;
+mod sliding;
 mod smooth;
 mod state;
 mod step;
@@ -66,16 +70,18 @@ mod touch;
 mod world;
 
 pub mod scene;
+pub mod walking;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
-pub use forces::{ContactForce, StepForces};
-pub use impulse::largest_joint_error;
+pub use forces::{Blow, ContactForce, StepForces};
 pub use joint::JointKind;
+pub use projection::largest_joint_error;
+pub use samples::Samples;
 pub use signal::Signal;
 pub use state::{RowKey, State};
 pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
-    Body, Closure, ContactLaw, Drive, Figure, Follows, Joint, JointCoordinate, Material, Motor, Obstacle, ObstaclePath,
-    Owner, Spring, Surface, World,
+    Body, Closure, ContactLaw, Drive, Figure, Follows, Impact, Joint, JointCoordinate, Material, Motor, Obstacle,
+    ObstaclePath, Owner, Spring, Surface, World,
 };

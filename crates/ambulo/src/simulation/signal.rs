@@ -1,8 +1,10 @@
 //! Functions of time that drives, motors and obstacles follow.
 
+use super::samples::Samples;
 use crate::model::Function;
 use crate::numerics::NaturalSpline;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A function of time [s], twice differentiable; values in rad or m.
 #[derive(Debug, Clone)]
@@ -29,6 +31,8 @@ pub enum Signal {
     OfTime(Function, f64),
     /// A function of another signal: a coordinate that follows a coupler.
     Of(Function, Box<Signal>),
+    /// A column of samples.
+    Sampled(Arc<Samples>, usize),
 }
 
 impl Signal {
@@ -52,6 +56,7 @@ impl Signal {
                 }
             }
             Signal::OfTime(function, start) => function.at(t + start),
+            Signal::Sampled(samples, column) => samples.at(*column, t),
             Signal::Of(function, leader) => {
                 let [x, rate, acceleration] = leader.at(t);
                 let [y, dy, ddy] = function.at(x);

@@ -17,8 +17,8 @@
 //! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
-use super::impulse::closure_errors;
 use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
+use super::projection::closure_errors;
 use super::rates::rates;
 use super::state::{RowKey, State};
 use super::world::{Joint, World};

@@ -37,7 +37,7 @@ pub enum RowKey {
     UpperLimit(usize, usize),
     /// A contact: two surfaces and the feature by which they touch.
     Contact(usize, usize, u64),
-    /// The friction of a Hunt-Crossley contact.
+    /// The friction of a Hunt-Crossley contact, or of a point that strikes.
     SoftFriction(usize, usize, u64),
 }
 

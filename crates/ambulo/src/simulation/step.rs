@@ -5,12 +5,13 @@
 //! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
 use super::assemble::{Assembly, Prescribed};
-use super::forces::{ContactForce, StepForces};
-use super::impulse::{impact, impulse_step, obstacle_motion};
+use super::blow::impact;
+use super::forces::{Blow, StepForces};
+use super::impulse::{impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::{RowKey, State};
-use super::touch::{ObstacleMotion, TouchWorkspace};
+use super::touch::{ObstacleMotion, Touch, TouchWorkspace};
 use super::world::{ContactLaw, World};
 use crate::dynamics::{
     ConstraintGroup, Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings, undetermined_rows,
@@ -81,9 +82,16 @@ pub struct StepWorkspace {
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
     pub(crate) obstacles: ObstacleMotion,
+    pub(crate) prescribed: Prescribed,
+    /// Where surfaces touch, before any is dropped.
+    pub(crate) found: Vec<Touch>,
+    /// Wrench impulse of each body's joint on it, at its mass centre, once read.
+    pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,
-    /// Collisions within the last step: time [s] and impulse [N.s].
-    pub(crate) impacts: Vec<(f64, ContactForce)>,
+    /// Collisions within the last step.
+    pub(crate) blows: Vec<Blow>,
+    /// Twists of all bodies after the last of them; without meaning if there was none.
+    pub(crate) after_blows: Vec<Twist>,
 }
 
 impl StepWorkspace {
@@ -108,10 +116,11 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Collisions that a smooth step has found within itself: time [s], and the contact with impulses [N.s] for forces.
+    /// Blows of the last step that are apart from its forces: a smooth step's collisions, or those of
+    /// [`Impact::Sticking`](super::Impact::Sticking).
     #[must_use]
-    pub fn impacts(&self) -> &[(f64, ContactForce)] {
-        &self.impacts
+    pub fn blows(&self) -> &[Blow] {
+        &self.blows
     }
 }
 
@@ -129,7 +138,7 @@ pub fn step(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    w.impacts.clear();
+    w.blows.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
@@ -206,7 +215,7 @@ fn smooth_here(world: &World, state: &State, w: &mut StepWorkspace, h: f64) -> b
     if rubs || turned || (soft && !world.surfaces.is_empty() && w.least_gap(world, state) < 0.0) {
         return false;
     }
-    w.obstacles = obstacle_motion(world, state.time_s, h);
+    obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     w.touch.detect(world, state, &w.obstacles, h);
     !w.touch.approaches(world, state, &w.obstacles, TOUCHING_M)
 }
@@ -258,7 +267,8 @@ impl StepWorkspace {
 
     /// Least distance of surfaces that may touch [m]; infinite if none come near.
     fn least_gap(&mut self, world: &World, state: &State) -> f64 {
-        let obstacles = obstacle_motion(world, state.time_s, 1e-9);
+        let mut obstacles = ObstacleMotion::new();
+        obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);
         let mut probe = std::mem::take(&mut self.touch);
         probe.detect(world, state, &obstacles, 0.0);
         let least = probe.touches.iter().map(|t| t.at.gap).fold(f64::INFINITY, f64::min);

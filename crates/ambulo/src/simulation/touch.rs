@@ -16,7 +16,7 @@
 //! restitution zero by default).
 
 use super::state::{RowKey, State};
-use super::world::{ContactLaw, Material, Owner, Surface, World};
+use super::world::{ContactLaw, Impact, Material, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
 use crate::dynamics::{Acting, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
 use crate::spatial::{Pose, Twist, Vec3};
@@ -51,6 +51,10 @@ pub(crate) struct Touch {
     pub(crate) surface_speed: f64,
     /// Whether overlap is to be projected out.
     pub(crate) rigid: bool,
+    /// Where points strike ([`Impact::Sticking`]): whether this one was in touch before, or gives; and whether it is the one
+    /// that is to lose all its velocity.
+    pub(crate) known: bool,
+    pub(crate) sticks: bool,
 }
 
 /// Scratch of detection.
@@ -106,7 +110,22 @@ impl TouchWorkspace {
                 friction_group: None,
                 surface_speed: 0.0,
                 rigid: true,
+                known: false,
+                sticks: false,
             }));
+        }
+    }
+
+    /// How far the origin of a surface has gone since detection [m], where that tells how far its points have: of balls, and of
+    /// what does not move.
+    pub(crate) fn moved(&self, world: &World, state: &State, surface: usize) -> Option<Vec3> {
+        let about = &world.surfaces[surface];
+        match about.owner {
+            Owner::Body(body) if about.shape.is_sphere() => {
+                Some(state.poses[body].place(about.owner_from_shape.translation) - self.poses[surface].translation)
+            }
+            Owner::Obstacle(obstacle) if world.obstacles[obstacle].path.is_none() => Some(Vec3::zeros()),
+            _ => None,
         }
     }
 
@@ -123,14 +142,39 @@ impl TouchWorkspace {
 
     /// Whether surfaces nearer than `touching` [m] do not part.
     pub(crate) fn approaches(&self, world: &World, state: &State, obstacles: &ObstacleMotion, touching: f64) -> bool {
-        self.touches.iter().filter(|touch| touch.at.gap <= touching).any(|touch| {
-            let velocity = |surface: usize| match world.surfaces[surface].owner {
-                Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
-                Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
-            };
+        self.touches
+            .iter()
+            .filter(|touch| touch.at.gap <= touching)
+            .any(|touch| parting_speed(touch, world, state, obstacles) <= PARTING_M_S)
+    }
+
+    /// For points that strike: drops what does not touch yet, and tells what did so before.
+    pub(crate) fn keep_touching(&mut self, world: &World, state: &State) {
+        self.touches.retain_mut(|touch| {
             let (a, b) = touch.surfaces;
-            touch.at.normal.dot(&(velocity(a) - velocity(b))) <= PARTING_M_S
-        })
+            let law = |surface: usize| world.materials[world.surfaces[surface].material].law;
+            let gives = law(a) != ContactLaw::Rigid || law(b) != ContactLaw::Rigid;
+            let past = state.guess.get(&RowKey::Contact(a, b, touch.at.feature));
+            touch.known = gives || past.is_some();
+            // What pressed may have been lifted a little by the second order of the step.
+            let pressed = past.is_some_and(|impulses| impulses[0] > 0.0);
+            gives || touch.at.gap < if pressed { MARGIN_M } else { MEETING_M }
+        });
+    }
+
+    /// The point that was the first to strike, by its overlap and speed.
+    pub(crate) fn next_striker(&self, world: &World, state: &State, obstacles: &ObstacleMotion) -> Option<usize> {
+        let mut first: Option<(usize, f64)> = None;
+        for (number, touch) in self.touches.iter().enumerate().filter(|(_, touch)| !touch.known) {
+            let speed = -parting_speed(touch, world, state, obstacles);
+            if speed > 0.0 {
+                let since = -touch.at.gap / speed;
+                if first.is_none_or(|(_, longest)| since > longest) {
+                    first = Some((number, since));
+                }
+            }
+        }
+        first.map(|(number, _)| number)
     }
 
     /// Adds the rows of all touches to the graph, dropping those that ask nothing of this step.
@@ -184,7 +228,8 @@ impl Rows<'_> {
             ContactLaw::Rigid => {
                 // Faster than what gravity gives within a few steps is an impact.
                 let resting = 4.0 * h * self.world.gravity.norm();
-                let bounces = material.restitution > 0.0 && u[0] < -resting;
+                let rebounds = material.restitution > 0.0 && self.world.impact == Impact::Coulomb;
+                let bounces = rebounds && u[0] < -resting;
                 if bounces && gap > 0.0 {
                     return false;
                 }
@@ -201,9 +246,22 @@ impl Rows<'_> {
                 return self.add_soft(touch, &law, rows, u, on, (a, b));
             }
         }
+        if touch.sticks {
+            self.add_sticking(touch, &rows, on);
+            return true;
+        }
         touch.group = self.push(&rows, on, Law::Contact { friction: material.friction, bound: f64::INFINITY });
         self.keys.push(RowKey::Contact(a, b, feature));
         true
+    }
+
+    /// A point that strikes and loses all its velocity: one row that pushes, two that hold.
+    fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: Acting) {
+        let ((a, b), feature) = (touch.surfaces, touch.at.feature);
+        touch.group = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
+        self.keys.push(RowKey::Contact(a, b, feature));
+        touch.friction_group = Some(self.push(&rows[1..], on, Law::HELD));
+        self.keys.push(RowKey::SoftFriction(a, b, feature));
     }
 
     /// One row: the velocity of the first body's point against the second owner's along a direction.
@@ -295,6 +353,16 @@ impl Rows<'_> {
         }
         true
     }
+}
+
+/// Speed at which the surfaces of a touch part [m/s].
+fn parting_speed(touch: &Touch, world: &World, state: &State, obstacles: &ObstacleMotion) -> f64 {
+    let velocity = |surface: usize| match world.surfaces[surface].owner {
+        Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
+        Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
+    };
+    let (a, b) = touch.surfaces;
+    touch.at.normal.dot(&(velocity(a) - velocity(b)))
 }
 
 /// What of a gap is to be closed within the step [m].

@@ -24,6 +24,8 @@ pub struct World {
     pub surfaces: Vec<Surface>,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
+    /// What becomes of the velocity of a point that strikes another one.
+    pub impact: Impact,
     /// Pairs of owners that pass through each other, beside bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
     /// Recordings that joints follow.
@@ -41,6 +43,7 @@ impl Default for World {
             obstacles: Vec::new(),
             surfaces: Vec::new(),
             materials: Vec::new(),
+            impact: Impact::Coulomb,
             ignored: Vec::new(),
             figures: Vec::new(),
         }
@@ -236,6 +239,20 @@ pub struct Surface {
     pub owner_from_shape: Pose,
     /// Which material.
     pub material: usize,
+}
+
+/// What becomes of the velocity of a point that strikes another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Impact {
+    /// Along the normal, restitution says; across it, Coulomb's law holds for impulses as for forces. Blows are part of the
+    /// step in which surfaces meet.
+    #[default]
+    Coulomb,
+    /// All of it is cancelled, along the surfaces too, whatever the friction (the paper's rule, section 3.3). Surfaces touch
+    /// once their gap has closed; a point that was not in touch before then strikes at an instant of its own, those that
+    /// rest obeying Coulomb's law, and the step goes on from there. The blows are in `StepWorkspace::blows`, apart from
+    /// the forces. Restitution plays no part; materials that give do not strike. Only steps of impulses know it.
+    Sticking,
 }
 
 /// How a surface answers to touch. Two surfaces share the geometric mean of their frictions and the larger restitution; the

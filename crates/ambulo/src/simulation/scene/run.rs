@@ -9,7 +9,7 @@ use crate::findings::Findings;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
-use crate::simulation::impulse::{closure_errors, largest_joint_error};
+use crate::simulation::projection::{closure_errors, largest_joint_error};
 use crate::simulation::state::{RowKey, State};
 use crate::simulation::step::{StepSettings, step};
 use crate::simulation::world::World;
@@ -154,7 +154,8 @@ impl Scene {
         }
         while self.steps < self.steps_in_all() {
             statistics.add(&self.step(findings)?);
-            impacts.extend_from_slice(self.workspace.impacts());
+            let blows = self.workspace.blows().iter();
+            impacts.extend(blows.flat_map(|blow| blow.contacts.iter().map(|contact| (blow.time_s, *contact))));
             if self.is_seen() {
                 let forces = Some(self.workspace.forces(&self.world));
                 let energy = energy(&self.world, &self.state);

@@ -1,0 +1,52 @@
+//! How fast the ground goes by: zero on a floor, the belt's velocity on a treadmill.
+
+use crate::ground::MeasuredGround;
+use crate::kinematics::{Trajectory, each_body_motion};
+use crate::model::Model;
+use crate::spatial::Vec3;
+
+/// A foot carries enough to stand still on the ground above this share of the body's weight.
+const STANDING_SHARE: f64 = 0.5;
+
+/// Velocity of the ground and of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::analysis) struct OverGround {
+    /// Median velocity of the feet that carry the body [m/s].
+    pub(in crate::analysis) ground: Vec3,
+    /// Mean speed of the body's mass centre against it, along it [m/s].
+    pub(in crate::analysis) speed: f64,
+}
+
+/// Speed of the body's mass centre against the feet while they carry it: on a treadmill the feet move back with the
+/// belt, so the speed over the belt comes out. `None` if no foot carries half the weight.
+pub(in crate::analysis) fn over_ground(
+    model: &Model,
+    trajectory: &Trajectory,
+    ground: &MeasuredGround,
+    up: Vec3,
+) -> Option<OverGround> {
+    let weight = model.mass() * model.gravity().norm();
+    let (mut center, mut frames, mut feet) = (Vec3::zeros(), 0.0, Vec::new());
+    each_body_motion(model, trajectory, |frame, bodies| {
+        let momentum: Vec3 = model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
+        center += momentum / model.mass();
+        frames += 1.0;
+        for foot in &ground.bodies {
+            if foot.force[frame].dot(&up) > STANDING_SHARE * weight {
+                let motion = &bodies[foot.body.index()];
+                feet.push(motion.twist.velocity_at(motion.pose.translation - motion.center));
+            }
+        }
+    });
+    if feet.is_empty() {
+        return None;
+    }
+    let mut median = Vec3::zeros();
+    for k in 0..3 {
+        let mut along: Vec<f64> = feet.iter().map(|v| v[k]).collect();
+        along.sort_by(f64::total_cmp);
+        median[k] = along[along.len() / 2];
+    }
+    let relative = center / frames - median;
+    Some(OverGround { ground: median, speed: (relative - up * relative.dot(&up)).norm() })
+}

@@ -1,0 +1,133 @@
+//! How strong a joint is at an angle and a speed.
+//!
+//! The isometric moment of `strength.csv` (its header names the source) goes with body mass times stature, as dynamometry normalises
+//! strength (Anderson 2007: share of body weight times height).
+//!
+//! Speed multiplies it by Hill's factor. With w > 0 the speed at which the muscles shorten:
+//!
+//!   f(w) = (2 c₄c₅ + w (c₅ - 3c₄)) / (2 c₄c₅ + w (2c₅ - 4c₄))     f(0) = 1, f(c₄) = 3/4, f(c₅) = 1/2, never below 0
+//!   f(-w) = 1 + (e - 1) w / (w + w_e)                               rising to e, with the slope of the other branch at w = 0
+//!
+//! | code        | symbol | unit  | meaning                                              |
+//! | `at_75`     | c₄     | rad/s | speed at which three quarters of the moment are left |
+//! | `at_50`     | c₅     | rad/s | speed at which half is left                          |
+//! | `eccentric` | e      | 1     | most that a muscle holds while it is stretched       |
+//!
+//! Source: Anderson, Madigan, Nussbaum 2007, J Biomech 40:3105, equation and table 3 (men of 18 to 25), the table as transcribed in
+//! RBDL's `Millard2016TorqueMuscle` (read). e = 1.4: Thelen 2003 (unverified). The stretching branch is ours.
+//! Not handled: tendons that recoil, two-joint muscles whose length the other joint changes.
+//! Pinned by: tests/feasibility.rs
+
+use crate::model::Side;
+
+/// Isometric moments, with their source.
+const TABLE: &str = include_str!("strength.csv");
+/// Mass times stature of the man of the table [kg.m].
+const REFERENCE: f64 = 72.6 * 1.80;
+
+/// How a muscle group slows down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hill {
+    /// Speed at which three quarters of the isometric moment are left [rad/s].
+    pub at_75: f64,
+    /// Speed at which half of it is left [rad/s].
+    pub at_50: f64,
+}
+
+// Anderson 2007, table 3, men of 18 to 25.
+const HIP_FLEXORS: Hill = Hill { at_75: 2.095, at_50: 4.267 };
+const HIP_EXTENSORS: Hill = Hill { at_75: 1.578, at_50: 3.190 };
+const KNEE_EXTENSORS: Hill = Hill { at_75: 1.517, at_50: 3.952 };
+const KNEE_FLEXORS: Hill = Hill { at_75: 2.008, at_50: 5.233 };
+const DORSIFLEXORS: Hill = Hill { at_75: 0.699, at_50: 1.940 };
+const PLANTARFLEXORS: Hill = Hill { at_75: 0.987, at_50: 3.558 };
+
+impl Hill {
+    /// Share of the isometric moment at a speed of shortening [rad/s]; negative while stretched.
+    #[must_use]
+    pub fn factor(self, speed: f64, eccentric: f64) -> f64 {
+        let product = 2.0 * self.at_75 * self.at_50;
+        if speed >= 0.0 {
+            let share = (product + speed * (self.at_50 - 3.0 * self.at_75))
+                / (product + speed * (2.0 * self.at_50 - 4.0 * self.at_75));
+            return share.max(0.0);
+        }
+        let gain = eccentric - 1.0;
+        let half = gain * product / (self.at_50 - self.at_75);
+        1.0 + gain * speed / (speed - half)
+    }
+}
+
+/// Isometric moments of one coordinate over its angle, and how both directions slow down.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrengthCurve {
+    /// Angles, rising [rad].
+    pub angles: Vec<f64>,
+    /// Largest positive moment at each angle, above zero [N.m].
+    pub positive: Vec<f64>,
+    /// Largest negative moment at each angle, as a number above zero [N.m].
+    pub negative: Vec<f64>,
+    /// Of the muscles that give the positive moment, and of those that give the negative one.
+    pub hill: [Hill; 2],
+}
+
+impl StrengthCurve {
+    /// Largest moment [N.m] at an angle [rad] and a rate [rad/s], in the direction of `sign`; the ends of the table hold
+    /// beyond them.
+    #[must_use]
+    pub fn available(&self, angle: f64, rate: f64, sign: f64, eccentric: f64) -> f64 {
+        let (isometric, hill) =
+            if sign >= 0.0 { (&self.positive, self.hill[0]) } else { (&self.negative, self.hill[1]) };
+        let shortening = if sign >= 0.0 { rate } else { -rate };
+        crate::motion::interpolate(&self.angles, isometric, angle) * hill.factor(shortening, eccentric)
+    }
+
+    /// The same joint counted the other way round.
+    #[must_use]
+    pub fn reversed(&self) -> StrengthCurve {
+        let turned = |values: &[f64]| values.iter().rev().copied().collect::<Vec<f64>>();
+        StrengthCurve {
+            angles: self.angles.iter().rev().map(|a| -a).collect(),
+            positive: turned(&self.negative),
+            negative: turned(&self.positive),
+            hill: [self.hill[1], self.hill[0]],
+        }
+    }
+
+    /// The built-in curve of a coordinate of the Gait2392 family for a person; `None` where the table has none.
+    #[must_use]
+    pub fn built_in(coordinate: &str, mass_kg: f64, height_m: f64) -> Option<StrengthCurve> {
+        let stem = Side::split_name(coordinate)?.1;
+        let hill = Hill::of_coordinate(coordinate);
+        let scale = mass_kg * height_m / REFERENCE;
+        let rows = TABLE.lines().filter_map(row).filter(|(name, _)| *name == stem).map(|(_, numbers)| numbers);
+        let (mut angles, mut positive, mut negative) = (Vec::new(), Vec::new(), Vec::new());
+        for [angle_deg, up, down] in rows {
+            angles.push(angle_deg.to_radians());
+            positive.push(scale * up);
+            negative.push(-scale * down);
+        }
+        (!angles.is_empty()).then_some(StrengthCurve { angles, positive, negative, hill })
+    }
+}
+
+impl Hill {
+    /// Of the positive and the negative direction of a coordinate; those that the source lacks slow down as the hip's extensors do.
+    #[must_use]
+    pub fn of_coordinate(name: &str) -> [Hill; 2] {
+        let stem = Side::split_name(name).map_or_else(|| name.to_owned(), |(_, stem)| stem);
+        match stem.as_str() {
+            "hip_flexion" => [HIP_FLEXORS, HIP_EXTENSORS],
+            "knee_angle" => [KNEE_EXTENSORS, KNEE_FLEXORS],
+            "ankle_angle" => [DORSIFLEXORS, PLANTARFLEXORS],
+            _ => [HIP_EXTENSORS; 2],
+        }
+    }
+}
+
+/// Coordinate, angle [deg], largest positive and negative moment [N.m]; `None` for comments and the line of names.
+fn row(line: &str) -> Option<(&str, [f64; 3])> {
+    let (name, numbers) = line.split_once(',')?;
+    let numbers: Vec<f64> = numbers.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;
+    Some((name, numbers.try_into().ok()?))
+}

@@ -1,0 +1,198 @@
+//! What is allowed, by default or from a file.
+
+use super::strength::{Hill, StrengthCurve};
+use super::verdict::Check;
+use crate::toml_reader::{Source, Table, TomlError, Value};
+
+/// Limits of every check. docs/FEASIBILITY.md gives the reasons for the defaults.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thresholds {
+    /// What lasts less than this is noise [s]: two frames of a 60 Hz recording are more.
+    pub shortest_s: f64,
+    /// Checks that are left out.
+    pub skip: Vec<Check>,
+    /// Body mass whose strength is taken [kg]; `None`: the figure's own.
+    pub mass_kg: Option<f64>,
+    /// Stature whose strength is taken [m]; `None`: the figure's own.
+    pub height_m: Option<f64>,
+    /// Share of the strength that may be used.
+    pub strength_share: f64,
+    /// What a joint moment may be wrong by [N.m/kg]: body weight times 10 mm of the centre of pressure.
+    pub strength_tolerance_nm_kg: f64,
+    /// Most that stretched muscles hold, in isometric moments.
+    pub eccentric: f64,
+    /// Strength of single coordinates in place of the built-in one [N.m], not scaled.
+    pub tables: Vec<(String, StrengthCurve)>,
+    /// Coefficient of friction between sole and ground.
+    pub friction: f64,
+    /// Friction is judged on feet that carry at least this [body weights].
+    pub friction_load_bw: f64,
+    /// How far outside the sole a centre of pressure may lie [m].
+    pub sole_margin_m: f64,
+    /// Centres of pressure are judged on feet that carry at least this [body weights].
+    pub sole_load_bw: f64,
+    /// Longest time without a loaded foot [s].
+    pub flight_s: f64,
+    /// V²/(g L) above which a person runs, and may fly.
+    pub running_froude: f64,
+    /// Largest speed of a loaded sole along the ground [m/s].
+    pub sliding_m_s: f64,
+    /// Sliding is judged on feet that carry at least this [body weights].
+    pub sliding_load_bw: f64,
+    /// How far a joint may leave its range [rad].
+    pub range_slack_rad: f64,
+    /// Largest power that a coordinate delivers [W/kg].
+    pub generation_w_kg: f64,
+    /// Largest power that a coordinate takes up [W/kg].
+    pub absorption_w_kg: f64,
+    /// Largest force at the root that nothing supplies [body weights].
+    pub support_bw: f64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Thresholds {
+        Thresholds {
+            shortest_s: 0.03,
+            skip: Vec::new(),
+            mass_kg: None,
+            height_m: None,
+            strength_share: 1.0,
+            strength_tolerance_nm_kg: 0.1,
+            eccentric: 1.4,
+            tables: Vec::new(),
+            friction: 0.6,
+            friction_load_bw: 0.1,
+            sole_margin_m: 0.03,
+            sole_load_bw: 0.2,
+            flight_s: 0.03,
+            running_froude: 0.5,
+            sliding_m_s: 0.4,
+            sliding_load_bw: 0.5,
+            range_slack_rad: 10_f64.to_radians(),
+            generation_w_kg: 15.0,
+            absorption_w_kg: 20.0,
+            support_bw: 0.5,
+        }
+    }
+}
+
+/// Larger moments are slips [N.m].
+const LARGEST_MOMENT: f64 = 1e6;
+
+impl Thresholds {
+    /// Reads a file; what it leaves out keeps its default.
+    ///
+    /// # Errors
+    /// Text that is no TOML, unknown keys, values outside of what makes sense.
+    pub fn from_toml(text: &str) -> Result<Thresholds, TomlError> {
+        let source = Source::new(text, "docs/FEASIBILITY.md");
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        const SECTIONS: [&str; 9] =
+            ["person", "strength", "friction", "center_of_pressure", "flight", "sliding", "range", "power", "support"];
+        root.only(&[&["shortest_s", "skip"], &SECTIONS])?;
+        let mut t = Thresholds::default();
+        read(&root, "shortest_s", [0.0, 1.0], &mut t.shortest_s)?;
+        t.skip = skipped(&root)?;
+        if let Some(person) = section(&root, "person", &["mass_kg", "height_m"])? {
+            t.mass_kg = optional(&person, "mass_kg", [2.0, 300.0])?;
+            t.height_m = optional(&person, "height_m", [0.4, 2.5])?;
+        }
+        if let Some(strength) = section(&root, "strength", &["share", "tolerance_nm_kg", "eccentric", "table"])? {
+            read(&strength, "share", [0.0, 10.0], &mut t.strength_share)?;
+            read(&strength, "tolerance_nm_kg", [0.0, 10.0], &mut t.strength_tolerance_nm_kg)?;
+            read(&strength, "eccentric", [1.0, 3.0], &mut t.eccentric)?;
+            t.tables = strength.tables("table")?.iter().map(strength_table).collect::<Result<_, _>>()?;
+        }
+        if let Some(friction) = section(&root, "friction", &["available", "least_load_bw"])? {
+            read(&friction, "available", [0.0, 5.0], &mut t.friction)?;
+            read(&friction, "least_load_bw", [0.0, 1.0], &mut t.friction_load_bw)?;
+        }
+        if let Some(sole) = section(&root, "center_of_pressure", &["margin_m", "least_load_bw"])? {
+            read(&sole, "margin_m", [0.0, 1.0], &mut t.sole_margin_m)?;
+            read(&sole, "least_load_bw", [0.0, 1.0], &mut t.sole_load_bw)?;
+        }
+        if let Some(flight) = section(&root, "flight", &["longest_s", "running_froude"])? {
+            read(&flight, "longest_s", [0.0, 10.0], &mut t.flight_s)?;
+            read(&flight, "running_froude", [0.0, 100.0], &mut t.running_froude)?;
+        }
+        if let Some(sliding) = section(&root, "sliding", &["speed_m_s", "least_load_bw"])? {
+            read(&sliding, "speed_m_s", [0.0, 10.0], &mut t.sliding_m_s)?;
+            read(&sliding, "least_load_bw", [0.0, 1.0], &mut t.sliding_load_bw)?;
+        }
+        if let Some(range) = section(&root, "range", &["slack_deg"])? {
+            let slack_deg = optional(&range, "slack_deg", [0.0, 180.0])?;
+            t.range_slack_rad = slack_deg.map_or(t.range_slack_rad, f64::to_radians);
+        }
+        if let Some(power) = section(&root, "power", &["generation_w_kg", "absorption_w_kg"])? {
+            read(&power, "generation_w_kg", [0.0, 1000.0], &mut t.generation_w_kg)?;
+            read(&power, "absorption_w_kg", [0.0, 1000.0], &mut t.absorption_w_kg)?;
+        }
+        if let Some(support) = section(&root, "support", &["force_bw"])? {
+            read(&support, "force_bw", [0.0, 100.0], &mut t.support_bw)?;
+        }
+        Ok(t)
+    }
+
+    /// Whether a check is to be made.
+    #[must_use]
+    pub fn judges(&self, check: Check) -> bool {
+        !self.skip.contains(&check)
+    }
+}
+
+/// The table under a key with no other keys than these, if it is there.
+fn section<'t>(root: &Table<'t>, key: &str, allowed: &[&str]) -> Result<Option<Table<'t>>, TomlError> {
+    let Some(value) = root.get(key) else { return Ok(None) };
+    let table = value.table(&format!("a table under the header [{key}]"))?;
+    table.only(&[allowed])?;
+    Ok(Some(table))
+}
+
+fn between(value: &Value<'_>, [least, most]: [f64; 2]) -> Result<f64, TomlError> {
+    let expected = format!("a number from {least} to {most}");
+    let number = value.finite(&expected)?;
+    if (least..=most).contains(&number) { Ok(number) } else { Err(value.wrong(&expected)) }
+}
+
+fn optional(table: &Table<'_>, key: &str, range: [f64; 2]) -> Result<Option<f64>, TomlError> {
+    table.get(key).map(|value| between(&value, range)).transpose()
+}
+
+/// Writes the number over the default, if it is there.
+fn read(table: &Table<'_>, key: &str, range: [f64; 2], into: &mut f64) -> Result<(), TomlError> {
+    if let Some(number) = optional(table, key, range)? {
+        *into = number;
+    }
+    Ok(())
+}
+
+fn skipped(root: &Table<'_>) -> Result<Vec<Check>, TomlError> {
+    let Some(value) = root.get("skip") else { return Ok(Vec::new()) };
+    let words = Check::ALL.map(|check| (check.name(), check));
+    value.list("a list of checks in quotes")?.iter().map(|entry| entry.choice(&words)).collect()
+}
+
+/// A strength of the user's own; joints that the source of Hill's factor lacks slow down as the hip's extensors do.
+fn strength_table(table: &Table<'_>) -> Result<(String, StrengthCurve), TomlError> {
+    table.only(&[&["coordinate", "angle_deg", "positive_nm", "negative_nm"]])?;
+    let coordinate = table.need("coordinate", "a coordinate, such as \"lumbar_extension\"")?.filled_text()?;
+    let angles_value = table.need("angle_deg", "a list of angles")?;
+    let numbers = |value: &Value<'_>, expected: &str, range| -> Result<Vec<f64>, TomlError> {
+        value.list(expected)?.iter().map(|entry| between(entry, range)).collect()
+    };
+    const ANGLES: &str = "a list of one or more rising angles";
+    let angles_deg = numbers(&angles_value, ANGLES, [-720.0, 720.0])?;
+    if angles_deg.is_empty() || angles_deg.windows(2).any(|w| w[0] >= w[1]) {
+        return Err(angles_value.wrong(ANGLES));
+    }
+    let moments = |key: &str| {
+        let expected = format!("a list of {} moments [N.m], zero or more, one an angle", angles_deg.len());
+        let value = table.need(key, &expected)?;
+        let list = numbers(&value, &expected, [0.0, LARGEST_MOMENT])?;
+        if list.len() == angles_deg.len() { Ok(list) } else { Err(value.wrong(&expected)) }
+    };
+    let (positive, negative) = (moments("positive_nm")?, moments("negative_nm")?);
+    let angles = angles_deg.iter().map(|a| a.to_radians()).collect();
+    Ok((coordinate.clone(), StrengthCurve { angles, positive, negative, hill: Hill::of_coordinate(&coordinate) }))
+}

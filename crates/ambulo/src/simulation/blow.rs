@@ -1,0 +1,96 @@
+//! Instants at which surfaces meet: velocities change, positions do not.
+//!
+//! Drives hold the rates that they have, whatever impulse it takes; those with a limit give way.
+
+use super::assemble::{Prescribed, Span, twist};
+use super::forces::{Blow, StepForces};
+use super::impulse::obstacle_motion;
+use super::state::State;
+use super::step::{StepSettings, StepWorkspace};
+use super::touch::Touch;
+use super::world::World;
+use crate::dynamics::LinkError;
+use crate::findings::Findings;
+
+/// Duration of an impact in a smooth step [s]: gravity gives 1e-8 m/s in it.
+const IMPACT_S: f64 = 1e-9;
+
+/// What happens at an instant where surfaces meet: velocities change, positions do not.
+pub(super) fn impact(
+    world: &World,
+    state: &mut State,
+    settings: &StepSettings,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<(), LinkError> {
+    let prescribed = Prescribed::at(world, state.time_s + IMPACT_S);
+    w.step_s = IMPACT_S;
+    obstacle_motion(world, state.time_s, IMPACT_S, &mut w.obstacles);
+    w.touch.detect(world, state, &w.obstacles, IMPACT_S);
+    w.touch.close_gaps();
+    w.solve_blow(world, state, settings, &prescribed, findings)?;
+    w.take_blow(world, state);
+    state.guess.clear();
+    Ok(())
+}
+
+impl StepWorkspace {
+    fn solve_blow(
+        &mut self,
+        world: &World,
+        state: &State,
+        settings: &StepSettings,
+        prescribed: &Prescribed,
+        findings: &mut Findings,
+    ) -> Result<(), LinkError> {
+        self.step_s = IMPACT_S;
+        self.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, prescribed, findings)
+    }
+
+    /// Velocities change, positions do not. The impulses join those of the step.
+    fn take_blow(&mut self, world: &World, state: &mut State) {
+        for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
+            *twist_now = twist(motion);
+        }
+        let StepForces { mut contacts, mut efforts, .. } = StepForces::of(world, self);
+        for contact in &mut contacts {
+            contact.force *= IMPACT_S;
+            contact.normal_force *= IMPACT_S;
+        }
+        efforts.iter_mut().flatten().for_each(|effort| *effort *= IMPACT_S);
+        self.blows.push(Blow { time_s: state.time_s, contacts, efforts });
+        self.after_blows.clone_from(&state.twists);
+    }
+
+    /// Every point that has come into touch since the last step strikes, the one that did so first before the others, and
+    /// loses all of its velocity. Points that meanwhile part, or rest already, do not strike.
+    pub(super) fn strike(
+        &mut self,
+        world: &World,
+        state: &mut State,
+        settings: &StepSettings,
+        prescribed: &Prescribed,
+        findings: &mut Findings,
+    ) -> Result<(), LinkError> {
+        while let Some(number) = self.touch.next_striker(world, state, &self.obstacles) {
+            let touches = self.touch.touches.clone();
+            self.touch.touches[number].sticks = true;
+            self.solve_blow(world, state, settings, prescribed, findings)?;
+            if self.pulls() {
+                // Another point carries the blow: this one is not held.
+                self.touch.touches.clone_from(&touches);
+                self.solve_blow(world, state, settings, prescribed, findings)?;
+            }
+            self.take_blow(world, state);
+            self.touch.touches = touches;
+            self.touch.touches[number].known = true;
+        }
+        Ok(())
+    }
+
+    /// Whether the point that was to stick is not pushed.
+    fn pulls(&self) -> bool {
+        let normal = |touch: &Touch| self.solution.lambda[self.assembly.graph.groups[touch.group].rows.start];
+        self.touch.touches.iter().any(|touch| touch.sticks && normal(touch) <= 0.0)
+    }
+}

@@ -1,0 +1,116 @@
+//! Functions of time known at instants, with their first two derivatives: quintics between.
+//!
+//! On each interval of length d the polynomial of degree five that has both ends' values, rates and accelerations; so the
+//! whole is twice continuously differentiable, and an error falls with d⁶ where the function is smooth. Where its third
+//! derivative jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval alone.
+//! One reading costs some 30 operations, whatever the function cost.
+
+/// Samples of several functions at the same instants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    start_s: f64,
+    step_s: f64,
+    columns: usize,
+    /// Value, rate and acceleration, one row an instant.
+    rows: Vec<[f64; 3]>,
+    /// Whether the last instant is the first one of the next period.
+    periodic: bool,
+}
+
+impl Samples {
+    /// Asks `functions` for the rows from `start_s` over `span_s` [s], no farther than `step_s` apart. Periodic ones repeat
+    /// themselves; others keep their end values outside. `functions` fills one entry (value, rate, acceleration) a column.
+    ///
+    /// # Panics
+    /// If the span or the step is not above zero.
+    #[must_use]
+    pub fn new(
+        columns: usize,
+        [start_s, span_s]: [f64; 2],
+        step_s: f64,
+        periodic: bool,
+        mut functions: impl FnMut(f64, &mut [[f64; 3]]),
+    ) -> Samples {
+        assert!(span_s > 0.0 && step_s > 0.0, "a span of {span_s} s in steps of {step_s} s");
+        let intervals = (span_s / step_s - 1e-9).ceil().max(1.0);
+        let step_s = span_s / intervals;
+        let mut rows = vec![[0.0; 3]; columns * (intervals as usize + 1)];
+        for (number, row) in rows.chunks_exact_mut(columns).enumerate() {
+            functions(start_s + step_s * number as f64, row);
+        }
+        if periodic {
+            let last = rows.len() - columns;
+            rows.copy_within(..columns, last);
+        }
+        Samples { start_s, step_s, columns, rows, periodic }
+    }
+
+    /// Value, first and second derivative of one function.
+    #[must_use]
+    pub fn at(&self, column: usize, t: f64) -> [f64; 3] {
+        let intervals = self.rows.len() / self.columns - 1;
+        let mut place = (t - self.start_s) / self.step_s;
+        if self.periodic {
+            place -= (place / intervals as f64).floor() * intervals as f64;
+        } else if !(0.0..=intervals as f64).contains(&place) {
+            let end = if place < 0.0 { 0 } else { intervals };
+            return [self.rows[end * self.columns + column][0], 0.0, 0.0];
+        }
+        let interval = (place as usize).min(intervals - 1);
+        let first = interval * self.columns + column;
+        between(self.rows[first], self.rows[first + self.columns], place - interval as f64, self.step_s)
+    }
+}
+
+/// x(u) = x0 + v0 u + a0 u²/2 + c3 u³ + c4 u⁴ + c5 u⁵, u from 0 to 1, rates and accelerations in units of the interval.
+fn between([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], u: f64, d: f64) -> [f64; 3] {
+    let (v0, v1, a0, a1) = (v0 * d, v1 * d, a0 * d * d, a1 * d * d);
+    let (value, rate, bend) = (x1 - x0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0);
+    let c3 = 10.0 * value - 4.0 * rate + 0.5 * bend;
+    let c4 = -15.0 * value + 7.0 * rate - bend;
+    let c5 = 6.0 * value - 3.0 * rate + 0.5 * bend;
+    [
+        x0 + u * (v0 + u * (0.5 * a0 + u * (c3 + u * (c4 + u * c5)))),
+        (v0 + u * (a0 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))) / d,
+        (a0 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / (d * d),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(t: f64) -> [f64; 3] {
+        let (sin, cos) = (3.0 * t).sin_cos();
+        [sin, 3.0 * cos, -9.0 * sin]
+    }
+
+    #[test]
+    fn a_wave_is_met_between_its_samples_to_the_sixth_order() {
+        let period = std::f64::consts::TAU / 3.0;
+        let error = |step: f64| {
+            let samples =
+                Samples::new(2, [0.1, period], step, true, |t, row| row.copy_from_slice(&[[0.0; 3], wave(t)]));
+            let off = |k: u32| {
+                let t = -7.0 + 0.013 * f64::from(k);
+                let (found, meant) = (samples.at(1, t), wave(t));
+                (0..3).map(|k| (found[k] - meant[k]).abs()).collect::<Vec<f64>>()
+            };
+            (0..1000).map(off).fold(vec![0.0_f64; 3], |m, e| m.iter().zip(&e).map(|(a, b)| a.max(*b)).collect())
+        };
+        let (coarse, fine) = (error(0.1), error(0.05));
+        for (k, order) in [6.0_f64, 5.0, 4.0].into_iter().enumerate() {
+            let found = (coarse[k] / fine[k]).log2();
+            assert!((found - order).abs() < 0.3, "derivative {k}: order {found}");
+        }
+        assert!(fine[0] < 1e-8, "{fine:?}");
+    }
+
+    #[test]
+    fn what_does_not_repeat_stays_where_it_ends() {
+        let samples = Samples::new(1, [1.0, 1.0], 0.1, false, |t, row| row[0] = wave(t));
+        let [value, rate, acceleration] = samples.at(0, 0.5);
+        assert!((value - wave(1.0)[0]).abs() < 1e-12 && rate.abs() + acceleration.abs() <= 0.0);
+        assert!((samples.at(0, 9.0)[0] - wave(2.0)[0]).abs() < 1e-12);
+    }
+}

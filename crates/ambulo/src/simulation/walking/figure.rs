@@ -1,0 +1,264 @@
+//! A figure in the plane: bodies, joints and soles as the simulator has them.
+
+use super::error::WalkingError;
+use crate::contact::{HuntCrossley, Shape};
+use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::model::anthropometry::{ContactSphere, Human};
+use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
+use crate::simulation::{
+    Body, ContactLaw, Drive, Impact, Joint, JointCoordinate, JointKind, Material, Obstacle, Owner, Signal, Surface,
+    World,
+};
+use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+
+/// Rounding of directions.
+const SLACK: f64 = 1e-9;
+
+/// What the soles are made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shoes {
+    /// They do not give.
+    Rigid,
+    /// A spring and a damper under each sphere, exact friction.
+    Regularised {
+        /// [N/m].
+        stiffness: f64,
+        /// [N.s/m].
+        damping: f64,
+    },
+    /// Hunt and Crossley's, with friction of its own.
+    HuntCrossley(HuntCrossley),
+}
+
+/// What the figure walks on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ground {
+    /// Coefficient of friction μ; of no effect under Hunt and Crossley's shoes.
+    pub friction: f64,
+    /// What the soles are made of.
+    pub shoes: Shoes,
+    /// What becomes of the velocity of a sole that strikes.
+    pub impact: Impact,
+}
+
+/// A coordinate of the model in the world.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    pub(super) joint: usize,
+    pub(super) coordinate: usize,
+    /// +1, or -1 where the model counts the other way about.
+    pub(super) sense: f64,
+}
+
+/// A figure on flat ground (y = 0), ready to walk.
+#[derive(Debug, Clone)]
+pub struct Walker {
+    /// The world: bodies in the model's order, each the child of the joint of its own number; surfaces are the soles in
+    /// their order, then the ground.
+    pub world: World,
+    pub(super) model: Model,
+    /// The signals: one a coordinate of the model.
+    pub(super) signals: Vec<Signal>,
+    /// Where each coordinate of the model is.
+    pub(super) placed: Vec<Placed>,
+    /// Whose sole each surface is.
+    pub(super) sides: Vec<Option<Side>>,
+    /// The body that carries each foot's heel, right and left.
+    pub(super) feet: [BodyId; 2],
+}
+
+impl Walker {
+    /// Puts a figure on its feet in the posture that its signals have at time zero, with the mid-hip above x = 0 and moving
+    /// forwards with `speed_m_s`. `signals`: one a coordinate of the model [rad]; those of the root's slides are not used.
+    ///
+    /// # Errors
+    /// A model that is not planar, or signals for another one.
+    pub fn new(human: &Human, signals: Vec<Signal>, ground: &Ground, speed_m_s: f64) -> Result<Walker, WalkingError> {
+        let model = human.model.clone();
+        let expected = model.coordinates().len();
+        if signals.len() != expected {
+            return Err(WalkingError::Signals { found: signals.len(), expected });
+        }
+        let mut walker = Walker {
+            world: World { gravity: model.gravity(), impact: ground.impact, ..World::default() },
+            placed: vec![Placed { joint: 0, coordinate: 0, sense: 1.0 }; expected],
+            sides: Vec::new(),
+            feet: [BodyId(0); 2],
+            model,
+            signals,
+        };
+        walker.add_joints()?;
+        walker.add_soles(human, ground)?;
+        let motions = walker.start(human, speed_m_s);
+        walker.add_bodies(&motions);
+        walker.world.check()?;
+        Ok(walker)
+    }
+
+    /// The figure's model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    fn add_joints(&mut self) -> Result<(), WalkingError> {
+        for id in self.model.body_ids() {
+            let body = &self.model.bodies()[id.index()];
+            let joint = match body.joint.parent {
+                None => self.root(id, body)?,
+                Some(_) => self.hinge(id, body)?,
+            };
+            for (coordinate, (model, sense)) in joint.1.into_iter().enumerate() {
+                self.placed[model.index()] = Placed { joint: id.index(), coordinate, sense };
+            }
+            self.world.joints.push(joint.0);
+        }
+        Ok(())
+    }
+
+    /// Slides along x and y, which are free, and the turn about z, which is driven.
+    fn root(&self, id: BodyId, body: &ModelBody) -> Result<JointInModel, WalkingError> {
+        let [turn] = moving(body, &body.joint.rotations, [Vec3::z()])?;
+        let [x, y] = moving(body, &body.joint.translations, [Vec3::x(), Vec3::y()])?;
+        let free = JointCoordinate::default;
+        let coordinates = vec![free(), free(), self.driven(turn)];
+        Ok((self.joint(id, body, JointKind::Planar, coordinates), vec![x, y, turn]))
+    }
+
+    fn hinge(&self, id: BodyId, body: &ModelBody) -> Result<JointInModel, WalkingError> {
+        let [turn] = moving(body, &body.joint.rotations, [Vec3::z()])?;
+        let [] = moving(body, &body.joint.translations, [])?;
+        Ok((self.joint(id, body, JointKind::Revolute, vec![self.driven(turn)]), vec![turn]))
+    }
+
+    fn joint(&self, id: BodyId, body: &ModelBody, kind: JointKind, coordinates: Vec<JointCoordinate>) -> Joint {
+        let from_center = |body: BodyId| Pose::at(-self.model.bodies()[body.index()].inertia.center());
+        let parent = body.joint.parent;
+        Joint {
+            name: body.joint.name.clone(),
+            child: id.index(),
+            parent: parent.map(BodyId::index),
+            parent_from_joint: parent.map_or(Pose::IDENTITY, from_center) * body.joint.parent_from_joint,
+            child_from_joint: from_center(id) * body.joint.child_from_joint,
+            kind,
+            coordinates,
+            follows: None,
+        }
+    }
+
+    fn driven(&self, (id, sense): (CoordinateId, f64)) -> JointCoordinate {
+        let own = &self.signals[id.index()];
+        let turned = Function::Linear { slope: sense, intercept: 0.0 };
+        let signal = if sense > 0.0 { own.clone() } else { Signal::Of(turned, Box::new(own.clone())) };
+        JointCoordinate { drive: Some(Drive { signal, max: None }), ..JointCoordinate::default() }
+    }
+
+    fn add_soles(&mut self, human: &Human, ground: &Ground) -> Result<(), WalkingError> {
+        let law = match ground.shoes {
+            Shoes::Rigid => ContactLaw::Rigid,
+            Shoes::Regularised { stiffness, damping } => ContactLaw::Regularised { stiffness, damping },
+            Shoes::HuntCrossley(law) => ContactLaw::HuntCrossley(law),
+        };
+        self.world.materials.push(Material { friction: ground.friction, restitution: 0.0, law });
+        for sole in &human.soles {
+            let center = self.model.bodies()[sole.body.index()].inertia.center();
+            self.world.surfaces.push(Surface {
+                owner: Owner::Body(sole.body.index()),
+                shape: Shape::sphere(sole.radius)?,
+                owner_from_shape: Pose::at(sole.center - center),
+                material: 0,
+            });
+            self.sides.push(Some(sole.side));
+        }
+        for (foot, side) in self.feet.iter_mut().zip(Side::BOTH) {
+            if let Some(sole) = human.soles.iter().find(|sole| sole.side == side) {
+                *foot = sole.body;
+            }
+        }
+        self.world.obstacles.push(Obstacle { name: "ground".to_owned(), pose: Pose::IDENTITY, path: None });
+        self.world.surfaces.push(Surface {
+            owner: Owner::Obstacle(0),
+            shape: Shape::half_space(),
+            owner_from_shape: Pose::IDENTITY,
+            material: 0,
+        });
+        self.sides.push(None);
+        // Feet pass each other.
+        let soles: Vec<Owner> = self.world.surfaces.iter().map(|surface| surface.owner).collect();
+        for (number, owner) in soles.iter().enumerate().filter(|(_, owner)| matches!(owner, Owner::Body(_))) {
+            let others = soles[number + 1..].iter().filter(|other| matches!(other, Owner::Body(_)) && *other != owner);
+            self.world.ignored.extend(others.map(|other| (*owner, *other)));
+        }
+        self.world.ignored.sort_unstable();
+        self.world.ignored.dedup();
+        Ok(())
+    }
+
+    /// Motions of the bodies at time zero, the lowest sole on the ground.
+    fn start(&self, human: &Human, speed_m_s: f64) -> Vec<BodyMotion> {
+        let values: Vec<[f64; 3]> = self.signals.iter().map(|signal| signal.at(0.0)).collect();
+        let [mut q, mut qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
+        let of_root = |coordinate: usize| self.placed.iter().position(|p| (p.joint, p.coordinate) == (0, coordinate));
+        let (x, y) = (of_root(0), of_root(1));
+        for (slide, speed) in [(x, speed_m_s), (y, 0.0)] {
+            if let Some(slide) = slide {
+                (q[slide], qd[slide]) = (0.0, self.placed[slide].sense * speed);
+            }
+        }
+        let at = |q: &[f64]| body_motion(&self.model, Posture { q, qd: &qd, qdd: &qdd });
+        let motions = at(&q);
+        let low = |sole: &ContactSphere| motions[sole.body.index()].pose.place(sole.center).y - sole.radius;
+        let lowest = human.soles.iter().map(low).fold(f64::INFINITY, f64::min);
+        if let (Some(y), true) = (y, lowest.is_finite()) {
+            q[y] = -self.placed[y].sense * lowest;
+        }
+        at(&q)
+    }
+
+    fn add_bodies(&mut self, motions: &[BodyMotion]) {
+        for (body, motion) in self.model.bodies().iter().zip(motions) {
+            self.world.bodies.push(Body {
+                name: body.name.clone(),
+                mass: body.inertia.mass(),
+                inertia: body.inertia.about_center(),
+                pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
+                twist: motion.twist,
+                load: Wrench::ZERO,
+            });
+        }
+    }
+}
+
+/// A joint, and the coordinates of the model that its own are, with their sense.
+type JointInModel = (Joint, Vec<(CoordinateId, f64)>);
+
+/// The coordinates that move the expected axes, in their order; nothing else may move.
+fn moving<const N: usize>(
+    body: &ModelBody,
+    axes: &[JointAxis],
+    expected: [Vec3; N],
+) -> Result<[(CoordinateId, f64); N], WalkingError> {
+    let wrong = |found: &str| WalkingError::Joint { joint: body.joint.name.clone(), found: found.to_owned() };
+    let level = (body.joint.parent_from_joint.rotation - Mat3::identity()).amax() <= SLACK;
+    if !level {
+        return Err(wrong("its frame is turned against the parent's"));
+    }
+    let mut found = [None; N];
+    for axis in axes {
+        let Displacement::Follows(id, function) = &axis.displacement else {
+            return Err(wrong("an axis is held at a value"));
+        };
+        let slope = match function.as_linear() {
+            Some((slope, intercept)) if (slope.abs() - 1.0).abs() <= SLACK && intercept.abs() <= SLACK => slope,
+            _ => return Err(wrong("an axis follows its coordinate by a curve")),
+        };
+        let place = expected.iter().position(|e| (e.dot(&axis.direction).abs() - 1.0).abs() <= SLACK);
+        let Some(place) = place else { return Err(wrong("an axis leaves the plane")) };
+        found[place] = Some((*id, slope * expected[place].dot(&axis.direction)));
+    }
+    let mut all = [(CoordinateId(0), 1.0); N];
+    for (one, found) in all.iter_mut().zip(found) {
+        *one = found.ok_or_else(|| wrong("an axis is missing"))?;
+    }
+    Ok(all)
+}

@@ -1,0 +1,159 @@
+//! Steps a walker and keeps what happens.
+
+use super::error::WalkingError;
+use super::feet::FootRecord;
+use super::figure::{Placed, Walker};
+use super::recording::{FootBlow, WalkRecording};
+use crate::findings::Findings;
+use crate::kinematics::Trajectory;
+use crate::model::Side;
+use crate::motion::TimeGrid;
+use crate::simulation::{Blow, Integrator, State, StepSettings, StepWorkspace, World, step};
+use crate::spatial::{Pose, Twist, Vec3};
+
+/// A recording under way.
+struct Keeping<'a> {
+    walker: &'a Walker,
+    columns: Vec<[Vec<f64>; 3]>,
+    efforts: Vec<Vec<f64>>,
+    feet: [FootRecord; 2],
+    blows: Vec<FootBlow>,
+    unsolved: usize,
+}
+
+impl Walker {
+    /// Walks for `duration_s`; steps of impulses, whatever the settings' integrator.
+    ///
+    /// # Errors
+    /// No whole step, or numbers that are none.
+    pub fn walk(
+        &self,
+        settings: &StepSettings,
+        duration_s: f64,
+        findings: &mut Findings,
+    ) -> Result<WalkRecording, WalkingError> {
+        let step_s = settings.step_s;
+        let rows = (duration_s / step_s + 1e-9).floor();
+        if !(step_s > 0.0 && rows >= 1.0 && rows.is_finite()) {
+            return Err(WalkingError::Duration { duration_s, step_s });
+        }
+        let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
+        let (mut state, mut w) = (State::new(&self.world), StepWorkspace::default());
+        let mut keeping = Keeping::new(self, rows as usize);
+        for row in 0..rows as usize {
+            // Rows count time afresh, so that many steps do not add up roundings.
+            state.time_s = step_s * row as f64;
+            let before = RootBefore::of(&self.world, &state);
+            let convergence = step(&self.world, &mut state, &settings, &mut w, findings)?;
+            keeping.unsolved += usize::from(!convergence.converged);
+            keeping.keep(&before, &state, &w);
+        }
+        keeping.finish(TimeGrid { start_s: 0.0, step_s, frames: rows as usize })
+    }
+
+    fn friction(&self) -> f64 {
+        self.world.materials.first().map_or(0.0, |material| material.friction)
+    }
+}
+
+/// The root before a step.
+struct RootBefore {
+    time_s: f64,
+    pose: Pose,
+    twist: Twist,
+    slides: [f64; 2],
+}
+
+impl RootBefore {
+    fn of(world: &World, state: &State) -> RootBefore {
+        let body = world.joints[0].child;
+        let slides = [state.coordinates[0][0], state.coordinates[0][1]];
+        RootBefore { time_s: state.time_s, pose: state.poses[body], twist: state.twists[body], slides }
+    }
+}
+
+/// A blow in the coordinates of the model.
+fn foot_blow(walker: &Walker, blow: &Blow) -> FootBlow {
+    let mut impulses = [Vec3::zeros(); 2];
+    for contact in &blow.contacts {
+        if let Some(side) = walker.sides[contact.surfaces.0] {
+            impulses[usize::from(side == Side::Left)] += contact.force;
+        }
+    }
+    let effort = |placed: &Placed| placed.sense * blow.efforts[placed.joint][placed.coordinate];
+    FootBlow { time_s: blow.time_s, impulses, efforts: walker.placed.iter().map(effort).collect() }
+}
+
+impl<'a> Keeping<'a> {
+    fn new(walker: &'a Walker, rows: usize) -> Keeping<'a> {
+        let count = walker.model.coordinates().len();
+        let column = || Vec::with_capacity(rows);
+        Keeping {
+            walker,
+            columns: (0..count).map(|_| [column(), column(), column()]).collect(),
+            efforts: (0..count).map(|_| column()).collect(),
+            feet: walker.feet.map(|body| FootRecord::new(body, rows)),
+            blows: Vec::new(),
+            unsolved: 0,
+        }
+    }
+
+    fn keep(&mut self, before: &RootBefore, after: &State, w: &StepWorkspace) {
+        for blow in w.blows() {
+            self.blows.push(foot_blow(self.walker, blow));
+        }
+        self.keep_root(before, after, w);
+        for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.walker.placed).enumerate() {
+            let effort = placed.sense * w.effort(placed.joint, placed.joint, placed.coordinate);
+            self.efforts[id].push(effort);
+            let driven = (placed.joint, placed.coordinate) != (0, 0) && (placed.joint, placed.coordinate) != (0, 1);
+            if driven {
+                let values = self.walker.signals[id].at(before.time_s);
+                columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+            }
+        }
+        self.keep_feet(w);
+    }
+
+    /// The slides of the root: velocities stand in the middle of steps.
+    fn keep_root(&mut self, before: &RootBefore, after: &State, w: &StepWorkspace) {
+        let root = &self.walker.world.joints[0];
+        let struck = (!w.blows().is_empty()).then_some(&w.after_blows);
+        let h = after.time_s - before.time_s;
+        let to_joint = before.pose.rotation * root.child_from_joint.translation;
+        let old = struck.map_or(before.twist, |twists| twists[root.child]).velocity_at(to_joint);
+        let new = after.twists[root.child].velocity_at(to_joint);
+        for (columns, placed) in self.columns.iter_mut().zip(&self.walker.placed) {
+            let k = placed.coordinate;
+            if placed.joint != 0 || k > 1 {
+                continue;
+            }
+            columns[0].push(placed.sense * before.slides[k]);
+            columns[1].push(placed.sense * 0.5 * (old[k] + new[k]));
+            columns[2].push(placed.sense * (new[k] - old[k]) / h);
+        }
+    }
+
+    fn keep_feet(&mut self, w: &StepWorkspace) {
+        let friction = self.walker.friction();
+        self.feet.iter_mut().for_each(FootRecord::begin_row);
+        for contact in w.contacts() {
+            let Some(side) = self.walker.sides[contact.surfaces.0] else { continue };
+            self.feet[usize::from(side == Side::Left)].add(&contact, friction);
+        }
+        self.feet.iter_mut().for_each(FootRecord::end_row);
+    }
+
+    fn finish(self, grid: TimeGrid) -> Result<WalkRecording, WalkingError> {
+        let model = self.walker.model.clone();
+        let trajectory = Trajectory::new(&model, grid, self.columns)?;
+        Ok(WalkRecording {
+            model,
+            trajectory,
+            efforts: self.efforts,
+            feet: self.feet,
+            blows: self.blows,
+            unsolved_steps: self.unsolved,
+        })
+    }
+}
