@@ -369,12 +369,11 @@ impl<'a> Body<'a> {
             for (k, sole) in soles.iter().enumerate().take(3) {
                 let motion = free.body_motion(sole.body);
                 let center = motion.pose.rotation * sole.center + motion.pose.translation;
-                let down = Vec3::new(0.0, -sole.radius, 0.0);
-                let velocity = motion.twist.velocity_at(center + down - motion.center);
                 let gap = center.y - sole.radius;
-                let (normal, exact) =
-                    shoes.force(sole.radius, -gap, -velocity.y, Vec3::new(velocity.x, 0.0, 0.0));
-                let friction = if std::env::var("SMOOTH").is_ok() { Vec3::new(-normal*shoes.static_friction*velocity.x/(velocity.x.powi(2)+shoes.transition_velocity.powi(2)).sqrt(),0.0,0.0) } else { exact };
+                // Where the simulator has the point of contact: midway between the two surfaces.
+                let point = Vec3::new(center.x, 0.5 * gap, center.z);
+                let velocity = motion.twist.velocity_at(point - motion.center);
+                let (normal, friction) = shoes.force(sole.radius, -gap, -velocity.y, Vec3::new(velocity.x, 0.0, 0.0));
                 let load = normal / self.weight;
                 out[base + VERTICAL] += load;
                 out[base + FORE_AFT] += friction.x / self.weight;
@@ -386,7 +385,7 @@ impl<'a> Body<'a> {
                 if normal > 0.0 {
                     let force = Vec3::new(friction.x, normal, 0.0);
                     let wrench = Wrench { moment: Vec3::zeros(), force };
-                    loads.push(BodyLoad { body: sole.body, point: Vec3::new(center.x, 0.0, center.z), wrench });
+                    loads.push(BodyLoad { body: sole.body, point, wrench });
                 }
             }
         }

@@ -144,6 +144,9 @@ pub(super) fn reference(
     qd: &mut [f64],
     qdd: &mut [f64],
 ) {
+    for values in [&mut *q, &mut *qd, &mut *qdd] {
+        values.fill(0.0);
+    }
     layout.coordinates.write(&walk.at(time_s), q, qd, qdd);
     if let Some(Curve { coordinates: [Some(forward), _], .. }) =
         layout.curves.iter().find(|curve| curve.kind == Kind::Forward)

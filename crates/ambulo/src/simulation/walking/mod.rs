@@ -14,6 +14,7 @@ mod figure;
 mod recording;
 mod run;
 mod signals;
+mod start;
 
 pub use error::WalkingError;
 pub use feet::FootRecord;
