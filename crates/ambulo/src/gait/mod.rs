@@ -9,16 +9,19 @@ mod curve_check;
 mod curve_table;
 mod cyclic_curve;
 mod error;
-mod ground_force;
+mod gait_file;
 mod jet;
 mod joint;
 mod laws;
+pub mod machine;
+mod pace;
 mod quintic;
 mod request;
 mod speed_law;
 mod speed_plan;
 mod stride;
 mod style;
+mod sub_cycle;
 mod walk;
 mod wave;
 
@@ -26,7 +29,6 @@ pub use arms::ArmCurves;
 pub use coordinates::{COORDINATE_NAMES, Trunk, WalkCoordinates, coordinates};
 pub use cyclic_curve::{CyclicCurve, Knot};
 pub use error::GaitError;
-pub use ground_force::GroundForceLaws;
 pub use jet::Jet;
 pub use joint::{Joint, STANDING_TILT};
 pub use laws::{Laws, LegCurves, SupportLaw};
@@ -38,5 +40,6 @@ pub use stride::{
     ADULT_EXPONENT, CHILD_EXPONENT, EXPONENT_1997, REFERENCE_LEG, StrideLaw, WALKING_SPEEDS, walking_speeds,
 };
 pub use style::Style;
+pub use sub_cycle::SubCycle;
 pub use walk::{LegAngles, Phases, Walk, WalkPosture};
 pub use wave::{Harmonic, Wave};
