@@ -71,7 +71,7 @@ impl Default for Thresholds {
             range_slack_rad: 10_f64.to_radians(),
             generation_w_kg: 15.0,
             absorption_w_kg: 20.0,
-            support_bw: 0.5,
+            support_bw: 0.4,
         }
     }
 }
