@@ -8,7 +8,7 @@ use ambulo::dynamics::{self, BodyLoad, Workspace};
 use ambulo::kinematics::body_motion;
 use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::spatial::Vec3;
+use ambulo::spatial::{Vec3, Wrench};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -121,7 +121,7 @@ fn judging_an_instant_allocates_nothing() {
         powers: &state.qd,
         bodies: &bodies,
         feet: [Some(foot); 2],
-        residual: Vec3::zeros(),
+        residual: Wrench::ZERO,
         ground_velocity: Vec3::zeros(),
         ground_height: -0.9,
         walking: true,

@@ -20,7 +20,7 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Model, Side, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window, coordinates_from_table, force_recordings};
-use ambulo::spatial::Vec3;
+use ambulo::spatial::{Vec3, Wrench};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -114,7 +114,7 @@ struct Standing {
     generalized: Vec<f64>,
     powers: Vec<f64>,
     feet: [Option<FootFrame>; 2],
-    residual: Vec3,
+    residual: Wrench,
     ground_velocity: Vec3,
     walking: bool,
 }
@@ -136,7 +136,7 @@ impl Standing {
             generalized: zeros.clone(),
             powers: zeros,
             feet,
-            residual: Vec3::zeros(),
+            residual: Wrench::ZERO,
             ground_velocity: Vec3::zeros(),
             walking: true,
             human,
@@ -198,7 +198,7 @@ fn standing_still_is_feasible_and_every_check_is_made() {
 #[test]
 fn each_check_finds_its_own_fault_and_nothing_else() {
     type Fault<'a> = &'a dyn Fn(&mut Standing);
-    let faults: [(Check, Fault<'_>); 9] = [
+    let faults: [(Check, Fault<'_>); 10] = [
         (Check::Strength, &|s| {
             // Plantarflexors at rest and 0 deg: 288.3 N.m, and 7.3 N.m of tolerance.
             let i = s.set("ankle_angle_r");
@@ -223,7 +223,8 @@ fn each_check_finds_its_own_fault_and_nothing_else() {
             s.qd[i] = 0.41;
         }),
         (Check::Flight, &|s| s.feet = [0, 1].map(|i| s.feet[i].map(|f| FootFrame { force: Vec3::zeros(), ..f }))),
-        (Check::Support, &|s| s.residual = Vec3::new(0.0, 0.41 * 72.6 * GRAVITY, 0.0)),
+        (Check::Support, &|s| s.residual.force.y = 0.41 * 72.6 * GRAVITY),
+        (Check::Balance, &|s| s.residual.moment.z = -1.51 * 72.6),
     ];
     for (check, fault) in faults {
         let mut standing = Standing::new();
@@ -247,7 +248,8 @@ fn what_stays_just_inside_its_limit_is_feasible() {
     standing.feet[0].as_mut().unwrap().force.x = 0.59 * 0.5 * 72.6 * GRAVITY;
     standing.feet[1].as_mut().unwrap().center_of_pressure.z -= 0.07;
     standing.qd[forward] = 0.39;
-    standing.residual = Vec3::new(0.39 * 72.6 * GRAVITY, 0.0, 0.0);
+    standing.residual.force.x = 0.39 * 72.6 * GRAVITY;
+    standing.residual.moment.z = 1.49 * 72.6;
     assert_eq!(standing.against(), []);
 }
 
@@ -299,7 +301,7 @@ fn runners_may_fly() {
 fn where_an_unloaded_foot_stands_still_on_the_ground_the_forces_are_not_all_there() {
     let mut standing = Standing::new();
     standing.feet[1].as_mut().unwrap().force = Vec3::zeros();
-    standing.residual = Vec3::new(0.0, 0.9 * 72.6 * GRAVITY, 0.0);
+    standing.residual.force.y = 0.9 * 72.6 * GRAVITY;
     let ankle = standing.set("ankle_angle_r");
     standing.generalized[ankle] = -1000.0;
     let (list, whole) = standing.measure(&Thresholds::default());
@@ -439,7 +441,7 @@ fn a_fault_has_its_times_its_worst_value_and_a_sentence_and_short_ones_are_noise
 fn a_walker_who_flies_longer_than_allowed_is_told_how_long() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
     // Held in the air, he should fall: that the support is missing too is left out here.
-    let thresholds = Thresholds { skip: vec![Check::Support], ..Thresholds::default() };
+    let thresholds = Thresholds { skip: vec![Check::Support, Check::Balance], ..Thresholds::default() };
     let (verdict, findings) = judged_with(load, &thresholds, &[("pelvis_ty", 1.5)]);
     assert_eq!(verdict.reasons.len(), 1, "{:?}", verdict.reasons);
     let message = "no foot is loaded for 0.200 s while walking; 0.030 s are allowed (from 2.400 to 2.590 s)";
@@ -513,6 +515,7 @@ generation_w_kg = 8
 absorption_w_kg = 9
 [support]
 force_bw = 0.2
+moment_nm_kg = 0.7
 "#;
     let t = Thresholds::from_toml(text).unwrap();
     let (name, curve) = t.tables[0].clone();
@@ -540,6 +543,7 @@ force_bw = 0.2
         generation_w_kg: 8.0,
         absorption_w_kg: 9.0,
         support_bw: 0.2,
+        balance_nm_kg: 0.7,
     };
     assert_eq!(t, expected);
 }
