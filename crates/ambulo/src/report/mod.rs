@@ -10,7 +10,7 @@ mod summary;
 mod tables;
 
 pub use cycle_table::{CycleRow, cycle_rows};
-pub use figure::{FigureError, moments_figure};
+pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
