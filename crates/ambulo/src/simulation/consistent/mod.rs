@@ -215,12 +215,7 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// A figure that lacks a coordinate.
-    pub fn planned(
-        &self,
-        human: &Human,
-        shoes: &HuntCrossley,
-        time_s: f64,
-    ) -> Result<PlannedForces, ConsistencyError> {
+    pub fn planned(&self, human: &Human, shoes: &HuntCrossley, time_s: f64) -> Result<PlannedForces, ConsistencyError> {
         let count = human.model.coordinates().len();
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
         let [q, qd, qdd] = &mut posture;

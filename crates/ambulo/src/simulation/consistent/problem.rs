@@ -4,9 +4,9 @@
 //! dynamics under these forces gives what the root lacks and the moments of the joints. Derivatives by the 36 numbers of an instant
 //! (value, rate and acceleration of each curve) are differences; the splines carry them to the coefficients exactly.
 
-use super::{ConsistencyError, ConsistencySettings, PlannedForces};
 use super::least_squares::{NormalEquations, Residuals};
 use super::unknowns::{Input, Kind, Layout, reference};
+use super::{ConsistencyError, ConsistencySettings, PlannedForces};
 use crate::contact::HuntCrossley;
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
 use crate::gait::{GroundForceLaws, Walk};
@@ -105,9 +105,8 @@ impl<'a> Problem<'a> {
         let body = Body::of(human)?;
         let forces = GroundForceLaws::built_in()?;
         let count = settings.instants;
-        let instants: Vec<Instant> = (0..count)
-            .map(|i| Instant::new(human, walk, layout, &forces, 0.5 * i as f64 / count as f64))
-            .collect();
+        let instants: Vec<Instant> =
+            (0..count).map(|i| Instant::new(human, walk, layout, &forces, 0.5 * i as f64 / count as f64)).collect();
         Ok(Problem {
             settings,
             layout,

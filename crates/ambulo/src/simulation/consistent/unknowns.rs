@@ -136,14 +136,7 @@ impl Input {
 }
 
 /// Coordinates of the walk before any change: the curves of the gait, the pelvis going forward at constant speed.
-pub(super) fn reference(
-    walk: &Walk,
-    layout: &Layout,
-    time_s: f64,
-    q: &mut [f64],
-    qd: &mut [f64],
-    qdd: &mut [f64],
-) {
+pub(super) fn reference(walk: &Walk, layout: &Layout, time_s: f64, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
     for values in [&mut *q, &mut *qd, &mut *qdd] {
         values.fill(0.0);
     }

@@ -1,6 +1,6 @@
 //! A consistent walk as motion: signals for the simulator, and the walk stepped through time on its soft shoes.
 
-use super::{ConsistentWalk, ConsistencySettings};
+use super::{ConsistencySettings, ConsistentWalk};
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
