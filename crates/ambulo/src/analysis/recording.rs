@@ -108,8 +108,23 @@ pub fn analyse(
         .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");
-    let ground =
-        ground::measured(model, &trajectory, plates, settings.force_filter, findings).map_err(AnalysisError::Ground)?;
+    analyse_trajectory(model, trajectory, plates, settings.force_filter, findings, stage)
+}
+
+/// Analyses a motion that is complete, recorded or made, with the forces under its feet: what [`analyse`] does after smoothing.
+/// `force_filter`: low-pass of the forces; `None` leaves them as they are.
+///
+/// # Errors
+/// Forces that cannot be used: see [`MotionError`].
+pub fn analyse_trajectory(
+    model: &Model,
+    trajectory: Trajectory,
+    plates: &[ForceRecording],
+    force_filter: Option<LowPass>,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<Analysis, AnalysisError> {
+    let ground = ground::measured(model, &trajectory, plates, force_filter, findings).map_err(AnalysisError::Ground)?;
     report_sides(model, &ground, findings);
     stage("ground");
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());

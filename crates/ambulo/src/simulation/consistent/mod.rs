@@ -18,11 +18,13 @@
 //! Not handled: motion out of the sagittal plane; turning; changes of speed.
 //! Pinned by: tests/consistent_walk.rs
 
+mod adjustment;
 mod least_squares;
 mod problem;
 mod unknowns;
 mod walk;
 
+pub use adjustment::{Adjustment, Change};
 pub use least_squares::Progress;
 
 use crate::contact::{Creep, HuntCrossley};
