@@ -13,39 +13,75 @@ pub(super) trait Residuals {
     fn count(&self) -> usize;
     /// Sum of squares.
     fn cost(&mut self, x: &[f64]) -> f64;
-    /// Sum of squares, JᵀJ and Jᵀr.
-    fn normal(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64;
+    /// Sum of squares; hands every residual to the normal equations.
+    fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64;
 }
 
 /// JᵀJ (lower triangle) and Jᵀr, gathered row by row.
+///
+/// Rows that follow each other on the same unknowns are summed in a small matrix of their own, which is spread over the whole one
+/// when others come.
 #[derive(Debug, Clone)]
 pub(super) struct NormalEquations {
-    pub(super) matrix: DMatrix<f64>,
-    pub(super) right: DVector<f64>,
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    numbers: Vec<usize>,
+    block: Vec<f64>,
+    block_right: Vec<f64>,
 }
 
 impl NormalEquations {
     fn new(count: usize) -> NormalEquations {
-        NormalEquations { matrix: DMatrix::zeros(count, count), right: DVector::zeros(count) }
+        NormalEquations {
+            matrix: DMatrix::zeros(count, count),
+            right: DVector::zeros(count),
+            numbers: Vec::new(),
+            block: Vec::new(),
+            block_right: Vec::new(),
+        }
     }
 
-    pub(super) fn clear(&mut self) {
+    fn clear(&mut self) {
         self.matrix.fill(0.0);
         self.right.fill(0.0);
+        self.begin(&[]);
     }
 
     /// One residual with its derivatives by some unknowns.
     pub(super) fn add(&mut self, residual: f64, numbers: &[usize], slopes: &[f64]) {
-        for (&i, a) in numbers.iter().zip(slopes) {
-            if *a == 0.0 {
-                continue;
+        if self.numbers != numbers {
+            self.spread();
+            self.begin(numbers);
+        }
+        let count = numbers.len();
+        for (i, a) in slopes.iter().enumerate() {
+            self.block_right[i] += a * residual;
+            for (sum, b) in self.block[i * count..=i * count + i].iter_mut().zip(slopes) {
+                *sum += a * b;
             }
-            self.right[i] += a * residual;
-            for (&j, b) in numbers.iter().zip(slopes) {
-                if j <= i {
-                    self.matrix[(i, j)] += a * b;
-                }
+        }
+    }
+
+    fn begin(&mut self, numbers: &[usize]) {
+        self.numbers.clear();
+        self.numbers.extend_from_slice(numbers);
+        self.block.clear();
+        self.block.resize(numbers.len() * numbers.len(), 0.0);
+        self.block_right.clear();
+        self.block_right.resize(numbers.len(), 0.0);
+    }
+
+    /// Adds the small matrix to the whole one. Two columns of the small one may stand for one unknown.
+    fn spread(&mut self) {
+        let count = self.numbers.len();
+        for (i, &row) in self.numbers.iter().enumerate() {
+            self.right[row] += self.block_right[i];
+            for (j, &column) in self.numbers[..i].iter().enumerate() {
+                let share = self.block[i * count + j];
+                let doubled = if row == column { 2.0 } else { 1.0 };
+                self.matrix[(row.max(column), row.min(column))] += doubled * share;
             }
+            self.matrix[(row, row)] += self.block[i * count + i];
         }
     }
 }
@@ -62,7 +98,7 @@ pub struct Progress {
 }
 
 /// A relative gain below this ends the iteration.
-const SMALL_GAIN: f64 = 3e-4;
+const SMALL_GAIN: f64 = 1e-4;
 const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-10;
 /// Tries in one iteration until a step helps.
@@ -75,7 +111,9 @@ pub(super) fn minimise(problem: &mut impl Residuals, x: &mut [f64], iterations: 
     let mut progress = Progress { iterations: 0, from: problem.cost(x), to: f64::INFINITY };
     progress.to = progress.from;
     for _ in 0..iterations {
-        let cost = problem.normal(x, &mut normal);
+        normal.clear();
+        let cost = problem.linearise(x, &mut normal);
+        normal.spread();
         let Some((next, cost_after)) = step(problem, x, cost, &normal, &mut damping) else { break };
         x.copy_from_slice(&next);
         progress.iterations += 1;

@@ -100,8 +100,8 @@ impl Default for ConsistencySettings {
                 slip: 0.005,
                 clearance: 0.002,
             },
-            splines: [34, 12],
-            instants: 80,
+            splines: [48, 18],
+            instants: 96,
             clearance: 0.008,
         }
     }
@@ -146,15 +146,15 @@ pub enum ConsistencyError {
 
 /// Shoes get stiffer, friction steeper and dynamics stricter from stage to stage.
 const STAGES: [Stage; 9] = [
-    Stage { stiffness: 0.25, creep: 50.0, root: 25.0, iterations: 20 },
-    Stage { stiffness: 0.5, creep: 25.0, root: 10.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 16.0, root: 5.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 10.0, root: 3.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 6.0, root: 2.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 4.0, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 2.5, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 1.6, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 1.0, root: 1.0, iterations: 60 },
+    Stage { stiffness: 0.25, creep: 50.0, root: 25.0, iterations: 30 },
+    Stage { stiffness: 0.5, creep: 25.0, root: 10.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 16.0, root: 5.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 10.0, root: 3.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 6.0, root: 2.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 4.0, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 2.5, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 1.6, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 1.0, root: 1.0, iterations: 80 },
 ];
 
 /// Changes a walk at constant speed until its forces come from the ground alone.

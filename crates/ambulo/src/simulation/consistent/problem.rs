@@ -322,9 +322,8 @@ impl Residuals for Problem<'_> {
         cost
     }
 
-    fn normal(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
+    fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
         self.evaluate(x, true);
-        normal.clear();
         let mut cost = 0.0;
         self.rows(x, &mut |residual, numbers, slopes| {
             cost += residual * residual;
