@@ -44,8 +44,8 @@ pub(crate) struct Voice {
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
-  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml --thresholds demo/input/thresholds.toml -o out
-  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 --thresholds demo/input/thresholds.toml -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, cycles.csv, summary.json, figures/moments.svg, with --device moments_biological.sto.
@@ -115,8 +115,8 @@ pub(crate) struct ForcesArgs {
 #[command(after_help = "Example:
   ambulo demo -o demo
 
-The input (a figure of 19 coordinates, two strides and their ground forces, all made by this project) is written to
-DIR/input, so that the same run can be repeated with `ambulo forces`.")]
+The same as `ambulo walk -o demo`. The walk is also written to DIR/input as a recording would be, so that the run can be repeated with
+`ambulo forces` (`ambulo forces --help`).")]
 pub(crate) struct DemoArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -141,7 +141,8 @@ Of --speed, --step-length and --cadence two make the third; with one, the gait's
 and the rest follows from how people share speed between the two (docs/GAITS.md, which also describes gait files).
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-summary.json, figures/moments.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
+summary.json, figure.osim, figures/moments.svg, figures/gait.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
+describes them.
 
 Exit code 0 if a person could do this, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct WalkArgs {
@@ -164,9 +165,9 @@ pub(crate) struct WalkArgs {
     /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
-    /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    pub(crate) output: PathBuf,
+    /// Folder for the results [default: out]; with --states for the figure of the gait, if given.
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) voice: Voice,
 }

@@ -110,10 +110,7 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         let angles: Vec<String> =
             degrees.iter().map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
         say(&format!("  changed   by {count} numbers: {} deg rms", angles.join(", ")))?;
-        say(&format!(
-            "            pelvis {:.1} mm rms forwards, {:.1} mm up",
-            path.forward.rms, path.up.rms
-        ))?;
+        say(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
     }
     say(&format!(
         "  trunk     held with {:.1} N.m rms, {:.1} N.m peak; feet slide {:.1} mm at most in a stance",

@@ -5,13 +5,14 @@ use super::stopwatch::Stopwatch;
 use crate::args::{FigureArgs, GaitArgs, Voice, WalkArgs};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{Settings, analyse_trajectory};
+use ambulo::analysis::{ForceSource, Settings, analyse_trajectory};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
 use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::model::to_osim;
 use ambulo::motion::{Smoother, Window};
-use ambulo::report::{GroundSource, Input, WalkSummary};
+use ambulo::report::{GroundSource, Input, OutputFile, WalkSummary, gait_figure};
 use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -24,17 +25,24 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
     if args.states {
         let human = build.human()?;
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut findings)?;
+        if let Some(output) = &args.output {
+            let file = gait_file(&walk)?;
+            files::write(&output.join(&file.name), &file.bytes)?;
+        }
         return printer::states(&state_table(&walk), &findings, args.voice).map(|()| Verdict::Accepted);
     }
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
-    let order =
-        WalkOrder { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
+    let order = WalkOrder { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
     let made = Made { walk: &walk, order: &order, thresholds: &thresholds, read: &read };
-    made.analyse_and_write(findings, clock, &args.output, args.voice)
+    let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
+    made.analyse_and_write(findings, clock, output, args.voice)
 }
+
+/// Folder for the results, if none is named.
+const DEFAULT_OUTPUT: &str = "out";
 
 /// A walk that was made, and what it is judged by.
 pub(super) struct Made<'a> {
@@ -55,8 +63,9 @@ impl Made<'_> {
     ) -> Result<Verdict> {
         let SyntheticWalk { human, trajectory, loads, report, .. } = self.walk;
         let model = &human.model;
+        let stage = &mut |stage: &'static str| clock.lap(stage);
         let analysis =
-            analyse_trajectory(model, trajectory.clone(), loads, None, &mut findings, &mut |stage| clock.lap(stage))?;
+            analyse_trajectory(model, trajectory.clone(), loads, ForceSource::Simulated, &mut findings, stage)?;
         let settings = Settings {
             smoother: Smoother::Off,
             force_filter: None,
@@ -71,10 +80,21 @@ impl Made<'_> {
             person: Person::of_human(human),
             device: None,
             read: self.read,
-            walk: Some(WalkSummary::new(model, report)),
+            walk: Some((WalkSummary::new(model, report), self.files()?)),
         };
         outcome.write(analysis, findings, clock, output, voice)
     }
+
+    /// The figure as a model that `ambulo forces` and OpenSim read, and the gait as a picture.
+    fn files(&self) -> Result<Vec<OutputFile>> {
+        let bytes = to_osim(&self.walk.human.model)?.write()?;
+        Ok(vec![OutputFile { name: "figure.osim".to_owned(), bytes }, gait_file(&self.walk.walk)?])
+    }
+}
+
+/// The figure of a gait as a file.
+fn gait_file(walk: &Walk) -> Result<OutputFile> {
+    Ok(OutputFile { name: "figures/gait.svg".to_owned(), bytes: gait_figure(walk)?.into_bytes() })
 }
 
 fn input(order: &WalkOrder<'_>) -> Input {

@@ -1,7 +1,8 @@
 //! The part of `summary.json` that only synthetic walks have.
 
 use crate::model::Model;
-use crate::simulation::consistent::{Change, Progress};
+use crate::numerics::Progress;
+use crate::simulation::consistent::Change;
 use crate::simulation::synthetic::{CorrectionReport, WalkReport};
 use serde::Serialize;
 use std::collections::BTreeMap;

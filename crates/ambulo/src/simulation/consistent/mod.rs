@@ -8,8 +8,8 @@
 //!
 //! with f the law of soft contact ([`crate::contact::HuntCrossley`]) at heel, ball and toes, while the motion stays near the joint
 //! curves, the ground forces near those of people at that speed, and joint moments change as little as possible (minimum
-//! torque change; Uno, Kawato, Suzuki 1989, unverified). All of it is one problem of nonlinear least squares ([`problem`]), solved by
-//! Levenberg and Marquardt's method ([`least_squares`]) on ever stiffer shoes. Left and right are the same half a cycle apart,
+//! torque change; Uno, Kawato, Suzuki 1989, unverified). All of it is one problem of nonlinear least squares, solved by
+//! Levenberg and Marquardt's method ([`minimise`]) on ever stiffer shoes. Left and right are the same half a cycle apart,
 //! so half a cycle is looked at; periodicity is built into the splines.
 //!
 //! No joint moment of people is used: they stay free for the comparison.
@@ -19,107 +19,23 @@
 //! Pinned by: tests/consistent_walk.rs
 
 mod adjustment;
-mod least_squares;
 mod problem;
+mod response;
+mod settings;
+mod targets;
 mod unknowns;
 mod walk;
 
 pub use adjustment::{Adjustment, Change};
-pub use least_squares::Progress;
+pub use settings::{ConsistencySettings, Deviations, SOFT_SHOES};
 
-use crate::contact::{Creep, HuntCrossley};
+use crate::contact::HuntCrossley;
 use crate::gait::Walk;
 use crate::model::anthropometry::Human;
+use crate::numerics::{Progress, minimise};
 use crate::toml_reader::TomlError;
-use least_squares::minimise;
 use problem::{Problem, Stage};
 use unknowns::Layout;
-
-/// Deviations that count one each. Smaller means dearer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deviations {
-    /// Hip, knee and ankle against the gait's curves [rad].
-    pub joints: [f64; 3],
-    /// Their accelerations [rad/s²].
-    pub joint_acceleration: f64,
-    /// Toes against lying flat in late stance [rad].
-    pub toes: f64,
-    /// Tilt of the pelvis [rad].
-    pub pelvis: f64,
-    /// Lean of the trunk [rad].
-    pub trunk: f64,
-    /// Their accelerations [rad/s²].
-    pub trunk_acceleration: f64,
-    /// Vertical and fore-aft force of a foot [body weights].
-    pub ground_force: [f64; 2],
-    /// Force under the toes [body weights].
-    pub toe_force: f64,
-    /// Rate of hip, knee and ankle moment [N.m/kg a cycle].
-    pub moment_rate: f64,
-    /// Force that the root lacks, fore-aft and up [body weights].
-    pub root_force: f64,
-    /// Moment that the root lacks [body weights × leg length].
-    pub root_moment: f64,
-    /// Slip of a loaded sole [m/s].
-    pub slip: f64,
-    /// A swinging sole below its clearance [m].
-    pub clearance: f64,
-}
-
-/// How a walk is made consistent.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConsistencySettings {
-    /// The soles.
-    pub shoes: HuntCrossley,
-    /// Deviations that count one each.
-    pub deviations: Deviations,
-    /// Splines a cycle for each joint of the leg, and half a cycle for root and trunk.
-    pub splines: [usize; 2],
-    /// Instants in half a cycle.
-    pub instants: usize,
-    /// Least height of heel, ball and toes in swing [m].
-    pub clearance: f64,
-}
-
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
-
-impl Default for ConsistencySettings {
-    fn default() -> Self {
-        ConsistencySettings {
-            shoes: SOFT_SHOES,
-            deviations: Deviations {
-                joints: [2.0 * DEGREE, 3.0 * DEGREE, 2.0 * DEGREE],
-                joint_acceleration: 30.0,
-                toes: 8.0 * DEGREE,
-                pelvis: 1.0 * DEGREE,
-                trunk: 1.0 * DEGREE,
-                trunk_acceleration: 3.0,
-                ground_force: [0.02, 0.01],
-                toe_force: 0.15,
-                moment_rate: 3.0,
-                root_force: 0.002,
-                root_moment: 0.0007,
-                slip: 0.005,
-                clearance: 0.002,
-            },
-            splines: [34, 12],
-            instants: 80,
-            clearance: 0.008,
-        }
-    }
-}
-
-/// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. Creep
-/// of 13 mm/s at full friction is ours: much slower than theirs (0.2 m/s), so that a standing foot stays where it is.
-pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
-    static_friction: 0.6,
-    dynamic_friction: 0.6,
-    viscous_friction: 0.0,
-    transition_velocity: 0.013,
-    depth_offset: 0.0,
-    creep: Creep::Smooth,
-    ..HuntCrossley::MOCO_2D_GAIT
-};
 
 /// A walk whose forces come from the ground alone.
 #[derive(Debug, Clone)]
@@ -148,15 +64,15 @@ pub enum ConsistencyError {
 
 /// Shoes get stiffer, friction steeper and dynamics stricter from stage to stage.
 const STAGES: [Stage; 9] = [
-    Stage { stiffness: 0.25, creep: 50.0, root: 25.0, iterations: 20 },
-    Stage { stiffness: 0.5, creep: 25.0, root: 10.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 16.0, root: 5.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 10.0, root: 3.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 6.0, root: 2.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 4.0, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 2.5, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 1.6, root: 1.0, iterations: 20 },
-    Stage { stiffness: 1.0, creep: 1.0, root: 1.0, iterations: 60 },
+    Stage { stiffness: 0.25, creep: 50.0, root: 25.0, iterations: 30 },
+    Stage { stiffness: 0.5, creep: 25.0, root: 10.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 16.0, root: 5.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 10.0, root: 3.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 6.0, root: 2.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 4.0, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 2.5, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 1.6, root: 1.0, iterations: 30 },
+    Stage { stiffness: 1.0, creep: 1.0, root: 1.0, iterations: 80 },
 ];
 
 /// Changes a walk at constant speed until its forces come from the ground alone.
@@ -222,6 +138,6 @@ impl ConsistentWalk {
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
         let [q, qd, qdd] = &mut posture;
         self.write(time_s, q, qd, qdd);
-        problem::planned(human, shoes, &mut posture)
+        response::planned(human, shoes, &posture)
     }
 }

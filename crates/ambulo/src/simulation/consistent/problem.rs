@@ -4,35 +4,18 @@
 //! dynamics under these forces gives what the root lacks and the moments of the joints. Derivatives by the 36 numbers of an instant
 //! (value, rate and acceleration of each curve) are differences; the splines carry them to the coefficients exactly.
 
-use super::least_squares::{NormalEquations, Residuals};
-use super::unknowns::{Input, Kind, Layout, reference};
-use super::{ConsistencyError, ConsistencySettings, PlannedForces};
+use super::response::{Body, FORE_AFT, HEIGHTS, MOMENTS, OUTPUTS, SIDE, SLIPS, TOE, VERTICAL};
+use super::targets::Instant;
+use super::unknowns::{Input, Kind, Layout};
+use super::{ConsistencyError, ConsistencySettings};
 use crate::contact::HuntCrossley;
-use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
+use crate::dynamics::Workspace;
 use crate::gait::{GroundForceLaws, Walk};
-use crate::kinematics::Posture;
-use crate::model::anthropometry::{ContactSphere, Human};
-use crate::model::{CoordinateId, Side};
-use crate::spatial::{Vec3, Wrench};
+use crate::model::anthropometry::Human;
+use crate::numerics::{NormalEquations, Residuals};
 
-/// Numbers that one instant yields: three of the root, twelve of each side.
-const OUTPUTS: usize = 3 + 2 * SIDE;
-const SIDE: usize = 12;
-/// Within a side: moments of hip, knee and ankle, vertical and fore-aft force, force under the toes, three heights, three slips.
-const MOMENTS: usize = 0;
-const VERTICAL: usize = 3;
-const FORE_AFT: usize = 4;
-const TOE: usize = 5;
-const HEIGHTS: usize = 6;
-const SLIPS: usize = 9;
 /// Steps of the differences by value, rate and acceleration.
 const STEPS: [f64; 3] = [1e-7, 1e-6, 1e-3];
-/// Load under which slip counts half [body weights].
-const LIGHT: f64 = 0.05;
-/// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
-const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
-/// How far toes bend up at most in the guess [rad].
-const TOES_LIMIT: f64 = 0.8;
 /// Weak pull of the root's path towards even motion [m/s²].
 const ROOT_ACCELERATION: f64 = 20.0;
 /// Pins the place where the walk begins [m].
@@ -59,33 +42,6 @@ pub(super) struct Problem<'a> {
     instants: Vec<Instant>,
     body: Body<'a>,
     outputs: Vec<Outputs>,
-}
-
-/// What of the figure plays a part.
-struct Body<'a> {
-    soles: [Vec<&'a ContactSphere>; 2],
-    root: [CoordinateId; 3],
-    moments: [[CoordinateId; 3]; 2],
-    mass: f64,
-    weight: f64,
-    leg_length: f64,
-}
-
-/// What is known of one instant before anything is changed.
-struct Instant {
-    posture: [Vec<f64>; 3],
-    inputs: Vec<Input>,
-    columns: Vec<usize>,
-    sides: [SideTarget; 2],
-}
-
-struct SideTarget {
-    /// Vertical and fore-aft force [body weights].
-    force: [f64; 2],
-    /// Angle of the toes [rad].
-    toes: f64,
-    /// Whether heel, ball and toes have to be clear of the ground.
-    swing: [bool; 3],
 }
 
 /// What one instant yields, and the derivatives by its columns.
@@ -150,8 +106,8 @@ impl<'a> Problem<'a> {
     }
 
     fn outputs_at(&mut self, instant: usize, x: &[f64]) -> [f64; OUTPUTS] {
-        let mut posture = self.posture(instant, x);
-        self.body.outputs(&mut self.workspace, &self.shoes, &mut posture)
+        let posture = self.posture(instant, x);
+        self.body.outputs(&mut self.workspace, &self.shoes, &posture)
     }
 
     fn posture(&self, instant: usize, x: &[f64]) -> [Vec<f64>; 3] {
@@ -170,7 +126,7 @@ impl<'a> Problem<'a> {
         outputs.resize_with(self.instants.len(), || Outputs { values: [0.0; OUTPUTS], slopes: Vec::new() });
         for (i, out) in outputs.iter_mut().enumerate() {
             let mut posture = self.posture(i, x);
-            out.values = self.body.outputs(&mut self.workspace, &self.shoes, &mut posture);
+            out.values = self.body.outputs(&mut self.workspace, &self.shoes, &posture);
             if with_slopes {
                 self.fill_slopes(i, &mut posture, out);
             }
@@ -322,9 +278,8 @@ impl Residuals for Problem<'_> {
         cost
     }
 
-    fn normal(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
+    fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
         self.evaluate(x, true);
-        normal.clear();
         let mut cost = 0.0;
         self.rows(x, &mut |residual, numbers, slopes| {
             cost += residual * residual;
@@ -332,115 +287,4 @@ impl Residuals for Problem<'_> {
         });
         cost
     }
-}
-
-impl<'a> Body<'a> {
-    fn of(human: &'a Human) -> Result<Body<'a>, ConsistencyError> {
-        let id = |name: &str| {
-            let missing = || ConsistencyError::Coordinate { name: name.to_owned() };
-            human.model.coordinate(name).ok_or_else(missing)
-        };
-        let leg = |letter: &str| -> Result<[CoordinateId; 3], ConsistencyError> {
-            Ok([
-                id(&format!("hip_flexion_{letter}"))?,
-                id(&format!("knee_angle_{letter}"))?,
-                id(&format!("ankle_angle_{letter}"))?,
-            ])
-        };
-        let mass = human.model.mass();
-        Ok(Body {
-            soles: Side::BOTH.map(|side| human.soles.iter().filter(|s| s.side == side).collect()),
-            root: [id("pelvis_tx")?, id("pelvis_ty")?, id("pelvis_tilt")?],
-            moments: [leg("r")?, leg("l")?],
-            mass,
-            weight: mass * human.model.gravity().norm(),
-            leg_length: human.dimensions.leg_length,
-        })
-    }
-
-    fn outputs(&self, workspace: &mut Workspace, shoes: &HuntCrossley, posture: &mut [Vec<f64>; 3]) -> [f64; OUTPUTS] {
-        let mut out = [0.0; OUTPUTS];
-        let posture = Posture { q: &posture[0], qd: &posture[1], qdd: &posture[2] };
-        let mut loads = Vec::with_capacity(6);
-        let free = inverse_frame(workspace, posture, &[]);
-        for (side, soles) in self.soles.iter().enumerate() {
-            let base = 3 + SIDE * side;
-            for (k, sole) in soles.iter().enumerate().take(3) {
-                let motion = free.body_motion(sole.body);
-                let center = motion.pose.rotation * sole.center + motion.pose.translation;
-                let gap = center.y - sole.radius;
-                // Where the simulator has the point of contact: midway between the two surfaces.
-                let point = Vec3::new(center.x, 0.5 * gap, center.z);
-                let velocity = motion.twist.velocity_at(point - motion.center);
-                let (normal, friction) = shoes.force(sole.radius, -gap, -velocity.y, Vec3::new(velocity.x, 0.0, 0.0));
-                let load = normal / self.weight;
-                out[base + VERTICAL] += load;
-                out[base + FORE_AFT] += friction.x / self.weight;
-                if k == 2 {
-                    out[base + TOE] = load;
-                }
-                out[base + HEIGHTS + k] = gap;
-                out[base + SLIPS + k] = velocity.x * load / (load + LIGHT);
-                if normal > 0.0 {
-                    let force = Vec3::new(friction.x, normal, 0.0);
-                    let wrench = Wrench { moment: Vec3::zeros(), force };
-                    loads.push(BodyLoad { body: sole.body, point, wrench });
-                }
-            }
-        }
-        let loaded = inverse_frame(workspace, posture, &loads);
-        let tau = loaded.generalized();
-        let scales = [self.weight, self.weight, self.weight * self.leg_length];
-        for (k, scale) in scales.into_iter().enumerate() {
-            out[k] = tau[self.root[k].index()] / scale;
-        }
-        for (side, joints) in self.moments.iter().enumerate() {
-            for (k, joint) in joints.iter().enumerate() {
-                out[3 + SIDE * side + MOMENTS + k] = tau[joint.index()] / self.mass;
-            }
-        }
-        out
-    }
-}
-
-impl Instant {
-    fn new(human: &Human, walk: &Walk, layout: &Layout, forces: &GroundForceLaws, phase: f64) -> Instant {
-        let count = human.model.coordinates().len();
-        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
-        let time_s = phase * walk.cycle_s();
-        let [q, qd, qdd] = &mut posture;
-        reference(walk, layout, time_s, q, qd, qdd);
-        let inputs = layout.inputs(phase, walk.cycle_s());
-        let columns = inputs.iter().flat_map(|input| input.numbers).collect();
-        let at = walk.at(time_s);
-        let sides = [(&at.right, 0.0), (&at.left, 0.5)].map(|(leg, ahead)| {
-            let place = (phase + ahead) % 1.0;
-            let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;
-            let stands = place < at.phases.foot_off;
-            SideTarget {
-                force: forces.at(place, walk.curve_speed(&walk.clock(time_s)).value),
-                toes: if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 },
-                swing: SWING_MARGINS.map(|[after, before]| place > at.phases.foot_off + after && place < 1.0 - before),
-            }
-        });
-        Instant { posture, inputs, columns, sides }
-    }
-}
-
-/// The forces of one posture (value, rate, acceleration of every coordinate).
-pub(super) fn planned(
-    human: &Human,
-    shoes: &HuntCrossley,
-    posture: &mut [Vec<f64>; 3],
-) -> Result<PlannedForces, ConsistencyError> {
-    let body = Body::of(human)?;
-    let out = body.outputs(&mut Workspace::new(&human.model), shoes, posture);
-    let scales = [body.weight, body.weight, body.weight * body.leg_length];
-    let side = |side: usize| 3 + SIDE * side;
-    Ok(PlannedForces {
-        root: std::array::from_fn(|k| out[k] * scales[k]),
-        moments: [0, 1].map(|s| std::array::from_fn(|k| out[side(s) + MOMENTS + k] * body.mass)),
-        feet: [0, 1].map(|s| [out[side(s) + FORE_AFT] * body.weight, out[side(s) + VERTICAL] * body.weight]),
-        slip: [0, 1].map(|s| (0..3).map(|k| out[side(s) + SLIPS + k].abs()).fold(0.0, f64::max)),
-    })
 }

@@ -3,7 +3,8 @@
 use super::order::Mode;
 use crate::gait::Style;
 use crate::model::anthropometry::SegmentTable;
-use crate::simulation::consistent::{Adjustment, Change, Progress};
+use crate::numerics::Progress;
+use crate::simulation::consistent::{Adjustment, Change};
 
 /// How a walk came about.
 #[derive(Debug, Clone, PartialEq)]
