@@ -137,8 +137,8 @@ Modes: `corrected` changes the gait by a few degrees until its forces come from 
 did in 1997. Both take every gait and style; standard, long, short and goose are the paper's own and of style 1997, the others
 of style knots. A gait that no small change makes consistent is said to be so, and the verdict judges what comes out.
 
-Of --speed, --step-length and --cadence two make the third; with one, the gait's own speed (or, with --speed, its own cadence) stays,
-and the rest follows from how people share speed between the two (docs/GAITS.md, which also describes gait files).
+Of --speed, --step-length and --cadence two make the third; with one, the others follow from how people share speed between the two
+(docs/GAITS.md, which also describes gait files); the gait's own count no more.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
 summary.json, figure.osim, figures/moments.svg, figures/gait.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md

@@ -168,19 +168,17 @@ fn style(word: &str) -> Result<Style> {
     known.map(|(_, style)| style).with_context(|| format!("--style: found `{word}`; expected one of {names}"))
 }
 
-/// What is given takes the place of the gait's own. Two of speed, step length and cadence make the third; where one is given, a
-/// gait's own speed stays, and with a speed its own cadence or step length.
+/// As in gait files: where one of speed, step length and cadence is given, the gait's own count no more, its factors do; so that what
+/// was asked for comes out, it is taken before them.
 fn paced(own: Pace, args: &GaitArgs) -> Pace {
-    // The gait's own factors act on what comes after.
+    if args.speed.is_none() && args.step_length.is_none() && args.cadence.is_none() {
+        return own;
+    }
     let (long, quick) = (own.length_scale, own.cadence_scale);
-    let speed = args.speed.map(|v| Speed::MetersPerSecond(v / (long * quick)));
-    let step_length = args.step_length.map(|length| length / long);
-    let step_frequency = args.cadence.map(|cadence| cadence / 60.0 / quick);
-    match (speed, step_length, step_frequency) {
-        (None, None, None) => own,
-        (Some(_), None, None) => Pace { speed, ..own },
-        (None, Some(_), None) => Pace { step_length, step_frequency: None, ..own },
-        (None, None, Some(_)) => Pace { step_frequency, step_length: None, ..own },
-        _ => Pace { speed, step_length, step_frequency, ..own },
+    Pace {
+        speed: args.speed.map(|speed| Speed::MetersPerSecond(speed / (long * quick))),
+        step_length: args.step_length.map(|length| length / long),
+        step_frequency: args.cadence.map(|cadence| cadence / 60.0 / quick),
+        ..own
     }
 }

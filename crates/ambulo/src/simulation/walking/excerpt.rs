@@ -76,7 +76,7 @@ fn loads(side: &str, foot: &FootRecord, rows: &Rows, times: &[f64]) -> Vec<Force
     };
     let of_rest = |row: usize| {
         let (force, moment) = of_toes(row);
-        (foot.force[row] - force, foot.point[row].cross(&foot.force[row]) - moment)
+        (foot.force[row] - force, foot.moment[row] - moment)
     };
     let load = |name: String, body: BodyId, at: &dyn Fn(usize) -> (Vec3, Vec3)| {
         let (force, moment) = rows.all().map(at).unzip();

@@ -12,6 +12,8 @@ pub struct FootRecord {
     pub body: BodyId,
     /// Force on the foot [N].
     pub force: Vec<Vec3>,
+    /// Its moment about the world's origin [N.m].
+    pub moment: Vec<Vec3>,
     /// Centre of pressure [m]; zero where nothing presses.
     pub point: Vec<Vec3>,
     /// Forward velocity of the most loaded point of the sole against the ground [m/s]; zero where nothing presses.
@@ -43,6 +45,7 @@ impl FootRecord {
         FootRecord {
             body,
             force: Vec::with_capacity(rows),
+            moment: Vec::with_capacity(rows),
             point: Vec::with_capacity(rows),
             slip: Vec::with_capacity(rows),
             at_limit: Vec::with_capacity(rows),
@@ -58,6 +61,7 @@ impl FootRecord {
     /// Begins a row in which nothing presses yet.
     pub(super) fn begin_row(&mut self) {
         self.force.push(Vec3::zeros());
+        self.moment.push(Vec3::zeros());
         self.point.push(Vec3::zeros());
         self.slip.push(0.0);
         self.at_limit.push(false);
@@ -77,11 +81,15 @@ impl FootRecord {
         }
         *force += contact.force;
         *point += contact.point * pressing;
+        let about_origin = contact.point.cross(&contact.force);
+        if let Some(moment) = self.moment.last_mut() {
+            *moment += about_origin;
+        }
         if let Some(toes) = self.toes.as_mut().filter(|toes| toes.body == body)
             && let (Some(force), Some(moment)) = (toes.force.last_mut(), toes.moment.last_mut())
         {
             *force += contact.force;
-            *moment += contact.point.cross(&contact.force);
+            *moment += about_origin;
         }
         let across = (contact.force - contact.normal * pressing).norm();
         if let Some(at_limit) = self.at_limit.last_mut() {
