@@ -1,6 +1,7 @@
 //! (i) "Soft shoes and a better motion reduce the bounce", and (k) interactive speed.
 
 use super::claim::{Numbers, Statement, number};
+use super::evidence::Scope;
 
 use super::ground_force::bounce;
 
@@ -12,6 +13,8 @@ const PAPER_RATE_HZ: f64 = 30.0;
 pub(super) const SHOES: Statement = Statement {
     id: "i",
     paper: "soft shoes and a better starting motion are expected to reduce the bouncing and the extra flying phases",
+    headline: "soft_flight_percent",
+    scope: Scope::Brief,
     measure: |evidence| {
         let mut numbers = Numbers::new();
         for (shoes, run) in ["rigid", "soft"].iter().zip(&evidence.shoes) {
@@ -44,6 +47,8 @@ pub(super) const SHOES: Statement = Statement {
 pub(super) const SPEED: Statement = Statement {
     id: "k",
     paper: "interactive: 2.5 frames a second on an SGI Indigo2",
+    headline: "frames_per_s",
+    scope: Scope::Full,
     measure: |evidence| {
         let of = |name: &str, value: f64| (name.to_owned(), value);
         let steps = evidence.steps_per_s;

@@ -5,7 +5,7 @@
 //! square, in percent of the range over the cycle.
 
 use super::claim::{Numbers, Statement, number};
-use super::evidence::{Evidence, RATES_HZ};
+use super::evidence::{Evidence, RATES_HZ, Scope};
 use super::mode::Run;
 use super::steady::{Steady, mean, range_of, rms};
 
@@ -15,6 +15,8 @@ pub(super) const JOINTS: [(&str, &str); 3] =
 pub(super) const TORQUE: Statement = Statement {
     id: "a1",
     paper: "the torque curves converge to a solution as the sampling rate grows (shown at 30 Hz)",
+    headline: "order",
+    scope: Scope::Full,
     measure: |evidence| measure(evidence, "torque", |distance| distance.torque),
     judge: |paper, _| judge(paper, "torque"),
 };
@@ -22,6 +24,8 @@ pub(super) const TORQUE: Statement = Statement {
 pub(super) const IMPULSE: Statement = Statement {
     id: "a2",
     paper: "the same, of what torques and blows add up to",
+    headline: "order",
+    scope: Scope::Full,
     measure: |evidence| measure(evidence, "impulse", |distance| distance.impulse),
     judge: |paper, _| judge(paper, "impulse"),
 };
@@ -35,9 +39,10 @@ struct Distance {
 fn measure(evidence: &Evidence, what: &str, of: fn(&Distance) -> f64) -> Numbers {
     let mut numbers = Numbers::new();
     let mut means = Vec::new();
-    for (run, rate) in evidence.rates.iter().zip(RATES_HZ) {
+    let Some((reference, rates)) = evidence.rates.split_last() else { return numbers };
+    for (run, rate) in rates.iter().zip(RATES_HZ) {
         let distances: Vec<f64> =
-            JOINTS.iter().map(|(_, coordinate)| of(&distance(run, &evidence.reference, coordinate))).collect();
+            JOINTS.iter().map(|(_, coordinate)| of(&distance(run, reference, coordinate))).collect();
         for ((joint, _), distance) in JOINTS.iter().zip(&distances) {
             numbers.push((format!("{joint}_{what}_{rate:.0}hz_percent"), 100.0 * distance));
         }

@@ -25,15 +25,22 @@ pub const GAITS: [&str; 4] = ["standard", "long", "short", "goose"];
 /// The paper's masses [kg].
 pub const MASSES: [f64; 3] = [60.0, 80.0, 100.0];
 /// Frictions at which sliding is looked at.
-pub const FRICTIONS: [f64; 9] = [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 1000.0];
+pub const FRICTIONS: [f64; 10] = [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 1000.0];
+
+/// How many walks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// All.
+    Full,
+    /// The gaits, and the standard one in both shoes: enough for the claims of [`verdicts`](super::verdicts).
+    Brief,
+}
 
 /// All walks of one mode.
 #[derive(Debug)]
 pub struct Evidence {
-    /// The standard gait at [`RATES_HZ`].
+    /// The standard gait at [`RATES_HZ`], then at [`REFERENCE_HZ`]; none where it was to be brief, as with the next four.
     pub rates: Vec<Run>,
-    /// The standard gait at [`REFERENCE_HZ`].
-    pub reference: Run,
     /// [`GAITS`].
     pub gaits: Vec<Run>,
     /// The standard gait with [`MASSES`], all lengths and radii alike.
@@ -55,7 +62,11 @@ impl Evidence {
     ///
     /// # Errors
     /// The first walk that fails.
-    pub fn gather(mode: &mut Mode<'_>, clock: Option<&dyn Fn() -> f64>) -> Result<Evidence, ReproductionError> {
+    pub fn gather(
+        mode: &mut Mode<'_>,
+        scope: Scope,
+        clock: Option<&dyn Fn() -> f64>,
+    ) -> Result<Evidence, ReproductionError> {
         let human = paper_human()?;
         let standard = Gait::named("standard")?;
         let request = Request {
@@ -67,29 +78,42 @@ impl Evidence {
             cycles: CYCLES,
         };
         let steps_per_s = speed(mode, &request, clock)?;
-        let rates = RATES_HZ.into_iter().map(|rate_hz| mode(&Request { rate_hz, ..request }));
-        let rates = rates.collect::<Result<Vec<Run>, _>>()?;
-        let reference = mode(&Request { rate_hz: REFERENCE_HZ, ..request })?;
         let mut gaits = Vec::new();
         for name in GAITS {
             gaits.push(mode(&Request { gait: &Gait::named(name)?, ..request })?);
         }
-        let (mut masses, mut soft_masses, mut dense_masses) = (Vec::new(), Vec::new(), Vec::new());
+        let mut in_shoes = |shoes: Footwear| mode(&Request { shoes, ..request });
+        let shoes = [in_shoes(Footwear::Rigid)?, in_shoes(Footwear::Soft)?];
+        let mut evidence = Evidence {
+            rates: Vec::new(),
+            gaits,
+            masses: Vec::new(),
+            soft_masses: Vec::new(),
+            dense_masses: Vec::new(),
+            shoes,
+            frictions: Vec::new(),
+            steps_per_s,
+        };
+        if scope == Scope::Full {
+            evidence.gather_rest(mode, &request)?;
+        }
+        Ok(evidence)
+    }
+
+    fn gather_rest(&mut self, mode: &mut Mode<'_>, request: &Request<'_>) -> Result<(), ReproductionError> {
+        for rate_hz in RATES_HZ.into_iter().chain([REFERENCE_HZ]) {
+            self.rates.push(mode(&Request { rate_hz, ..*request })?);
+        }
         for mass in MASSES {
             let figure = of_mass(mass)?;
-            masses.push(mode(&Request { human: &figure, ..request })?);
-            soft_masses.push(mode(&Request { human: &figure, shoes: Footwear::Soft, ..request })?);
-            dense_masses.push(mode(&Request { human: &denser(&figure)?, ..request })?);
+            self.masses.push(mode(&Request { human: &figure, ..*request })?);
+            self.soft_masses.push(mode(&Request { human: &figure, shoes: Footwear::Soft, ..*request })?);
+            self.dense_masses.push(mode(&Request { human: &denser(&figure)?, ..*request })?);
         }
-        let shoes = [
-            mode(&Request { shoes: Footwear::Rigid, ..request })?,
-            mode(&Request { shoes: Footwear::Soft, ..request })?,
-        ];
-        let mut frictions = Vec::new();
         for friction in FRICTIONS {
-            frictions.push((friction, mode(&Request { friction, shoes: Footwear::Rigid, ..request })?));
+            self.frictions.push((friction, mode(&Request { friction, shoes: Footwear::Rigid, ..*request })?));
         }
-        Ok(Evidence { rates, reference, gaits, masses, soft_masses, dense_masses, shoes, frictions, steps_per_s })
+        Ok(())
     }
 
     /// The standard gait at [`RATE_HZ`].

@@ -1,7 +1,7 @@
 //! (c) "The character stops and starts again at each step", the size of the torques that follows, and "a slow walk".
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::{Evidence, MASS};
+use super::evidence::{Evidence, MASS, Scope};
 use super::steady::{Steady, extremes, mean, rms};
 
 /// The paper's estimate: 80 kg, 1.2 m, ±6 m/s² [N.m].
@@ -18,6 +18,8 @@ const NORMAL_CADENCE: f64 = 114.2;
 pub(super) const STOPS: Statement = Statement {
     id: "c1",
     paper: "an irregular gait: the character stops and starts again at each step",
+    headline: "speed_least_m_s",
+    scope: Scope::Brief,
     measure: speeds,
     judge: |paper, _| {
         let (least, mean) = (number(paper, "speed_least_m_s"), number(paper, "speed_mean_m_s"));
@@ -37,6 +39,8 @@ pub(super) const STOPS: Statement = Statement {
 pub(super) const AMPLITUDE: Statement = Statement {
     id: "c2",
     paper: "high torques, which the irregularity explains: 80 kg x 6 m/s² x 1.2 m = ±576 N.m on average",
+    headline: "hip_torque_amplitude_nm",
+    scope: Scope::Brief,
     measure: amplitudes,
     judge: |paper, _| {
         let amplitude = number(paper, "hip_torque_amplitude_nm");
@@ -57,6 +61,8 @@ pub(super) const AMPLITUDE: Statement = Statement {
 pub(super) const SLOW: Statement = Statement {
     id: "c3",
     paper: "a cycle of one second corresponds to a slow walk",
+    headline: "cadence_steps_min",
+    scope: Scope::Brief,
     measure: |evidence| {
         let run = evidence.standard();
         let cadence = 120.0 / run.cycle_s;

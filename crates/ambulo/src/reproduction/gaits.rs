@@ -1,7 +1,7 @@
 //! (g) Figure 7: four gaits, and (j) the most plausible of them.
 
 use super::claim::{Numbers, Statement, number};
-use super::evidence::{Evidence, GAITS};
+use super::evidence::{Evidence, GAITS, Scope};
 use super::steady::{Steady, correlation, extremes, mean, rms};
 
 /// Curves of one global shape.
@@ -12,6 +12,8 @@ const HIP: &str = "hip_flexion_r";
 pub(super) const SHAPE: Statement = Statement {
     id: "g1",
     paper: "after time scaling the knee torque of four gaits has the same global shape",
+    headline: "least_r",
+    scope: Scope::Brief,
     measure: |evidence| {
         let curves: Vec<Vec<f64>> = evidence.gaits.iter().map(|run| mean_torque(run, KNEE)).collect();
         let mut numbers = Numbers::new();
@@ -20,6 +22,8 @@ pub(super) const SHAPE: Statement = Statement {
                 numbers.push((format!("r_{}_{}", GAITS[i], GAITS[j]), correlation(one, other)));
             }
         }
+        let least = numbers.iter().map(|(_, r)| *r).fold(f64::INFINITY, f64::min);
+        numbers.push(("least_r".into(), least));
         numbers
     },
     judge: |paper, _| {
@@ -35,6 +39,8 @@ pub(super) const SHAPE: Statement = Statement {
 pub(super) const LOWEST: Statement = Statement {
     id: "g2",
     paper: "short steps involve the lowest torques",
+    headline: "short_over_lowest_other",
+    scope: Scope::Brief,
     measure: |evidence| torques(evidence, KNEE),
     judge: |paper, _| {
         let lowest = least_of(paper, "rms_nm");
@@ -50,6 +56,8 @@ pub(super) const LOWEST: Statement = Statement {
 pub(super) const REGULAR: Statement = Statement {
     id: "g3",
     paper: "short steps give the most regular velocity",
+    headline: "short_speed_peak_to_peak_share",
+    scope: Scope::Brief,
     measure: |evidence| {
         let of = |name: &str, run: &super::mode::Run| (format!("{name}_speed_peak_to_peak_share"), unevenness(run));
         GAITS.iter().zip(&evidence.gaits).map(|(name, run)| of(name, run)).collect()
@@ -68,6 +76,8 @@ pub(super) const REGULAR: Statement = Statement {
 pub(super) const PLAUSIBLE: Statement = Statement {
     id: "j",
     paper: "the most plausible gait has the most plausible torques",
+    headline: "short_largest_torque_nm_kg",
+    scope: Scope::Brief,
     measure: |evidence| {
         let mut numbers = Numbers::new();
         for (name, run) in GAITS.iter().zip(&evidence.gaits) {
@@ -109,6 +119,9 @@ fn torques(evidence: &Evidence, coordinate: &str) -> Numbers {
         numbers.push((format!("{name}_rms_nm"), rms(&curve)));
         numbers.push((format!("{name}_largest_nm"), curve.iter().fold(0.0_f64, |m, x| m.max(x.abs()))));
     }
+    let of = |gait: &str| number(&numbers, &format!("{gait}_rms_nm"));
+    let lowest_other = ["standard", "long", "goose"].map(of).into_iter().fold(f64::INFINITY, f64::min);
+    numbers.push(("short_over_lowest_other".into(), of("short") / lowest_other));
     numbers
 }
 

@@ -1,7 +1,7 @@
 //! (e) Figure 5: the vertical force under a foot has two humps as measured ones have; the figure bounces and flies.
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Scope};
 use super::measured::measured_vertical;
 use super::mode::Run;
 use super::steady::{POINTS, STEADY_CYCLES, Steady, correlation, mean_of};
@@ -15,6 +15,8 @@ const SIMILAR: f64 = 0.7;
 pub(super) const HUMPS: Statement = Statement {
     id: "e1",
     paper: "the vertical force during support is quite similar to measured ones: two humps",
+    headline: "correlation_with_measured",
+    scope: Scope::Brief,
     measure: measure_humps,
     judge: |paper, _| {
         let (humps, r) = (number(paper, "humps"), number(paper, "correlation_with_measured"));
@@ -33,6 +35,8 @@ pub(super) const HUMPS: Statement = Statement {
 pub(super) const FLIGHT: Statement = Statement {
     id: "e2",
     paper: "bouncing when the foot hits the ground, and an unwanted flying phase",
+    headline: "flight_percent",
+    scope: Scope::Brief,
     measure: |evidence| bounce(evidence.standard()),
     judge: |paper, corrected| {
         let (flight, landings) = (number(paper, "flight_percent"), number(paper, "landings_a_step"));

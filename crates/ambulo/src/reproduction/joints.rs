@@ -2,6 +2,7 @@
 
 use super::claim::{Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
+use super::evidence::Scope;
 
 use super::steady::{Steady, correlation, mean, range_of, rms};
 use crate::model::Side;
@@ -14,6 +15,8 @@ const FEW: f64 = 4.0;
 pub(super) const ORDER: Statement = Statement {
     id: "h1",
     paper: "torques at the hip are greater than at the knee, those at the ankle are lower",
+    headline: "hip_largest_nm",
+    scope: Scope::Brief,
     measure: |evidence| {
         let mut numbers = Numbers::new();
         let Ok(steady) = Steady::of(evidence.standard()) else { return numbers };
@@ -46,6 +49,8 @@ pub(super) const ORDER: Statement = Statement {
 pub(super) const ALIKE: Statement = Statement {
     id: "h2",
     paper: "the shapes of hip and knee torques look alike",
+    headline: "r_hip_knee",
+    scope: Scope::Brief,
     measure: |evidence| {
         let Ok(steady) = Steady::of(evidence.standard()) else { return Numbers::new() };
         let curve = |name: &str| steady.mean_cycle(&steady.effort(name));
@@ -61,6 +66,8 @@ pub(super) const ALIKE: Statement = Statement {
 pub(super) const CONTINUOUS: Statement = Statement {
     id: "h3",
     paper: "all torques are rather continuous",
+    headline: "hip_jumps_a_cycle",
+    scope: Scope::Brief,
     measure: |evidence| {
         let mut numbers = Numbers::new();
         let Ok(steady) = Steady::of(evidence.standard()) else { return numbers };
@@ -95,6 +102,8 @@ pub(super) const CONTINUOUS: Statement = Statement {
 pub(super) const SIGNS: Statement = Statement {
     id: "h4",
     paper: "support: a negative propulsive torque, then a positive one; swing: a lower positive torque brings the leg back",
+    headline: "hip_mean_late_support_nm",
+    scope: Scope::Brief,
     measure: |evidence| {
         let run = evidence.standard();
         let Ok(steady) = Steady::of(run) else { return Numbers::new() };

@@ -1,7 +1,7 @@
 //! (f) Figure 6: the mass of the figure and its hip torque.
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::{MASS, MASSES};
+use super::evidence::{MASS, MASSES, Scope};
 use super::mode::Run;
 use super::steady::{Steady, correlation, rms};
 use crate::model::Side;
@@ -12,7 +12,12 @@ const EXACT: f64 = 1e-6;
 pub(super) const EXACTLY: Statement = Statement {
     id: "f1",
     paper: "the amplitude of the torques changes in a scale close to that of the weight, the shape stays",
+    headline: "departure_60_kg",
+    scope: Scope::Full,
     measure: |evidence| {
+        if evidence.masses.is_empty() {
+            return Numbers::new();
+        }
         let off = |run: &Run, mass: f64| departure(&evidence.masses[1], run, mass / MASS);
         numbers([
             ("departure_60_kg", off(&evidence.masses[0], MASSES[0])),
@@ -32,6 +37,8 @@ pub(super) const EXACTLY: Statement = Statement {
 pub(super) const NEARLY: Statement = Statement {
     id: "f2",
     paper: "the change of mass slightly changes the torques during the swing phase too",
+    headline: "dense_100_kg_swing_difference_percent",
+    scope: Scope::Full,
     measure: |evidence| {
         let mut all = Numbers::new();
         for (what, runs) in [("soft", &evidence.soft_masses), ("dense", &evidence.dense_masses)] {

@@ -4,6 +4,7 @@
 //! what it has to walk for the claims, and [`claims`] judges them. [`paper_walk`] is the paper's own mode; a corrected mode is
 //! judged beside it by the same measures.
 
+mod assumptions;
 mod claim;
 mod error;
 mod evidence;
@@ -11,6 +12,7 @@ mod feet;
 mod figures_of_mass;
 mod measured;
 mod mode;
+mod paper_settings;
 mod steady;
 
 mod bounce;
@@ -23,13 +25,16 @@ mod mass;
 mod period;
 mod sliding;
 
-pub use claim::{Claim, Numbers, number};
+pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
+pub use claim::{Claim, Numbers, Verdict, number};
 pub use error::ReproductionError;
 pub use evidence::{
-    CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, HEIGHT, MASS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, paper_human,
+    CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, HEIGHT, MASS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
+    paper_human,
 };
 pub use measured::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
-pub use mode::{Footwear, Mode, Request, Run, SOFT_SHOES, paper_walk};
+pub use mode::{Footwear, Mode, Request, Run, paper_walk, paper_walk_with};
+pub use paper_settings::PaperSettings;
 pub use steady::{BLOW_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};
 
 use claim::Statement;
@@ -64,4 +69,10 @@ const STATEMENTS: [Statement; 22] = [
 #[must_use]
 pub fn claims(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Claim> {
     STATEMENTS.iter().map(|statement| statement.claim(paper, corrected)).collect()
+}
+
+/// Whether the claims that brief evidence suffices for pass.
+#[must_use]
+pub fn verdicts(paper: &Evidence) -> Vec<Verdict> {
+    STATEMENTS.iter().filter(|statement| statement.scope == Scope::Brief).map(|s| s.verdict(paper)).collect()
 }

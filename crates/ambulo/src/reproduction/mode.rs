@@ -1,11 +1,11 @@
 //! Ways to make a figure walk: as in 1997, or put right. Each is a function from a request to a recorded walk.
 
 use super::error::ReproductionError;
-use crate::contact::HuntCrossley;
+use super::paper_settings::PaperSettings;
 use crate::findings::Findings;
 use crate::gait::{Gait, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
-use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker, gait_signals};
+use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker};
 use crate::simulation::{Impact, StepSettings};
 
 /// A walk that a claim needs.
@@ -32,12 +32,9 @@ pub enum Footwear {
     Own,
     /// They do not give, and what strikes loses all its velocity.
     Rigid,
-    /// Soft shoes: [`SOFT_SHOES`].
+    /// They give, by Hunt and Crossley's law.
     Soft,
 }
-
-/// The soft shoes of the claims: six spheres a foot in that paper, three here.
-pub const SOFT_SHOES: HuntCrossley = HuntCrossley::FALISSE_2022;
 
 /// A walk, and what was asked of it.
 #[derive(Debug, Clone)]
@@ -56,39 +53,45 @@ pub struct Run {
     pub step_length: f64,
     /// Foot off as a share of the cycle, as the gait has it.
     pub foot_off: f64,
-    /// Largest distance that the mode changed a joint's angle by [rad]; zero if it plays the gait as it is.
-    pub adjusted_rad: f64,
 }
 
 /// A mode: how it walks.
 pub type Mode<'a> = dyn FnMut(&Request<'_>) -> Result<Run, ReproductionError> + 'a;
 
 /// Walks as the paper did: joints driven as the gait has them, the trunk held upright, the root free to slide, rigid
-/// contacts whose blows cancel the whole velocity of the point, Coulomb's friction.
+/// contacts whose blows cancel the whole velocity of the point, Coulomb's friction. What the paper does not give is as in
+/// [`assumptions`](super::assumptions).
 ///
 /// # Errors
 /// A gait that the figure cannot have, or a walk that cannot be simulated.
 pub fn paper_walk(request: &Request<'_>) -> Result<Run, ReproductionError> {
+    paper_walk_with(&PaperSettings::default(), request)
+}
+
+/// The same with other values for what the paper does not give.
+///
+/// # Errors
+/// A gait that the figure cannot have, or a walk that cannot be simulated.
+pub fn paper_walk_with(settings: &PaperSettings, request: &Request<'_>) -> Result<Run, ReproductionError> {
     let mut findings = Findings::default();
-    let walk = Walk::new(request.gait, request.human.dimensions.leg_length, &mut findings)?;
+    let human = settings.figure(request.human)?;
+    let walk = Walk::new(&settings.gait(request.gait), human.dimensions.leg_length, &mut findings)?;
     let (shoes, impact) = match request.shoes {
-        Footwear::Own | Footwear::Rigid => (Shoes::Rigid, Impact::Sticking),
-        Footwear::Soft => (Shoes::HuntCrossley(SOFT_SHOES), Impact::Coulomb),
+        Footwear::Own | Footwear::Rigid => (Shoes::Rigid, settings.impact),
+        Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), Impact::Coulomb),
     };
     let ground = Ground { friction: request.friction, shoes, impact };
-    let signals = gait_signals(&walk, &request.human.model);
-    let walker = Walker::new(request.human, signals, &ground, walk.speed())?;
-    let settings = StepSettings { step_s: 1.0 / request.rate_hz, ..StepSettings::default() };
+    let walker = Walker::new(&human, settings.signals(&walk, &human.model), &ground, walk.speed())?;
+    let steps = StepSettings { step_s: 1.0 / request.rate_hz, ..StepSettings::default() };
     let duration_s = walk.cycle_s() * request.cycles as f64;
-    let recording = walker.walk(&settings, duration_s, &mut findings)?;
+    let recording = walker.walk(&steps, duration_s, &mut findings)?;
     Ok(Run {
         recording,
         gait: walk.name().to_owned(),
-        soles: request.human.soles.clone(),
+        soles: human.soles,
         cycle_s: walk.cycle_s(),
         speed: walk.speed(),
         step_length: walk.step_length(),
         foot_off: walk.phases(&walk.clock(0.0)).foot_off,
-        adjusted_rad: 0.0,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::claim::{Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Scope};
 use super::steady::{POINTS, Steady, range_of, rms};
 
 /// Largest difference of cycles that is slight.
@@ -11,6 +11,8 @@ const SLIGHT_PERCENT: f64 = 5.0;
 pub(super) const PERIOD: Statement = Statement {
     id: "b",
     paper: "all torques have a one second period; only slight differences between two periods",
+    headline: "hip_cycle_to_cycle_percent",
+    scope: Scope::Brief,
     measure,
     judge: |paper, _| {
         let worst = JOINTS.iter().map(|(joint, _)| number(paper, &format!("{joint}_cycle_to_cycle_percent")));

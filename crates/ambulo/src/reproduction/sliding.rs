@@ -5,7 +5,7 @@
 //! two soles would have to stop: where the joint curves give the feet different speeds, one must slip whatever the friction.
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::{Evidence, FRICTION, FRICTIONS};
+use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
 use super::feet::lowest_points;
 use super::mode::Run;
 use super::steady::{STEADY_CYCLES, Steady, rms};
@@ -16,6 +16,8 @@ const NO_SLIP_M: f64 = 1e-3;
 pub(super) const SINGLE: Statement = Statement {
     id: "d1",
     paper: "the character slides even with a friction coefficient as high as 1",
+    headline: "slip_on_one_foot_mm_a_step",
+    scope: Scope::Brief,
     measure,
     judge: |paper, _| {
         let slip = number(paper, "slip_on_one_foot_mm_a_step");
@@ -38,6 +40,8 @@ pub(super) const SINGLE: Statement = Statement {
 pub(super) const FORCED: Statement = Statement {
     id: "d2",
     paper: "(not in the paper) sliding that no friction can stop: both feet down with different speeds",
+    headline: "forced_slip_mm_a_step",
+    scope: Scope::Brief,
     measure: measure_forced,
     judge: |paper, corrected| {
         let (rub, apart) = (number(paper, "forced_slip_mm_a_step"), number(paper, "feet_apart_in_height_mm"));
