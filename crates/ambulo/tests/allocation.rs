@@ -4,6 +4,9 @@
 mod common;
 
 use ambulo::dynamics::{self, BodyLoad, Workspace};
+use ambulo::findings::Findings;
+use ambulo::gait::machine::WalkMachine;
+use ambulo::gait::{Gait, Walk};
 use ambulo::model::Model;
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
@@ -100,4 +103,18 @@ fn frames_after_the_first_allocate_nothing() {
     assert!(allocations(&mut solve) > 0, "the first block found room for its loads");
     assert_eq!(allocations(&mut solve), 0, "inverse_frames");
     assert!(columns.iter().flatten().any(|tau| tau.abs() > 1.0), "no forces: {columns:?}");
+}
+
+#[test]
+fn postures_of_a_walk_and_of_its_machine_allocate_nothing() {
+    let gait = Gait::named("free").unwrap_or_else(|e| panic!("{e}"));
+    let walk = Walk::new(&gait, 0.92, &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"));
+    let mut machine = WalkMachine::new(&walk);
+    let count = allocations(|| {
+        for i in 0..100 {
+            let t = 0.013 * f64::from(i);
+            black_box((walk.at(t), machine.step(t)));
+        }
+    });
+    assert_eq!(count, 0);
 }

@@ -20,31 +20,6 @@ fn angles(posture: &WalkPosture) -> Vec<Jet> {
     [&leg(&posture.right)[..], &leg(&posture.left), &trunk, &posture.shoulders, &posture.elbows].concat()
 }
 
-/// The fourth-order difference of f misses f' by h⁴/30 f⁽⁵⁾: with h = 1e-4 s and angles of at most 12 harmonics at 1.4 Hz
-/// (0.3 rad × 106⁵ / 30 × 1e-16 = 1e-8) that is below 1e-7 rad/s, and rounding (1e-16/h) below 1e-11; accelerations 100 times
-/// that. Fifth derivatives of quintics that span 5 % of a cycle add a factor of ten.
-#[test]
-fn rates_and_accelerations_are_the_derivatives_of_angles() {
-    let h = 1e-4;
-    for name in Gait::NAMES {
-        let walk = walk(name);
-        for i in 0..97 {
-            let t = 0.3 + 0.0137 * f64::from(i);
-            let at = |k: f64| angles(&walk.at(t + k * h));
-            let [b2, b1, on, a1, a2] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
-            for j in 0..on.len() {
-                let slope = |part: fn(&Jet) -> f64| {
-                    (8.0 * (part(&a1[j]) - part(&b1[j])) - (part(&a2[j]) - part(&b2[j]))) / (12.0 * h)
-                };
-                let scale = 1e-4;
-                assert!((slope(|x| x.value) - on[j].rate).abs() < scale, "{name} {t} {j} rate");
-                let error = (slope(|x| x.rate) - on[j].acceleration).abs();
-                assert!(error < 100.0 * scale * 10.0, "{name} {t} {j} acceleration {error}");
-            }
-        }
-    }
-}
-
 #[test]
 fn the_left_leg_is_half_a_cycle_behind() {
     let walk = walk("free");

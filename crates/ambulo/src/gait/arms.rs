@@ -61,7 +61,7 @@ impl ArmCurves {
             let mean = [0, 1, 2].map(|i| 0.5 * (arc(before).coefficients[i] + arc(after).coefficients[i]));
             Knot {
                 name: ["contact", "swing", "late swing"][k].into(),
-                begins: Some(["E", "F", "E"][k].into()),
+                begins: [Some("F"), Some("E"), None][k].map(String::from),
                 phase: SpeedLaw::constant(ELBOW_TIMES[k]),
                 angle: angles[k],
                 slope: SpeedLaw::default(),

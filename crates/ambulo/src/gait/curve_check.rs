@@ -1,9 +1,9 @@
-//! What a curve must satisfy to be walked with: knots in order, angles that a joint can have, sub-cycles of one sense.
+//! What a curve must satisfy to be walked with: knots in order, angles that a joint can have; of laws in style 1997 also that
+//! a sub-cycle which extends at one speed extends at every speed.
 
 use super::cyclic_curve::CyclicCurve;
 use super::jet::Jet;
 use super::joint::Joint;
-use super::style::Style;
 
 /// Least distance of knots [cycles]; closer ones make accelerations without bound.
 const CLOSEST_KNOTS: f64 = 0.005;
@@ -22,13 +22,10 @@ pub(super) struct CurveFault {
 }
 
 /// Checks a curve at some dimensionless speeds.
-pub(super) fn check(curve: &CyclicCurve, joint: Joint, style: Style, speeds: &[f64]) -> Result<(), CurveFault> {
+pub(super) fn check(curve: &CyclicCurve, joint: Joint, speeds: &[f64]) -> Result<(), CurveFault> {
     for speed in speeds {
         check_order(curve, *speed)?;
         check_angles(curve, joint, *speed)?;
-        if style == Style::Paper1997 {
-            check_senses(curve, *speed)?;
-        }
     }
     Ok(())
 }
@@ -69,8 +66,12 @@ fn check_angles(curve: &CyclicCurve, joint: Joint, speed: f64) -> Result<(), Cur
     Ok(())
 }
 
-/// A sub-cycle that extends at one speed extends at every speed.
-fn check_senses(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
+/// Checks that no sub-cycle turns the other way at some dimensionless speeds.
+pub(super) fn check_senses(curve: &CyclicCurve, speeds: &[f64]) -> Result<(), CurveFault> {
+    speeds.iter().try_for_each(|speed| check_sense(curve, *speed))
+}
+
+fn check_sense(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
     let n = curve.knots().len();
     let turn = |k: usize, speed: f64| curve.knots()[(k + 1) % n].angle.at(speed) - curve.knots()[k].angle.at(speed);
     for k in 0..n {

@@ -3,7 +3,7 @@
 //! Numbers are constants or polynomials of dimensionless speed, `[c0, c1, c2]`; times in percent of the cycle, angles in
 //! degrees, slopes in degrees a cycle, curvatures in degrees a cycle². docs/GAITS.md describes the keys.
 
-use super::curve_check::check;
+use super::curve_check::{check, check_senses};
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::joint::Joint;
 use super::speed_law::SpeedLaw;
@@ -42,7 +42,11 @@ pub(super) fn read_curve(
     };
     let few = || table.wrong(format!("found fewer than two of `{wanted}`; expected two or more"));
     let curve = CyclicCurve::new(knots).ok_or_else(few)?;
-    check(&curve, joint, style, speeds).map_err(|fault| places[fault.knot].error(fault.message))?;
+    let mut checked = check(&curve, joint, speeds);
+    if style == Style::Paper1997 {
+        checked = checked.and_then(|()| check_senses(&curve, speeds));
+    }
+    checked.map_err(|fault| places[fault.knot].error(fault.message))?;
     Ok(Some(curve))
 }
 

@@ -64,10 +64,10 @@ pub struct SupportLaw {
 }
 
 impl SupportLaw {
-    /// Foot off as a share of the cycle, kept between 0.5 (below it is running) and 0.8.
+    /// Foot off as a share of the cycle, kept between 0.52 (a walk has double support) and 0.8.
     #[must_use]
     pub fn share(&self, cycle_in_leg_times: f64) -> f64 {
-        (self.slope + self.offset / cycle_in_leg_times).clamp(0.5, 0.8)
+        (self.slope + self.offset / cycle_in_leg_times).clamp(0.52, 0.8)
     }
 }
 

@@ -1,0 +1,201 @@
+//! Gaits from TOML (docs/GAITS.md): what is read is checked, and refused with line and key.
+
+use super::curve_check::check;
+use super::curve_table::read_curve;
+use super::error::GaitError;
+use super::joint::Joint;
+use super::laws::{DOCUMENT, Laws, checked_speeds};
+use super::pace::AGREEMENT;
+use super::request::{Gait, KnotChange, Pace, Pelvis, Speed};
+use super::style::Style;
+use super::walk::changed;
+use crate::toml_reader::{Source, Table, TomlError, Value, nearest};
+
+/// Keys of the file itself.
+const KEYS: [&str; 17] = [
+    "name",
+    "base",
+    "style",
+    "pelvis",
+    "speed",
+    "dimensionless_speed",
+    "step_length",
+    "cadence",
+    "cycle_s",
+    "step_length_scale",
+    "cadence_scale",
+    "step_height",
+    "cadence_exponent",
+    "change",
+    "hip",
+    "knee",
+    "ankle",
+];
+/// Factors on steps beyond these are slips of the pen.
+const SCALES: [f64; 2] = [0.1, 10.0];
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+impl Gait {
+    /// A gait from a TOML file.
+    ///
+    /// # Errors
+    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    pub fn from_toml(text: &str) -> Result<Gait, GaitError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&KEYS])?;
+        let mut gait = base(&root)?;
+        if let Some(value) = root.get("name") {
+            gait.name = value.filled_text()?;
+        }
+        gait.pace = pace(&root, gait.pace)?;
+        gait.step_height = scale_or(&root, "step_height", gait.step_height)?;
+        let laws = Laws::built_in(gait.style)?;
+        let speeds = checked_speeds(&laws.range);
+        for (own, joint) in gait.curves.iter_mut().zip(Joint::ALL) {
+            *own = read_curve(&root, joint, gait.style, &speeds)?;
+        }
+        read_changes(&root, &mut gait, &laws)?;
+        Ok(gait)
+    }
+}
+
+/// The gait to begin with: a built-in one, or nothing but a style.
+fn base(root: &Table<'_>) -> Result<Gait, GaitError> {
+    let style = root.get("style").map(|value| value.choice(&Style::WORDS)).transpose()?;
+    let mut gait = match root.get("base") {
+        Some(value) => {
+            let words = Gait::NAMES.map(|name| (name, name));
+            Gait::named(value.choice(&words)?)?
+        }
+        None => Gait::new("own", style.unwrap_or(Style::Knots)),
+    };
+    if let Some(style) = style {
+        gait.style = style;
+        gait.pelvis = style.pelvis();
+    }
+    if let Some(value) = root.get("pelvis") {
+        gait.pelvis = value.choice(&[("moving", Pelvis::Moving), ("vertical", Pelvis::Vertical)])?;
+    }
+    Ok(gait)
+}
+
+/// A pace; speed, step length and frequency of the base count only where the file gives none of them.
+fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
+    let speed = one_of(root, "speed", "dimensionless_speed")?;
+    let frequency = one_of(root, "cadence", "cycle_s")?;
+    let above_zero = |value: Option<Value<'_>>| value.map(|value| value.above_zero()).transpose();
+    let mut pace = base;
+    if speed.is_some() || frequency.is_some() || root.get("step_length").is_some() {
+        pace.speed = match root.get("dimensionless_speed") {
+            Some(value) => Some(Speed::Dimensionless(value.above_zero()?)),
+            None => above_zero(root.get("speed"))?.map(Speed::MetersPerSecond),
+        };
+        pace.step_length = above_zero(root.get("step_length"))?;
+        pace.step_frequency = match root.get("cycle_s") {
+            Some(value) => Some(2.0 / value.above_zero()?),
+            None => above_zero(root.get("cadence"))?.map(|steps_per_minute| steps_per_minute / 60.0),
+        };
+        refuse_contradiction(root, &pace)?;
+    }
+    pace.length_scale = scale_or(root, "step_length_scale", pace.length_scale)?;
+    pace.cadence_scale = scale_or(root, "cadence_scale", pace.cadence_scale)?;
+    if let Some(value) = root.get("cadence_exponent") {
+        let exponent = value.number()?;
+        if !(0.0..1.0).contains(&exponent) {
+            return Err(value.wrong("a share of speed from 0 to below 1"));
+        }
+        pace.cadence_exponent = Some(exponent);
+    }
+    Ok(pace)
+}
+
+/// The value under one of two keys; both at once are refused.
+fn one_of<'t>(root: &Table<'t>, first: &str, second: &str) -> Result<Option<Value<'t>>, TomlError> {
+    match (root.get(first), root.get(second)) {
+        (Some(_), Some(value)) => {
+            Err(value.place().error(format!("found both `{first}` and `{second}`; expected one of them")))
+        }
+        (found, other) => Ok(found.or(other)),
+    }
+}
+
+fn refuse_contradiction(root: &Table<'_>, pace: &Pace) -> Result<(), TomlError> {
+    let (Some(Speed::MetersPerSecond(speed)), Some(step), Some(frequency)) =
+        (pace.speed, pace.step_length, pace.step_frequency)
+    else {
+        return Ok(());
+    };
+    let made = step * frequency;
+    match root.get("speed") {
+        Some(value) if (made - speed).abs() > AGREEMENT * speed => Err(value
+            .wrong(&format!("the step length times the step frequency, {made:.4} m/s"))
+            .hint("leave one of speed, step length and frequency out")),
+        _ => Ok(()),
+    }
+}
+
+fn scale_or(root: &Table<'_>, key: &str, default: f64) -> Result<f64, TomlError> {
+    let Some(value) = root.get(key) else { return Ok(default) };
+    let factor = value.above_zero()?;
+    if (SCALES[0]..=SCALES[1]).contains(&factor) { Ok(factor) } else { Err(value.wrong("a factor from 0.1 to 10")) }
+}
+
+/// Adds the changes of the file to those of the base.
+fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), GaitError> {
+    let tables = root.tables("change")?;
+    let mut last = [None; 3];
+    for table in &tables {
+        let (change, index) = read_change(table, gait, laws)?;
+        gait.changes.push(change);
+        last[index] = Some(table);
+    }
+    for (joint, table) in Joint::ALL.into_iter().zip(last) {
+        let Some(table) = table else { continue };
+        let curve = changed(curve_of(gait, laws, joint), joint, &gait.changes)?;
+        check(&curve, joint, &checked_speeds(&laws.range)).map_err(|fault| {
+            let knot = &curve.knots()[fault.knot].name;
+            table.wrong(format!("with all changes, at knot `{knot}`: {}", fault.message))
+        })?;
+    }
+    Ok(())
+}
+
+fn curve_of<'a>(gait: &'a Gait, laws: &'a Laws, joint: Joint) -> &'a super::CyclicCurve {
+    gait.curves[joint as usize].as_ref().unwrap_or_else(|| laws.legs.of(joint))
+}
+
+/// A change, and the number of its joint.
+fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChange, usize), TomlError> {
+    table.only(&[&["joint", "knot", "scale", "angle_deg", "slope_deg", "curvature_deg", "time_percent"]])?;
+    let words = Joint::ALL.map(|joint| (joint.name(), joint));
+    let joint = table.need("joint", "the joint that changes")?.choice(&words)?;
+    let value = table.need("knot", "the knot that changes")?;
+    let knot = value.text()?;
+    let known = || curve_of(gait, laws, joint).knots().iter().map(|knot| knot.name.as_str());
+    if !known().any(|name| name == knot) {
+        let quoted: Vec<String> = known().map(|name| format!("\"{name}\"")).collect();
+        let error = value.wrong(&format!("one of the {}'s knots {}", joint.name(), quoted.join(", ")));
+        return Err(match nearest(knot, known()) {
+            Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+            None => error,
+        });
+    }
+    if gait.style == Style::Paper1997
+        && let Some(value) = table.get("slope_deg").or(table.get("curvature_deg"))
+    {
+        let message = "found a change of slope or curvature in style \"1997\"; expected none, which are zero at every bound there";
+        return Err(value.place().error(message));
+    }
+    let number = |key: &str, unit: f64| Ok::<f64, TomlError>(table.number_or(key, 0.0)? * unit);
+    let change = KnotChange {
+        scale: table.number_or("scale", 1.0)?,
+        angle: number("angle_deg", DEGREE)?,
+        slope: number("slope_deg", DEGREE)?,
+        curvature: number("curvature_deg", DEGREE)?,
+        phase: number("time_percent", 0.01)?,
+        ..KnotChange::of(joint, knot)
+    };
+    Ok((change, joint as usize))
+}

@@ -1,0 +1,99 @@
+//! Machines as rows and as a table of text: the tree, each state with its window, its bound values and where it leads.
+
+use super::definition::{Machine, Span, State};
+use super::walking_machine;
+use crate::gait::walk::Walk;
+use std::fmt::Write;
+
+/// A state of a machine of the tree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateRow {
+    /// How deep the machine stands in the tree; 0 for the root.
+    pub depth: usize,
+    /// Name of the machine.
+    pub machine: String,
+    /// Name of the state.
+    pub state: String,
+    /// When it is active, and the angles at both ends.
+    pub span: Option<Span>,
+    /// Transitions out of it: condition and name of the state entered.
+    pub leads: Vec<(String, String)>,
+}
+
+/// All states of a tree, parents before children.
+#[must_use]
+pub fn state_rows(machine: &Machine) -> Vec<StateRow> {
+    let mut rows = Vec::new();
+    collect(machine, 0, &mut rows);
+    rows
+}
+
+fn collect(machine: &Machine, depth: usize, rows: &mut Vec<StateRow>) {
+    for (k, state) in machine.states().iter().enumerate() {
+        let ways = machine.transitions().iter().filter(|way| way.from == k);
+        let leads = ways.map(|way| (way.when.clone(), machine.states()[way.to].name.clone())).collect();
+        let State { name, span } = state.clone();
+        rows.push(StateRow { depth, machine: machine.name().to_owned(), state: name, span, leads });
+    }
+    for child in machine.children() {
+        collect(child, depth + 1, rows);
+    }
+}
+
+/// The walking machine of a walk as text: windows in percent of the cycle of the machine's own foot, angles in degrees, at the
+/// speed at which the walk begins.
+#[must_use]
+pub fn state_table(walk: &Walk) -> String {
+    let mut text = format!(
+        "{}, style {}: {:.2} m/s on a leg of {:.2} m (V* {:.3}), steps of {:.3} m, cycle {:.3} s, foot off at {:.1} %\n\n",
+        walk.name(),
+        walk.style().name(),
+        walk.speed(),
+        walk.leg_length(),
+        walk.dimensionless_speed(),
+        walk.step_length(),
+        walk.cycle_s(),
+        100.0 * walk.foot_off(&walk.clock(0.0)),
+    );
+    let header = ["machine", "state", "from %", "to %", "from deg", "to deg", "leads to, when"].map(String::from);
+    let mut rows = vec![header];
+    let mut machine = String::new();
+    for row in state_rows(&walking_machine(walk)) {
+        rows.push(cells(&row, row.machine != machine));
+        machine = row.machine;
+    }
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..7).map(width).collect();
+    for row in &rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let (width, numeric) = (widths[column], (2..6).contains(&column));
+            // A string takes whatever is written.
+            let _ = if numeric { write!(line, "{cell:>width$}  ") } else { write!(line, "{cell:<width$}  ") };
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+fn cells(row: &StateRow, first: bool) -> [String; 7] {
+    let machine = if first { format!("{}{}", "  ".repeat(row.depth), row.machine) } else { String::new() };
+    let [from, to] = match row.span {
+        Some(span) => percents(span.window).map(|percent| format!("{percent:.1}")),
+        None => Default::default(),
+    };
+    let [low, high] = match row.span.and_then(|span| span.bounds) {
+        Some(bounds) => bounds.map(|angle| format!("{:.1}", angle.to_degrees())),
+        None => Default::default(),
+    };
+    let leads: Vec<String> = row.leads.iter().map(|(when, to)| format!("{to}, {when}")).collect();
+    [machine, row.state.clone(), from, to, low, high, leads.join("; ")]
+}
+
+/// A window in percent of the cycle, its activation below 100.
+fn percents([from, to]: [f64; 2]) -> [f64; 2] {
+    let [from, to] = [from, to].map(|phase| 100.0 * (phase - phase.floor()));
+    // The end of a cycle is 100 %, not 0 %.
+    [from, if to <= 0.0 { 100.0 } else { to }]
+}

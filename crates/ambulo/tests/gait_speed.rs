@@ -1,0 +1,190 @@
+//! Changes of speed while walking: nothing breaks up to the second derivative, and phase is the integral of the cycle rate.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod common;
+
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, GaitError, Jet, LegAngles, Pelvis, SpeedChange, Walk, WalkPosture};
+use common::{assert_near, derivatives};
+
+const LEG: f64 = 0.92;
+const CHANGES: [SpeedChange; 2] = [
+    SpeedChange { start_s: 1.3, duration_s: 2.0, speed: 2.0 },
+    SpeedChange { start_s: 3.3, duration_s: 0.8, speed: 0.5 },
+];
+
+fn steady(name: &str) -> Walk {
+    Walk::new(&Gait::named(name).unwrap(), LEG, &mut Findings::default()).unwrap()
+}
+
+/// A walk that hurries, and is slowed as soon as it has: both changes meet at 3.3 s.
+fn changing(name: &str) -> Walk {
+    CHANGES
+        .into_iter()
+        .fold(steady(name), |walk, change| walk.with_speed_change(change, &mut Findings::default()).unwrap())
+}
+
+fn angles(posture: &WalkPosture) -> Vec<Jet> {
+    let leg = |leg: &LegAngles| [leg.hip, leg.knee, leg.ankle];
+    let trunk = [posture.pelvis_tilt, posture.trunk_lean];
+    [&leg(&posture.right)[..], &leg(&posture.left), &trunk, &posture.shoulders, &posture.elbows].concat()
+}
+
+/// Times of every knot of every joint while speed changes: where a right or left curve passes from segment to segment.
+fn knot_times(walk: &Walk) -> Vec<f64> {
+    let segment = |t: f64| {
+        let clock = walk.clock(t);
+        let speed = walk.curve_speed(&clock).value;
+        let legs = walk.legs();
+        [0.0, 0.5].map(|shift| {
+            [&legs.hip, &legs.knee, &legs.ankle, walk.arms().elbow()]
+                .map(|curve| curve.segment_at(clock.phase.value + shift, speed))
+        })
+    };
+    let mut times = Vec::new();
+    for i in 0..5000 {
+        let (mut low, mut high) = (1e-3 * f64::from(i), 1e-3 * f64::from(i + 1));
+        if segment(low) == segment(high) {
+            continue;
+        }
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if segment(middle) == segment(low) { low = middle } else { high = middle }
+        }
+        times.push(high);
+    }
+    times
+}
+
+/// Accelerations have slopes of at most 1e5 rad/s³, so across 2e-9 s they differ by 2e-4 where they are continuous; a break of
+/// what a quintic with a wrong curvature makes is 10 rad/s² and more.
+#[test]
+fn accelerations_have_no_breaks_at_knots_nor_at_changes_of_speed() {
+    for name in ["free", "standard"] {
+        let walk = changing(name);
+        let ends = CHANGES.iter().flat_map(|change| [change.start_s, change.start_s + change.duration_s]);
+        let times: Vec<f64> = knot_times(&walk).into_iter().chain(ends).collect();
+        assert!(times.len() > 100, "{} knots", times.len());
+        for t in times {
+            let (before, after) = (angles(&walk.at(t - 1e-9)), angles(&walk.at(t + 1e-9)));
+            for (a, b) in before.iter().zip(&after) {
+                assert_near(a.value, b.value, 1e-7, name);
+                assert_near(a.rate, b.rate, 1e-6, name);
+                assert_near(a.acceleration, b.acceleration, 1e-3, &format!("{name} at {t} s"));
+            }
+        }
+    }
+}
+
+/// Across a knot the third derivative jumps by up to 1e4 rad/s³ J: a stencil of step h then misses rates by J h² and accelerations
+/// by J h.
+#[test]
+fn rates_and_accelerations_are_derivatives_while_speed_changes() {
+    let (h, jump) = (1e-5, 1e4);
+    for name in Gait::NAMES {
+        let walk = changing(name);
+        for i in 0..211 {
+            let t = 0.01 + 0.0237 * f64::from(i);
+            let on = angles(&walk.at(t));
+            let part = |f: fn(&Jet) -> f64| derivatives(|t| angles(&walk.at(t)).iter().map(f).collect(), t, h, 1e-14);
+            let (rates, error) = part(|x| x.value);
+            let (accelerations, second_error) = part(|x| x.rate);
+            for j in 0..on.len() {
+                assert_near(on[j].rate, rates[j], error + jump * h * h, &format!("{name} at {t} s"));
+                let slack = second_error + jump * h;
+                assert_near(on[j].acceleration, accelerations[j], slack, &format!("{name} at {t} s, angle {j}"));
+            }
+        }
+    }
+}
+
+/// Against Simpson's rule on 20000 panels, h⁴/180 × duration × fourth derivative: (1.5e-4)⁴/180 × 3 × 600 = 1e-14 cycles, and the
+/// roundings of its sums.
+#[test]
+fn phase_is_the_integral_of_the_cycle_rate() {
+    for name in ["free", "standard"] {
+        let walk = changing(name);
+        for end in [1.3, 1.9, 2.4, 3.3, 3.7, 4.1, 6.0] {
+            let panels = 20_000;
+            let h = end / f64::from(2 * panels);
+            let rate = |i: i32| walk.clock(h * f64::from(i)).phase.rate;
+            // Sums of sums, so that roundings of 40000 terms do not add up.
+            let weighted = |i: i32| if i % 2 == 1 { 4.0 * rate(i) } else { 2.0 * rate(i) };
+            let block =
+                |first: i32| (first..first + 200).filter(|i| (1..2 * panels).contains(i)).map(weighted).sum::<f64>();
+            let inner: f64 = (0..2 * panels).step_by(200).map(block).sum();
+            let integral = h / 3.0 * (rate(0) + inner + rate(2 * panels));
+            assert_near(walk.clock(end).phase.value, integral, 1e-12, &format!("{name} until {end} s"));
+        }
+    }
+}
+
+#[test]
+fn speed_is_step_length_times_frequency_all_the_time() {
+    let walk = changing("free");
+    for i in 0..60 {
+        let t = 0.1 * f64::from(i);
+        let clock = walk.clock(t);
+        let step = walk.stride().step_length(clock.law_speed.value);
+        assert_near(step * 2.0 * clock.phase.rate, walk.speed_at(t), 1e-12, "speed");
+    }
+    assert_near(walk.speed_at(3.3), 2.0, 1e-12, "speed after the first change");
+    assert_near(walk.speed_at(9.0), 0.5, 1e-12, "speed after the second change");
+}
+
+#[test]
+fn before_and_after_a_change_the_walk_is_that_of_the_speed() {
+    let (walk, before) = (changing("free"), steady("free"));
+    assert_eq!(walk.at(1.0), before.at(1.0));
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(ambulo::gait::Speed::MetersPerSecond(0.5));
+    let after = Walk::new(&gait, LEG, &mut Findings::default()).unwrap();
+    let clock = walk.clock(5.0);
+    let shifted = after.at((clock.phase.value - clock.phase.value.floor()) * after.cycle_s());
+    for (a, b) in angles(&walk.at(5.0)).iter().zip(angles(&shifted)) {
+        assert_near(a.value, b.value, 1e-10, "angle");
+        assert_near(a.acceleration, b.acceleration, 1e-6, "acceleration");
+    }
+}
+
+#[test]
+fn changes_that_cannot_be_made_are_refused() {
+    let mut findings = Findings::default();
+    let walk = changing("free");
+    let change = |start_s: f64, duration_s: f64, speed: f64| SpeedChange { start_s, duration_s, speed };
+    let error = walk.clone().with_speed_change(change(4.0, 1.0, 1.0), &mut findings).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "change of speed: found a start at 4 s; expected 4.1 s or later, when the change before it has ended"
+    );
+    let error = walk.clone().with_speed_change(change(5.0, 1.0, 0.0), &mut findings).unwrap_err();
+    assert_eq!(error.to_string(), "speed after a change [m/s]: found 0; expected a number above zero");
+    for bad in [change(5.0, 0.0, 1.0), change(f64::NAN, 1.0, 1.0), change(5.0, 1.0, f64::NAN), change(-1.0, 1.0, 1.0)] {
+        assert!(matches!(walk.clone().with_speed_change(bad, &mut findings), Err(GaitError::Number { .. })), "{bad:?}");
+    }
+    assert!(findings.as_slice().is_empty());
+    walk.with_speed_change(change(5.0, 1.0, 2.5), &mut findings).unwrap();
+    assert!(findings.has("gait.speed_range"));
+}
+
+/// The mean tilt that a vertical pelvis takes from the hips follows speed as well.
+#[test]
+fn a_vertical_pelvis_keeps_the_direction_of_the_thigh_but_for_the_wave() {
+    let mut gait = Gait::named("free").unwrap();
+    gait.pelvis = Pelvis::Vertical;
+    let vertical = Walk::new(&gait, LEG, &mut Findings::default()).unwrap();
+    let moving = steady("free");
+    for i in 0..50 {
+        let t = 0.05 * f64::from(i);
+        let (a, b) = (vertical.at(t), moving.at(t));
+        assert_near(a.pelvis_tilt.value, 0.0, 0.0, "tilt");
+        // The wave of the pelvis at free speed is 0.95° at most (Schwartz, Rozumalski, Trost 2008).
+        let thigh = b.right.hip.value - b.pelvis_tilt.value;
+        assert_near(a.right.hip.value, thigh, 1.1_f64.to_radians(), "thigh");
+    }
+    let mean: f64 =
+        (0..100).map(|i| moving.at(0.01 * f64::from(i) * moving.cycle_s()).pelvis_tilt.value).sum::<f64>() / 100.0;
+    // Mean of the table at free speed: 11.53°; the quadratic of five speeds misses it by at most 0.2°.
+    assert_near(mean.to_degrees(), 11.53, 0.2, "mean tilt");
+}
