@@ -3,11 +3,15 @@
 
 mod common;
 
+use ambulo::analysis::feasibility::{FootFrame, Frame, Judge, Person, Thresholds, check_frame};
 use ambulo::dynamics::{self, BodyLoad, Workspace};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::WalkMachine;
 use ambulo::gait::{Gait, Walk};
+use ambulo::kinematics::body_motion;
 use ambulo::model::Model;
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::spatial::{Vec3, Wrench};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -117,4 +121,32 @@ fn postures_of_a_walk_and_of_its_machine_allocate_nothing() {
         }
     });
     assert_eq!(count, 0);
+fn judging_an_instant_allocates_nothing() {
+    let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
+    let Ok(human) = build.human() else { panic!("no figure") };
+    let judge = Judge::new(&human.model, &Person::of_human(&human), &Thresholds::default(), -1.0);
+    let state = State::rest(&human.model);
+    let bodies = body_motion(&human.model, state.posture());
+    let foot = FootFrame { force: Vec3::new(50.0, 300.0, 0.0), center_of_pressure: Vec3::new(0.05, -0.9, 0.0) };
+    let frame = Frame {
+        q: &state.q,
+        qd: &state.qd,
+        generalized: &state.qd,
+        powers: &state.qd,
+        bodies: &bodies,
+        feet: [Some(foot); 2],
+        residual: Wrench::ZERO,
+        ground_velocity: Vec3::zeros(),
+        ground_height: -0.9,
+        walking: true,
+    };
+    let mut measured = 0;
+    let count = allocations(|| {
+        check_frame(&judge, &frame, |m| {
+            measured += 1;
+            black_box(m);
+        });
+    });
+    assert_eq!(count, 0, "check_frame");
+    assert!(measured > 30, "only {measured} measurements");
 }

@@ -2,6 +2,7 @@
 
 use super::cycle_table::CycleRow;
 use crate::model::Side;
+use crate::motion::interpolate;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -38,6 +39,22 @@ struct Panel {
     sign: f64,
 }
 
+/// A part of a cycle in which a motion is not feasible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// What is not: a coordinate without its side, or `None` for what concerns feet and body as a whole.
+    pub coordinate: Option<String>,
+    /// The foot whose cycle it is.
+    pub side: Side,
+    /// Number of the cycle of this foot, from 1.
+    pub cycle: usize,
+    /// From where to where [% of the cycle].
+    pub percent: [f64; 2],
+}
+
+/// What is not feasible.
+const RED: RGBColor = RGBColor(220, 0, 0);
+
 /// Hip, knee and ankle moment over the gait cycle, N.m per kg of body mass, extensor and plantarflexor positive; right
 /// and left, every cycle thin and the mean thick, toe-off as a tick.
 ///
@@ -46,11 +63,11 @@ struct Panel {
 /// in the Gait2392 family and positive in Rajagopal's; the direction in which the knee turns most during the cycle is
 /// flexion.
 ///
-/// `caption` says whose walk it is.
+/// `caption` says whose walk it is. `marks` are drawn red: on the curve of their coordinate, or as a bar at the bottom.
 ///
 /// # Errors
 /// A canvas that the plotting library refuses.
-pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str) -> Result<String, FigureError> {
+pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str, marks: &[Mark]) -> Result<String, FigureError> {
     let error = |reason: String| FigureError { name: "moments.svg", reason };
     let knee_sign = -knee_flexion_sign(rows);
     let panels = [
@@ -65,9 +82,9 @@ pub fn moments_figure(rows: &[CycleRow], mass_kg: f64, caption: &str) -> Result<
         root.fill(&WHITE).map_err(|e| error(e.to_string()))?;
         let (title, body) = root.split_vertically(FINE * TITLE);
         let sides = Side::BOTH.into_iter().filter(|side| rows.iter().any(|row| row.side == *side)).collect::<Vec<_>>();
-        draw_title(&title, caption, &sides).map_err(|e| error(e.to_string()))?;
+        draw_title(&title, caption, &sides, !marks.is_empty()).map_err(|e| error(e.to_string()))?;
         for (panel, area) in panels.iter().zip(body.split_evenly((1, 3))) {
-            draw_panel(&area, panel, rows, mass_kg).map_err(|e| error(e.to_string()))?;
+            draw_panel(&area, panel, rows, mass_kg, marks).map_err(|e| error(e.to_string()))?;
         }
         root.present().map_err(|e| error(e.to_string()))?;
     }
@@ -88,12 +105,15 @@ pub(super) fn font(size: u32) -> TextStyle<'static> {
     ("sans-serif", FINE * size).into_font().color(&RGBColor(40, 40, 40))
 }
 
-fn draw_title(area: &Area<'_>, caption: &str, sides: &[Side]) -> DrawResult {
+fn draw_title(area: &Area<'_>, caption: &str, sides: &[Side], marked: bool) -> DrawResult {
     let at = |x: u32, y: u32| ((FINE * x) as i32, (FINE * y) as i32);
     area.draw_text("Net joint moments over the gait cycle", &font(15), at(14, 10))?;
     area.draw_text(caption, &font(11), at(14, 30))?;
     let explanation = "thin: single cycles, thick: mean, tick: toe-off";
     area.draw_text(explanation, &font(11), at(500, 17))?;
+    if marked {
+        area.draw_text("red: not feasible", &font(11).color(&RED), at(500, 31))?;
+    }
     for (side, x) in [(Side::Right, 780), (Side::Left, 880)] {
         if !sides.contains(&side) {
             continue;
@@ -108,7 +128,7 @@ fn draw_title(area: &Area<'_>, caption: &str, sides: &[Side]) -> DrawResult {
     Ok(())
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64) -> DrawResult {
+fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64, marks: &[Mark]) -> DrawResult {
     let curves: Vec<(&CycleRow, Vec<f64>)> = rows
         .iter()
         .filter(|r| r.quantity == panel.quantity)
@@ -157,7 +177,31 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, rows: &[CycleRow], mass_kg: f64) -
             };
         }
     }
+    for (row, values) in &curves {
+        for mark in marks.iter().filter(|mark| mark.side == row.side && mark.cycle == row.cycle) {
+            let style = RED.stroke_width(2 * FINE);
+            match &mark.coordinate {
+                Some(coordinate) if panel.quantity == format!("{coordinate}_moment") => {
+                    chart.draw_series(LineSeries::new(within(values, mark.percent), style))?;
+                }
+                Some(_) => {}
+                None => {
+                    let lane = if mark.side == Side::Right { 0.01 } else { 0.03 };
+                    let bar = mark.percent.map(|percent| (percent, low + lane * (high - low)));
+                    chart.draw_series(LineSeries::new(bar, style))?;
+                }
+            }
+        }
+    }
     Ok(())
+}
+
+/// The curve between two percentages, with its ends read on straight lines.
+fn within(values: &[f64], [from, to]: [f64; 2]) -> Vec<(f64, f64)> {
+    let percents: Vec<f64> = (0..values.len()).map(|i| i as f64).collect();
+    let at = |percent: f64| (percent, interpolate(&percents, values, percent));
+    let between = percents.iter().copied().filter(|p| (from..to).contains(p));
+    std::iter::once(from).chain(between).chain([to]).map(at).collect()
 }
 
 fn points(values: &[f64]) -> impl Iterator<Item = (f64, f64)> + Clone + '_ {

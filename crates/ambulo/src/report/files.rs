@@ -1,10 +1,11 @@
 //! The files of a run, as names and bytes.
 
 use super::cycle_table::{self, cycle_rows};
-use super::figure::{FigureError, moments_figure};
+use super::figure::{FigureError, Mark, moments_figure};
 use super::tables;
-use crate::analysis::Analysis;
-use crate::model::Model;
+use crate::analysis::feasibility::{Check, Reason};
+use crate::analysis::{Analysis, Cycle};
+use crate::model::{Model, Side};
 use ambulo_formats::Error;
 
 /// A file to be written.
@@ -59,7 +60,7 @@ pub fn output_files(
         files.push(file("cycles.csv", cycle_table::csv(&rows).into_bytes()));
         files.push(file(
             "figures/moments.svg",
-            moments_figure(&rows, analysis.mass.kg, &caption(model, analysis))?.into_bytes(),
+            moments_figure(&rows, analysis.mass.kg, &caption(model, analysis), &marks(analysis))?.into_bytes(),
         ));
     }
     Ok(files)
@@ -69,4 +70,33 @@ pub fn output_files(
 fn caption(model: &Model, analysis: &Analysis) -> String {
     let speed = analysis.speed_m_s.map(|v| format!(", {v:.2} m/s")).unwrap_or_default();
     format!("{}, {:.1} kg{speed}", model.name(), analysis.mass.kg)
+}
+
+/// What stands against the motion, by gait cycle. What has no side stands in the cycles of both feet.
+fn marks(analysis: &Analysis) -> Vec<Mark> {
+    let reasons = analysis.verdict.iter().flat_map(|verdict| &verdict.reasons);
+    let pairs = reasons.flat_map(|reason| analysis.cycles.iter().map(move |cycle| (reason, cycle)));
+    let of_side = pairs.filter(|(reason, cycle)| reason.side.is_none_or(|side| side == cycle.side));
+    let mark = |(reason, cycle): (&Reason, &Cycle)| {
+        let [from, to] = reason.time_s.map(|t| (t - cycle.start_s) / (cycle.end_s - cycle.start_s));
+        (to >= 0.0 && from <= 1.0).then(|| Mark {
+            coordinate: coordinate(reason),
+            side: cycle.side,
+            cycle: cycle.number,
+            percent: [from, to].map(|share| 100.0 * share.clamp(0.0, 1.0)),
+        })
+    };
+    of_side.filter_map(mark).collect()
+}
+
+/// The coordinate of a reason without its side; `None` for those of feet and body.
+fn coordinate(reason: &Reason) -> Option<String> {
+    let suffixes: &[&str] = match reason.check {
+        Check::Strength => &["_moment", "_force"],
+        Check::Power => &["_power"],
+        Check::Range => &[""],
+        _ => return None,
+    };
+    let stem = Side::split_name(&reason.quantity).map_or_else(|| reason.quantity.clone(), |(_, stem)| stem);
+    suffixes.iter().find_map(|suffix| stem.strip_suffix(suffix)).map(str::to_owned)
 }

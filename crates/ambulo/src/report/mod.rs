@@ -11,7 +11,7 @@ mod summary;
 mod tables;
 
 pub use cycle_table::{CycleRow, cycle_rows};
-pub use figure::{FigureError, moments_figure};
+pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
 pub use scene_figures::SceneCurves;

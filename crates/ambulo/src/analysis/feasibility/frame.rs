@@ -9,7 +9,7 @@ use super::verdict::Check;
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::kinematics::BodyMotion;
 use crate::model::{CoordinateId, CoordinateKind, Drive, Model, Side};
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, Wrench};
 
 /// A sole below this height above the ground [m] ...
 const NEAR_GROUND_M: f64 = 0.06;
@@ -55,8 +55,8 @@ pub struct Frame<'a> {
     pub bodies: &'a [BodyMotion],
     /// What the ground does to the right and the left foot; `None` where it is not known.
     pub feet: [Option<FootFrame>; 2],
-    /// Force at the root that motion and loads disagree by [N], world axes.
-    pub residual: Vec3,
+    /// What motion and loads disagree by: force [N] and moment about the root joint [N.m], world axes.
+    pub residual: Wrench,
     /// Velocity of the ground [m/s]: the belt's on a treadmill.
     pub ground_velocity: Vec3,
     /// Height of the ground above the world's origin [m].
@@ -175,7 +175,7 @@ fn limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds, knee
 /// Measures one instant; `visit` receives every value with its limit, feasible or not. Allocates nothing.
 ///
 /// Returns false if the ground forces of the instant are not all there (a foot may stand where nothing measures): moments, powers,
-/// flight and support are then not judged.
+/// flight, support and balance are then not judged.
 ///
 /// # Panics
 /// If a slice of the frame is shorter than the model.
@@ -186,7 +186,7 @@ pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measu
             visit(m);
         }
     };
-    let unsupported = share(frame.residual.norm(), judge.weight);
+    let unsupported = share(frame.residual.force.norm(), judge.weight);
     let ground_known = frame.feet.iter().any(Option::is_some);
     let whole = !ground_known
         || unsupported <= t.support_bw
@@ -200,12 +200,16 @@ pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measu
         }
     }
     if whole && ground_known {
-        let [value, limit] = [unsupported, t.support_bw];
-        visit(Measurement { check: Check::Support, of: Measured::Body, value, limit, share: share(value, limit) });
+        let of = Measured::Body;
+        let mut say = |check: Check, value: f64, limit: f64| {
+            visit(Measurement { check, of, value, limit, share: share(value, limit) });
+        };
+        say(Check::Support, unsupported, t.support_bw);
+        say(Check::Balance, frame.residual.moment.norm() / judge.person.mass_kg, t.balance_nm_kg);
         let carried: f64 = frame.feet.iter().flatten().map(|foot| foot.force.dot(&judge.up)).sum();
         let flies = frame.walking && carried < FLIGHT_LOAD_BW * judge.weight;
         let [value, share] = if flies { [f64::INFINITY; 2] } else { [0.0, 0.0] };
-        visit(Measurement { check: Check::Flight, of: Measured::Body, value, limit: t.flight_s, share });
+        visit(Measurement { check: Check::Flight, of, value, limit: t.flight_s, share });
     }
     whole
 }

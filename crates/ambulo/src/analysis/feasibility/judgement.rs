@@ -12,7 +12,7 @@ use crate::ground::{BodyForces, MeasuredGround, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
-use crate::spatial::Vec3;
+use crate::spatial::{Vec3, Wrench};
 
 /// A motion and its forces, whoever made them.
 #[derive(Debug, Clone, Copy)]
@@ -83,7 +83,7 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
 // A track for each check of each coordinate, then of each foot, then of the whole body.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
-const OF_BODY: [Check; 2] = [Check::Flight, Check::Support];
+const OF_BODY: [Check; 3] = [Check::Flight, Check::Support, Check::Balance];
 
 fn slot(model: &Model, measurement: &Measurement) -> Option<usize> {
     let among = |checks: &[Check]| checks.iter().position(|check| *check == measurement.check);
@@ -139,7 +139,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
             powers: &power,
             bodies,
             feet: feet.map(|foot| foot.map(|f| foot_frame(f, i))),
-            residual: roots.iter().map(|&root| forces.reactions[root][i].wrench.force).sum(),
+            residual: residual(forces, &roots, i),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
             ground_height: height,
             walking: froude.is_none_or(|froude| froude < judge.thresholds.running_froude),
@@ -156,7 +156,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
     });
     if let Some(first) = first_unseen {
         let message = format!(
-            "moments, powers, flight and support were not judged in {unseen} of {} frames (the first at {:.3} s): a foot may stand there where nothing measures its force",
+            "moments, powers, flight, support and balance were not judged in {unseen} of {} frames (the first at {:.3} s): a foot may stand there where nothing measures its force",
             trajectory.grid().frames,
             trajectory.grid().time(first)
         );
@@ -168,6 +168,16 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
 /// Least number of frames in a row that is no noise.
 fn frames_that_last(shortest_s: f64, grid: TimeGrid) -> usize {
     ((shortest_s / grid.step_s - 1e-9).ceil().max(1.0) as usize).min(grid.frames.max(1))
+}
+
+/// The wrench at the roots, about the first one's centre.
+fn residual(forces: &Forces, roots: &[usize], frame: usize) -> Wrench {
+    let reactions = || roots.iter().map(|&root| forces.reactions[root][frame]);
+    let Some(first) = reactions().next() else { return Wrench::ZERO };
+    reactions().fold(Wrench::ZERO, |sum, reaction| {
+        let moved = reaction.wrench.about(reaction.center - first.center);
+        Wrench { force: sum.force + moved.force, moment: sum.moment + moved.moment }
+    })
 }
 
 fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {
@@ -281,6 +291,9 @@ fn message(m: &Measurement, quantity: &str, side: Option<Side>, [from, to]: [f64
         ),
         Check::Support => format!(
             "the motion needs {value:.2} body weights more than ground and muscles give; {limit:.2} are allowed ({when})"
+        ),
+        Check::Balance => format!(
+            "the motion needs {value:.2} N.m/kg about the root that ground and muscles do not give; {limit:.2} are allowed ({when})"
         ),
     }
 }

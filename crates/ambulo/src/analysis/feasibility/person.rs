@@ -1,6 +1,7 @@
 //! Whose motion it is: size, and where the soles are.
 
 use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::model::anthropometry::foot::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::Vec3;
@@ -10,12 +11,6 @@ use crate::spatial::Vec3;
 const THIGH_AND_SHANK: f64 = 0.48;
 /// Stature of a man of 72.6 kg [m]: where a model has no legs, stature goes with the cube root of mass.
 const REFERENCE: (f64, f64) = (72.6, 1.80);
-// A foot by stature, as in `model::anthropometry`: Drillis and Contini.
-const FOOT_LENGTH: f64 = 0.152;
-const FOOT_WIDTH: f64 = 0.055;
-const ANKLE_HEIGHT: f64 = 0.039;
-const HEEL_TO_ANKLE: f64 = 0.25;
-const HEEL_TO_BALL: f64 = 0.74;
 
 /// A person: whose strength, weight and soles a motion is judged by.
 #[derive(Debug, Clone, PartialEq)]

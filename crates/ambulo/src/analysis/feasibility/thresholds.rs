@@ -47,6 +47,8 @@ pub struct Thresholds {
     pub absorption_w_kg: f64,
     /// Largest force at the root that nothing supplies [body weights].
     pub support_bw: f64,
+    /// Largest moment about the root that nothing supplies [N.m/kg].
+    pub balance_nm_kg: f64,
 }
 
 impl Default for Thresholds {
@@ -71,7 +73,8 @@ impl Default for Thresholds {
             range_slack_rad: 10_f64.to_radians(),
             generation_w_kg: 15.0,
             absorption_w_kg: 20.0,
-            support_bw: 0.5,
+            support_bw: 0.4,
+            balance_nm_kg: 1.5,
         }
     }
 }
@@ -128,8 +131,9 @@ impl Thresholds {
             read(&power, "generation_w_kg", [0.0, 1000.0], &mut t.generation_w_kg)?;
             read(&power, "absorption_w_kg", [0.0, 1000.0], &mut t.absorption_w_kg)?;
         }
-        if let Some(support) = section(&root, "support", &["force_bw"])? {
+        if let Some(support) = section(&root, "support", &["force_bw", "moment_nm_kg"])? {
             read(&support, "force_bw", [0.0, 100.0], &mut t.support_bw)?;
+            read(&support, "moment_nm_kg", [0.0, 1000.0], &mut t.balance_nm_kg)?;
         }
         Ok(t)
     }

@@ -24,11 +24,13 @@ pub enum Check {
     Flight,
     /// Force at the root that neither the ground nor a muscle supplies.
     Support,
+    /// Moment about the root that neither the ground nor a muscle supplies.
+    Balance,
 }
 
 impl Check {
     /// All checks, in the order in which they are reported.
-    pub const ALL: [Check; 8] = [
+    pub const ALL: [Check; 9] = [
         Check::Strength,
         Check::Range,
         Check::Power,
@@ -37,6 +39,7 @@ impl Check {
         Check::Sliding,
         Check::Flight,
         Check::Support,
+        Check::Balance,
     ];
 
     /// The name in files.
@@ -51,6 +54,7 @@ impl Check {
             Check::Sliding => "sliding",
             Check::Flight => "flight",
             Check::Support => "support",
+            Check::Balance => "balance",
         }
     }
 
@@ -66,6 +70,7 @@ impl Check {
             Check::Sliding => "m/s",
             Check::Flight => "s",
             Check::Support => "BW",
+            Check::Balance => "N.m/kg",
         }
     }
 }

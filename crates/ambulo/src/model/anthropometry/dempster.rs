@@ -4,15 +4,15 @@
 //! gyration about the mass centre, as transcribed in BMClab/BMC (`data/BSP_DempsterWinter.txt`), read. Lengths: Drillis and
 //! Contini 1966 as in Winter, figure 4.1 (unverified).
 
-use super::foot::{BALL_RADIUS, HEEL_TO_ANKLE, HEEL_TO_BALL};
-use super::proportions::{ANKLE_HEIGHT, Lengths, Lump, Proportions, Row};
+use super::foot::{ANKLE_HEIGHT, BALL_RADIUS, FOOT_LENGTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
+use super::proportions::{Lengths, Lump, Proportions, Row};
 
 /// Shares of stature. Shoulder and mid-hip stand at 0.818 and 0.530.
 const LENGTHS: Lengths = Lengths {
     thigh: 0.245,
     shank: 0.246,
     ankle_height: ANKLE_HEIGHT,
-    foot: 0.152,
+    foot: FOOT_LENGTH,
     lumbar: None,
     shoulder: 0.288,
     head: 0.130,

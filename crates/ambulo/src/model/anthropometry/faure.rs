@@ -3,8 +3,8 @@
 //! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking", table 1 and section 4.1: "uniform density and a
 //! cylindrical shape". The paper gives no density and no stature; both stand below.
 
-use super::foot::HEEL_TO_ANKLE;
-use super::proportions::{ANKLE_HEIGHT, Lengths, Lump, Proportions};
+use super::foot::{ANKLE_HEIGHT, FOOT_LENGTH, HEEL_TO_ANKLE};
+use super::proportions::{Lengths, Lump, Proportions};
 use std::f64::consts::PI;
 
 /// Mass [% of body mass], length [% of stature].
@@ -28,8 +28,7 @@ const REFERENCE_STATURE: f64 = 1.80;
 /// and a thigh's inertia about the hip 0.1 % larger.
 const DENSITY: f64 = 1050.0;
 
-/// Drillis and Contini 1966, as in Winter, figure 4.1 (unverified): shares of stature.
-const FOOT_LENGTH: f64 = 0.152;
+/// Drillis and Contini 1966, as in Winter, figure 4.1 (unverified): share of stature.
 const HAND_LENGTH: f64 = 0.108;
 
 /// Radius of a cylinder of the reference body, share of stature: m = rho pi r² l.

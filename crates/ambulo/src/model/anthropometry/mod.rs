@@ -51,7 +51,7 @@ mod dempster;
 mod dimensions;
 mod faure;
 mod figure;
-mod foot;
+pub(crate) mod foot;
 mod proportions;
 mod ranges;
 mod table;

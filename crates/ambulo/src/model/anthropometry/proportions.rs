@@ -62,9 +62,6 @@ pub(super) struct Proportions {
     pub(super) torso: Vec<Lump>,
 }
 
-/// Height of the ankle, of Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
-pub(super) const ANKLE_HEIGHT: f64 = 0.039;
-
 impl Lengths {
     /// Mid-hip above the ground.
     pub(super) fn leg(&self) -> f64 {

@@ -1,0 +1,112 @@
+//! The verdict of `ambulo forces`: exit code, words, summary, figure, and the file of thresholds.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod workbench;
+
+use serde_json::Value;
+use workbench::{FORCES, RAW, Workbench};
+
+/// `forces` on the built-in walk, judged by the built-in limits.
+const STRICT: &[&str] = FORCES.split_at(8).0;
+
+#[test]
+fn a_feasible_motion_exits_with_zero_and_says_how_near_it_came() {
+    let bench = Workbench::new("feasible");
+    let run = bench.forces(&RAW).done();
+    assert!(run.stdout.contains("  verdict   feasible: at most "), "{}", run.stdout);
+    let verdict = &bench.json("out/summary.json")["verdict"];
+    assert_eq!(verdict["feasible"], true);
+    assert_eq!(verdict["reasons"], serde_json::json!([]));
+    let closest = verdict["closest"].as_array().unwrap();
+    assert!(closest.iter().any(|c| c["check"] == "strength" && c["share"].as_f64().unwrap() < 1.0), "{closest:?}");
+    let skipped = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "left out by the thresholds");
+    assert_eq!(skipped.map(|n| n["check"].clone()).collect::<Vec<Value>>(), ["center_of_pressure", "sliding"]);
+    assert!(!bench.text("out/figures/moments.svg").contains("red: not feasible"));
+}
+
+#[test]
+fn the_built_in_walks_sliding_feet_are_found_by_the_built_in_limits() {
+    let bench = Workbench::new("sliding");
+    let run = bench.run(&[STRICT, &RAW].concat()).infeasible();
+    assert!(run.stdout.contains("  verdict   infeasible, "), "{}", run.stdout);
+    assert!(run.stdout.contains("sliding: the loaded left foot slides at 0.9"), "{}", run.stdout);
+    assert!(run.stdout.contains("more in summary.json"), "{}", run.stdout);
+    let verdict = bench.json("out/summary.json")["verdict"].clone();
+    assert_eq!(verdict["feasible"], false);
+    for reason in verdict["reasons"].as_array().unwrap() {
+        for key in ["check", "quantity", "unit", "message", "side"] {
+            assert!(reason[key].is_string(), "no `{key}` in {reason}");
+        }
+        let time = |i: usize| reason["time_s"][i].as_f64().unwrap();
+        assert!(time(0) <= reason["at_s"].as_f64().unwrap() && reason["at_s"].as_f64().unwrap() <= time(1), "{reason}");
+        assert!(reason["value"].as_f64().unwrap() > reason["limit"].as_f64().unwrap(), "{reason}");
+    }
+    let figure = bench.text("out/figures/moments.svg");
+    assert!(figure.contains("red: not feasible") && figure.contains("#DC0000"), "no red in the figure");
+    // Everything else is written as for a feasible motion.
+    bench.forces(&[&RAW[..], &["-o", "lenient"]].concat()).done();
+    assert_eq!(bench.read("out/moments.sto"), bench.read("lenient/moments.sto"));
+    let quiet = bench.run(&[STRICT, &RAW, &["--quiet"]].concat()).infeasible();
+    assert!(quiet.stdout.is_empty() && quiet.stderr.is_empty());
+}
+
+#[test]
+fn thresholds_are_read_from_a_file() {
+    let bench = Workbench::new("thresholds");
+    let limits =
+        "skip = [\"sliding\", \"center_of_pressure\"]\n[friction]\navailable = 0.05\n[strength]\nshare = 0.2\n";
+    bench.write("limits.toml", limits);
+    let run = bench.run(&[STRICT, &RAW, &["--thresholds", "limits.toml"]].concat()).infeasible();
+    assert!(run.stdout.contains("friction: the left foot needs a friction of 0."), "{}", run.stdout);
+    let verdict = bench.json("out/summary.json")["verdict"].clone();
+    let checks: Vec<&str> =
+        verdict["reasons"].as_array().unwrap().iter().map(|r| r["check"].as_str().unwrap()).collect();
+    assert!(checks.contains(&"friction") && checks.contains(&"strength"), "{checks:?}");
+    assert!(!checks.contains(&"sliding"), "{checks:?}");
+}
+
+#[test]
+fn a_file_of_thresholds_that_cannot_be_used_is_refused() {
+    let bench = Workbench::new("bad_thresholds");
+    let refused = |file: &str, words: &[&str]| bench.run(&[STRICT, &["--thresholds", file]].concat()).refused(words);
+    bench.write("a.toml", "[friction]\navailable = \"much\"\n");
+    refused("a.toml", &["a.toml: line 2, `friction.available`: found \"much\"; expected a number from 0 to 5"]);
+    bench.write("a.toml", "[frictoin]\n");
+    refused("a.toml", &["a.toml: line 1, `frictoin`: this key is not known here", "hint: is `friction` meant?"]);
+    bench.write("a.toml", [0xff, 0xfe]);
+    refused("a.toml", &["a.toml"]);
+    refused("none.toml", &["none.toml: there is no such file"]);
+    refused("figure.osim", &["figure.osim: line 1", "this is not TOML"]);
+}
+
+#[test]
+fn without_ground_forces_only_the_joints_are_judged() {
+    let bench = Workbench::new("no_ground");
+    bench.run(&[&FORCES[..4], &RAW, &["--no-ground"]].concat()).done();
+    let verdict = bench.json("out/summary.json")["verdict"].clone();
+    let unjudged = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "no ground forces").count();
+    assert_eq!(unjudged, 6, "{verdict}");
+    assert!(verdict["closest"].as_array().unwrap().iter().any(|c| c["check"] == "strength"));
+}
+
+#[test]
+fn what_a_device_gives_need_not_be_given_by_muscles() {
+    let bench = Workbench::new("device");
+    let weak = "skip = [\"sliding\", \"center_of_pressure\"]\n[strength]\nshare = 0.25\n";
+    bench.write("weak.toml", weak);
+    let judge = |more: &[&str]| {
+        bench.run(&[STRICT, &RAW, &["--thresholds", "weak.toml"], more].concat()).infeasible();
+        let verdict = bench.json("out/summary.json")["verdict"].clone();
+        let reasons = verdict["reasons"].as_array().unwrap().clone();
+        reasons.iter().filter(|r| r["quantity"] == "ankle_angle_r_moment").count()
+    };
+    let alone = judge(&[]);
+    assert!(alone > 0);
+    // A device that gives the right ankle all it needs.
+    let moments = bench.table("out/moments.sto");
+    let (times, ankle) = (moments.times().unwrap(), moments.column("ankle_angle_r_moment").unwrap());
+    let rows: Vec<String> = times.iter().zip(ankle).map(|(t, m)| format!("{t},{m}")).collect();
+    bench.write("device.csv", format!("time,ankle_angle_r_moment\n{}\n", rows.join("\n")));
+    assert_eq!(judge(&["--device", "device.csv"]), 0);
+}

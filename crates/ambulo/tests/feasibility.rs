@@ -1,0 +1,783 @@
+//! Whether a person could do this: each check by itself, whole motions, thresholds, and recordings of people.
+//!
+//! Recordings are looked for as tests/opensim_parity.rs does; without them their tests say `skipped` and pass.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+mod common;
+
+use ambulo::analysis::feasibility::{
+    Check, Evidence, FootFrame, Frame, Hill, Judge, Measured, Measurement, Person, StrengthCurve, Thresholds, Verdict,
+    check, check_frame, knee_flexion_of_motion, knee_flexion_of_ranges,
+};
+use ambulo::analysis::{Settings, analyse};
+use ambulo::dynamics::{Workspace, inverse};
+use ambulo::findings::Findings;
+use ambulo::ground::{BodyForces, MeasuredGround};
+use ambulo::kinematics::{BodyMotion, Posture, Trajectory, body_motion};
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::model::{Model, Side, from_osim};
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window, coordinates_from_table, force_recordings};
+use ambulo::spatial::{Vec3, Wrench};
+use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
+use ambulo_formats::osim::OsimModel;
+use ambulo_formats::table::Table;
+use common::assert_near;
+use std::path::{Path, PathBuf};
+
+const DOCUMENT: &str = include_str!("../../../docs/FEASIBILITY.md");
+const GRAVITY: f64 = 9.80665;
+
+fn man() -> Human {
+    Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false }.human().unwrap()
+}
+
+// ---- strength ----
+
+#[test]
+fn the_strength_of_the_reference_man_is_that_of_the_table() {
+    let at = |name: &str, angle_deg: f64, sign: f64| {
+        let curve = StrengthCurve::built_in(name, 72.6, 1.80).unwrap();
+        curve.available(f64::to_radians(angle_deg), 0.0, sign, 1.4)
+    };
+    for (name, angle_deg, positive, negative) in [
+        ("hip_flexion_r", 0.0, 197.2, 313.1),
+        ("hip_adduction_l", -30.0, 295.4, 189.9),
+        ("knee_angle_r", -60.0, 258.7, 144.6),
+        ("ankle_angle_l", 5.0, 60.5, 292.5),
+        // Between two angles on a straight line, beyond the table's ends its last values.
+        ("ankle_angle_r", 2.5, (61.0 + 60.5) / 2.0, (288.3 + 292.5) / 2.0),
+        ("knee_angle_r", 15.0, 264.0, 145.3),
+        ("hip_flexion_r", -45.0, 188.1, 235.2),
+    ] {
+        assert_near(at(name, angle_deg, 1.0), positive, 1e-9, name);
+        assert_near(at(name, angle_deg, -1.0), negative, 1e-9, name);
+    }
+    let rows: usize = ["hip_flexion_r", "hip_adduction_r", "knee_angle_r", "ankle_angle_r"]
+        .map(|name| StrengthCurve::built_in(name, 72.6, 1.8).unwrap().angles.len())
+        .iter()
+        .sum();
+    assert_eq!(rows, 43);
+    assert_eq!(StrengthCurve::built_in("lumbar_extension", 72.6, 1.8), None);
+    assert_eq!(StrengthCurve::built_in("subtalar_angle_r", 72.6, 1.8), None);
+}
+
+#[test]
+fn strength_goes_with_mass_times_height() {
+    let strength = |mass, height| StrengthCurve::built_in("knee_angle_r", mass, height).unwrap().positive[3];
+    assert_near(strength(145.2, 1.8) / strength(72.6, 1.8), 2.0, 1e-12, "twice the mass");
+    assert_near(strength(72.6, 0.9) / strength(72.6, 1.8), 0.5, 1e-12, "half the height");
+}
+
+#[test]
+fn muscles_give_less_the_faster_they_shorten_and_more_while_they_are_stretched() {
+    for name in ["hip_flexion_r", "hip_adduction_r", "knee_angle_l", "ankle_angle_r", "elbow_flex_r"] {
+        for hill in Hill::of_coordinate(name) {
+            let factor = |speed: f64| hill.factor(speed, 1.4);
+            assert_near(factor(0.0), 1.0, 1e-12, name);
+            assert_near(factor(hill.at_75), 0.75, 1e-12, name);
+            assert_near(factor(hill.at_50), 0.5, 1e-12, name);
+            let speeds: Vec<f64> = (-400..=400).map(|i| 0.1 * f64::from(i)).collect();
+            for pair in speeds.windows(2) {
+                assert!(factor(pair[0]) >= factor(pair[1]), "{name} at {} rad/s", pair[0]);
+            }
+            assert!(factor(40.0) >= 0.0 && factor(-40.0) < 1.4 && factor(-40.0) > 1.35, "{name}");
+            // One slope through rest: central difference against one-sided, both wrong by less than h/2 times a
+            // curvature of at most 2 s²/rad².
+            let h = 1e-5;
+            let (before, after) = ((factor(0.0) - factor(-h)) / h, (factor(h) - factor(0.0)) / h);
+            assert_near(before, after, 1e-4, name);
+        }
+    }
+}
+
+#[test]
+fn a_knee_that_counts_flexion_positive_is_as_strong_as_one_that_counts_it_negative() {
+    let curve = StrengthCurve::built_in("knee_angle_r", 80.0, 1.7).unwrap();
+    let turned = curve.reversed();
+    for (angle, rate, sign) in [(-0.3, 2.0, 1.0), (-0.3, 2.0, -1.0), (-1.2, -4.0, 1.0), (0.0, -1.0, -1.0)] {
+        let (a, b) = (curve.available(angle, rate, sign, 1.4), turned.available(-angle, -rate, -sign, 1.4));
+        assert_near(a, b, 1e-9, &format!("{angle} {rate} {sign}"));
+    }
+    assert!(curve.available(-0.3, 0.0, 1.0, 1.4) > 1.5 * curve.available(-0.3, 0.0, -1.0, 1.4), "extensors win");
+}
+
+// ---- one instant ----
+
+/// A man who stands on both feet, with everything that one instant needs.
+struct Standing {
+    human: Human,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    generalized: Vec<f64>,
+    powers: Vec<f64>,
+    feet: [Option<FootFrame>; 2],
+    residual: Wrench,
+    ground_velocity: Vec3,
+    walking: bool,
+}
+
+impl Standing {
+    fn new() -> Standing {
+        let human = man();
+        let n = human.model.coordinates().len();
+        let q = human.model.coordinates().iter().map(|c| c.default_value).collect();
+        let foot = |side: f64| FootFrame {
+            force: Vec3::new(0.0, 0.5 * 72.6 * GRAVITY, 0.0),
+            center_of_pressure: Vec3::new(0.04, 0.0, side * 0.5 * human.dimensions.hip_width),
+        };
+        let feet = [Some(foot(1.0)), Some(foot(-1.0))];
+        let zeros = vec![0.0; n];
+        Standing {
+            q,
+            qd: zeros.clone(),
+            generalized: zeros.clone(),
+            powers: zeros,
+            feet,
+            residual: Wrench::ZERO,
+            ground_velocity: Vec3::zeros(),
+            walking: true,
+            human,
+        }
+    }
+
+    fn set(&self, name: &str) -> usize {
+        self.human.model.coordinate(name).unwrap().index()
+    }
+
+    fn bodies(&self) -> Vec<BodyMotion> {
+        let rest = vec![0.0; self.q.len()];
+        body_motion(&self.human.model, Posture { q: &self.q, qd: &self.qd, qdd: &rest })
+    }
+
+    fn measure(&self, thresholds: &Thresholds) -> (Vec<Measurement>, bool) {
+        let person = Person::of_human(&self.human);
+        let judge = Judge::new(&self.human.model, &person, thresholds, -1.0);
+        let frame = Frame {
+            q: &self.q,
+            qd: &self.qd,
+            generalized: &self.generalized,
+            powers: &self.powers,
+            bodies: &self.bodies(),
+            feet: self.feet,
+            residual: self.residual,
+            ground_velocity: self.ground_velocity,
+            ground_height: 0.0,
+            walking: self.walking,
+        };
+        let mut list = Vec::new();
+        let whole = check_frame(&judge, &frame, |m| list.push(m));
+        (list, whole)
+    }
+
+    /// The checks that an instant does not pass.
+    fn against(&self) -> Vec<Check> {
+        let mut checks: Vec<Check> =
+            self.measure(&Thresholds::default()).0.iter().filter(|m| m.share > 1.0).map(|m| m.check).collect();
+        checks.dedup();
+        checks
+    }
+}
+
+#[test]
+fn standing_still_is_feasible_and_every_check_is_made() {
+    let standing = Standing::new();
+    assert_eq!(standing.against(), []);
+    let (list, whole) = standing.measure(&Thresholds::default());
+    assert!(whole);
+    for check in Check::ALL {
+        assert!(list.iter().any(|m| m.check == check), "{check}");
+    }
+    // Eleven rotations have ranges (the root has none): lumbar, and hip, knee, ankle, shoulder, elbow on both sides.
+    assert_eq!(list.iter().filter(|m| m.check == Check::Range).count(), 11);
+    assert_eq!(list.iter().filter(|m| m.check == Check::Strength).count(), 6);
+}
+
+#[test]
+fn each_check_finds_its_own_fault_and_nothing_else() {
+    type Fault<'a> = &'a dyn Fn(&mut Standing);
+    let faults: [(Check, Fault<'_>); 10] = [
+        (Check::Strength, &|s| {
+            // Plantarflexors at rest and 0 deg: 288.3 N.m, and 7.3 N.m of tolerance.
+            let i = s.set("ankle_angle_r");
+            s.generalized[i] = -296.0;
+        }),
+        (Check::Range, &|s| {
+            let i = s.set("elbow_flex_l");
+            s.q[i] = 171_f64.to_radians();
+        }),
+        (Check::Power, &|s| {
+            let i = s.set("hip_flexion_l");
+            s.powers[i] = 15.1 * 72.6;
+        }),
+        (Check::Power, &|s| {
+            let i = s.set("elbow_flex_l");
+            s.powers[i] = -20.1 * 72.6;
+        }),
+        (Check::Friction, &|s| s.feet[0].as_mut().unwrap().force.x = 0.61 * 0.5 * 72.6 * GRAVITY),
+        (Check::CenterOfPressure, &|s| s.feet[1].as_mut().unwrap().center_of_pressure.z -= 0.09),
+        (Check::Sliding, &|s| {
+            let i = s.set("pelvis_tx");
+            s.qd[i] = 0.41;
+        }),
+        (Check::Flight, &|s| s.feet = [0, 1].map(|i| s.feet[i].map(|f| FootFrame { force: Vec3::zeros(), ..f }))),
+        (Check::Support, &|s| s.residual.force.y = 0.41 * 72.6 * GRAVITY),
+        (Check::Balance, &|s| s.residual.moment.z = -1.51 * 72.6),
+    ];
+    for (check, fault) in faults {
+        let mut standing = Standing::new();
+        fault(&mut standing);
+        assert_eq!(standing.against(), [check]);
+    }
+}
+
+#[test]
+fn what_stays_just_inside_its_limit_is_feasible() {
+    let mut standing = Standing::new();
+    let (ankle, elbow, hip, forward) = (
+        standing.set("ankle_angle_r"),
+        standing.set("elbow_flex_l"),
+        standing.set("hip_flexion_l"),
+        standing.set("pelvis_tx"),
+    );
+    standing.generalized[ankle] = -295.0;
+    standing.q[elbow] = 169_f64.to_radians();
+    standing.powers[hip] = 14.9 * 72.6;
+    standing.feet[0].as_mut().unwrap().force.x = 0.59 * 0.5 * 72.6 * GRAVITY;
+    standing.feet[1].as_mut().unwrap().center_of_pressure.z -= 0.07;
+    standing.qd[forward] = 0.39;
+    standing.residual.force.x = 0.39 * 72.6 * GRAVITY;
+    standing.residual.moment.z = 1.49 * 72.6;
+    assert_eq!(standing.against(), []);
+}
+
+#[test]
+fn a_treadmill_that_goes_with_the_foot_is_no_sliding_and_one_that_stands_is() {
+    let mut standing = Standing::new();
+    let i = standing.set("pelvis_tx");
+    standing.qd[i] = -1.2;
+    assert_eq!(standing.against(), [Check::Sliding]);
+    standing.ground_velocity = Vec3::new(-1.2, 0.0, 0.0);
+    assert_eq!(standing.against(), []);
+    // A foot that carries little may slide.
+    standing.ground_velocity = Vec3::zeros();
+    for foot in standing.feet.iter_mut().flatten() {
+        foot.force *= 0.9;
+    }
+    assert_eq!(standing.against(), []);
+}
+
+#[test]
+fn the_sole_ends_where_the_foot_ends_with_a_margin_of_three_centimetres() {
+    let standing = Standing::new();
+    let d = standing.human.dimensions;
+    let outside = |x: f64, z: f64| {
+        let mut standing = Standing::new();
+        let foot = standing.feet[0].as_mut().unwrap();
+        foot.center_of_pressure.x = x;
+        foot.center_of_pressure.z += z;
+        let (list, _) = standing.measure(&Thresholds::default());
+        list.iter().find(|m| m.check == Check::CenterOfPressure).unwrap().value
+    };
+    let (heel, toe) = (-d.heel_to_ankle, d.ankle_to_ball + d.ball_to_toe);
+    assert_near(outside(heel, 0.0), 0.0, 1e-9, "at the heel");
+    assert_near(outside(toe, 0.0), 0.0, 1e-9, "at the tip");
+    assert_near(outside(heel - 0.05, 0.0), 0.05, 1e-9, "behind the heel");
+    assert_near(outside(toe + 0.02, 0.0), 0.02, 1e-9, "before the tip");
+    assert_near(outside(0.05, 0.5 * d.foot_width + 0.01), 0.01, 1e-9, "beside the foot");
+}
+
+#[test]
+fn runners_may_fly() {
+    let mut standing = Standing::new();
+    standing.feet = standing.feet.map(|foot| foot.map(|f| FootFrame { force: Vec3::zeros(), ..f }));
+    standing.walking = false;
+    assert_eq!(standing.against(), []);
+}
+
+#[test]
+fn where_an_unloaded_foot_stands_still_on_the_ground_the_forces_are_not_all_there() {
+    let mut standing = Standing::new();
+    standing.feet[1].as_mut().unwrap().force = Vec3::zeros();
+    standing.residual.force.y = 0.9 * 72.6 * GRAVITY;
+    let ankle = standing.set("ankle_angle_r");
+    standing.generalized[ankle] = -1000.0;
+    let (list, whole) = standing.measure(&Thresholds::default());
+    assert!(!whole);
+    assert!(!list.iter().any(|m| matches!(m.check, Check::Support | Check::Strength | Check::Flight)));
+    // In the air it carries nothing for sure.
+    let (hip, knee) = (standing.set("hip_flexion_l"), standing.set("knee_angle_l"));
+    (standing.q[hip], standing.q[knee]) = (0.8, -1.4);
+    assert_eq!(standing.against(), [Check::Strength, Check::Support]);
+}
+
+#[test]
+fn a_measurement_says_what_was_found_and_what_is_allowed_in_the_unit_of_its_check() {
+    let mut standing = Standing::new();
+    let knee = standing.set("knee_angle_r");
+    standing.q[knee] = -163_f64.to_radians();
+    let (list, _) = standing.measure(&Thresholds::default());
+    let id = standing.human.model.coordinate("knee_angle_r").unwrap();
+    let m = list.iter().find(|m| m.check == Check::Range && m.of == Measured::Coordinate(id)).unwrap();
+    assert_near(m.value, -163.0, 1e-9, "angle [deg]");
+    assert_near(m.limit, -160.0, 1e-9, "limit [deg]");
+    assert!(m.share > 1.0);
+}
+
+#[test]
+fn the_knee_bends_where_its_range_and_its_motion_say() {
+    let human = man();
+    assert!(knee_flexion_of_ranges(&human.model) < 0.0);
+    let trajectory = still(&human, 5, &[("knee_angle_r", -0.4), ("knee_angle_l", 0.1)]);
+    assert!(knee_flexion_of_motion(&human.model, &trajectory) < 0.0);
+    let other = still(&human, 5, &[("knee_angle_r", 0.4), ("knee_angle_l", -0.1)]);
+    assert!(knee_flexion_of_motion(&human.model, &other) > 0.0);
+}
+
+// ---- whole motions ----
+
+/// A man who holds still, with some joints bent.
+fn still(human: &Human, frames: usize, bent: &[(&str, f64)]) -> Trajectory {
+    let grid = TimeGrid { start_s: 2.0, step_s: 0.01, frames };
+    let value = |name: &str, default: f64| bent.iter().find(|(n, _)| *n == name).map_or(default, |(_, v)| *v);
+    let coordinates = human.model.coordinates().iter();
+    let columns = coordinates
+        .map(|c| [vec![value(&c.name, c.default_value); frames], vec![0.0; frames], vec![0.0; frames]])
+        .collect();
+    Trajectory::new(&human.model, grid, columns).unwrap()
+}
+
+/// The verdict on a man who stands for a second while `force(frame)` acts on each foot's middle [N].
+fn judged(force: impl Fn(usize, Side) -> Vec3, thresholds: &Thresholds) -> (Verdict, Findings) {
+    judged_with(force, thresholds, &[])
+}
+
+/// The same with some coordinates elsewhere.
+fn judged_with(
+    force: impl Fn(usize, Side) -> Vec3,
+    thresholds: &Thresholds,
+    moved: &[(&str, f64)],
+) -> (Verdict, Findings) {
+    let human = man();
+    let (frames, model) = (101, &human.model);
+    let trajectory = still(&human, frames, moved);
+    let center = mass_center(&human);
+    let bodies = Side::BOTH.map(|side| {
+        let sign = if side == Side::Right { 1.0 } else { -1.0 };
+        let at = Vec3::new(center.x, 0.0, sign * 0.5 * human.dimensions.hip_width);
+        let forces: Vec<Vec3> = (0..frames).map(|i| force(i, side)).collect();
+        let moments: Vec<Vec3> = forces.iter().map(|f| at.cross(f)).collect();
+        let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
+        BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
+    });
+    let ground = MeasuredGround { bodies: bodies.to_vec() };
+    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    let evidence = Evidence { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
+    let mut findings = Findings::default();
+    let verdict = check(&evidence, &Person::of_human(&human), thresholds, &mut findings);
+    (verdict, findings)
+}
+
+fn mass_center(human: &Human) -> Vec3 {
+    let q: Vec<f64> = human.model.coordinates().iter().map(|c| c.default_value).collect();
+    let rest = vec![0.0; q.len()];
+    let bodies = body_motion(&human.model, Posture { q: &q, qd: &rest, qdd: &rest });
+    let weighted = human.model.bodies().iter().zip(bodies).map(|(b, m)| m.center * b.inertia.mass());
+    weighted.sum::<Vec3>() / human.model.mass()
+}
+
+const HALF: f64 = 0.5 * 72.6 * GRAVITY;
+
+#[test]
+fn a_man_who_stands_is_feasible_and_the_verdict_says_how_near_he_came() {
+    let (verdict, findings) = judged(|_, _| Vec3::new(0.0, HALF, 0.0), &Thresholds::default());
+    assert!(verdict.feasible && verdict.reasons.is_empty(), "{:?}", verdict.reasons);
+    assert!(findings.as_slice().is_empty());
+    assert_near(verdict.height_m, 1.80, 1e-12, "height");
+    let closest: Vec<Check> = verdict.closest.iter().map(|c| c.check).collect();
+    assert_eq!(closest, Check::ALL.into_iter().filter(|c| *c != Check::Flight).collect::<Vec<_>>());
+    assert!(verdict.closest.iter().all(|c| c.share <= 1.0));
+    let unknown = verdict.not_judged.iter().find(|n| n.check == Check::Strength).unwrap();
+    assert!(unknown.why.contains("lumbar_extension") && unknown.why.contains("arm_flex_r"), "{}", unknown.why);
+}
+
+#[test]
+fn a_fault_has_its_times_its_worst_value_and_a_sentence_and_short_ones_are_noise() {
+    // The right foot is pushed forwards and the left one backwards, a fifth of the load, from 2.30 to 2.49 s; and for
+    // two frames only (0.02 s) at 2.80 s.
+    let push = |i: usize, side: Side| {
+        let share = match i {
+            40 => 0.25,
+            30..50 | 80 | 81 => 0.2,
+            _ => 0.0,
+        };
+        Vec3::new(if side == Side::Right { share } else { -share } * HALF, HALF, 0.0)
+    };
+    let thresholds = Thresholds { friction: 0.1, ..Thresholds::default() };
+    let (verdict, _) = judged(push, &thresholds);
+    assert!(!verdict.feasible);
+    assert_eq!(verdict.reasons.len(), 2, "{:?}", verdict.reasons);
+    for (reason, side) in verdict.reasons.iter().zip(["r", "l"]) {
+        assert_eq!((reason.check, reason.quantity.as_str()), (Check::Friction, format!("friction_{side}").as_str()));
+        assert_near(reason.time_s[0], 2.30, 1e-9, "begin");
+        assert_near(reason.time_s[1], 2.49, 1e-9, "end");
+        assert_near(reason.at_s, 2.40, 1e-9, "worst");
+        assert_near(reason.value, 0.25, 1e-9, "value");
+        assert_near(reason.limit, 0.1, 1e-12, "limit");
+        assert_eq!(reason.unit, "1");
+    }
+    assert_eq!(
+        verdict.reasons[0].message,
+        "the right foot needs a friction of 0.25; 0.10 is there (from 2.300 to 2.490 s, worst at 2.400 s)"
+    );
+    // Asked for, the short one is found too.
+    let (verdict, _) = judged(push, &Thresholds { shortest_s: 0.0, ..thresholds });
+    assert_eq!(verdict.reasons.len(), 4);
+}
+
+#[test]
+fn a_walker_who_flies_longer_than_allowed_is_told_how_long() {
+    let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
+    // Held in the air, he should fall: that the support is missing too is left out here.
+    let thresholds = Thresholds { skip: vec![Check::Support, Check::Balance], ..Thresholds::default() };
+    let (verdict, findings) = judged_with(load, &thresholds, &[("pelvis_ty", 1.5)]);
+    assert_eq!(verdict.reasons.len(), 1, "{:?}", verdict.reasons);
+    let message = "no foot is loaded for 0.200 s while walking; 0.030 s are allowed (from 2.400 to 2.590 s)";
+    assert_eq!(verdict.reasons[0].message, message);
+    assert!(findings.as_slice().is_empty());
+    assert_eq!(verdict.not_judged[0].why, "left out by the thresholds");
+}
+
+#[test]
+fn where_nothing_measures_a_standing_man_nothing_is_judged_and_that_is_said() {
+    let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
+    let (verdict, findings) = judged(load, &Thresholds::default());
+    assert!(verdict.feasible, "{:?}", verdict.reasons);
+    let text = &findings.as_slice()[0].message;
+    assert!(text.contains("not judged in 20 of 101 frames (the first at 2.400 s)"), "{text}");
+}
+
+#[test]
+fn a_check_that_is_skipped_finds_nothing() {
+    let push = |_: usize, side: Side| Vec3::new(if side == Side::Right { 0.7 } else { -0.7 } * HALF, HALF, 0.0);
+    let (verdict, _) = judged(push, &Thresholds::default());
+    let found: Vec<Check> = verdict.reasons.iter().map(|r| r.check).collect();
+    assert!(found.contains(&Check::Friction), "{found:?}");
+    let skip = vec![Check::Friction, Check::Strength];
+    let (verdict, _) = judged(push, &Thresholds { skip, ..Thresholds::default() });
+    assert!(verdict.feasible, "{:?}", verdict.reasons);
+}
+
+// ---- thresholds ----
+
+#[test]
+fn the_file_in_the_documentation_holds_the_defaults() {
+    let block = DOCUMENT.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    assert_eq!(Thresholds::from_toml(block), Ok(Thresholds::default()));
+    assert_eq!(Thresholds::from_toml(""), Ok(Thresholds::default()));
+}
+
+#[test]
+fn every_key_changes_its_threshold() {
+    let text = r#"
+shortest_s = 0.1
+skip = ["flight", "center_of_pressure"]
+[person]
+mass_kg = 60
+height_m = 1.65
+[strength]
+share = 0.8
+tolerance_nm_kg = 0.05
+eccentric = 1.2
+[[strength.table]]
+coordinate = "lumbar_extension"
+angle_deg = [-30, 30]
+positive_nm = [200, 250]
+negative_nm = [100, 120.5]
+[friction]
+available = 0.3
+least_load_bw = 0.2
+[center_of_pressure]
+margin_m = 0.01
+least_load_bw = 0.3
+[flight]
+longest_s = 0.05
+running_froude = 0.6
+[sliding]
+speed_m_s = 0.1
+least_load_bw = 0.6
+[range]
+slack_deg = 5
+[power]
+generation_w_kg = 8
+absorption_w_kg = 9
+[support]
+force_bw = 0.2
+moment_nm_kg = 0.7
+"#;
+    let t = Thresholds::from_toml(text).unwrap();
+    let (name, curve) = t.tables[0].clone();
+    assert_eq!(name, "lumbar_extension");
+    assert_near(curve.available(0.0, 0.0, 1.0, 1.4), 225.0, 1e-9, "own table");
+    assert_near(curve.available(1.0, 0.0, -1.0, 1.4), 120.5, 1e-9, "own table's end");
+    let expected = Thresholds {
+        shortest_s: 0.1,
+        skip: vec![Check::Flight, Check::CenterOfPressure],
+        mass_kg: Some(60.0),
+        height_m: Some(1.65),
+        strength_share: 0.8,
+        strength_tolerance_nm_kg: 0.05,
+        eccentric: 1.2,
+        tables: t.tables.clone(),
+        friction: 0.3,
+        friction_load_bw: 0.2,
+        sole_margin_m: 0.01,
+        sole_load_bw: 0.3,
+        flight_s: 0.05,
+        running_froude: 0.6,
+        sliding_m_s: 0.1,
+        sliding_load_bw: 0.6,
+        range_slack_rad: 5_f64.to_radians(),
+        generation_w_kg: 8.0,
+        absorption_w_kg: 9.0,
+        support_bw: 0.2,
+        balance_nm_kg: 0.7,
+    };
+    assert_eq!(t, expected);
+}
+
+#[test]
+fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
+    for (text, message) in [
+        ("[friction]\navailable = -0.1\n", "line 2, `friction.available`: found -0.1; expected a number from 0 to 5"),
+        (
+            "[friction]\n\navailable = nan\n",
+            "line 3, `friction.available`: found nan; expected a number from 0 to 5. hint: numbers are finite and at most 1e15 in size",
+        ),
+        (
+            "[friction]\navailabel = 0.5\n",
+            "line 2, `friction.availabel`: this key is not known here; expected `available`, `least_load_bw`. hint: is `available` meant?",
+        ),
+        ("friction = 0.5\n", "line 1, `friction`: found 0.5; expected a table under the header [friction]"),
+        ("[person]\nmass_kg = 1000\n", "line 2, `person.mass_kg`: found 1000; expected a number from 2 to 300"),
+        (
+            "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [10, 0]\n",
+            "line 3, `strength.table[1].angle_deg`: found [10, 0]; expected a list of one or more rising angles",
+        ),
+        (
+            "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [0, 10]\npositive_nm = [1]\nnegative_nm = [1, 2]\n",
+            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one an angle",
+        ),
+    ] {
+        assert_eq!(Thresholds::from_toml(text).unwrap_err().to_string(), message);
+    }
+    let error = Thresholds::from_toml("skip = [\"slidng\"]").unwrap_err().to_string();
+    assert!(
+        error.starts_with("line 1, `skip[1]`: found \"slidng\"; expected one of \"strength\", \"range\""),
+        "{error}"
+    );
+    assert!(error.ends_with("hint: is \"sliding\" meant?"), "{error}");
+    let error = Thresholds::from_toml("[friction\n").unwrap_err().to_string();
+    assert!(error.contains("this is not TOML") && error.contains("docs/FEASIBILITY.md"), "{error}");
+}
+
+#[test]
+fn a_table_of_ones_own_is_judged_by() {
+    let mut standing = Standing::new();
+    let lumbar = standing.set("lumbar_extension");
+    standing.generalized[lumbar] = 150.0;
+    let text = "[[strength.table]]\ncoordinate = \"lumbar_extension\"\nangle_deg = [0]\npositive_nm = [100]\nnegative_nm = [50]\n";
+    let own = Thresholds::from_toml(text).unwrap();
+    assert_eq!(standing.against(), []);
+    let (list, _) = standing.measure(&own);
+    let found: Vec<_> = list.iter().filter(|m| m.share > 1.0).collect();
+    assert_eq!(found.len(), 1);
+    assert_near(found[0].limit, 100.0 + 0.1 * 72.6, 1e-9, "own strength and tolerance");
+}
+
+// ---- people ----
+
+#[test]
+fn a_persons_size_is_estimated_from_any_models_legs() {
+    for table in SegmentTable::ALL {
+        let human = Build { table, mass: 70.0, height: 1.75, toe_joint: true }.human().unwrap();
+        let (known, estimated) = (Person::of_human(&human), Person::of_model(&human.model));
+        assert!(estimated.estimated && !known.estimated);
+        assert_near(known.height_m, 1.75, 1e-12, "known");
+        // Women of de Leva's sample have thighs 3 % of stature shorter than the others.
+        let slack = if table == SegmentTable::DeLevaFemale { 0.06 } else { 0.04 };
+        assert_near(estimated.height_m / 1.75, 1.0, slack, &format!("{table}"));
+        for (a, b) in known.soles.iter().zip(&estimated.soles) {
+            let (a, b) = (a.unwrap(), b.unwrap());
+            assert_near(b.half_width / a.half_width, 1.0, slack, "width of the sole");
+            assert!((a.points[0].place - b.points[0].place).norm() < 0.015, "{table}: heels apart");
+        }
+    }
+}
+
+struct Subject {
+    model: Model,
+    motion: Motion,
+    plates: Vec<ForceRecording>,
+}
+
+fn data() -> Option<PathBuf> {
+    let folder = match std::env::var_os("AMBULO_DATA") {
+        Some(root) => PathBuf::from(root).join("data"),
+        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
+    };
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no data");
+    None
+}
+
+fn table(path: &Path) -> Table {
+    Table::read_storage(&std::fs::read(path).unwrap()).unwrap().0
+}
+
+fn subject(folder: &Path, [model, motion, grf, loads]: [&str; 4]) -> Subject {
+    let mut findings = Findings::default();
+    let document = OsimModel::read(&std::fs::read(folder.join(model)).unwrap()).unwrap();
+    let model = from_osim(&document, &mut findings).unwrap();
+    let motion = coordinates_from_table(&model, &table(&folder.join(motion)), "recording", &mut findings).unwrap();
+    let loads = if loads.is_empty() {
+        let prefix = |name: &str, body: &str, prefix: &str| ExternalForce::with_prefix(name, body, prefix);
+        let forces = vec![prefix("r", "calcn_r", "ground_force_"), prefix("l", "calcn_l", "l_ground_force_")];
+        ExternalLoads { name: "feet".into(), datafile: None, forces }
+    } else {
+        ExternalLoads::read(&std::fs::read(folder.join(loads)).unwrap()).unwrap().0
+    };
+    let plates = force_recordings(&model, &loads, &table(&folder.join(grf)), &mut findings).unwrap();
+    Subject { model, motion, plates }
+}
+
+/// Every recording of normal walking with plates that this machine has.
+fn walkers(data: &Path) -> Vec<(&'static str, Subject)> {
+    let (gait2392, gait10dof, rajagopal) = (
+        data.join("opensim-gait2392-subject01"),
+        data.join("opensim-gait10dof-subject01"),
+        data.join("opensim-rajagopal-walk"),
+    );
+    let walk1 = |motion| ["subject01_simbody.osim", motion, "subject01_walk1_grf.mot", "subject01_walk1_grf.xml"];
+    let whole = ["subject01_simbody.osim", "subject01_walk1_ik.mot", "core-id-test/subject01_walk1_grf.mot", ""];
+    let planar = ["subject01.osim", "subject01_walk_IK.mot", "subject01_walk_grf.mot", "subject01_walk_grf.xml"];
+    let overground = |motion| ["subject_walk_scaled.osim", motion, "grf_walk.mot", "grf_walk.xml"];
+    vec![
+        ("gait2392", subject(&gait2392, walk1("subject01_walk1_ik.mot"))),
+        ("gait2392, uniform weights", subject(&gait2392, walk1("ik_uniform_weights.mot"))),
+        ("gait2392, longer", subject(&gait2392, whole)),
+        ("gait10dof", subject(&gait10dof, planar)),
+        ("rajagopal", subject(&rajagopal, overground("coordinates.sto"))),
+        ("rajagopal, uniform weights", subject(&rajagopal, overground("ik_uniform_weights.mot"))),
+    ]
+}
+
+fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
+    let six_hz = LowPass { order: 3, cutoff_hz: 6.0 };
+    let settings = Settings {
+        smoother: Smoother::Butterworth(six_hz),
+        force_filter: Some(six_hz),
+        window: Window::default(),
+        rate_hz: None,
+    };
+    let mut findings = Findings::default();
+    let Subject { model, motion, plates } = subject;
+    let analysis = analyse(model, motion, plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
+    let evidence = Evidence { model, trajectory, forces, ground, device: None };
+    check(&evidence, &Person::of_model(model), thresholds, &mut findings)
+}
+
+fn checks(verdict: &Verdict) -> Vec<Check> {
+    let mut list: Vec<Check> = verdict.reasons.iter().map(|r| r.check).collect();
+    list.sort();
+    list.dedup();
+    list
+}
+
+#[test]
+fn people_who_walked_could_do_it() {
+    let Some(data) = data() else { return };
+    for (name, subject) in walkers(&data) {
+        let verdict = verdict(&subject, &Thresholds::default());
+        assert!(verdict.feasible, "{name}: {:?}", verdict.reasons);
+        println!("{name}, {:.1} kg, {:.3} m", verdict.mass_kg, verdict.height_m);
+        for c in &verdict.closest {
+            println!(
+                "  {:<19} {:<24} {:>9.3} of {:>9.3} {:<5} {:>4.0} %",
+                c.check.name(),
+                c.quantity,
+                c.value,
+                c.limit,
+                c.unit,
+                100.0 * c.share
+            );
+        }
+    }
+}
+
+#[test]
+fn nobody_walks_like_people_on_ice_that_is_too_slippery() {
+    let Some(data) = data() else { return };
+    for (name, subject) in walkers(&data) {
+        let found = verdict(&subject, &Thresholds { friction: 0.05, ..Thresholds::default() });
+        assert_eq!(checks(&found), [Check::Friction], "{name}");
+    }
+}
+
+#[test]
+fn a_second_body_on_the_back_that_the_plates_do_not_feel_is_found() {
+    let Some(data) = data() else { return };
+    for (name, mut subject) in walkers(&data) {
+        let torso = subject.model.body("torso").unwrap();
+        let mass = subject.model.mass();
+        subject.model = subject.model.with_point_mass(torso, mass, Vec3::new(0.0, 0.3, 0.0)).unwrap();
+        // Half of the new weight is missing on average.
+        let found = verdict(&subject, &Thresholds::default());
+        assert!(checks(&found).contains(&Check::Support), "{name}: {:?}", checks(&found));
+    }
+}
+
+#[test]
+fn three_times_the_mass_and_the_forces_are_too_much_for_one_mans_muscles() {
+    let Some(data) = data() else { return };
+    for (name, mut subject) in walkers(&data) {
+        let person = Person::of_model(&subject.model);
+        let heavier = subject.model.bodies().iter().map(|body| {
+            let mut body = body.clone();
+            let inertia = body.inertia;
+            body.inertia = inertia.joined(&inertia).joined(&inertia);
+            body
+        });
+        let (bodies, m) = (heavier.collect(), &subject.model);
+        subject.model =
+            Model::new(m.name(), m.gravity(), bodies, m.coordinates().to_vec(), m.markers().to_vec()).unwrap();
+        for plate in &mut subject.plates {
+            for part in plate.force.iter_mut().chain(&mut plate.moment) {
+                *part *= 3.0;
+            }
+        }
+        // A person of that mass is as strong; this one (who may carry himself, as porters do) cannot carry two more.
+        assert!(verdict(&subject, &Thresholds::default()).feasible, "{name}");
+        let (mass_kg, height_m) = (Some(person.mass_kg), Some(person.height_m));
+        let found = verdict(&subject, &Thresholds { mass_kg, height_m, ..Thresholds::default() });
+        assert_eq!(checks(&found), [Check::Strength], "{name}");
+    }
+}
+
+#[test]
+fn the_same_walk_at_twice_the_pace_is_found() {
+    let Some(data) = data() else { return };
+    for (name, mut subject) in walkers(&data) {
+        let hurry = |times: &mut Vec<f64>| times.iter_mut().for_each(|t| *t *= 0.5);
+        hurry(&mut subject.motion.times);
+        subject.plates.iter_mut().for_each(|plate| hurry(&mut plate.times));
+        let found = verdict(&subject, &Thresholds::default());
+        println!("{name}: {:?}", checks(&found));
+        assert!(!found.feasible, "{name}");
+    }
+}
