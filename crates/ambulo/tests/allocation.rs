@@ -121,6 +121,9 @@ fn postures_of_a_walk_and_of_its_machine_allocate_nothing() {
         }
     });
     assert_eq!(count, 0);
+}
+
+#[test]
 fn judging_an_instant_allocates_nothing() {
     let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
     let Ok(human) = build.human() else { panic!("no figure") };
