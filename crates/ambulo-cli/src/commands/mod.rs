@@ -5,4 +5,5 @@ pub(crate) mod demo;
 pub(crate) mod forces;
 mod ground_input;
 pub(crate) mod info;
+pub(crate) mod reproduce;
 pub(crate) mod simulate;

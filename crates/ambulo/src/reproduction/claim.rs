@@ -2,11 +2,13 @@
 
 use super::evidence::{Evidence, Scope};
 
+use serde::{Serialize, Serializer};
+
 /// Named numbers, in order; units stand in the names.
 pub type Numbers = Vec<(String, f64)>;
 
 /// A claim, judged.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Claim {
     /// Its letter in the list of claims, and a number where one has several parts.
     pub id: &'static str,
@@ -15,13 +17,23 @@ pub struct Claim {
     /// Name of the number that says most.
     pub headline: &'static str,
     /// What was found in the paper's mode.
+    #[serde(serialize_with = "as_map")]
     pub paper_mode: Numbers,
     /// What was found in the corrected mode, if there is one.
+    #[serde(serialize_with = "as_optional_map")]
     pub corrected: Option<Numbers>,
     /// Whether the paper's words hold in the paper's mode.
     pub pass: bool,
     /// What passing means, and why it does or does not.
     pub note: String,
+}
+
+impl Claim {
+    /// The number that says most, in the paper's mode.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        number(&self.paper_mode, self.headline)
+    }
 }
 
 /// Whether a claim passes, and by what.
@@ -76,4 +88,15 @@ pub fn number(numbers: &Numbers, name: &str) -> f64 {
 /// A list of named numbers.
 pub(super) fn numbers<const N: usize>(list: [(&str, f64); N]) -> Numbers {
     list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+fn as_map<S: Serializer>(numbers: &Numbers, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(numbers.iter().map(|(name, value)| (name, value)))
+}
+
+fn as_optional_map<S: Serializer>(numbers: &Option<Numbers>, serializer: S) -> Result<S::Ok, S::Error> {
+    match numbers {
+        Some(numbers) => as_map(numbers, serializer),
+        None => serializer.serialize_none(),
+    }
 }

@@ -10,10 +10,12 @@ mod corrected;
 mod error;
 mod evidence;
 mod feet;
+mod figures;
 mod figures_of_mass;
 mod measured;
 mod mode;
 mod paper_settings;
+mod snapshots;
 mod steady;
 
 mod bounce;
@@ -21,8 +23,10 @@ mod convergence;
 mod forward;
 mod gaits;
 mod ground_force;
+mod harmonics;
 mod joints;
 mod mass;
+mod muscles;
 mod period;
 mod sliding;
 
@@ -34,8 +38,11 @@ pub use evidence::{
     CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, HEIGHT, MASS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
     paper_human,
 };
+pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures};
+pub use harmonics::{HARMONICS, TorqueSeries, torque_series};
 pub use measured::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use mode::{Footwear, Mode, Request, Run, paper_walk, paper_walk_with};
+pub use muscles::{MuscleRow, PHASES, muscle_table};
 pub use paper_settings::PaperSettings;
 pub use steady::{BLOW_MARGIN_S, POINTS, STEADY_CYCLES, Steady, correlation, extremes, mean, mean_of, range_of, rms};
 
