@@ -2,7 +2,6 @@
 
 mod bench;
 mod check;
-mod demo_input;
 mod figures;
 mod fit_gait;
 
@@ -23,16 +22,12 @@ usage: cargo xtask <command>
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of the joints against speed anew from normative curves; prints their errors
-  demo-input        make the built-in walk of `ambulo demo` anew, beside its figure
   help              this text
 
 environment:
   AMBULO_DATA       folder that holds `data` and `reference`; without it ../shared beside this workspace
   AMBULO_PEERS_ENV  folder of the other engines' virtual environments; see `cargo xtask peers`
 ";
-
-/// Built-in input of `ambulo demo`, relative to the workspace root.
-const DEMO: &str = "crates/ambulo-cli/assets/demo";
 
 /// The command line could not be understood.
 const MISUSED: u8 = 2;
@@ -49,8 +44,6 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
-        ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
-
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");
             Ok(())

@@ -78,9 +78,8 @@ fn the_same_curves_unchanged_need_a_hand() {
     let signals = gait_signals(&case.walk, &case.human.model);
     let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
     let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };
-    let recording = walker
-        .walk(&steps, CYCLES * case.walk.cycle_s(), &mut Findings::default())
-        .unwrap_or_else(|e| panic!("{e}"));
+    let recording =
+        walker.walk(&steps, CYCLES * case.walk.cycle_s(), &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"));
     let (rms, peak) = trunk_torque(&recording, &case.walk);
     println!("without any change: {rms:.0} N.m RMS, {peak:.0} N.m peak");
     assert!(rms > 20.0 && peak > 60.0, "{rms} N.m RMS, {peak} N.m peak");

@@ -1,6 +1,6 @@
 //! `ambulo simulate`: a scene file stepped through time.
 
-use super::forces::Stopwatch;
+use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::{Verdict, files, printer};
 use ambulo::findings::Findings;

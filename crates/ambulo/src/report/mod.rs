@@ -11,6 +11,7 @@ mod scene_summary;
 mod scene_tables;
 mod summary;
 mod tables;
+mod walk_summary;
 
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, Mark, moments_figure};
@@ -26,3 +27,4 @@ pub use scene_tables::SceneTables;
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };
+pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};

@@ -70,6 +70,7 @@ mod touch;
 mod world;
 
 pub mod scene;
+pub mod synthetic;
 pub mod walking;
 
 pub use check::WorldError;

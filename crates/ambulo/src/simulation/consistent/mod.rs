@@ -18,6 +18,7 @@
 //! Not handled: motion out of the sagittal plane; turning; changes of speed.
 //! Pinned by: tests/consistent_walk.rs
 
+mod adjustment;
 mod problem;
 mod response;
 mod settings;
@@ -25,6 +26,7 @@ mod targets;
 mod unknowns;
 mod walk;
 
+pub use adjustment::{Adjustment, Change};
 pub use settings::{ConsistencySettings, Deviations, SOFT_SHOES};
 
 use crate::contact::HuntCrossley;

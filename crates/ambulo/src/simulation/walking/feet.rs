@@ -18,21 +18,39 @@ pub struct FootRecord {
     pub slip: Vec<f64>,
     /// Whether a loaded point of the sole is at the limit of friction.
     pub at_limit: Vec<bool>,
+    /// The part of it that another body of the foot feels, the toes.
+    pub toes: Option<ToeRecord>,
     /// Most loaded point in a row, while it is filled [N].
     heaviest: f64,
+}
+
+/// What the ground does to the toes of one foot, one entry a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToeRecord {
+    /// The toes.
+    pub body: BodyId,
+    /// Force on them [N].
+    pub force: Vec<Vec3>,
+    /// Its moment about the world's origin [N.m].
+    pub moment: Vec<Vec3>,
 }
 
 /// A point rubs at the limit of friction where this share of it is used.
 const LIMIT_SHARE: f64 = 1.0 - 1e-6;
 
 impl FootRecord {
-    pub(super) fn new(body: BodyId, rows: usize) -> FootRecord {
+    pub(super) fn new(body: BodyId, toes: Option<BodyId>, rows: usize) -> FootRecord {
         FootRecord {
             body,
             force: Vec::with_capacity(rows),
             point: Vec::with_capacity(rows),
             slip: Vec::with_capacity(rows),
             at_limit: Vec::with_capacity(rows),
+            toes: toes.map(|body| ToeRecord {
+                body,
+                force: Vec::with_capacity(rows),
+                moment: Vec::with_capacity(rows),
+            }),
             heaviest: 0.0,
         }
     }
@@ -44,10 +62,14 @@ impl FootRecord {
         self.slip.push(0.0);
         self.at_limit.push(false);
         self.heaviest = 0.0;
+        if let Some(toes) = &mut self.toes {
+            toes.force.push(Vec3::zeros());
+            toes.moment.push(Vec3::zeros());
+        }
     }
 
-    /// Adds a point of contact to the row; the centre of pressure is a sum until the row ends.
-    pub(super) fn add(&mut self, contact: &ContactForce, friction: f64) {
+    /// Adds a point of contact of a body to the row; the centre of pressure is a sum until the row ends.
+    pub(super) fn add(&mut self, contact: &ContactForce, body: BodyId, friction: f64) {
         let (Some(force), Some(point)) = (self.force.last_mut(), self.point.last_mut()) else { return };
         let pressing = contact.normal_force;
         if pressing <= 0.0 {
@@ -55,6 +77,12 @@ impl FootRecord {
         }
         *force += contact.force;
         *point += contact.point * pressing;
+        if let Some(toes) = self.toes.as_mut().filter(|toes| toes.body == body)
+            && let (Some(force), Some(moment)) = (toes.force.last_mut(), toes.moment.last_mut())
+        {
+            *force += contact.force;
+            *moment += contact.point.cross(&contact.force);
+        }
         let across = (contact.force - contact.normal * pressing).norm();
         if let Some(at_limit) = self.at_limit.last_mut() {
             *at_limit |= across >= LIMIT_SHARE * friction * pressing;

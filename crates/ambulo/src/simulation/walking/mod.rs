@@ -9,6 +9,7 @@
 //! ([`Impact::Sticking`](super::Impact::Sticking)) are apart from forces.
 
 mod error;
+mod excerpt;
 mod feet;
 mod figure;
 mod recording;
@@ -17,7 +18,8 @@ mod signals;
 mod start;
 
 pub use error::WalkingError;
-pub use feet::FootRecord;
+pub use excerpt::{Excerpt, Rows};
+pub use feet::{FootRecord, ToeRecord};
 pub use figure::{Ground, Shoes, Walker};
 pub use recording::{FootBlow, WalkRecording};
 pub use signals::gait_signals;
