@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Demo(DemoArgs),
     /// A scene file stepped through time: poses, joint efforts, contact forces, energies.
     Simulate(SimulateArgs),
+    /// Every figure and claim of the 1997 paper, recomputed.
+    Reproduce(ReproduceArgs),
     /// What a file holds.
     Info(InfoArgs),
     /// How far two tables agree, column by column.
@@ -296,6 +298,27 @@ pub(crate) struct CompareArgs {
     /// Last instant [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example:
+  ambulo reproduce -o paper
+
+The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: claims.json (each claim with
+the numbers found, whether it holds, and why), figures/figure1 to figure7 as .svg and .csv, muscles.csv (what net moments say
+about muscles), torques.csv and torques.toml (torque curves as harmonics), assumptions.csv (what the paper does not give, and
+what other values make of its claims). Results of an earlier run in DIR are removed. docs/REPRODUCTION.md describes them.
+
+Exit code 0 whether or not claims hold, 2 if nothing could be computed.")]
+pub(crate) struct ReproduceArgs {
+    /// Folder for the results.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
+    /// Leave out the other values for what the paper does not give, which take most of the time.
+    #[arg(long)]
+    pub(crate) brief: bool,
     #[command(flatten)]
     pub(crate) voice: Voice,
 }

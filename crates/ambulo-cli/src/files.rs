@@ -48,7 +48,7 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 24] = [
+const RESULTS: [&str; 43] = [
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -73,6 +73,25 @@ const RESULTS: [&str; 24] = [
     "figures/joints.svg",
     "figures/bodies.svg",
     "figures/closures.svg",
+    "claims.json",
+    "muscles.csv",
+    "torques.csv",
+    "torques.toml",
+    "assumptions.csv",
+    "figures/figure1.svg",
+    "figures/figure1.csv",
+    "figures/figure2.svg",
+    "figures/figure2.csv",
+    "figures/figure3.svg",
+    "figures/figure3.csv",
+    "figures/figure4.svg",
+    "figures/figure4.csv",
+    "figures/figure5.svg",
+    "figures/figure5.csv",
+    "figures/figure6.svg",
+    "figures/figure6.csv",
+    "figures/figure7.svg",
+    "figures/figure7.csv",
 ];
 
 /// Puts the results of a run in place of an earlier run's, unless that would write over something that was read.

@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Some(Command::Walk(args)) => commands::walk::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
+        Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Compare(args)) => commands::compare::run(&args),
     };

@@ -7,6 +7,7 @@ use ambulo::analysis::Agreement;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::{Finding, Findings};
 use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary, WalkSummary};
+use ambulo::reproduction::{Claim, Sensitivity};
 use anyhow::Result;
 use serde::Serialize;
 use serde_json::Value;
@@ -30,6 +31,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo walk --speed 1.2                                    a figure that walks: the same results, no file needed
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    joint moments, powers, ground forces
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
+  ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
   ambulo info FILE                                           what a file holds
   ambulo compare A B --limit 0.1                             how far two tables agree
 
@@ -84,6 +86,36 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     }
     say(&format!("  written   {}", output.display()))?;
     Ok(())
+}
+
+/// A line about what takes a while, for people.
+pub(crate) fn progress(what: &str, voice: Voice) {
+    if !voice.quiet && !voice.json {
+        eprintln!("{what} ...");
+    }
+}
+
+/// The outcome of `reproduce`.
+pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    if voice.json {
+        return say(&serde_json::to_string_pretty(claims)?);
+    }
+    for claim in claims {
+        let holds = if claim.pass { "holds" } else { "fails" };
+        say(&format!("{:3} {holds}  {}", claim.id, claim.paper))?;
+        say(&format!("           {} = {:.4}", claim.headline, claim.value()))?;
+        let turned: Vec<&str> =
+            others.iter().filter(|other| other.turned(claims).contains(&claim.id)).map(|other| other.other).collect();
+        if !turned.is_empty() {
+            say(&format!("           otherwise with: {}", turned.join("; ")))?;
+        }
+    }
+    let held = claims.iter().filter(|claim| claim.pass).count();
+    say(&format!("  {held} of {} hold; why and why not: claims.json", claims.len()))?;
+    say(&format!("  written   {}", output.display()))
 }
 
 /// The states of a gait's machine.

@@ -6,6 +6,7 @@ pub(crate) mod forces;
 mod ground_input;
 pub(crate) mod info;
 mod outcome;
+pub(crate) mod reproduce;
 pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod walk;

@@ -4,6 +4,8 @@ mod cycle_table;
 mod figure;
 mod files;
 mod gait_figure;
+mod paper_figure;
+mod reproduction;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
@@ -15,6 +17,8 @@ pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
+pub use paper_figure::paper_figure;
+pub use reproduction::reproduction_files;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,

@@ -66,7 +66,7 @@ impl Default for ConsistencySettings {
                 moment_rate: 3.0,
                 root_force: 0.002,
                 root_moment: 0.0007,
-                slip: 0.005,
+                slip: 0.004,
                 clearance: 0.002,
             },
             splines: [48, 18],
