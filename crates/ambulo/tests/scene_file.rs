@@ -1,8 +1,8 @@
 //! Scene files: what is read from good ones, and what is said of bad ones.
 
 use ambulo::simulation::scene::{
-    Anchor, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, GaitSource, Integrator, JointKind, Method,
-    ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid, WalkMode,
+    Anchor, Arm, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, GaitSource, Integrator, JointKind,
+    Method, ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid, WalkMode,
 };
 use ambulo::spatial::{Mat3, Vec3};
 use proptest::prelude::*;
@@ -154,7 +154,7 @@ fn every_record_keeps_its_line() {
 }
 
 #[test]
-fn the_nine_examples_are_scenes() {
+fn the_examples_are_scenes() {
     let counts: Vec<(String, [usize; 5])> = examples()
         .iter()
         .map(|(name, text)| {
@@ -164,14 +164,17 @@ fn the_nine_examples_are_scenes() {
         })
         .collect();
     let expected = [
+        ("carry", [1, 1, 0, 2, 0]),
         ("four-bar", [3, 0, 3, 1, 0]),
         ("grasp", [4, 1, 3, 0, 0]),
+        ("hand-in-hand", [0, 1, 0, 1, 0]),
         ("hands", [6, 0, 6, 1, 2]),
         ("ladder", [60, 0, 60, 20, 0]),
         ("pendulum", [1, 0, 1, 0, 0]),
         ("pile", [10, 5, 0, 0, 0]),
         ("pusher", [3, 2, 2, 0, 0]),
         ("slope", [2, 2, 0, 0, 0]),
+        ("stumble", [0, 2, 0, 0, 0]),
         ("top", [1, 0, 1, 0, 0]),
     ];
     assert_eq!(counts, expected.map(|(name, counts)| (name.to_owned(), counts)));
@@ -886,7 +889,7 @@ const ANN: &str = "{ table = \"de-leva-female\", mass = 60, height = 1.65 }";
 fn built_figures_read_as_they_say() {
     let file = parse(&person(
         ANN,
-        "walk = { gait = \"slow\", speed = 0.9, mode = \"curves\", phase = 0.25 }\narms = { left = { abduction_deg = 30 } }\n\
+        "walk = { gait = \"slow\", speed = 0.9, mode = \"curves\", phase = 0.25 }\narms = { left = { abduction_deg = 30, stiffness = 20, damping = 2 } }\n\
          shoes = \"default\"\nat = [1, 0, 2]\n[[figure.coordinate]]\nname = \"arm_flex_l\"\nstart_deg = 90\n\
          follow = { stiffness = 5 }\n[[figure.coordinate]]\nname = \"knee_angle_r\"",
     ));
@@ -896,8 +899,8 @@ fn built_figures_read_as_they_say() {
     let walk = built.walk.as_ref().unwrap();
     assert_eq!((&walk.gait, walk.speed, walk.mode), (&GaitSource::Named("slow".into()), Some(0.9), WalkMode::Curves));
     near(walk.phase, 0.25);
-    near(built.abduction[0], 0.0);
-    near(built.abduction[1], PI / 6.0);
+    near(built.arms[1].abduction, PI / 6.0);
+    assert_eq!((built.arms[0], built.arms[1].spring), (Arm::default(), Some([20.0, 2.0])));
     let [arm, knee] = &built.coordinates[..] else { panic!("two coordinates") };
     near(arm.acting.start, PI / 2.0);
     assert_eq!((arm.starts, knee.starts, knee.follow), ([true, false], [false, false], None));
@@ -930,6 +933,11 @@ fn built_figures_that_make_no_sense_are_refused() {
         (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),
         (ANN, "walk = { mode = \"curve\" }", "expected one of \"corrected\", \"curves\". hint: is \"curves\" meant?"),
         (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
+        (
+            ANN,
+            "arms = { left = { damping = 2 } }",
+            "`figure[1].arms.left.damping`: found 2; expected no such key without",
+        ),
         (ANN, "shoes = \"clog\"", "line 6, `figure[1].shoes`: found \"clog\"; expected one of \"default\""),
         (
             ANN,

@@ -163,7 +163,7 @@ fn two_walk_hand_in_hand() {
     let mean = sum / 400.0;
     println!("hands: {mean:.1} N on average, {largest:.1} N at most; gap {gap:.1e} m");
     assert!(gap < 1e-6, "{gap} m");
-    assert!((1.0..150.0).contains(&mean) && largest < 250.0, "{mean} N, {largest} N");
+    assert!((1.0..30.0).contains(&mean) && largest < 50.0, "{mean} N, {largest} N");
     for (name, start) in ["ann/pelvis", "bob/pelvis"].iter().zip(starts) {
         let speed = (place(&scene, name).x - start) / 4.0;
         assert!((speed - 1.25).abs() < 0.03, "{name}: {speed} m/s");

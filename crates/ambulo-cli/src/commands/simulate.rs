@@ -47,7 +47,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
 
     let mut written = tables.files(&scene)?;
     if let Some(curves) = &curves {
-        written.extend(curves.files(&scene)?);
+        written.extend(curves.files(&scene, verdict.as_ref())?);
     }
     files::replace_results(&args.output, &written, &inputs)?;
     if let Some(path) = &args.save {

@@ -17,12 +17,21 @@ pub struct Built {
     pub build: Build,
     /// How it walks; `None` stands upright.
     pub walk: Option<AskedWalk>,
-    /// How far the right and the left arm are held away from the trunk, sideways [rad].
-    pub abduction: [f64; 2],
+    /// How the right and the left arm are held sideways.
+    pub arms: [Arm; 2],
     /// Material of the soles, an index in [`SceneFile::materials`](super::SceneFile::materials); `None`: soft shoes.
     pub shoes: Option<usize>,
     /// Coordinates that do not simply follow the walk.
     pub coordinates: Vec<OwnCoordinate>,
+}
+
+/// How an arm is held sideways.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Arm {
+    /// Angle away from the trunk [rad].
+    pub abduction: f64,
+    /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring that holds it there; `None`: it is fixed.
+    pub spring: Option<[f64; 2]>,
 }
 
 /// A walk as asked for.
@@ -108,7 +117,7 @@ impl Built {
             place: value.place(),
             build,
             walk: table.get("walk").map(|value| AskedWalk::read(&value)).transpose()?,
-            abduction: abduction(table)?,
+            arms: arms(table)?,
             shoes: shoes.transpose()?,
             coordinates,
         })
@@ -129,23 +138,32 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     Ok((build, human))
 }
 
-fn abduction(table: &Table<'_>) -> Result<[f64; 2], SceneError> {
-    let mut angles = [0.0; 2];
-    let Some(value) = table.get("arms") else { return Ok(angles) };
-    let arms = value.table("{ right = { abduction_deg = … }, left = { abduction_deg = … } }")?;
-    arms.only(&[&["right", "left"]])?;
-    for (angle, side) in angles.iter_mut().zip(Side::BOTH) {
-        let Some(arm) = arms.get(&side.to_string()) else { continue };
-        let arm = arm.table("{ abduction_deg = … }")?;
-        arm.only(&[&["abduction_deg", "abduction"]])?;
-        if let Some((value, unit)) = arm.either_unit("abduction")? {
-            *angle = value.number()? * unit;
-            if !(0.0..=MOST_ABDUCTION).contains(angle) {
+fn arms(table: &Table<'_>) -> Result<[Arm; 2], SceneError> {
+    let Some(value) = table.get("arms") else { return Ok([Arm::default(); 2]) };
+    let table = value.table("{ right = { abduction_deg = … }, left = { abduction_deg = … } }")?;
+    table.only(&[&["right", "left"]])?;
+    let [right, left] = Side::BOTH.map(|side| table.get(&side.to_string()).map(|value| Arm::read(&value)));
+    Ok([right.transpose()?.unwrap_or_default(), left.transpose()?.unwrap_or_default()])
+}
+
+impl Arm {
+    fn read(value: &Value<'_>) -> Result<Arm, SceneError> {
+        let table = value.table("{ abduction_deg = … }")?;
+        table.only(&[&["abduction_deg", "abduction", "stiffness", "damping"]])?;
+        let mut arm = Arm::default();
+        if let Some((value, unit)) = table.either_unit("abduction")? {
+            arm.abduction = value.number()? * unit;
+            if !(0.0..=MOST_ABDUCTION).contains(&arm.abduction) {
                 return Err(value.wrong("an angle away from the trunk, up to 90 degrees"));
             }
         }
+        let damping = table.zero_or_more_or("damping", 0.0)?;
+        arm.spring = table.get("stiffness").map(|value| Ok([value.zero_or_more()?, damping])).transpose()?;
+        match (table.get("damping"), arm.spring) {
+            (Some(value), None) => Err(value.wrong("no such key without a `stiffness`")),
+            _ => Ok(arm),
+        }
     }
-    Ok(angles)
 }
 
 impl AskedWalk {

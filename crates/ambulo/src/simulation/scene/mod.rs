@@ -36,7 +36,7 @@ mod walker;
 pub use crate::toml_reader::{Place, TomlError as SceneError};
 pub use body::Body;
 pub use build::{Changes, Scene};
-pub use built::{AskedWalk, Built, Follow, GaitSource, OwnCoordinate, WalkMode};
+pub use built::{Arm, AskedWalk, Built, Follow, GaitSource, OwnCoordinate, WalkMode};
 pub use closure::{Anchor, Closure};
 pub use coordinate::{Coordinate, CoordinateKind, Drive, Limits, Motor, Spring};
 pub use event::{Change, Event};

@@ -14,15 +14,18 @@ use crate::contact::Shape;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::anthropometry::Human;
-use crate::model::{BodyId, CoordinateId, Marker, Model, ModelError, Side};
+use crate::model::{
+    self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
+    ModelError, Side,
+};
 use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, SOFT_SHOES, make_consistent};
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::samples::Samples;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{
-    Body, ContactLaw, Drive, Figure, Joint, JointCoordinate, Material, Motor, Owner, Surface, World,
+    Body, ContactLaw, Drive, Figure, Joint, JointCoordinate, Material, Motor, Owner, Spring, Surface, World,
 };
-use crate::spatial::{Pose, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 use std::sync::Arc;
 
 /// Samples of the motion are no farther apart [s].
@@ -52,6 +55,11 @@ pub(super) fn add(
         None => standing(&human.model),
     };
     human.model = placed_model(&human, asked, built).map_err(|e| wrong(&e))?;
+    for coordinate in &human.model.coordinates()[motion.signals.len()..] {
+        motion.signals.push(Signal::Constant(coordinate.default_value));
+        motion.start[0].push(coordinate.default_value);
+        motion.start[1].push(0.0);
+    }
     let model = &human.model;
     own_starts(built, model, &mut motion);
     let rest = vec![0.0; model.coordinates().len()];
@@ -168,9 +176,25 @@ fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, Mo
     for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
         body.joint.parent_from_joint = asked.pose * body.joint.parent_from_joint;
     }
-    for ((side, angle), outwards) in Side::BOTH.into_iter().zip(built.abduction).zip([-1.0, 1.0]) {
-        if let Some(arm) = model.body(&format!("humerus_{}", side.letter())) {
-            bodies[arm.index()].joint.parent_from_joint.rotation *= rotation(&(Vec3::x() * angle * outwards));
+    let mut coordinates = model.coordinates().to_vec();
+    for ((side, arm), outwards) in Side::BOTH.into_iter().zip(built.arms).zip([-1.0, 1.0]) {
+        if let Some(humerus) = model.body(&format!("humerus_{}", side.letter())) {
+            let joint = &mut bodies[humerus.index()].joint;
+            if arm.spring.is_some() {
+                let adduction = CoordinateId(coordinates.len());
+                coordinates.push(Coordinate {
+                    name: adduction_name(side),
+                    kind: CoordinateKind::Rotation,
+                    default_value: -arm.abduction,
+                    range: None,
+                    drive: model::Drive::Free,
+                });
+                let follows = Function::Linear { slope: 1.0, intercept: 0.0 };
+                let displacement = Displacement::Follows(adduction, follows);
+                joint.rotations.insert(0, JointAxis { direction: Vec3::x() * -outwards, displacement });
+            } else {
+                joint.parent_from_joint.rotation *= rotation(&(Vec3::x() * arm.abduction * outwards));
+            }
         }
         if let Some(forearm) = model.body(&format!("forearm_{}", side.letter())) {
             let down = human.dimensions.forearm + GRIP * human.dimensions.hand;
@@ -178,7 +202,7 @@ fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, Mo
             markers.push(Marker { name: format!("hand_{}", side.letter()), body: Some(forearm), location });
         }
     }
-    Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), markers)
+    Model::new(model.name(), model.gravity(), bodies, coordinates, markers)
 }
 
 /// Starts that the scene gives, or that drives of its own have.
@@ -195,6 +219,11 @@ fn own_starts(built: &Built, model: &Model, motion: &mut Motion) {
     }
 }
 
+/// Towards the trunk, as OpenSim counts.
+fn adduction_name(side: Side) -> String {
+    format!("arm_add_{}", side.letter())
+}
+
 fn own_of<'a>(built: &'a Built, model: &Model, id: CoordinateId) -> Option<(usize, &'a OwnCoordinate)> {
     let name = &model.coordinates()[id.index()].name;
     built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
@@ -203,11 +232,11 @@ fn own_of<'a>(built: &'a Built, model: &Model, id: CoordinateId) -> Option<(usiz
 /// Coordinates of a body's joint in the simulator's order: slides, then turns.
 fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
     let joint = &model.bodies()[id.index()].joint;
-    let of = |axes: &[crate::model::JointAxis]| {
+    let of = |axes: &[JointAxis]| {
         axes.iter()
             .filter_map(|axis| match &axis.displacement {
-                crate::model::Displacement::Follows(id, _) => Some(*id),
-                crate::model::Displacement::Fixed(_) => None,
+                Displacement::Follows(id, _) => Some(*id),
+                Displacement::Fixed(_) => None,
             })
             .collect::<Vec<_>>()
     };
@@ -223,7 +252,15 @@ fn acting_on(
     sources: &mut Sources<'_, '_>,
 ) -> Result<JointCoordinate, SceneError> {
     let signal = || signals[id.index()].clone();
-    let slides = matches!(model.coordinates()[id.index()].kind, crate::model::CoordinateKind::Translation);
+    let slides = matches!(model.coordinates()[id.index()].kind, CoordinateKind::Translation);
+    for (arm, side) in built.arms.iter().zip(Side::BOTH) {
+        if let (Some([stiffness, damping]), true) =
+            (arm.spring, model.coordinates()[id.index()].name == adduction_name(side))
+        {
+            let spring = Some(Spring { stiffness, damping, rest: -arm.abduction });
+            return Ok(JointCoordinate { spring, ..JointCoordinate::default() });
+        }
+    }
     let Some((k, own)) = own_of(built, model, id) else {
         let drive = (!slides).then(|| Drive { signal: signal(), max: None });
         return Ok(JointCoordinate { drive, ..JointCoordinate::default() });
@@ -251,13 +288,23 @@ fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> Body {
 fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> Joint {
     let joint = &model.bodies()[id.index()].joint;
     let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
+    let (kind, turn) = match (&joint.rotations[..], joint.parent) {
+        (_, None) => (JointKind::Planar, Mat3::identity()),
+        // The simulator's universal joint turns about its x, then about its y.
+        ([first, second], _) => {
+            let (x, y) = (first.direction, second.direction);
+            (JointKind::Universal, Mat3::from_columns(&[x, y, x.cross(&y)]))
+        }
+        _ => (JointKind::Revolute, Mat3::identity()),
+    };
+    let turn = Pose { rotation: turn, translation: Vec3::zeros() };
     Joint {
         name: format!("{}/{}", asked.name, joint.name),
         child: first_body + id.index(),
         parent: joint.parent.map(|p| first_body + p.index()),
-        parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint,
-        child_from_joint: center(id) * joint.child_from_joint,
-        kind: if joint.parent.is_some() { JointKind::Revolute } else { JointKind::Planar },
+        parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint * turn,
+        child_from_joint: center(id) * joint.child_from_joint * turn,
+        kind,
         coordinates,
         follows: None,
     }
