@@ -30,6 +30,8 @@ pub mod ground;
 
 pub mod analysis;
 
+pub mod reproduction;
+
 pub mod report;
 
 /// The code in README.md is compiled as a test.

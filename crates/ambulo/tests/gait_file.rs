@@ -312,9 +312,46 @@ fn a_curve_needs_two_knots() {
     assert!(refused(one).contains("found fewer than two of `knot`; expected two or more"));
 }
 
+const DOCUMENT: &str = include_str!("../../../docs/GAITS.md");
+
 #[test]
-fn the_joints_of_the_document_are_those_of_the_code() {
-    assert_eq!(Joint::ALL.map(Joint::name), ["hip", "knee", "ankle"]);
+fn the_gaits_of_the_document_are_walked() {
+    let blocks: Vec<&str> = DOCUMENT.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert_eq!(blocks.len(), 3);
+    for block in blocks {
+        let gait = Gait::from_toml(block).unwrap_or_else(|e| panic!("{e} in\n{block}"));
+        walk(&gait);
+    }
+}
+
+#[test]
+fn the_document_has_every_knot_and_gait() {
+    for style in [Style::Knots, Style::Paper1997] {
+        let laws = Laws::built_in(style).unwrap();
+        for joint in Joint::ALL {
+            let row = DOCUMENT.lines().find(|line| line.starts_with(&format!("| {} | ", joint.name()))).unwrap();
+            for knot in laws.legs.of(joint).knots() {
+                assert!(row.contains(&knot.name), "{row} lacks {}", knot.name);
+            }
+        }
+    }
+    for name in Gait::NAMES {
+        assert!(DOCUMENT.contains(&format!("`{name}`")), "{name}");
+    }
+}
+
+/// Every key that a refusal lists stands in the document.
+#[test]
+fn the_document_has_every_key() {
+    let files = ["x = 1", "[[change]]\nx = 1", "[[hip.knot]]\nx = 1", "style = \"1997\"\n[[hip.sub_cycle]]\nx = 1"];
+    for file in files {
+        let message = refused(file);
+        let keys = message.split("expected ").nth(1).unwrap().split('`').skip(1).step_by(2);
+        for key in keys {
+            let shown = [format!("`{key}`"), format!("\n{key} = "), format!("[[{key}]]"), format!("[[{key}.knot]]")];
+            assert!(shown.iter().any(|shown| DOCUMENT.contains(shown)), "docs/GAITS.md lacks {key}");
+        }
+    }
 }
 
 proptest! {

@@ -1,7 +1,26 @@
 //! Synthetic walking: angles of the joints, with velocity and acceleration, from speed and style.
 //!
+//! A [`Gait`] is what is asked for, by name or from TOML (docs/GAITS.md). A [`Walk`] is a gait on a leg length; [`Walk::at`] gives
+//! the posture at any time, and speed may change while walking. The same postures come from hierarchical state machines
+//! ([`machine`]). [`coordinates`] turns them into coordinates of a model.
+//!
 //! Clinical signs throughout: hip flexion +, knee flexion +, ankle dorsiflexion +, pelvis tilt anterior +, trunk lean forward +,
 //! shoulder and elbow flexion + [rad].
+//!
+//! Where to start reading: `cyclic_curve` (how a joint's curve follows phase and speed), then `walk`, `speed_plan`, `stride`.
+//!
+//! ```
+//! use ambulo::findings::Findings;
+//! use ambulo::gait::{Gait, SpeedChange, Walk};
+//!
+//! let mut findings = Findings::default();
+//! let walk = Walk::new(&Gait::named("free")?, 0.92, &mut findings)?;
+//! assert!((walk.speed() - walk.step_length() * 2.0 / walk.cycle_s()).abs() < 1e-12);
+//! let faster = walk.with_speed_change(SpeedChange { start_s: 2.0, duration_s: 1.5, speed: 1.8 }, &mut findings)?;
+//! let knee = faster.at(2.6).right.knee;
+//! println!("{:.1} deg, {:.2} rad/s, {:.1} rad/s²", knee.value.to_degrees(), knee.rate, knee.acceleration);
+//! # Ok::<(), ambulo::gait::GaitError>(())
+//! ```
 
 mod arms;
 mod coordinates;

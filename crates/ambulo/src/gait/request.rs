@@ -115,10 +115,11 @@ const GOOSE_PERIOD_S: f64 = 0.82;
 /// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step at which the linear laws keep
 /// every joint inside what people show at their fastest (hip 45°, knee 62°).
 const LONG_STEP: f64 = 1.2;
-/// Goose step: the paper gives no angles. Nearly stiff knees (a fifth of their flexion), hips that swing 1.6 times as high, feet that
-/// drop less.
+/// Goose step: the paper gives no angles. Nearly stiff knees (a fifth of their flexion) and hips that swing 1.6 times as high; the
+/// highest point comes 8 % of the cycle earlier, so that the leg is not thrown down faster than up (100 and 80 rad/s² at the hip).
 const GOOSE_KNEE: f64 = 0.2;
 const GOOSE_HIP: f64 = 1.6;
+const GOOSE_EARLIER: f64 = 0.08;
 
 impl Gait {
     /// Names of the built-in gaits.
@@ -190,6 +191,6 @@ fn goose_changes() -> Vec<KnotChange> {
     let scaled = |joint: Joint, knot: &str, scale: f64| KnotChange { scale, ..KnotChange::of(joint, knot) };
     let knees = ["stance peak", "stance minimum", "swing peak", "terminal minimum"];
     let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(Joint::Knee, knot, GOOSE_KNEE)).collect();
-    changes.push(scaled(Joint::Hip, "largest flexion", GOOSE_HIP));
+    changes.push(KnotChange { phase: -GOOSE_EARLIER, ..scaled(Joint::Hip, "largest flexion", GOOSE_HIP) });
     changes
 }

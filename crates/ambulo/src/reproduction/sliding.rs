@@ -1,0 +1,148 @@
+//! (d) "We could not prevent the character from sliding, even with a friction coefficient as high as 1."
+//!
+//! Two causes are told apart. On one foot, the sole slips where the ground would have to push harder than friction can: more
+//! friction ends that. On both, a figure whose joints all follow and whose trunk is held has two motions left for the four that
+//! two soles would have to stop: where the joint curves give the feet different speeds, one must slip whatever the friction.
+
+use super::claim::{Numbers, Statement, number, numbers};
+use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
+use super::feet::lowest_points;
+use super::mode::Run;
+use super::steady::{STEADY_CYCLES, Steady, rms};
+
+/// Slip over a step that is none [m].
+const NO_SLIP_M: f64 = 1e-3;
+
+pub(super) const SINGLE: Statement = Statement {
+    id: "d1",
+    paper: "the character slides even with a friction coefficient as high as 1",
+    headline: "slip_on_one_foot_mm_a_step",
+    scope: Scope::Brief,
+    measure,
+    judge: |paper, _| {
+        let slip = number(paper, "slip_on_one_foot_mm_a_step");
+        let stop = number(paper, "friction_that_stops_it");
+        let ends = if stop.is_finite() {
+            format!("it ends (below {:.0} mm) with a friction of {stop}", 1e3 * NO_SLIP_M)
+        } else {
+            format!("it does not end with any friction up to {:.0}", FRICTIONS[FRICTIONS.len() - 1])
+        };
+        let note = format!(
+            "passes if the standing foot slips more than {:.0} mm a step at μ = {FRICTION}; it slips {slip:.1} mm, at the limit of \
+             friction for {:.0} % of the time on one foot; {ends}",
+            1e3 * NO_SLIP_M,
+            100.0 * number(paper, "share_at_limit_on_one_foot"),
+        );
+        (slip > 1e3 * NO_SLIP_M, note)
+    },
+};
+
+pub(super) const FORCED: Statement = Statement {
+    id: "d2",
+    paper: "(not in the paper) sliding that no friction can stop: both feet down with different speeds",
+    headline: "forced_slip_mm_a_step",
+    scope: Scope::Brief,
+    measure: measure_forced,
+    judge: |paper, corrected| {
+        let (rub, apart) = (number(paper, "forced_slip_mm_a_step"), number(paper, "feet_apart_in_height_mm"));
+        let stands = number(paper, "share_on_both_feet");
+        let own = if stands > 0.0 {
+            format!("both feet press for {:.1} % of the time", 100.0 * stands)
+        } else {
+            "the two feet never press at once in the steady walk, so nothing is forced: what slips does so at the limit"
+                .to_owned()
+        };
+        let better = corrected.map_or(String::new(), |numbers| {
+            format!(
+                "; in the corrected mode {:.1} mm and {:.1} mm",
+                number(numbers, "forced_slip_mm_a_step"),
+                number(numbers, "feet_apart_in_height_mm")
+            )
+        });
+        let note = format!(
+            "passes if in the gait's own double support the lowest points of the two feet would have to rub more than {:.0} mm a step \
+             against each other: {rub:.1} mm, root mean square {:.2} m/s; they are {apart:.1} mm apart in height{better}; {own}",
+            1e3 * NO_SLIP_M,
+            number(paper, "feet_apart_in_speed_m_s"),
+        );
+        (rub > 1e3 * NO_SLIP_M, note)
+    },
+};
+
+/// Distances slipped a step [m], and shares of time.
+struct Slip {
+    on_one_foot: f64,
+    on_both: f64,
+    at_limit_on_one: f64,
+}
+
+fn slip(run: &Run) -> Option<Slip> {
+    let steady = Steady::of(run).ok()?;
+    let (rows, step) = (steady.rows(), run.recording.grid().step_s);
+    let feet = &run.recording.feet;
+    let steps = 2.0 * STEADY_CYCLES as f64;
+    let (mut one, mut both, mut limit, mut alone) = (0.0, 0.0, 0_usize, 0_usize);
+    for row in rows {
+        let slipped: f64 = feet.iter().map(|foot| foot.slip[row].abs() * step / steps).sum();
+        if run.recording.stands_on_both(row) {
+            both += slipped;
+        } else if !run.recording.flies(row) {
+            one += slipped;
+            alone += 1;
+            limit += usize::from(feet.iter().any(|foot| foot.at_limit[row]));
+        }
+    }
+    Some(Slip { on_one_foot: one, on_both: both, at_limit_on_one: limit as f64 / alone.max(1) as f64 })
+}
+
+fn measure(evidence: &Evidence) -> Numbers {
+    let mut all = Numbers::new();
+    let slips: Vec<(f64, Option<Slip>)> = evidence.frictions.iter().map(|(mu, run)| (*mu, slip(run))).collect();
+    if let Some(own) = slip(evidence.standard()) {
+        all.extend(numbers([
+            ("slip_on_one_foot_mm_a_step", 1e3 * own.on_one_foot),
+            ("slip_on_both_feet_mm_a_step", 1e3 * own.on_both),
+            ("share_at_limit_on_one_foot", own.at_limit_on_one),
+        ]));
+    }
+    for (mu, slip) in &slips {
+        if let Some(slip) = slip {
+            all.push((format!("slip_on_one_foot_at_friction_{mu}_mm_a_step"), 1e3 * slip.on_one_foot));
+        }
+    }
+    let stops = |(_, slip): &&(f64, Option<Slip>)| slip.as_ref().is_some_and(|s| s.on_one_foot < NO_SLIP_M);
+    all.push(("friction_that_stops_it".into(), slips.iter().find(stops).map_or(f64::INFINITY, |(mu, _)| *mu)));
+    all
+}
+
+fn measure_forced(evidence: &Evidence) -> Numbers {
+    let run = evidence.standard();
+    let Ok(steady) = Steady::of(run) else { return Numbers::new() };
+    let (points, step) = (lowest_points(run), run.recording.grid().step_s);
+    // Each foot lands half a cycle after the other, and lifts at `foot_off`.
+    let both = run.foot_off - 0.5;
+    let (mut apart, mut speeds) = (Vec::new(), Vec::new());
+    for row in steady.rows() {
+        let phase = (row as f64 * step / run.cycle_s).fract();
+        if phase < both || (0.5..0.5 + both).contains(&phase) {
+            let [right, left] = points[row].height;
+            apart.push((right - left).abs());
+            speeds.push(points[row].velocity[0] - points[row].velocity[1]);
+        }
+    }
+    let rubbed: f64 = speeds.iter().map(|speed| speed.abs() * step).sum::<f64>() / (2.0 * STEADY_CYCLES as f64);
+    let largest = apart.iter().copied().fold(0.0, f64::max);
+    let slipped = |friction: f64| {
+        let run = evidence.frictions.iter().find(|(mu, _)| (mu - friction).abs() < 1e-9);
+        run.and_then(|(_, run)| slip(run)).map_or(f64::NAN, |slip| 1e3 * slip.on_both)
+    };
+    numbers([
+        ("share_of_gait_in_double_support", 2.0 * both),
+        ("share_on_both_feet", steady.share(|row| run.recording.stands_on_both(row))),
+        ("feet_apart_in_height_mm", 1e3 * largest),
+        ("feet_apart_in_speed_m_s", rms(&speeds)),
+        ("forced_slip_mm_a_step", 1e3 * rubbed),
+        ("slip_on_both_feet_at_friction_1_mm_a_step", slipped(1.0)),
+        ("slip_on_both_feet_at_friction_1000_mm_a_step", slipped(1000.0)),
+    ])
+}
