@@ -5,7 +5,7 @@ mod check;
 mod demo_input;
 mod figures;
 mod fit_gait;
-
+mod normative;
 mod npz;
 mod peers;
 mod simulators;
@@ -22,7 +22,7 @@ usage: cargo xtask <command>
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
-  fit-gait          fit the laws of the joints against speed anew from normative curves; prints their errors
+  fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
   demo-input        make the built-in walk of `ambulo demo` anew, beside its figure
   help              this text
 
@@ -50,7 +50,6 @@ fn main() -> ExitCode {
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
         ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
-
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");
             Ok(())

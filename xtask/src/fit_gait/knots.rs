@@ -5,9 +5,9 @@
 //! turn: so an error of the time law costs next to nothing, for the knot still lies on the curve.
 
 use super::harmonics::Harmonics;
-use super::normative::{Curves, SPEEDS};
 use super::polynomial;
 use super::recipe::{Mark, Recipe, Wanted};
+use crate::normative::{Curves, SPEEDS};
 
 /// Steps of a search over a whole cycle.
 const STEPS_PER_PERCENT: usize = 20;
