@@ -6,18 +6,17 @@
 
 mod errors;
 mod ground_forces;
-mod harmonics;
 mod knots;
 mod polynomial;
 mod recipe;
 mod write;
 
+use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, SPEEDS, Sheet};
 use crate::workspace;
 use ambulo::gait::{Joint, Laws, Style};
 use errors::CurveError;
 use ground_forces::Forces;
-use harmonics::Harmonics;
 use recipe::RECIPES;
 use std::fmt::Write;
 use std::fs;

@@ -1,6 +1,6 @@
 //! How far laws are from the mean curves.
 
-use super::harmonics::Harmonics;
+use crate::harmonics::Harmonics;
 use crate::normative::{Curves, SPEEDS};
 use ambulo::gait::{CyclicCurve, Jet, SpeedRange};
 

@@ -3,8 +3,8 @@
 //! Slow and fast walking are kept out of them: walks that are drawn towards these forces are judged at those speeds by curves that
 //! nothing was fitted to.
 
-use super::harmonics::Harmonics;
 use super::{polynomial, write};
+use crate::harmonics::Harmonics;
 use crate::normative::{self, Curves, SPEEDS, Sheet};
 use ambulo::gait::GroundForceLaws;
 use std::fmt::Write;
