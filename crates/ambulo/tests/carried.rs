@@ -1,7 +1,5 @@
 //! Bodies whose joints follow, solved as one with what carries them: the same motions and forces as without that.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-
 mod common;
 
 use ambulo::dynamics::{ConstraintGraph, Link, Method, Six};

@@ -388,7 +388,8 @@ mod tests {
             graph.terms.offset[2] = carrying().terms.offset[2];
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
-            assert!((one - other).norm() < 1e-7, "{one:?} {other:?}");
+            // A stiffness of 1e6 of single rows leaves 1e-5 of 3 mm where rows share what moves.
+            assert!((one - other).norm() < 3e-7, "{one:?} {other:?}");
         }
     }
 
