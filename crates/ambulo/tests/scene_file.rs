@@ -1,5 +1,6 @@
 //! Scene files: what is read from good ones, and what is said of bad ones.
 
+use ambulo::simulation::Impact;
 use ambulo::simulation::scene::{
     Anchor, Arm, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, GaitSource, Integrator, JointKind,
     Method, ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid, WalkMode,
@@ -303,6 +304,18 @@ fn degrees_become_radians_and_radians_stay() {
     assert!(slide.limits.unwrap().upper.is_infinite());
     near(slide.friction, 3.0);
     assert!(other.drive.is_none() && other.line == scene.joints[1].line);
+}
+
+#[test]
+fn blows_that_stick_go_with_steps_of_impulses_alone() {
+    let scene = |more: &str| {
+        format!("step = 0.001\nduration = 1\n{more}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n")
+    };
+    assert_eq!(parse(&scene("impact = \"sticking\"")).impact, Impact::Sticking);
+    assert_eq!(parse(&scene("")).impact, Impact::Coulomb);
+    let both = scene("impact = \"sticking\"\nintegrator = \"runge-kutta\"");
+    let error = SceneFile::parse(&both).unwrap_err().to_string();
+    assert!(error.contains("line 3, `impact`") && error.contains("coulomb"), "{error}");
 }
 
 #[test]

@@ -355,6 +355,65 @@ mod tests {
         }
     }
 
+    /// The pair, with a third body that follows the second one.
+    fn carrying() -> ConstraintGraph {
+        let mut graph = pair();
+        graph.links.push(Link { parent: Some(1), freedom: 0 });
+        graph.bodies.push(BodyTerms { mass: 2.0, inertia: Mat3::identity() * 0.3 });
+        graph.wrenches.push(Six::new(0.1, -0.4, 0.2, 0.5, 0.0, -19.62));
+        graph.terms.arm.push(Vec3::new(0.4, -0.3, 0.2));
+        graph.terms.offset.push(Six::new(0.02, -0.01, 0.03, 0.05, 0.01, -0.02));
+        let up = Six::new(0.1, 0.2, 0.0, 0.0, 0.3, 1.0);
+        graph.rows.push(Constraint { on_first: up, on_second: Six::zeros(), target: 0.1, compliance: 0.0 });
+        let on = Acting::Bodies { first: 2, second: None };
+        graph.groups.push(ConstraintGroup { on, rows: 4..5, law: Law::HELD });
+        graph
+    }
+
+    #[test]
+    fn displacements_of_bodies_that_follow_are_those_of_a_method_that_knows_them_one_by_one() {
+        let mut graph = carrying();
+        let targets = [1e-3, -2e-3, 5e-4, 3e-3, -1e-3];
+        let mut found = Vec::new();
+        for method in [Method::Newton, Method::ConjugateGradient] {
+            let settings = SolverSettings { method, ..SolverSettings::default() };
+            let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
+            solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
+            assert_eq!(workspace.carries(), method == Method::Newton);
+            // Offsets of the displacements are others than those of the motion.
+            graph.terms.offset[2] = Six::new(0.0, 1e-4, 0.0, 2e-4, 0.0, 3e-4);
+            let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
+            project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
+            found.push(motions);
+            graph.terms.offset[2] = carrying().terms.offset[2];
+        }
+        for (one, other) in found[0].iter().zip(&found[1]) {
+            // A stiffness of 1e6 of single rows leaves 1e-5 of 3 mm where rows share what moves.
+            assert!((one - other).norm() < 3e-7, "{one:?} {other:?}");
+        }
+    }
+
+    #[test]
+    fn bodies_already_placed_are_shifted_as_if_they_were_not() {
+        // To first order it is the same to say where a body is off, or to have it drawn back by its joint.
+        let mut graph = carrying();
+        let targets = [0.0; 5];
+        let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
+        solve_graph(&graph, &SolverSettings::default(), &mut workspace, &mut solution).unwrap();
+        let off = Six::new(0.0, 0.0, 0.0, 2e-4, 1e-4, 3e-4);
+        graph.terms.offset[2] = off;
+        let (mut drawn, mut coordinates) = (Vec::new(), Vec::new());
+        project_displacements(&graph, &targets, &mut workspace, &mut drawn, &mut coordinates);
+        let mut placed = Vec::new();
+        let shifts = [Six::zeros(), Six::zeros(), off];
+        // Its own row is then off by as much.
+        let left = [0.0, 0.0, 0.0, 0.0, -graph.rows[4].on_first.dot(&off)];
+        project_placed(&graph, &shifts, &left, &mut workspace, &mut placed, &mut coordinates);
+        for (body, (one, other)) in drawn.iter().zip(&placed).enumerate() {
+            assert!((one - (other + shifts[body])).norm() < 1e-9, "body {body}: {one:?} {other:?}");
+        }
+    }
+
     #[test]
     fn displacements_leave_alone_the_rows_that_do_not_hold() {
         let mut graph = pair();

@@ -151,10 +151,10 @@ fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
                 Err(reason) => {
                     let _ = writeln!(text, "{start},,{},,,", cell(reason));
                 }
-                Ok(verdicts) => verdicts.iter().for_each(|verdict| {
-                    let own = claims.iter().find(|claim| claim.id == verdict.id).map_or(f64::NAN, Claim::value);
-                    let turns = turned.contains(&verdict.id);
-                    let (id, headline, value) = (verdict.id, verdict.headline, verdict.value);
+                Ok(judgements) => judgements.iter().for_each(|judgement| {
+                    let own = claims.iter().find(|claim| claim.id == judgement.id).map_or(f64::NAN, Claim::value);
+                    let turns = turned.contains(&judgement.id);
+                    let (id, headline, value) = (judgement.id, judgement.headline, judgement.value);
                     let _ = writeln!(text, "{start},{id},{headline},{own:.6},{value:.6},{turns}");
                 }),
             }

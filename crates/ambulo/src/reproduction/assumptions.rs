@@ -5,7 +5,7 @@ use super::error::ReproductionError;
 use super::evidence::{Evidence, Scope};
 use super::mode::{Request, paper_walk_with};
 use super::paper_settings::PaperSettings;
-use super::{Verdict, verdicts};
+use super::{Judgement, judgements};
 use crate::contact::HuntCrossley;
 use crate::gait::Style;
 use crate::simulation::Impact;
@@ -31,7 +31,7 @@ pub struct Sensitivity {
     /// The value tried in place of the one taken.
     pub other: &'static str,
     /// Claims with their headline numbers, or why it could not walk so.
-    pub outcome: Result<Vec<Verdict>, String>,
+    pub outcome: Result<Vec<Judgement>, String>,
 }
 
 impl Sensitivity {
@@ -40,7 +40,7 @@ impl Sensitivity {
     pub fn turned<'a>(&'a self, claims: &'a [Claim]) -> Vec<&'static str> {
         let judged = |id: &str| claims.iter().find(|claim| claim.id == id).map(|claim| claim.pass);
         let own = self.outcome.iter().flatten();
-        own.filter(|verdict| judged(verdict.id).is_some_and(|pass| pass != verdict.pass)).map(|v| v.id).collect()
+        own.filter(|judgement| judged(judgement.id).is_some_and(|pass| pass != judgement.pass)).map(|v| v.id).collect()
     }
 }
 
@@ -174,7 +174,7 @@ pub fn sensitivities() -> Result<Vec<Sensitivity>, ReproductionError> {
         for (other, settings) in assumption.others {
             let mut mode = |request: &Request<'_>| paper_walk_with(&settings, request);
             let evidence = Evidence::gather(&mut mode, Scope::Brief, None);
-            let outcome = evidence.map(|evidence| verdicts(&evidence)).map_err(|error| error.to_string());
+            let outcome = evidence.map(|evidence| judgements(&evidence)).map_err(|error| error.to_string());
             all.push(Sensitivity { what: assumption.what, other, outcome });
         }
     }

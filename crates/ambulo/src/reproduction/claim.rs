@@ -38,7 +38,7 @@ impl Claim {
 
 /// Whether a claim passes, and by what.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Verdict {
+pub struct Judgement {
     /// The claim.
     pub id: &'static str,
     /// Whether the paper's words hold.
@@ -72,10 +72,10 @@ impl Statement {
     }
 
     /// Only whether it passes, and by what.
-    pub(super) fn verdict(&self, paper: &Evidence) -> Verdict {
+    pub(super) fn judgement(&self, paper: &Evidence) -> Judgement {
         let numbers = (self.measure)(paper);
         let (pass, _) = (self.judge)(&numbers, None);
-        Verdict { id: self.id, pass, headline: self.headline, value: number(&numbers, self.headline) }
+        Judgement { id: self.id, pass, headline: self.headline, value: number(&numbers, self.headline) }
     }
 }
 

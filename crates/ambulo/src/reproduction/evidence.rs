@@ -32,7 +32,7 @@ pub const FRICTIONS: [f64; 10] = [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 1
 pub enum Scope {
     /// All.
     Full,
-    /// The gaits, and the standard one in both shoes: enough for the claims of [`verdicts`](super::verdicts).
+    /// The gaits, and the standard one in both shoes: enough for the claims of [`judgements`](super::judgements).
     Brief,
 }
 

@@ -76,10 +76,9 @@ pub fn paper_figures(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Pape
 pub fn angular_laws() -> Option<PaperFigure> {
     let gait = Gait::named("standard").ok()?;
     let walk = Walk::new(&gait, REFERENCE_LEG, &mut Findings::default()).ok()?;
-    let angles: [(&str, fn(&LegAngles) -> Jet); 3] =
-        [("hip", |leg| leg.hip), ("knee", |leg| leg.knee), ("ankle", |leg| leg.ankle)];
-    let series = angles.map(|(name, angle)| line(name, leg_curve(&walk, angle)));
-    let panel = cycle_panel("right leg".into(), "flexion, dorsiflexion (deg)", series.into());
+    let curve = |name: &str, angle: fn(&LegAngles) -> Jet| line(name, leg_curve(&walk, angle));
+    let series = vec![curve("hip", |leg| leg.hip), curve("knee", |leg| leg.knee), curve("ankle", |leg| leg.ankle)];
+    let panel = cycle_panel("right leg".into(), "flexion, dorsiflexion (deg)", series);
     Some(PaperFigure { name: "figure1", title: "Angular laws of the limbs".into(), panels: vec![panel] })
 }
 
@@ -147,7 +146,7 @@ fn knots(legs: &LegCurves, speed: f64) -> Vec<[f64; 2]> {
 fn snapshots_figure(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| PaperPanel {
         title: name.to_owned(),
-        x_label: "forwards (m)",
+        x_label: "forwards (m), 0.55 m added between instants",
         y_label: "height (m)",
         to_scale: true,
         series: snapshots(evidence.standard()),
@@ -212,10 +211,12 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
         to_scale: false,
         series,
     };
+    let faint = PaperSeries { name: "measured".into(), kind: SeriesKind::Faint, points: measured.points.clone() };
     let computed = modes(paper, corrected).into_iter().filter_map(|(name, evidence)| {
         let (curve, _) = stance(evidence.standard())?;
         Some(line(name, stances(weight, &|at| curve[(at * (POINTS - 1) as f64).round() as usize])))
     });
+    let computed = computed.chain([faint]);
     PaperFigure {
         name: "figure5",
         title: "Action on the ground during support: measured (a) and computed (b), 80 kg".into(),

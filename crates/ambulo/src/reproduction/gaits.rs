@@ -2,7 +2,7 @@
 
 use super::claim::{Numbers, Statement, number};
 use super::evidence::{Evidence, GAITS, Scope};
-use super::steady::{Steady, correlation, extremes, mean, rms};
+use super::steady::{Steady, correlation, extremes, rms};
 
 /// Curves of one global shape.
 const ALIKE: f64 = 0.8;
@@ -65,7 +65,7 @@ pub(super) const REGULAR: Statement = Statement {
     judge: |paper, _| {
         let regular = least_of(paper, "speed_peak_to_peak_share");
         let note = format!(
-            "passes if the forward speed of short steps varies least, from end to end, as a share of its mean; {regular} steps vary least. \
+            "passes if the forward speed of short steps varies least, from end to end, as a share of the speed asked for; {regular} steps vary least. \
              Scaled as the paper says (all angles alike), short steps lift the foot less: it strikes in mid-swing and, since blows cancel \
              all velocity, throws the figure back"
         );
@@ -104,12 +104,12 @@ fn mean_torque(run: &super::mode::Run, coordinate: &str) -> Vec<f64> {
     Steady::of(run).map_or(vec![f64::NAN], |steady| steady.mean_cycle(&steady.effort(coordinate)))
 }
 
-/// Largest less least forward speed of the mid-hip, over its mean's size.
+/// Largest less least forward speed of the mid-hip, over the speed that the gait asks for (short steps may come to no speed at all).
 pub(super) fn unevenness(run: &super::mode::Run) -> f64 {
     let Ok(steady) = Steady::of(run) else { return f64::NAN };
     let speed = &run.recording.speed()[steady.rows()];
     let (least, most) = extremes(speed);
-    (most - least) / mean(speed).abs()
+    (most - least) / run.speed
 }
 
 fn torques(evidence: &Evidence, coordinate: &str) -> Numbers {

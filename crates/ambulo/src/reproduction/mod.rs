@@ -31,7 +31,7 @@ mod period;
 mod sliding;
 
 pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
-pub use claim::{Claim, Numbers, Verdict, number};
+pub use claim::{Claim, Judgement, Numbers, number};
 pub use corrected::Corrected;
 pub use error::ReproductionError;
 pub use evidence::{
@@ -82,6 +82,6 @@ pub fn claims(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Claim> {
 
 /// Whether the claims that brief evidence suffices for pass.
 #[must_use]
-pub fn verdicts(paper: &Evidence) -> Vec<Verdict> {
-    STATEMENTS.iter().filter(|statement| statement.scope == Scope::Brief).map(|s| s.verdict(paper)).collect()
+pub fn judgements(paper: &Evidence) -> Vec<Judgement> {
+    STATEMENTS.iter().filter(|statement| statement.scope == Scope::Brief).map(|s| s.judgement(paper)).collect()
 }

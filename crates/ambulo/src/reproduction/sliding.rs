@@ -23,7 +23,8 @@ pub(super) const SINGLE: Statement = Statement {
         let slip = number(paper, "slip_on_one_foot_mm_a_step");
         let stop = number(paper, "friction_that_stops_it");
         let ends = if stop.is_finite() {
-            format!("it ends (below {:.0} mm) with a friction of {stop}", 1e3 * NO_SLIP_M)
+            let below = FRICTIONS.iter().copied().filter(|mu| *mu < stop).fold(0.0, f64::max);
+            format!("it ends (below {:.0} mm) with a friction between {below} and {stop}", 1e3 * NO_SLIP_M)
         } else {
             format!("it does not end with any friction up to {:.0}", FRICTIONS[FRICTIONS.len() - 1])
         };

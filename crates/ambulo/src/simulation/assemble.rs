@@ -79,7 +79,7 @@ impl Prescribed {
         self.values.clear();
         for joint in &world.joints {
             self.first.push(self.values.len());
-            let value = |c: &JointCoordinate| c.drive.as_ref().map_or(0.0, |drive| drive.signal.at(time_s)[0]);
+            let value = |c: &JointCoordinate| c.drive.as_ref().map_or(0.0, |drive| drive.signal.value(time_s));
             self.values.extend(joint.coordinates.iter().map(value));
         }
     }

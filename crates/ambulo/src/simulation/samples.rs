@@ -48,32 +48,69 @@ impl Samples {
     /// Value, first and second derivative of one function.
     #[must_use]
     pub fn at(&self, column: usize, t: f64) -> [f64; 3] {
+        match self.interval(column, t) {
+            Ok((first, u)) => self.quintic(first).at(u, self.step_s),
+            Err(end) => [self.rows[end][0], 0.0, 0.0],
+        }
+    }
+
+    /// The value alone.
+    #[must_use]
+    pub fn value(&self, column: usize, t: f64) -> f64 {
+        match self.interval(column, t) {
+            Ok((first, u)) => self.quintic(first).value(u),
+            Err(end) => self.rows[end][0],
+        }
+    }
+
+    /// The entry at the interval's begin and the share of it that has passed; outside, the entry at the end.
+    fn interval(&self, column: usize, t: f64) -> Result<(usize, f64), usize> {
         let intervals = self.rows.len() / self.columns - 1;
+        let count = intervals as f64;
         let mut place = (t - self.start_s) / self.step_s;
         if self.periodic {
-            place -= (place / intervals as f64).floor() * intervals as f64;
-        } else if !(0.0..=intervals as f64).contains(&place) {
+            // Towards zero, which on most processors is one instruction, and up where that is below.
+            place -= ((place / count) as i64 as f64) * count;
+            place = if place < 0.0 { place + count } else { place };
+        } else if !(0.0..=count).contains(&place) {
             let end = if place < 0.0 { 0 } else { intervals };
-            return [self.rows[end * self.columns + column][0], 0.0, 0.0];
+            return Err(end * self.columns + column);
         }
         let interval = (place as usize).min(intervals - 1);
-        let first = interval * self.columns + column;
-        between(self.rows[first], self.rows[first + self.columns], place - interval as f64, self.step_s)
+        Ok((interval * self.columns + column, place - interval as f64))
+    }
+
+    fn quintic(&self, first: usize) -> Quintic {
+        Quintic::new(self.rows[first], self.rows[first + self.columns], self.step_s)
     }
 }
 
-/// x(u) = x0 + v0 u + a0 u²/2 + c3 u³ + c4 u⁴ + c5 u⁵, u from 0 to 1, rates and accelerations in units of the interval.
-fn between([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], u: f64, d: f64) -> [f64; 3] {
-    let (v0, v1, a0, a1) = (v0 * d, v1 * d, a0 * d * d, a1 * d * d);
-    let (value, rate, bend) = (x1 - x0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0);
-    let c3 = 10.0 * value - 4.0 * rate + 0.5 * bend;
-    let c4 = -15.0 * value + 7.0 * rate - bend;
-    let c5 = 6.0 * value - 3.0 * rate + 0.5 * bend;
-    [
-        x0 + u * (v0 + u * (0.5 * a0 + u * (c3 + u * (c4 + u * c5)))),
-        (v0 + u * (a0 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))) / d,
-        (a0 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / (d * d),
-    ]
+/// x(u) = c0 + c1 u + .. + c5 u⁵, u from 0 to 1.
+struct Quintic([f64; 6]);
+
+impl Quintic {
+    /// With these values, rates and accelerations at its ends, an interval of d [s] apart.
+    fn new([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], d: f64) -> Quintic {
+        // Rates and accelerations in units of the interval.
+        let (v0, v1, a0, a1) = (v0 * d, v1 * d, a0 * d * d, a1 * d * d);
+        let (value, rate, bend) = (x1 - x0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0);
+        let c3 = 10.0 * value - 4.0 * rate + 0.5 * bend;
+        let c4 = -15.0 * value + 7.0 * rate - bend;
+        let c5 = 6.0 * value - 3.0 * rate + 0.5 * bend;
+        Quintic([x0, v0, 0.5 * a0, c3, c4, c5])
+    }
+
+    fn value(&self, u: f64) -> f64 {
+        let [c0, c1, c2, c3, c4, c5] = self.0;
+        c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))))
+    }
+
+    fn at(&self, u: f64, d: f64) -> [f64; 3] {
+        let [_, c1, c2, c3, c4, c5] = self.0;
+        let rate = c1 + u * (2.0 * c2 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)));
+        let acceleration = 2.0 * c2 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5));
+        [self.value(u), rate / d, acceleration / (d * d)]
+    }
 }
 
 #[cfg(test)]

@@ -66,6 +66,18 @@ impl Signal {
     }
 }
 
+impl Signal {
+    /// The value alone.
+    #[must_use]
+    pub fn value(&self, t: f64) -> f64 {
+        match self {
+            Signal::Constant(value) => *value,
+            Signal::Sampled(samples, column) => samples.value(*column, t),
+            _ => self.at(t)[0],
+        }
+    }
+}
+
 /// x(s) = x0 + (x1 - x0) (10 s³ - 15 s⁴ + 6 s⁵), s from 0 to 1: zero velocity and acceleration at both ends.
 fn between_stops(stops: &[(f64, f64)], t: f64) -> [f64; 3] {
     let after = stops.partition_point(|(time, _)| *time <= t);

@@ -82,7 +82,7 @@ impl Scene {
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
         let mut sources = Sources::new(load, findings, duration_s);
-        let mut world = World { gravity: file.gravity, ..World::default() };
+        let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
         let (walkers, keepers) = add_bodies(&mut world, file, &mut sources)?;
         let bodies = Bodies { file, walkers: &walkers, world: &world };

@@ -10,8 +10,9 @@ use super::material::{self, Material};
 use super::names::{Carrier, Item, Names, Partner};
 use super::obstacle::Obstacle;
 use super::output::{self, AllNames, Outputs};
-use super::solver::{Integrator, Solver};
+use super::solver::{Integrator, Solver, read_impact};
 use super::tree;
+use crate::simulation::Impact;
 use crate::spatial::Vec3;
 use crate::toml_reader::{Source, Table};
 
@@ -28,6 +29,8 @@ pub struct SceneFile {
     pub duration_s: f64,
     /// How time goes on.
     pub integrator: Integrator,
+    /// What becomes of the velocity of a point that strikes.
+    pub impact: Impact,
     /// Whether positions are projected back onto the constraints after each step.
     pub projection: bool,
     /// Rows of output a second [Hz], at most one a step.
@@ -71,6 +74,7 @@ const KEYS: &[&str] = &[
     "step",
     "duration",
     "integrator",
+    "impact",
     "projection",
     "output_rate",
     "solver",
@@ -112,6 +116,7 @@ impl SceneFile {
         if bodies.is_empty() && figures.is_empty() {
             return Err(root.missing("body", "at least one [[body]] or [[figure]]"));
         }
+        let integrator = Integrator::read(&root)?;
         let joints = joints(&root, &mut links, &things, &bodies, duration_s)?;
         let closures = closures(&root, &mut links, &things, &bodies)?;
         Ok(SceneFile {
@@ -119,7 +124,8 @@ impl SceneFile {
             gravity: root.get("gravity").map_or(Ok(GRAVITY), |value| value.vector())?,
             step_s,
             duration_s,
-            integrator: Integrator::read(&root)?,
+            integrator,
+            impact: read_impact(&root, integrator)?,
             projection: root.truth_or("projection", true)?,
             output_rate_hz: output_rate(&root, step_s)?,
             solver: Solver::read(&root)?,

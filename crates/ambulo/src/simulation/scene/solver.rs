@@ -1,6 +1,7 @@
 //! How a scene is stepped and solved.
 
 use super::SceneError;
+use crate::simulation::Impact;
 use crate::toml_reader::Table;
 
 /// How time goes on.
@@ -43,6 +44,17 @@ impl Integrator {
         let words = [("impulse", Integrator::Impulse), ("runge-kutta", Integrator::RungeKutta)];
         root.get("integrator").map_or(Ok(Integrator::Impulse), |value| value.choice(&words))
     }
+}
+
+/// What becomes of the velocity of a point that strikes; `sticking` goes with steps of impulses alone.
+pub(super) fn read_impact(root: &Table<'_>, integrator: Integrator) -> Result<Impact, SceneError> {
+    let words = [("coulomb", Impact::Coulomb), ("sticking", Impact::Sticking)];
+    let Some(value) = root.get("impact") else { return Ok(Impact::Coulomb) };
+    let impact = value.choice(&words)?;
+    if impact == Impact::Sticking && integrator == Integrator::RungeKutta {
+        return Err(value.wrong("\"coulomb\" with the integrator \"runge-kutta\""));
+    }
+    Ok(impact)
 }
 
 impl Solver {

@@ -1,0 +1,58 @@
+//! `ambulo reproduce`: the files that it writes, and that their pages name them.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod workbench;
+
+use std::path::Path;
+use workbench::Workbench;
+
+fn page() -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/REPRODUCTION.md")).unwrap()
+}
+
+#[test]
+fn the_paper_is_recomputed_into_the_documented_files() {
+    let bench = Workbench::empty("reproduce");
+    let run = bench.run(&["reproduce", "--brief", "-o", "paper"]).done();
+    assert!(run.stdout.contains("a1  holds") && run.stdout.contains(" of 22 hold"), "{}", run.stdout);
+    let claims = bench.json("paper/claims.json");
+    let rows = claims.as_array().unwrap();
+    assert_eq!(rows.len(), 22);
+    for row in rows {
+        let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
+        for key in ["id", "paper", "paper_mode", "corrected", "pass", "note", "headline"] {
+            assert!(row.get(key).is_some(), "{key} is missing in {keys:?}");
+            assert!(page().contains(&format!("`{key}`")), "{key} is not documented");
+        }
+        assert!(row["corrected"].is_null() || row["corrected"].is_object());
+        let headline = row["headline"].as_str().unwrap();
+        assert!(row["paper_mode"].get(headline).is_some(), "{headline}");
+    }
+    // The clock was held.
+    let speed = rows.iter().find(|row| row["id"] == "k").unwrap();
+    assert!(speed["paper_mode"]["frames_per_s"].as_f64().unwrap() > 30.0 && speed["pass"] == true);
+    for number in 1..=7 {
+        assert!(bench.text(&format!("paper/figures/figure{number}.svg")).ends_with("</svg>\n"));
+        let csv = bench.text(&format!("paper/figures/figure{number}.csv"));
+        assert!(csv.starts_with("panel,series,x_quantity,x,y_quantity,y\n") && csv.lines().count() > 40, "{number}");
+    }
+    let tables = [
+        ("muscles.csv", "mode,gait,joint,phase,group,action,share,moment_nm_kg,power_w_kg,work_j_kg", 4 * 3 * 7),
+        ("torques.csv", "mode,gait,coordinate,cycle_s,harmonic,cosine_nm,sine_nm,r_squared", 4 * 6 * 7),
+    ];
+    for (name, columns, count) in tables {
+        let text = bench.text(&format!("paper/{name}"));
+        assert_eq!((text.lines().next().unwrap(), text.lines().count()), (columns, 1 + count), "{name}");
+        let missing = columns.split(',').find(|column| !page().contains(&format!("`{column}`")));
+        assert_eq!(missing, None, "not documented");
+    }
+    assert!(bench.text("paper/torques.toml").matches("[[torque]]").count() == 4 * 6);
+    // Nothing else was tried: one row for each thing that is left open.
+    assert!(
+        bench
+            .text("paper/assumptions.csv")
+            .starts_with("what,value,why,other,claim,headline,with_value,with_other,turns\n")
+    );
+    assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 13);
+}

@@ -1,0 +1,170 @@
+//! Walking figures: forces against inverse dynamics, momentum, symmetry, the laws of contact, and what is refused.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
+use ambulo::dynamics::{LoadSeries, Workspace, inverse};
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Walk};
+use ambulo::kinematics::each_body_motion;
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
+use ambulo::simulation::{Impact, Signal, StepSettings};
+use ambulo::spatial::{Vec3, Wrench};
+
+const G: f64 = 9.80665;
+
+fn human() -> Human {
+    Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: false }.human().unwrap()
+}
+
+fn ground(friction: f64) -> Ground {
+    Ground { friction, shoes: Shoes::Rigid, impact: Impact::Sticking }
+}
+
+fn walker(gait: &str, human: &Human, ground: &Ground) -> (Walker, f64) {
+    let gait = Gait::named(gait).unwrap();
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    (Walker::new(human, gait_signals(&walk, &human.model), ground, walk.speed()).unwrap(), walk.cycle_s())
+}
+
+fn walked(gait: &str, ground: &Ground, step_s: f64, cycles: f64) -> WalkRecording {
+    let (walker, cycle_s) = walker(gait, &human(), ground);
+    let settings = StepSettings { step_s, ..StepSettings::default() };
+    walker.walk(&settings, cycles * cycle_s, &mut Findings::default()).unwrap()
+}
+
+#[test]
+fn a_figure_begins_on_its_lowest_sole() {
+    for table in SegmentTable::ALL {
+        let human = Build { table, mass: 70.0, height: 1.75, toe_joint: true }.human().unwrap();
+        let (walker, _) = walker("free", &human, &ground(1.0));
+        let lowest = human.soles.iter().map(|sole| {
+            let body = sole.body.index();
+            let center = human.model.bodies()[body].inertia.center();
+            walker.world.bodies[body].pose.place(sole.center - center).y - sole.radius
+        });
+        assert!(lowest.fold(f64::INFINITY, f64::min).abs() < 1e-12, "{table}");
+        let speed = walker.world.bodies[0].twist.linear.x;
+        assert!((speed - 1.3).abs() < 0.2, "{speed}");
+    }
+}
+
+/// Loads of both feet on the model, one a row.
+fn loads(recording: &WalkRecording) -> Vec<LoadSeries> {
+    recording
+        .feet
+        .iter()
+        .map(|foot| LoadSeries {
+            body: foot.body,
+            points: foot.point.clone(),
+            wrenches: foot.force.iter().map(|force| Wrench { moment: Vec3::zeros(), force: *force }).collect(),
+        })
+        .collect()
+}
+
+#[test]
+fn torques_of_the_multipliers_are_those_of_inverse_dynamics() {
+    // Root mean square difference over its like of the torques themselves.
+    let error = |step_s: f64| {
+        let recording = walked("standard", &ground(1.0), step_s, 3.0);
+        let forces = inverse(&mut Workspace::new(&recording.model), &recording.trajectory, &loads(&recording));
+        let mut sums = [0.0, 0.0];
+        for (of_multipliers, of_inverse) in recording.efforts.iter().zip(&forces.generalized) {
+            for row in 1..of_inverse.len() {
+                sums[0] += (of_multipliers[row] - of_inverse[row]).powi(2);
+                sums[1] += of_multipliers[row].powi(2);
+            }
+        }
+        (sums[0] / sums[1]).sqrt()
+    };
+    let errors = [error(2e-3), error(1e-3), error(5e-4)];
+    // The joints' accelerations in a step of impulses are differences over it; those of the recording are the gait's own.
+    assert!(errors[1] < 0.01, "{errors:?}");
+    assert!(errors[2] < 0.7 * errors[1] && errors[1] < 0.7 * errors[0], "{errors:?}");
+}
+
+#[test]
+fn forces_and_blows_carry_the_weight() {
+    let recording = walked("standard", &ground(1.0), 1e-3, 12.0);
+    let (grid, weight) = (recording.grid(), 80.0 * G);
+    // From the middle of a cycle's flight on, six whole cycles: momentum comes back to where it was.
+    let (from, to) = (6000, 12000);
+    let vertical: f64 = recording.feet.iter().flat_map(|foot| &foot.force[from..to]).map(|f| f.y).sum();
+    let within = |t: f64| (grid.time(from)..grid.time(to - 1)).contains(&t);
+    let blows = recording.blows.iter().filter(|blow| within(blow.time_s));
+    let blows: f64 = blows.flat_map(|blow| &blow.impulses).map(|impulse| impulse.y).sum();
+    let carried = (vertical * grid.step_s + blows) / (6.0 * weight);
+    assert!((carried - 1.0).abs() < 1e-3, "{carried} of the weight");
+    let forward: f64 = recording.feet.iter().flat_map(|foot| &foot.force[from..to]).map(|f| f.x).sum();
+    let blows: f64 =
+        recording.blows.iter().filter(|blow| within(blow.time_s)).flat_map(|b| &b.impulses).map(|i| i.x).sum();
+    assert!((forward * grid.step_s + blows).abs() < 1e-3 * weight, "forwards nothing is left");
+    // Without the blows it would not do.
+    assert!((vertical * grid.step_s / (6.0 * weight) - 1.0).abs() > 0.05);
+}
+
+#[test]
+fn the_laws_of_contact_hold_in_every_row() {
+    let recording = walked("standard", &ground(0.8), 1e-3, 6.0);
+    assert_eq!(recording.unsolved_steps, 0);
+    let (mut stuck, mut slid, mut flew) = (0, 0, 0);
+    for row in 0..recording.grid().frames {
+        for foot in &recording.feet {
+            let force = foot.force[row];
+            assert!(force.y >= 0.0 && force.z.abs() < 1e-6 * (1.0 + force.y), "{force}");
+            assert!(force.x.abs() <= 0.8 * force.y * (1.0 + 1e-6) + 1e-9, "beyond the cone: {force}");
+            if foot.loaded(row) && !foot.at_limit[row] {
+                assert!(foot.slip[row].abs() < 1e-6, "slips inside its cone at row {row}: {}", foot.slip[row]);
+                stuck += 1;
+            }
+            slid += usize::from(foot.at_limit[row]);
+        }
+        flew += usize::from(recording.flies(row));
+    }
+    assert!(stuck > 500 && slid > 200 && flew > 200, "{stuck} {slid} {flew}");
+}
+
+#[test]
+fn in_flight_the_mass_centre_falls_freely() {
+    let recording = walked("standard", &ground(1.0), 2e-4, 4.0);
+    let masses: Vec<f64> = recording.model.bodies().iter().map(|body| body.inertia.mass()).collect();
+    let mut fallen = 0;
+    each_body_motion(&recording.model, &recording.trajectory, |row, motions| {
+        let near_blow = recording.blows.iter().any(|blow| (blow.time_s - recording.grid().time(row)).abs() < 1e-3);
+        if near_blow || !recording.flies(row) {
+            return;
+        }
+        let sum: Vec3 = motions.iter().zip(&masses).map(|(motion, m)| motion.acceleration.linear * *m).sum();
+        let acceleration = sum / 80.0;
+        // Rows have the accelerations of a step, which meet the gait's own to its order.
+        assert!((acceleration - Vec3::new(0.0, -G, 0.0)).norm() < 0.1, "row {row}: {acceleration}");
+        fallen += 1;
+    });
+    assert!(fallen > 1000);
+}
+
+#[test]
+fn right_and_left_do_the_same_half_a_cycle_later() {
+    let recording = walked("standard", &ground(1.0), 1e-3, 12.0);
+    let [right, left] = ["hip_flexion_r", "hip_flexion_l"].map(|name| recording.effort(name).unwrap());
+    let largest = right[6000..].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let off = (6000..11000).map(|row| (right[row] - left[row + 500]).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-3 * largest, "{off} of {largest}");
+}
+
+#[test]
+fn the_same_walk_has_the_same_bits() {
+    let one = walked("short", &ground(1.0), 1e-3, 2.0);
+    let other = walked("short", &ground(1.0), 1e-3, 2.0);
+    assert_eq!((one.efforts, one.blows), (other.efforts, other.blows));
+}
+
+#[test]
+fn figures_that_cannot_walk_are_refused() {
+    let human = human();
+    let none = Walker::new(&human, vec![Signal::Constant(0.0)], &ground(1.0), 1.0);
+    assert_eq!(none.unwrap_err(), WalkingError::Signals { found: 1, expected: human.model.coordinates().len() });
+    let (walker, _) = walker("free", &human, &ground(1.0));
+    let refused = walker.walk(&StepSettings::default(), 1e-4, &mut Findings::default()).unwrap_err();
+    assert!(refused.to_string().contains("at least one whole step"), "{refused}");
+}
