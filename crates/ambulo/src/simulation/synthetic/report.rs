@@ -31,14 +31,13 @@ pub struct WalkReport {
     pub correction: Option<CorrectionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Change,
-    /// The farthest that the most loaded point of a foot slides in a stance [m].
+    /// How far the most loaded point of a foot wanders along the ground in the worst stance [m].
     pub slip: f64,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,
     /// Blows of rigid soles, and the largest impulse on a foot [N.s]; none on soft shoes.
     pub blows: (usize, f64),
-    /// Largest change of any joint angle or of the mid-hip's speed from one cycle to the next is not looked at where the angles are
-    /// given; this is the difference of the mid-hip's speed [m/s].
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s]; the angles are given and repeat exactly.
     pub speed_drift: f64,
     /// Steps of the simulator a second [Hz].
     pub steps_hz: f64,

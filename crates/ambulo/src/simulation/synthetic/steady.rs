@@ -77,15 +77,16 @@ fn report(
 /// A foot carries enough to be judged above this vertical force [N].
 const LOADED_N: f64 = 20.0;
 
-/// The farthest that the most loaded point of a foot slides while the foot is loaded: the integral of its speed over a stance [m].
+/// How far the most loaded point of a foot wanders along the ground while the foot is loaded, in the worst stance [m].
 fn slip(foot: &FootRecord, rows: &std::ops::Range<usize>, step_s: f64) -> f64 {
-    let (mut farthest, mut way) = (0.0_f64, 0.0);
+    let (mut farthest, mut place, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for row in rows.clone() {
         if foot.force[row].y > LOADED_N {
-            way += foot.slip[row].abs() * step_s;
-            farthest = farthest.max(way);
+            place += foot.slip[row] * step_s;
+            (least, most) = (least.min(place), most.max(place));
+            farthest = farthest.max(most - least);
         } else {
-            way = 0.0;
+            (place, least, most) = (0.0, 0.0, 0.0);
         }
     }
     farthest
