@@ -220,6 +220,10 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
         if convergence.not_converged == 1 { "" } else { "s" },
     ))?;
     print_efforts(summary)?;
+    for judged in summary.verdict.iter().flat_map(|verdict| &verdict.figures) {
+        say(&format!("  {}", judged.figure))?;
+        print_verdict(&judged.verdict)?;
+    }
     say(&format!("  written     {}", output.display()))
 }
 

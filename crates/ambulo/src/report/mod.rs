@@ -9,6 +9,7 @@ mod reproduction;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
+mod scene_verdict;
 mod summary;
 mod tables;
 mod walk_summary;
@@ -24,6 +25,7 @@ pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };
 pub use scene_tables::SceneTables;
+pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };

@@ -31,7 +31,7 @@ pub struct WalkReport {
     pub correction: Option<CorrectionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Change,
-    /// How far the most loaded point of a foot wanders along the ground in the worst stance [m].
+    /// The farthest that a loaded sole gets from where it stood, in a stance [m].
     pub slip: f64,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,

@@ -77,7 +77,8 @@ fn report(
 /// A foot carries enough to be judged above this vertical force [N].
 const LOADED_N: f64 = 20.0;
 
-/// How far the most loaded point of a foot wanders along the ground while the foot is loaded, in the worst stance [m].
+/// The farthest that a loaded sole gets from where it stood: the range of the integral of its most loaded point's slip over a
+/// stance [m].
 fn slip(foot: &FootRecord, rows: &std::ops::Range<usize>, step_s: f64) -> f64 {
     let (mut farthest, mut place, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for row in rows.clone() {

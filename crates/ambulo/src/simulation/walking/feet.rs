@@ -41,7 +41,7 @@ pub struct ToeRecord {
 const LIMIT_SHARE: f64 = 1.0 - 1e-6;
 
 impl FootRecord {
-    pub(super) fn new(body: BodyId, toes: Option<BodyId>, rows: usize) -> FootRecord {
+    pub(in crate::simulation) fn new(body: BodyId, toes: Option<BodyId>, rows: usize) -> FootRecord {
         FootRecord {
             body,
             force: Vec::with_capacity(rows),
@@ -59,7 +59,7 @@ impl FootRecord {
     }
 
     /// Begins a row in which nothing presses yet.
-    pub(super) fn begin_row(&mut self) {
+    pub(in crate::simulation) fn begin_row(&mut self) {
         self.force.push(Vec3::zeros());
         self.moment.push(Vec3::zeros());
         self.point.push(Vec3::zeros());
@@ -73,7 +73,7 @@ impl FootRecord {
     }
 
     /// Adds a point of contact of a body to the row; the centre of pressure is a sum until the row ends.
-    pub(super) fn add(&mut self, contact: &ContactForce, body: BodyId, friction: f64) {
+    pub(in crate::simulation) fn add(&mut self, contact: &ContactForce, body: BodyId, friction: f64) {
         let (Some(force), Some(point)) = (self.force.last_mut(), self.point.last_mut()) else { return };
         let pressing = contact.normal_force;
         if pressing <= 0.0 {
@@ -100,7 +100,7 @@ impl FootRecord {
         }
     }
 
-    pub(super) fn end_row(&mut self) {
+    pub(in crate::simulation) fn end_row(&mut self) {
         if let (Some(force), Some(point)) = (self.force.last(), self.point.last_mut()) {
             *point = if force.y > 0.0 { *point / force.y } else { Vec3::zeros() };
         }
