@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// The built-in input.
-const INPUT: [&str; 4] = ["figure.osim", "walk.mot", "walk_grf.mot", "walk_grf.xml"];
+pub(crate) const INPUT: [&str; 4] = ["figure.osim", "walk.mot", "walk_grf.mot", "walk_grf.xml"];
 
 /// What the built-in walk is not judged by.
 const THRESHOLDS: &str = "thresholds.toml";
