@@ -4,10 +4,13 @@ mod bench;
 mod check;
 mod figures;
 mod fit_gait;
-
+mod harmonics;
+mod normative;
 mod npz;
 mod peers;
 mod simulators;
+mod table;
+mod walk_bands;
 mod workspace;
 
 use std::process::ExitCode;
@@ -16,12 +19,13 @@ const HELP: &str = "\
 usage: cargo xtask <command>
 
   check             what CI runs: format, lints, tests, documentation; stops at the first failure
-  bench             time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
+  bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
-  fit-gait          fit the laws of the joints against speed anew from normative curves; prints their errors
+  fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
+  walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
 
 environment:
@@ -44,6 +48,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("walk-bands", _) => walk_bands::run(rest),
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");
             Ok(())

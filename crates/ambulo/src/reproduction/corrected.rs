@@ -22,8 +22,8 @@ pub struct Corrected {
 #[derive(Debug)]
 struct Kept {
     gait: Gait,
-    /// Mass, stature and depth of the standing soles tell figures apart.
-    figure: [f64; 3],
+    /// Bits of mass, stature and the soles' radii, which tell figures apart.
+    figure: [u64; 3],
     human: Human,
     walk: ConsistentWalk,
 }
@@ -61,7 +61,8 @@ impl Corrected {
     }
 
     fn find_or_make(&mut self, request: &Request<'_>) -> Result<usize, ReproductionError> {
-        let figure = [request.human.model.mass(), request.human.build.height, thickness(request.human)];
+        let figure =
+            [request.human.model.mass(), request.human.build.height, thickness(request.human)].map(f64::to_bits);
         if let Some(number) = self.kept.iter().position(|k| k.gait == *request.gait && k.figure == figure) {
             return Ok(number);
         }
