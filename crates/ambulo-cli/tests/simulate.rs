@@ -70,7 +70,7 @@ fn a_run_writes_the_documented_files_with_the_documented_columns() {
 fn the_summary_has_its_documented_keys() {
     let bench = bench("simulate_summary", &["slope.toml"]);
     let run = bench.run(&["simulate", "slope.toml", "--duration", "0.2", "--json", "-o", "out"]).done();
-    let printed: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let printed: Value = serde_json::from_str(&run.stdout).unwrap();
     let summary = bench.json("out/summary.json");
     assert_eq!(printed, summary);
     let documented =
