@@ -11,7 +11,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use serde_json::Value;
-use workbench::{FORCES, INPUT, RAW, Workbench, demo_input};
+use workbench::{FORCES, RAW, Workbench};
 
 /// Largest difference of a column in two tables of the same length.
 fn largest_difference(a: &Table, b: &Table, column: &str) -> f64 {

@@ -1,9 +1,8 @@
 //! The part of `summary.json` that only synthetic walks have.
 
 use crate::model::Model;
-use crate::numerics::Progress;
 use crate::simulation::consistent::Change;
-use crate::simulation::synthetic::{CorrectionReport, WalkReport};
+use crate::simulation::synthetic::{CorrectionReport, Progress, WalkReport};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -46,7 +45,7 @@ pub struct WalkSummary {
     pub trunk_torque_nm: Size,
     /// The same by kg of body mass [N.m/kg].
     pub trunk_torque_nm_kg: Size,
-    /// The farthest that a loaded foot slides in a stance [mm].
+    /// How far the loaded foot wanders along the ground in the worst stance [mm].
     pub foot_slip_mm: f64,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,

@@ -77,12 +77,12 @@ impl Default for ConsistencySettings {
 }
 
 /// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. Creep
-/// of 10 mm/s at full friction is ours: much slower than theirs (0.2 m/s), so that a standing foot stays where it is.
+/// of 13 mm/s at full friction is ours: much slower than theirs (0.2 m/s), so that a standing foot stays where it is.
 pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
     static_friction: 0.6,
     dynamic_friction: 0.6,
     viscous_friction: 0.0,
-    transition_velocity: 0.01,
+    transition_velocity: 0.013,
     depth_offset: 0.0,
     creep: Creep::Smooth,
     ..HuntCrossley::MOCO_2D_GAIT

@@ -12,6 +12,7 @@ mod paper;
 mod report;
 mod steady;
 
+pub use crate::numerics::Progress;
 pub use error::SyntheticError;
 pub use order::{MOST_CYCLES, Mode, RATES_HZ, WalkOrder};
 pub use report::{CorrectionReport, WalkReport};

@@ -37,8 +37,7 @@ pub struct WalkReport {
     pub flight_s: f64,
     /// Blows of rigid soles, and the largest impulse on a foot [N.s]; none on soft shoes.
     pub blows: (usize, f64),
-    /// Largest change of any joint angle or of the mid-hip's speed from one cycle to the next is not looked at where the angles are
-    /// given; this is the difference of the mid-hip's speed [m/s].
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s]; the angles are given and repeat exactly.
     pub speed_drift: f64,
     /// Steps of the simulator a second [Hz].
     pub steps_hz: f64,
