@@ -1,4 +1,4 @@
-//! How long our inverse dynamics, the stages of the main job and the `ambulo` command take: `cargo xtask bench`.
+//! How long our inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command take: `cargo xtask bench`.
 //!
 //! Before anything is timed, the torques of the reference human are compared with those of another engine; a time of a
 //! wrong answer is worth nothing. Where other engines are installed (see `peers`) they run right after ours, and the
@@ -8,6 +8,7 @@
 //! machine does not count. The `ambulo` command is timed by the clock on the wall, as its user does. Everything is also
 //! written to `target/bench.csv`.
 
+mod gait;
 mod human;
 pub(crate) mod simulation;
 mod timing;
@@ -42,12 +43,10 @@ struct Row {
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let (human, walk) = (human::Human::find(), workspace::Walk::find());
-    if human.is_none() && walk.is_none() {
-        println!("skipped: no data in {}; set AMBULO_DATA", workspace::data().display());
-        return Ok(());
-    }
     println!("{}", machine());
-    let mut rows = Vec::new();
+    // Synthetic walks need no data.
+    let mut rows = gait::bench()?;
+    println!();
     match human {
         Some(files) => rows.extend(bench_human(&human::Human::read(&files)?)?),
         None => println!("reference human: skipped: no data"),
@@ -150,7 +149,7 @@ fn peer_row(peer: &PeerTiming) -> Option<Row> {
 }
 
 /// Processor and compiler: times without them cannot be compared.
-fn machine() -> String {
+pub(crate) fn machine() -> String {
     let processors = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = processors.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
     let model = model.map_or("unknown processor", |(_, name)| name);

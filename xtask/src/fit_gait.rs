@@ -1,22 +1,22 @@
-//! Laws of the joints against speed, fitted anew from normative mean curves: `cargo xtask fit-gait`.
+//! Laws of the joints and of the ground forces against speed, fitted anew from normative mean curves: `cargo xtask fit-gait`.
 //!
 //! Reads the tables of Schwartz, Rozumalski, Trost 2008 beside the workspace, writes `crates/ambulo/data/gait/*.toml` with
 //! the errors of the fit in their headers, and prints the errors: of the laws, and of laws made without the speed on which
 //! they are judged.
 
 mod errors;
-mod harmonics;
+mod ground_forces;
 mod knots;
-mod normative;
 mod polynomial;
 mod recipe;
 mod write;
 
+use crate::harmonics::Harmonics;
+use crate::normative::{self, CADENCES, Curves, SPEEDS, Sheet};
 use crate::workspace;
 use ambulo::gait::{Joint, Laws, Style};
 use errors::CurveError;
-use harmonics::Harmonics;
-use normative::{CADENCES, Curves, SPEEDS};
+use ground_forces::Forces;
 use recipe::RECIPES;
 use std::fmt::Write;
 use std::fs;
@@ -60,12 +60,16 @@ const FIT_1997: &str = "\
 #[expect(clippy::print_stdout, reason = "the errors are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let tables: Vec<Curves> =
-        RECIPES.iter().map(|recipe| normative::curves(recipe.quantity)).collect::<Result<_, _>>()?;
+        RECIPES.iter().map(|recipe| normative::curves(Sheet::Angles, recipe.quantity)).collect::<Result<_, _>>()?;
     for style in [Style::Knots, Style::Paper1997] {
         let (path, errors) = (path(style), error_table(style, &tables)?);
         fs::write(&path, file_text(style, &tables, &errors)?).map_err(|e| format!("{}: {e}", path.display()))?;
         println!("written: {}\n{errors}", path.display());
     }
+    let (path, forces) = (forces_path(), Forces::read()?);
+    let errors = forces.errors()?;
+    fs::write(&path, forces.file_text(&errors)).map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("written: {}\n{errors}", path.display());
     Ok(())
 }
 
@@ -76,6 +80,11 @@ fn path(style: Style) -> PathBuf {
         Style::Paper1997 => "sub_cycles_1997.toml",
     };
     workspace::root().join(FOLDER).join(name)
+}
+
+/// Where the laws of the ground forces stand.
+fn forces_path() -> PathBuf {
+    workspace::root().join(FOLDER).join("ground_forces.toml")
 }
 
 /// A whole file: source, how it was fitted, errors, laws.
@@ -123,7 +132,8 @@ fn write_support(text: &mut String) -> Result<(), String> {
 
 /// Mean and the two even harmonics that both steps share, as quadratics of speed.
 fn write_wave(text: &mut String, name: &str, quantity: &str, with_mean: bool) -> Result<(), String> {
-    let waves: Vec<Harmonics> = normative::curves(quantity)?.iter().map(|curve| Harmonics::of(curve)).collect();
+    let waves: Vec<Harmonics> =
+        normative::curves(Sheet::Angles, quantity)?.iter().map(|curve| Harmonics::of(curve)).collect();
     let law = |part: &dyn Fn(&Harmonics) -> f64| {
         write::law(&polynomial::fit(&SPEEDS, &waves.iter().map(part).collect::<Vec<f64>>(), 2), 3)
     };
@@ -181,13 +191,16 @@ mod tests {
     #[test]
     fn the_laws_of_the_crate_are_those_of_the_fit() {
         let tables: Result<Vec<Curves>, String> =
-            RECIPES.iter().map(|recipe| normative::curves(recipe.quantity)).collect();
+            RECIPES.iter().map(|recipe| normative::curves(Sheet::Angles, recipe.quantity)).collect();
         let Ok(tables) = tables else { return };
         for style in [Style::Knots, Style::Paper1997] {
             let errors = error_table(style, &tables).unwrap();
             let expected = file_text(style, &tables, &errors).unwrap();
             assert_eq!(fs::read_to_string(path(style)).unwrap(), expected, "{style:?}: run `cargo xtask fit-gait`");
         }
+        let forces = Forces::read().unwrap();
+        let expected = forces.file_text(&forces.errors().unwrap());
+        assert_eq!(fs::read_to_string(forces_path()).unwrap(), expected, "run `cargo xtask fit-gait`");
     }
 
     #[test]

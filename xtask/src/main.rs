@@ -2,13 +2,15 @@
 
 mod bench;
 mod check;
-mod demo_input;
 mod figures;
 mod fit_gait;
-
+mod harmonics;
+mod normative;
 mod npz;
 mod peers;
 mod simulators;
+mod table;
+mod walk_bands;
 mod workspace;
 
 use std::process::ExitCode;
@@ -17,22 +19,19 @@ const HELP: &str = "\
 usage: cargo xtask <command>
 
   check             what CI runs: format, lints, tests, documentation; stops at the first failure
-  bench             time inverse dynamics, the stages of the main job and the `ambulo` command; writes target/bench.csv
+  bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
-  fit-gait          fit the laws of the joints against speed anew from normative curves; prints their errors
-  demo-input        make the built-in walk of `ambulo demo` anew, beside its figure
+  fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
+  walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
 
 environment:
   AMBULO_DATA       folder that holds `data` and `reference`; without it ../shared beside this workspace
   AMBULO_PEERS_ENV  folder of the other engines' virtual environments; see `cargo xtask peers`
 ";
-
-/// Built-in input of `ambulo demo`, relative to the workspace root.
-const DEMO: &str = "crates/ambulo-cli/assets/demo";
 
 /// The command line could not be understood.
 const MISUSED: u8 = 2;
@@ -49,8 +48,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
-        ("demo-input", []) => demo_input::write(&workspace::root().join(DEMO)),
-
+        ("walk-bands", _) => walk_bands::run(rest),
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");
             Ok(())

@@ -48,7 +48,7 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 41] = [
+const RESULTS: [&str; 43] = [
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -59,6 +59,8 @@ const RESULTS: [&str; 41] = [
     "events.csv",
     "cycles.csv",
     "figures/moments.svg",
+    "figures/gait.svg",
+    "figure.osim",
     "poses.csv",
     "joints.csv",
     "reactions.csv",

@@ -14,6 +14,7 @@ fn main() -> ExitCode {
     let done = match args.command {
         None => printer::guide().map(|()| Verdict::Accepted),
         Some(Command::Forces(args)) => commands::forces::run(&args),
+        Some(Command::Walk(args)) => commands::walk::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
         Some(Command::Reproduce(args)) => commands::reproduce::run(&args),

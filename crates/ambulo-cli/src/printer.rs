@@ -5,8 +5,8 @@
 use crate::args::Voice;
 use ambulo::analysis::Agreement;
 use ambulo::analysis::feasibility::Verdict;
-use ambulo::findings::Finding;
-use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary};
+use ambulo::findings::{Finding, Findings};
+use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary, WalkSummary};
 use ambulo::reproduction::{Claim, Sensitivity};
 use anyhow::Result;
 use serde::Serialize;
@@ -28,6 +28,7 @@ pub(crate) fn guide() -> Result<()> {
         "Ambulo {}: motion in, forces out.
 
   ambulo demo -o demo                                        try it, no file needed
+  ambulo walk --speed 1.2                                    a figure that walks: the same results, no file needed
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    joint moments, powers, ground forces
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
@@ -66,6 +67,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     let [from, to] = summary.window_s;
     say(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
     print_ground(summary)?;
+    if let Some(walk) = &summary.walk {
+        print_walk(walk)?;
+    }
     if let Some(r) = &summary.residual {
         say(&format!(
             "  residual  {:.1} N rms ({:.1} %BW), {:.1} N peak; {:.1} N.m rms, {:.1} N.m peak",
@@ -111,6 +115,42 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
     let held = claims.iter().filter(|claim| claim.pass).count();
     say(&format!("  {held} of {} hold; why and why not: claims.json", claims.len()))?;
     say(&format!("  written   {}", output.display()))
+}
+
+/// The states of a gait's machine.
+pub(crate) fn states(table: &str, findings: &Findings, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(findings.as_slice());
+    if voice.json {
+        return say(&serde_json::to_string_pretty(&serde_json::json!({ "states": table }))?);
+    }
+    say(table.trim_end())
+}
+
+/// How a walk was made.
+fn print_walk(walk: &WalkSummary) -> Result<()> {
+    say(&format!(
+        "  walk      {}, style {}, {} mode: {:.2} m/s, steps of {:.3} m, {:.1} a minute",
+        walk.gait, walk.style, walk.mode, walk.speed_asked_m_s, walk.step_length_m, walk.cadence_steps_min
+    ))?;
+    if let (Some(count), Some(degrees), Some(path)) =
+        (walk.parameters_adjusted, &walk.adjustment_deg, &walk.pelvis_path_mm)
+    {
+        let angles: Vec<String> =
+            degrees.iter().map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
+        say(&format!("  changed   by {count} numbers: {} deg rms", angles.join(", ")))?;
+        say(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
+    }
+    say(&format!(
+        "  trunk     held with {:.1} N.m rms, {:.1} N.m peak; feet slide {:.1} mm at most in a stance",
+        walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest, walk.foot_slip_mm
+    ))?;
+    if walk.blows > 0 {
+        say(&format!("  blows     {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;
+    }
+    Ok(())
 }
 
 fn print_findings(findings: &[Finding]) {
@@ -179,6 +219,10 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
         if convergence.not_converged == 1 { "" } else { "s" },
     ))?;
     print_efforts(summary)?;
+    for judged in summary.verdict.iter().flat_map(|verdict| &verdict.figures) {
+        say(&format!("  {}", judged.figure))?;
+        print_verdict(&judged.verdict)?;
+    }
     say(&format!("  written     {}", output.display()))
 }
 

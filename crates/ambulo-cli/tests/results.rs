@@ -128,24 +128,6 @@ fn quiet_prints_nothing_and_json_is_the_summary() {
 }
 
 #[test]
-fn the_demo_writes_its_input_and_the_same_run_can_be_repeated() {
-    let bench = Workbench::empty("demo");
-    bench.run(&["demo", "-o", "demo"]).done();
-    for name in INPUT {
-        assert_eq!(bench.read(&format!("demo/input/{name}")), demo_input(name), "{name}");
-    }
-    let input = |name: &str| format!("demo/input/{name}");
-    let [model, motion, grf, loads] = INPUT.map(input);
-    let args = ["forces", &motion, "--model", &model, "--grf", &grf, "--loads", &loads, "-o", "again"];
-    let judged = ["--thresholds", "demo/input/thresholds.toml"];
-    bench.run(&[&args[..], &RAW, &judged].concat()).done();
-    for name in ["moments.sto", "powers.sto", "reactions.sto", "kinematics.mot", "grf.mot", "events.csv", "cycles.csv"]
-    {
-        assert_eq!(bench.read(&format!("demo/{name}")), bench.read(&format!("again/{name}")), "{name}");
-    }
-}
-
-#[test]
 fn two_runs_give_identical_bytes_but_for_their_timing() {
     let bench = Workbench::new("determinism");
     let files = |folder: &str| {

@@ -198,3 +198,28 @@ fn the_example_of_the_help_runs() {
     bench.run(&words).done();
     assert!(bench.exists("out/energy.csv") && bench.exists("out/figures/energy.svg"));
 }
+
+#[test]
+fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
+    let bench = bench("simulate_verdict", &["stumble.toml"]);
+    let run = bench.run(&["simulate", "stumble.toml", "--plot", "-o", "out"]).infeasible();
+    assert!(
+        run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles give"),
+        "{}",
+        run.stdout
+    );
+    let verdict = &bench.json("out/summary.json")["verdict"];
+    assert_eq!(verdict["feasible"], false);
+    let reason = &verdict["figures"][0]["reasons"][0];
+    assert_eq!((&verdict["figures"][0]["figure"], &reason["check"]), (&"ann".into(), &"strength".into()));
+    assert!(reason["time_s"][0].as_f64().unwrap() > 1.0 && reason["value"].as_f64() > reason["limit"].as_f64());
+    assert!(bench.text("out/figures/joints.svg").contains("red: not feasible"));
+    // The moment that holds the trunk is there to be read.
+    assert!(bench.text("out/joints.csv").contains(",ann/ground_pelvis,angle_z,"));
+    // Before the kerb it is feasible.
+    bench.run(&["simulate", "stumble.toml", "--duration", "1.3", "-o", "early"]).done();
+    assert_eq!(bench.json("early/summary.json")["verdict"]["feasible"], true);
+    bench.write("still.toml", example("pendulum.toml"));
+    bench.run(&["simulate", "still.toml", "--duration", "0.1", "-o", "still"]).done();
+    assert!(bench.json("still/summary.json")["verdict"].is_null());
+}

@@ -30,7 +30,7 @@ fn the_built_in_walks_sliding_feet_are_found_by_the_built_in_limits() {
     let bench = Workbench::new("sliding");
     let run = bench.run(&[STRICT, &RAW].concat()).infeasible();
     assert!(run.stdout.contains("  verdict   infeasible, "), "{}", run.stdout);
-    assert!(run.stdout.contains("sliding: the loaded left foot slides at 0.9"), "{}", run.stdout);
+    assert!(run.stdout.contains("sliding: the loaded left foot slides at 1.0"), "{}", run.stdout);
     assert!(run.stdout.contains("more in summary.json"), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     assert_eq!(verdict["feasible"], false);

@@ -7,7 +7,7 @@
 //! Pinned by: tests/loads.rs, tests/malformed.rs, tests/real_files.rs
 
 use crate::error::{Error, Remark, quoted};
-use crate::xml;
+use crate::xml::{self, escaped};
 use roxmltree::Node;
 
 /// Forces from one data file, and the bodies on which they act.
@@ -205,21 +205,4 @@ fn write_force(force: &ExternalForce) -> String {
 
 fn element(indent: &str, tag: &str, text: &str) -> String {
     format!("{indent}<{tag}>{}</{tag}>\n", escaped(text))
-}
-
-/// Text as XML may hold it: the five special characters as entities, control characters left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&apos;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
-        }
-    }
-    out
 }

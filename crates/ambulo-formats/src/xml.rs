@@ -111,3 +111,20 @@ pub(crate) fn boolean(node: Node<'_, '_>, tag: &str) -> Result<Option<bool>, Err
         Some(t) => Err(error_at(child(node, tag).unwrap_or(node), quoted(t), "`true` or `false`")),
     }
 }
+
+/// Text as XML may hold it: the five special characters as entities, control characters left out.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&apos;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
+            c => out.push(c),
+        }
+    }
+    out
+}

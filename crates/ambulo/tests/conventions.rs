@@ -8,7 +8,7 @@ use ambulo::spatial::Vec3;
 use ambulo_formats::osim::OsimModel;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
-const FIGURE: &[u8] = include_bytes!("../../ambulo-cli/assets/demo/figure.osim");
+const FIGURE: &[u8] = include_bytes!("../../ambulo-cli/tests/recording/figure.osim");
 /// How far the joint is turned [rad] or moved [m].
 const STEP: f64 = 0.1;
 

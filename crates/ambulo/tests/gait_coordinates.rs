@@ -11,7 +11,7 @@ use ambulo::model::{Model, from_osim};
 use ambulo_formats::osim::OsimModel;
 use common::{assert_near, derivatives};
 
-const FIGURE: &[u8] = include_bytes!("../../ambulo-cli/assets/demo/figure.osim");
+const FIGURE: &[u8] = include_bytes!("../../ambulo-cli/tests/recording/figure.osim");
 
 fn walk(edit: impl Fn(&mut Gait)) -> Walk {
     let mut gait = Gait::named("free").unwrap();

@@ -2,8 +2,8 @@
 
 use ambulo::simulation::Impact;
 use ambulo::simulation::scene::{
-    Anchor, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, Integrator, JointKind, Method,
-    ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid,
+    Anchor, Arm, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, GaitSource, Integrator, JointKind,
+    Method, ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid, WalkMode,
 };
 use ambulo::spatial::{Mat3, Vec3};
 use proptest::prelude::*;
@@ -155,7 +155,7 @@ fn every_record_keeps_its_line() {
 }
 
 #[test]
-fn the_nine_examples_are_scenes() {
+fn the_examples_are_scenes() {
     let counts: Vec<(String, [usize; 5])> = examples()
         .iter()
         .map(|(name, text)| {
@@ -165,14 +165,17 @@ fn the_nine_examples_are_scenes() {
         })
         .collect();
     let expected = [
+        ("carry", [1, 1, 0, 2, 0]),
         ("four-bar", [3, 0, 3, 1, 0]),
         ("grasp", [4, 1, 3, 0, 0]),
+        ("hand-in-hand", [0, 1, 0, 1, 0]),
         ("hands", [6, 0, 6, 1, 2]),
         ("ladder", [60, 0, 60, 20, 0]),
         ("pendulum", [1, 0, 1, 0, 0]),
         ("pile", [10, 5, 0, 0, 0]),
         ("pusher", [3, 2, 2, 0, 0]),
         ("slope", [2, 2, 0, 0, 0]),
+        ("stumble", [0, 2, 0, 0, 0]),
         ("top", [1, 0, 1, 0, 0]),
     ];
     assert_eq!(counts, expected.map(|(name, counts)| (name.to_owned(), counts)));
@@ -864,7 +867,11 @@ fn events_that_change_nothing_are_refused() {
 #[test]
 fn figures_and_pairs_that_make_no_sense_are_refused() {
     let figure = |text: &str| said_with(&format!("[[figure]]\nname = \"walker\"\n{text}\n"));
-    assert_eq!(figure(""), "line 52, `figure[1].model`: found no `model`; expected the path of an .osim file");
+    assert_eq!(
+        figure(""),
+        "line 52, `figure[1].model`: found no `model`; expected the path of an .osim file, or `build` with a table, a mass \
+         and a height"
+    );
     assert!(figure("model = \"a.osim\"\ndrive = \"all\"").contains("`figure[1].motion`: found no `motion`"));
     assert!(figure("model = \"a.osim\"\nmotion = \"\"").contains("expected a text that is not empty"));
     assert!(figure("model = \"a.osim\"\ndrive = \"some\"").contains("expected \"all\", \"none\", or a list"));
@@ -882,6 +889,95 @@ fn an_error_from_later_reads_the_same_way() {
         error.to_string(),
         "line 7, `figure[1].model`: found no file `a.osim`. hint: paths begin at the scene's folder"
     );
+}
+
+/// A figure that the program builds; the text of `build` stands in line 4.
+fn person(build: &str, more: &str) -> String {
+    format!("step = 1\nduration = 1\n[[figure]]\nbuild = {build}\nname = \"ann\"\n{more}\n")
+}
+
+const ANN: &str = "{ table = \"de-leva-female\", mass = 60, height = 1.65 }";
+
+#[test]
+fn built_figures_read_as_they_say() {
+    let file = parse(&person(
+        ANN,
+        "walk = { gait = \"slow\", speed = 0.9, mode = \"curves\", phase = 0.25 }\narms = { left = { abduction_deg = 30, stiffness = 20, damping = 2 } }\n\
+         shoes = \"default\"\nat = [1, 0, 2]\n[[figure.coordinate]]\nname = \"arm_flex_l\"\nstart_deg = 90\n\
+         follow = { stiffness = 5 }\n[[figure.coordinate]]\nname = \"knee_angle_r\"",
+    ));
+    let built = file.figures[0].built.as_ref().unwrap();
+    assert!(built.build.toe_joint && (built.build.mass - 60.0).abs() < ROUNDING);
+    assert_eq!((built.build.table.name(), built.shoes), ("de-leva-female", Some(0)));
+    let walk = built.walk.as_ref().unwrap();
+    assert_eq!((&walk.gait, walk.speed, walk.mode), (&GaitSource::Named("slow".into()), Some(0.9), WalkMode::Curves));
+    near(walk.phase, 0.25);
+    near(built.arms[1].abduction, PI / 6.0);
+    assert_eq!((built.arms[0], built.arms[1].spring), (Arm::default(), Some([20.0, 2.0])));
+    let [arm, knee] = &built.coordinates[..] else { panic!("two coordinates") };
+    near(arm.acting.start, PI / 2.0);
+    assert_eq!((arm.starts, knee.starts, knee.follow), ([true, false], [false, false], None));
+    let follow = arm.follow.unwrap();
+    assert!((follow.stiffness - 5.0).abs() < ROUNDING && follow.damping.abs() < ROUNDING && follow.max.is_infinite());
+    let file = parse(&person(ANN, "walk = { gait = \"mine.toml\" }"));
+    let walk = file.figures[0].built.as_ref().unwrap().walk.as_ref().unwrap();
+    assert_eq!((&walk.gait, walk.mode), (&GaitSource::File("mine.toml".into()), WalkMode::Corrected));
+}
+
+#[test]
+fn built_figures_that_make_no_sense_are_refused() {
+    let said = |build: &str, more: &str| refusal(&person(build, more)).to_string();
+    let cases = [
+        ("60", "", "line 4, `figure[1].build`: found 60; expected { table = …, mass = …, height = … }"),
+        ("{ mass = 60 }", "", "line 4, `figure[1].build.table`: found no `table`; expected whose segments"),
+        (
+            "{ table = \"de-leva-woman\", mass = 60, height = 1.65 }",
+            "",
+            "`figure[1].build.table`: found \"de-leva-woman\"; expected one of \"faure-1997\"",
+        ),
+        (
+            "{ table = \"faure-1997\", mass = 60, height = 165 }",
+            "",
+            "line 4, `figure[1].build`: the height is 165 m; expected 0.4 to 2.5 m. hint: metres",
+        ),
+        (ANN, "model = \"a.osim\"", "`figure[1].model`: this key is not known here"),
+        (ANN, "walk = { gait = \"trot\" }", "line 6, `figure[1].walk.gait`: found \"trot\"; expected a path that ends"),
+        (ANN, "walk = { speed = 0 }", "`figure[1].walk.speed`: found 0; expected a number above zero"),
+        (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),
+        (ANN, "walk = { mode = \"curve\" }", "expected one of \"corrected\", \"curves\". hint: is \"curves\" meant?"),
+        (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
+        (
+            ANN,
+            "arms = { left = { damping = 2 } }",
+            "`figure[1].arms.left.damping`: found 2; expected no such key without",
+        ),
+        (ANN, "shoes = \"clog\"", "line 6, `figure[1].shoes`: found \"clog\"; expected one of \"default\""),
+        (
+            ANN,
+            "[[figure.coordinate]]\nname = \"arm_flex\"",
+            "line 7, `figure[1].coordinate[1].name`: found \"arm_flex\"",
+        ),
+        (
+            ANN,
+            "[[figure.coordinate]]\nname = \"arm_flex_l\"\nfollow = { stiffness = 1 }",
+            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key without a `walk` to follow",
+        ),
+        (
+            ANN,
+            "walk = {}\n[[figure.coordinate]]\nname = \"arm_flex_l\"\ndrive = 0\nfollow = { stiffness = 1 }",
+            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key beside a drive or a motor",
+        ),
+        (
+            ANN,
+            "[[figure.coordinate]]\nname = \"arm_flex_l\"\n[[figure.coordinate]]\nname = \"arm_flex_l\"",
+            "`figure[1].coordinate[2].name`: found \"arm_flex_l\" again; it stands in line 6 already",
+        ),
+        (ANN, "[[figure.coordinate]]\nname = \"pelvis_tx\"\nstart_deg = 1", "expected `start` in metres"),
+    ];
+    for (build, more, expected) in cases {
+        let found = said(build, more);
+        assert!(found.contains(expected), "{found}\n{expected}");
+    }
 }
 
 // ---- the reference ----
@@ -948,6 +1044,14 @@ fn the_reference_has_every_key() {
     let figure = "[[figure]]\nname = \"f\"\nmodel = \"m\"\n";
     check(&scene(&format!("{figure}zzz = 1")));
     check(&scene(&format!("{figure}[[figure.sphere]]\nzzz = 1")));
+    let person = "[[figure]]\nname = \"f\"\nbuild = { table = \"de-leva-male\", mass = 75, height = 1.8 }\n";
+    check(&scene(&format!("{person}zzz = 1")));
+    check(&scene(&person.replace("mass", "zzz = 1, mass")));
+    for part in ["walk.zzz = 1", "arms.zzz = 1", "arms.right.zzz = 1", "[[figure.coordinate]]\nzzz = 1"] {
+        check(&scene(&format!("{person}{part}")));
+    }
+    let own = "walk = {}\n[[figure.coordinate]]\nname = \"arm_flex_r\"\n";
+    check(&scene(&format!("{person}{own}follow.zzz = 1")));
     for table in ["[solver]", "[output]", "[[event]]", "[[ignore]]", "[[body]]"] {
         check(&format!("{}{table}\nzzz = 1", scene("")));
     }

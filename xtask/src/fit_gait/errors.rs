@@ -1,7 +1,7 @@
 //! How far laws are from the mean curves.
 
-use super::harmonics::Harmonics;
-use super::normative::{Curves, SPEEDS};
+use crate::harmonics::Harmonics;
+use crate::normative::{Curves, SPEEDS};
 use ambulo::gait::{CyclicCurve, Jet, SpeedRange};
 
 /// Error of one curve at one speed.

@@ -4,10 +4,10 @@
 //! slope and curvature are then read from the curves at the times of that law, not at the times found, and fitted in their
 //! turn: so an error of the time law costs next to nothing, for the knot still lies on the curve.
 
-use super::harmonics::Harmonics;
-use super::normative::{Curves, SPEEDS};
 use super::polynomial;
 use super::recipe::{Mark, Recipe, Wanted};
+use crate::harmonics::Harmonics;
+use crate::normative::{Curves, SPEEDS};
 
 /// Steps of a search over a whole cycle.
 const STEPS_PER_PERCENT: usize = 20;

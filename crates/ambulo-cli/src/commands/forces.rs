@@ -1,10 +1,12 @@
 //! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
 
 use super::ground_input::{self, GroundTable};
+use super::outcome::{Outcome, read_thresholds};
+use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs, Voice};
-use crate::{Verdict, files, printer};
-use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
-use ambulo::analysis::{Analysis, AnalysisError, Settings, analyse};
+use crate::{Verdict, files};
+use ambulo::analysis::feasibility::{Person, Thresholds};
+use ambulo::analysis::{AnalysisError, Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -12,11 +14,10 @@ use ambulo::motion::{
     DeviceRecording, ForceRecording, Motion, Smoother, Window, coordinates_from_table, device_from_table,
     force_recordings,
 };
-use ambulo::report::{GroundSource, Input, Summary, output_files, summary};
+use ambulo::report::{GroundSource, Input};
 use ambulo_formats::osim::OsimModel;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
     if let (Some(from), Some(to)) = (args.from, args.to)
@@ -52,68 +53,35 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
 }
 
 /// Everything that was read.
-pub(super) struct Recording {
-    pub(super) model: Model,
-    pub(super) motion: Motion,
-    pub(super) plates: Vec<ForceRecording>,
-    pub(super) device: Option<DeviceRecording>,
-    pub(super) settings: Settings,
-    pub(super) thresholds: Thresholds,
-    pub(super) input: Input,
+struct Recording {
+    model: Model,
+    motion: Motion,
+    plates: Vec<ForceRecording>,
+    device: Option<DeviceRecording>,
+    settings: Settings,
+    thresholds: Thresholds,
+    input: Input,
     /// Every file that was read; none of them is written over.
-    pub(super) read: Vec<PathBuf>,
+    read: Vec<PathBuf>,
 }
 
-/// Computes, writes and reports: what `forces` and `demo` share.
-pub(super) fn compute(
+fn compute(
     recording: &Recording,
     mut findings: Findings,
     mut clock: Stopwatch,
     output: &Path,
     voice: Voice,
 ) -> Result<Verdict> {
-    let Recording { model, motion, plates, device, settings, thresholds, input, read: inputs } = recording;
-    let mut analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
+    let Recording { model, motion, plates, device, settings, thresholds, input, read } = recording;
+    let analysis = analyse(model, motion, plates, *settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, input))?;
     if let Some(device) = device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
-    if analysis.cycles.is_empty() {
-        findings.note("cycles.none", "no whole gait cycle in the window: cycles.csv and the figure were not written");
-    }
     let device = device.as_ref().map(|d| d.on(analysis.trajectory.grid()));
-    let feasible = judge(model, &mut analysis, device.as_deref(), thresholds, &mut findings);
-    clock.lap("feasibility");
-    let written = output_files(model, &analysis, device.as_deref())?;
-    files::replace_results(output, &written, inputs)?;
-    clock.lap("write");
-    let mut summary = summary(model, &analysis, settings, input.clone(), &findings);
-    summary.timing_ms = clock.laps.into_iter().collect();
-    write_summary(output, &summary)?;
-    printer::forces(&summary, output, voice)?;
-    Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
-}
-
-/// Whether a person could do this; the verdict stays with the analysis.
-fn judge(
-    model: &Model,
-    analysis: &mut Analysis,
-    device: Option<&[Vec<f64>]>,
-    thresholds: &Thresholds,
-    findings: &mut Findings,
-) -> bool {
-    let Analysis { trajectory, forces, ground, .. } = &*analysis;
-    let evidence = Evidence { model, trajectory, forces, ground, device };
-    let verdict = feasibility::check(&evidence, &Person::of_model(model), thresholds, findings);
-    analysis.verdict.insert(verdict).feasible
-}
-
-/// The thresholds of a file, or the built-in ones.
-pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
-    let Some(path) = path else { return Ok(Thresholds::default()) };
-    let shown = || path.display().to_string();
-    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
-    Thresholds::from_toml(&text).with_context(shown)
+    let (person, device) = (Person::of_model(model), device.as_deref());
+    let outcome = Outcome { model, settings, thresholds, input, person, device, read, walk: None };
+    outcome.write(analysis, findings, clock, output, voice)
 }
 
 /// The error with the file that it is about.
@@ -123,35 +91,6 @@ fn name_the_file(error: AnalysisError, input: &Input) -> anyhow::Error {
         _ => input.motion.clone(),
     };
     anyhow::Error::new(error).context(file)
-}
-
-fn write_summary(output: &Path, summary: &Summary) -> Result<()> {
-    let mut json = serde_json::to_vec_pretty(summary)?;
-    json.push(b'\n');
-    files::write(&output.join("summary.json"), &json)
-}
-
-/// Measures how long each stage took.
-pub(super) struct Stopwatch {
-    last: Instant,
-    laps: Vec<(String, f64)>,
-}
-
-impl Stopwatch {
-    pub(super) fn new() -> Stopwatch {
-        Stopwatch { last: Instant::now(), laps: Vec::new() }
-    }
-
-    /// What each stage took [ms].
-    pub(super) fn into_laps(self) -> std::collections::BTreeMap<String, f64> {
-        self.laps.into_iter().collect()
-    }
-
-    pub(super) fn lap(&mut self, stage: &str) {
-        let now = Instant::now();
-        self.laps.push((stage.to_owned(), 1e3 * (now - self.last).as_secs_f64()));
-        self.last = now;
-    }
 }
 
 fn refuse_other_inputs(input: &Path) -> Result<()> {

@@ -5,5 +5,8 @@ pub(crate) mod demo;
 pub(crate) mod forces;
 mod ground_input;
 pub(crate) mod info;
+mod outcome;
 pub(crate) mod reproduce;
 pub(crate) mod simulate;
+mod stopwatch;
+pub(crate) mod walk;

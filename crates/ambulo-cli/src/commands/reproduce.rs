@@ -3,7 +3,7 @@
 use crate::args::ReproduceArgs;
 use crate::{Verdict, files, printer};
 use ambulo::report::reproduction_files;
-use ambulo::reproduction::{Claim, Evidence, Mode, Request, Scope, claims, paper_walk, sensitivities};
+use ambulo::reproduction::{Claim, Corrected, Evidence, Mode, Request, Scope, claims, paper_walk, sensitivities};
 use anyhow::Result;
 use std::time::Instant;
 
@@ -12,14 +12,16 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |request: &Request<'_>| paper_walk(request);
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
-    let claims: Vec<Claim> = claims(&paper, None);
+    let mut mode = Corrected::default();
+    let corrected = gather("the corrected mode", &mut |request: &Request<'_>| mode.walk(request), &clock, args)?;
+    let claims: Vec<Claim> = claims(&paper, Some(&corrected));
     let others = if args.brief {
         Vec::new()
     } else {
         printer::progress("other values for what the paper leaves open", args.voice);
         sensitivities()?
     };
-    let written = reproduction_files(&claims, &paper, None, &others)?;
+    let written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
     files::replace_results(&args.output, &written, &[])?;
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');

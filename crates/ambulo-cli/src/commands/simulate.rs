@@ -1,10 +1,11 @@
 //! `ambulo simulate`: a scene file stepped through time.
 
-use super::forces::Stopwatch;
+use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::{Verdict, files, printer};
+use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
-use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables};
+use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables, scene_verdict};
 use ambulo::simulation::scene::{Changes, SavedState, Scene, SceneFile};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
@@ -40,9 +41,13 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
         .with_context(|| args.scene.display().to_string())?;
     clock.lap("simulate");
 
+    let verdict = scene_verdict(&scene, &Thresholds::default(), &mut findings)?;
+    let feasible = verdict.as_ref().is_none_or(|verdict| verdict.feasible);
+    clock.lap("feasibility");
+
     let mut written = tables.files(&scene)?;
     if let Some(curves) = &curves {
-        written.extend(curves.files(&scene)?);
+        written.extend(curves.files(&scene, verdict.as_ref())?);
     }
     files::replace_results(&args.output, &written, &inputs)?;
     if let Some(path) = &args.save {
@@ -50,10 +55,11 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
     }
     clock.lap("write");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
+    summary.verdict = verdict;
     summary.timing_ms = clock.into_laps();
     write_json(&args.output.join("summary.json"), &summary)?;
     printer::simulate(&summary, &args.output, args.voice)?;
-    Ok(Verdict::Accepted)
+    Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
 }
 
 /// The scene, with every file that it names; their paths are added to `inputs`.

@@ -63,7 +63,7 @@ pub(crate) struct Run {
 
 /// The bytes of a file of the built-in input.
 pub(crate) fn demo_input(name: &str) -> Vec<u8> {
-    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/demo").join(name)).unwrap()
+    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recording").join(name)).unwrap()
 }
 
 impl Workbench {

@@ -12,6 +12,7 @@ mod constraint;
 mod frame;
 mod function;
 mod joint;
+mod write;
 
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};

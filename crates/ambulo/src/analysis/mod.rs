@@ -13,5 +13,5 @@ pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
 pub use peaks::{Peak, peak};
-pub use recording::{Analysis, AnalysisError, Mass, MassSource, Settings, analyse};
+pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual};

@@ -108,8 +108,36 @@ pub fn analyse(
         .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");
-    let ground =
-        ground::measured(model, &trajectory, plates, settings.force_filter, findings).map_err(AnalysisError::Ground)?;
+    analyse_trajectory(model, trajectory, plates, ForceSource::Measured(settings.force_filter), findings, stage)
+}
+
+/// How the forces under the feet are known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ForceSource {
+    /// By plates; with a low-pass of what they measured, `None` leaves it as it is. The body's mass is read off them where they saw
+    /// whole cycles.
+    Measured(Option<LowPass>),
+    /// By a simulation of this very model, exactly; its mass is the model's.
+    Simulated,
+}
+
+/// Analyses a motion that is complete, recorded or made, with the forces under its feet: what [`analyse`] does after smoothing.
+///
+/// # Errors
+/// Forces that cannot be used: see [`MotionError`].
+pub fn analyse_trajectory(
+    model: &Model,
+    trajectory: Trajectory,
+    plates: &[ForceRecording],
+    source: ForceSource,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<Analysis, AnalysisError> {
+    let filter = match source {
+        ForceSource::Measured(filter) => filter,
+        ForceSource::Simulated => None,
+    };
+    let ground = ground::measured(model, &trajectory, plates, filter, findings).map_err(AnalysisError::Ground)?;
     report_sides(model, &ground, findings);
     stage("ground");
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
@@ -125,7 +153,10 @@ pub fn analyse(
     if !plates.is_empty() && !events.iter().any(|e| e.kind == EventKind::Strike) {
         findings.note("events.none", "no foot strike was found in the forces inside the window");
     }
-    let mass = mass(model, &vertical, &weighing(&cycles, &events, findings), findings);
+    let mass = match source {
+        ForceSource::Measured(_) => mass(model, &vertical, &weighing(&cycles, &events, findings), findings),
+        ForceSource::Simulated => Mass { kg: model.mass(), source: MassSource::Model },
+    };
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
     let residual = residual(model, &forces);
     plausibility::report_residual(residual, mass.kg * model.gravity().norm(), !plates.is_empty(), findings);

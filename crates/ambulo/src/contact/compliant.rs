@@ -3,7 +3,8 @@
 //!   k = E^(2/3) / 2
 //!   F_h = 4/3 k √(R k) (d² + ε)^(3/4)
 //!   F_n = F_h (1 + 3/2 c d') · (tanh(b_v (d' + 1/(3/2 c))) + 1)/2 · (tanh(b_d d) + 1)/2
-//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip
+//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip, or, without its corner,
+//!   F_t = F_n [ μ_d v/√(v² + v_t²) + μ_v v ]
 //!
 //! | code                  | symbol | unit   | meaning                                                           |
 //! | `stiffness`           | E      | N/m²   | plane-strain modulus                                              |
@@ -53,6 +54,18 @@ pub struct HuntCrossley {
     pub depth_slope: f64,
     /// b_v [s/m].
     pub rate_slope: f64,
+    /// How friction grows with slip.
+    pub creep: Creep,
+}
+
+/// How friction grows with slip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Creep {
+    /// As published, with a corner at v_t.
+    #[default]
+    Stribeck,
+    /// v/√(v² + v_t²): smooth at every slip, which optimisation needs; μ_s plays no part.
+    Smooth,
 }
 
 /// A parameter that the law cannot have.
@@ -79,6 +92,7 @@ impl HuntCrossley {
         depth_offset: 1e-5,
         depth_slope: 300.0,
         rate_slope: 50.0,
+        creep: Creep::Stribeck,
     };
     /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres a foot, 35 mm at the heel and 15 mm in front.
     pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
@@ -152,7 +166,11 @@ impl HuntCrossley {
     fn friction_coefficient(&self, speed: f64) -> f64 {
         let v = speed / self.transition_velocity;
         let (mu_s, mu_d) = (self.static_friction, self.dynamic_friction);
-        v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)) + self.viscous_friction * speed
+        let dry = match self.creep {
+            Creep::Stribeck => v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)),
+            Creep::Smooth => mu_d * v / (1.0 + v * v).sqrt(),
+        };
+        dry + self.viscous_friction * speed
     }
 }
 

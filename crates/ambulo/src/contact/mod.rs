@@ -14,7 +14,7 @@ mod compliant;
 mod cone;
 
 pub use broad_phase::candidate_pairs;
-pub use compliant::{HuntCrossley, HuntCrossleyError};
+pub use compliant::{Creep, HuntCrossley, HuntCrossleyError};
 pub use cone::{Projection, onto_cone};
 pub use detect::{ContactPoint, contacts};
 pub use shape::{Shape, ShapeError};

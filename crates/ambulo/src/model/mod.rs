@@ -4,6 +4,7 @@
 //! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
 
 pub mod anthropometry;
+mod export;
 mod function;
 mod import;
 mod joint;
@@ -11,6 +12,7 @@ mod knots;
 mod side;
 mod simm_spline;
 
+pub use export::{ExportError, to_osim};
 pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
 pub use joint::{Displacement, Joint, JointAxis, Measure};

@@ -1,12 +1,17 @@
-//! Numerical tools without mechanics: natural splines and the banded solver under them.
+//! Numerical tools without mechanics: natural splines and the banded solver under them, periodic splines, nonlinear
+//! least squares.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 
 mod banded;
+mod least_squares;
 mod natural_spline;
+mod periodic_spline;
 mod spline_fitter;
 mod spline_grid;
 
+pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
+pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};

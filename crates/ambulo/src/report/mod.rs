@@ -9,8 +9,10 @@ mod reproduction;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
+mod scene_verdict;
 mod summary;
 mod tables;
+mod walk_summary;
 
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use figure::{FigureError, Mark, moments_figure};
@@ -23,6 +25,8 @@ pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };
 pub use scene_tables::SceneTables;
+pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };
+pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};

@@ -2,6 +2,7 @@
 
 use super::figure::{Area, DrawResult, FINE, FigureError, font, shown_at};
 use super::files::OutputFile;
+use super::scene_verdict::SceneVerdict;
 use crate::simulation::scene::{Frame, Plot, Scene};
 use plotters::prelude::*;
 use std::collections::BTreeMap;
@@ -12,6 +13,10 @@ const NAMES: u32 = 210;
 const TITLE: u32 = 40;
 /// More curves than this are not told apart; those with the largest values are drawn.
 const MOST_CURVES: usize = 8;
+/// Height of the bar that marks what is not feasible, share of the panel's.
+const FAULT_BAR: f64 = 0.03;
+/// Forces below this along slides are rounding of coordinates that nothing holds [N].
+const ROUNDING_N: f64 = 1e-6;
 /// More points than this on a curve are not seen.
 const MOST_POINTS: usize = 1500;
 
@@ -122,11 +127,13 @@ impl SceneCurves {
         }
     }
 
-    /// The figures that the scene asks for, or all kinds if it names none.
+    /// The figures that the scene asks for, or all kinds if it names none; a red bar where the verdict finds a walk at fault.
     ///
     /// # Errors
     /// A canvas that the plotting library refuses.
-    pub fn files(&self, scene: &Scene) -> Result<Vec<OutputFile>, FigureError> {
+    pub fn files(&self, scene: &Scene, verdict: Option<&SceneVerdict>) -> Result<Vec<OutputFile>, FigureError> {
+        let reasons = verdict.into_iter().flat_map(|v| &v.figures).flat_map(|figure| &figure.verdict.reasons);
+        let faults: Vec<[f64; 2]> = reasons.map(|reason| reason.time_s).collect();
         let plots = &scene.outputs().plots;
         let all = plots.is_empty();
         let wants = |plot: &Plot| all || plots.contains(plot);
@@ -138,7 +145,8 @@ impl SceneCurves {
             let panels: Vec<Panel> =
                 panels.into_iter().filter(|p| p.curves.iter().any(|(_, c)| !c.is_empty())).collect();
             if !panels.is_empty() {
-                let svg = figure(title, &panels, span).map_err(|e| FigureError { name, reason: e.to_string() })?;
+                let svg =
+                    figure(title, &panels, span, &faults).map_err(|e| FigureError { name, reason: e.to_string() })?;
                 files.push(OutputFile { name: format!("figures/{name}"), bytes: svg.into_bytes() });
             }
             Ok(())
@@ -211,11 +219,13 @@ impl SceneCurves {
                 (name, pick(curves).iter().map(|(t, x)| (*t, unit * x)).collect())
             }))
         };
+        let mut pushing = of(false, |c| &c.effort, 1.0);
+        pushing.retain(|(_, curve)| curve.iter().any(|(_, force)| force.abs() > ROUNDING_N));
         vec![
             Panel { title: "Joint angles", label: "angle (deg)", curves: of(true, |c| &c.value, 1.0_f64.to_degrees()) },
             Panel { title: "Joint moments", label: "moment (N.m)", curves: of(true, |c| &c.effort, 1.0) },
             Panel { title: "Slides", label: "distance (m)", curves: of(false, |c| &c.value, 1.0) },
-            Panel { title: "Forces along slides", label: "force (N)", curves: of(false, |c| &c.effort, 1.0) },
+            Panel { title: "Forces along slides", label: "force (N)", curves: pushing },
         ]
     }
 
@@ -257,7 +267,12 @@ fn largest(curves: impl Iterator<Item = (String, Curve)>) -> Vec<(String, Curve)
 }
 
 /// Panels one below the other, all over the same time.
-fn figure(title: &str, panels: &[Panel], span: (f64, f64)) -> Result<String, Box<dyn std::error::Error>> {
+fn figure(
+    title: &str,
+    panels: &[Panel],
+    span: (f64, f64),
+    faults: &[[f64; 2]],
+) -> Result<String, Box<dyn std::error::Error>> {
     let (width, height) = (PANEL.0 + NAMES, TITLE + PANEL.1 * panels.len() as u32);
     let mut svg = String::new();
     {
@@ -265,9 +280,13 @@ fn figure(title: &str, panels: &[Panel], span: (f64, f64)) -> Result<String, Box
         root.fill(&WHITE).map_err(|e| e.to_string())?;
         let (top, body) = root.split_vertically(FINE * TITLE);
         top.draw_text(title, &font(15), ((FINE * 14) as i32, (FINE * 12) as i32)).map_err(|e| e.to_string())?;
+        if !faults.is_empty() {
+            let place = ((FINE * 500) as i32, (FINE * 14) as i32);
+            top.draw_text("red: not feasible", &font(11).color(&RED), place).map_err(|e| e.to_string())?;
+        }
         for (panel, area) in panels.iter().zip(body.split_evenly((panels.len(), 1))) {
             let (chart, names) = area.split_horizontally(FINE * PANEL.0);
-            draw_panel(&chart, panel, span)?;
+            draw_panel(&chart, panel, span, faults)?;
             draw_names(&names, panel)?;
         }
         root.present().map_err(|e| e.to_string())?;
@@ -275,7 +294,7 @@ fn figure(title: &str, panels: &[Panel], span: (f64, f64)) -> Result<String, Box
     Ok(shown_at(&svg, width, height))
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64)) -> DrawResult {
+fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64), faults: &[[f64; 2]]) -> DrawResult {
     let values = panel.curves.iter().flat_map(|(_, curve)| curve).map(|(_, y)| *y);
     let range = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let (low, high) = spread(range);
@@ -306,6 +325,11 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64)) -> DrawR
     if low < 0.0 && high > 0.0 {
         chart.draw_series(LineSeries::new([(start, 0.0), (end, 0.0)], RGBColor(120, 120, 120).stroke_width(FINE)))?;
     }
+    let bar = low + FAULT_BAR * (high - low);
+    chart.draw_series(faults.iter().map(|[from, to]| {
+        let [from, to] = [*from, to.max(from + FAULT_BAR * 0.1 * (end - start))].map(|t| t.clamp(start, end));
+        Rectangle::new([(from, low), (to, bar)], RED.filled())
+    }))?;
     for (number, (_, curve)) in panel.curves.iter().enumerate() {
         let every = curve.len().div_ceil(MOST_POINTS).max(1);
         let thinned: Curve = curve.iter().step_by(every).copied().collect();

@@ -1,5 +1,6 @@
 //! `summary.json` of a simulated scene (docs/OUTPUTS.md).
 
+use super::scene_verdict::SceneVerdict;
 use super::summary::PeakSummary;
 use crate::findings::{Finding, Findings};
 use crate::simulation::scene::{Frame, RunStatistics, Scene};
@@ -40,8 +41,8 @@ pub struct SceneSummary {
     pub convergence: ConvergenceSummary,
     /// What was odd on the way.
     pub findings: Vec<Finding>,
-    /// Not judged.
-    pub verdict: Option<()>,
+    /// Whether people could do what the figures that walk do; `None` if none does.
+    pub verdict: Option<SceneVerdict>,
     /// Nothing to compare with.
     pub comparison: Option<()>,
     /// Time that each stage took [ms].

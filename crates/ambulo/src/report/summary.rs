@@ -1,6 +1,7 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
 use super::tables::UNLOADED_N;
+use super::walk_summary::WalkSummary;
 use crate::analysis::feasibility::Verdict;
 use crate::analysis::{Analysis, MassSource, Settings, peak};
 use crate::findings::{Finding, Findings};
@@ -53,6 +54,8 @@ pub struct Summary {
     pub verdict: Option<Verdict>,
     /// Prediction against plates; filled when forces are predicted.
     pub comparison: Option<()>,
+    /// How a synthetic walk was made; `null` for recordings.
+    pub walk: Option<WalkSummary>,
     /// Time that each stage took [ms].
     pub timing_ms: BTreeMap<String, f64>,
 }
@@ -187,6 +190,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         findings: findings.as_slice().to_vec(),
         verdict: analysis.verdict.clone(),
         comparison: None,
+        walk: None,
         timing_ms: BTreeMap::new(),
     }
 }

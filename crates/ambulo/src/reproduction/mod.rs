@@ -6,6 +6,7 @@
 
 mod assumptions;
 mod claim;
+mod corrected;
 mod error;
 mod evidence;
 mod feet;
@@ -31,6 +32,7 @@ mod sliding;
 
 pub use assumptions::{Assumption, Sensitivity, assumptions, sensitivities};
 pub use claim::{Claim, Judgement, Numbers, number};
+pub use corrected::Corrected;
 pub use error::ReproductionError;
 pub use evidence::{
     CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, HEIGHT, MASS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,

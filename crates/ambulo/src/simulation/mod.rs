@@ -53,6 +53,7 @@ mod assemble;
 mod blow;
 mod check;
 mod closing;
+pub mod consistent;
 mod energy;
 mod forces;
 mod impulse;
@@ -69,6 +70,7 @@ mod touch;
 mod world;
 
 pub mod scene;
+pub mod synthetic;
 pub mod walking;
 
 pub use check::WorldError;

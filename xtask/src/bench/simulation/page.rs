@@ -2,12 +2,13 @@
 
 use super::asked::Asked;
 use super::ladder::{self, OfMethod};
-use super::markdown::{Table, range, small, small_or_none, spread, time};
+use super::markdown::{range, small, small_or_none, spread, time};
 use super::run::Run;
 use super::scaling::Scaling;
 use super::stance::Standing;
 use super::{Results, accuracy::Accuracy};
 use crate::simulators::{Measurement, Outcome, PeerTiming, Scene};
+use crate::table::Table;
 use std::fmt::Write as _;
 
 const HEAD: &str = "\

@@ -17,8 +17,8 @@ pub(in crate::analysis) struct OverGround {
     pub(in crate::analysis) speed: f64,
 }
 
-/// Speed of the body's mass centre against the feet while they carry it: on a treadmill the feet move back with the
-/// belt, so the speed over the belt comes out. `None` if no foot carries half the weight.
+/// Speed of the body's mass centre against the feet while they carry it, at their centres of pressure: on a treadmill the feet move
+/// back with the belt, so the speed over the belt comes out. `None` if no foot carries half the weight.
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,
@@ -34,7 +34,7 @@ pub(in crate::analysis) fn over_ground(
         for foot in &ground.bodies {
             if foot.force[frame].dot(&up) > STANDING_SHARE * weight {
                 let motion = &bodies[foot.body.index()];
-                feet.push(motion.twist.velocity_at(motion.pose.translation - motion.center));
+                feet.push(motion.twist.velocity_at(foot.center_of_pressure[frame] - motion.center));
             }
         }
     });

@@ -6,13 +6,14 @@ use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{Check, Closest, NotJudged, Reason, Verdict};
+use crate::analysis::residual::Roots;
 use crate::dynamics::Forces;
 use crate::findings::Findings;
 use crate::ground::{BodyForces, MeasuredGround, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
-use crate::spatial::{Vec3, Wrench};
+use crate::spatial::Vec3;
 
 /// A motion and its forces, whoever made them.
 #[derive(Debug, Clone, Copy)]
@@ -118,7 +119,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
     let froude = over.map(|o| o.speed * o.speed / (gravity * judge.person.leg_length_m));
     let by_side = feet(model, ground);
     let feet = Side::BOTH.map(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces));
-    let roots: Vec<usize> = (0..model.bodies().len()).filter(|&i| model.bodies()[i].joint.parent.is_none()).collect();
+    let roots = Roots::of(model);
     let n = model.coordinates().len();
     let [mut q, mut qd, mut tau, mut power] = [0; 4].map(|_| vec![0.0; n]);
     let height = ground_height(&feet, up);
@@ -139,7 +140,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
             powers: &power,
             bodies,
             feet: feet.map(|foot| foot.map(|f| foot_frame(f, i))),
-            residual: residual(forces, &roots, i),
+            residual: roots.residual(forces, i),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
             ground_height: height,
             walking: froude.is_none_or(|froude| froude < judge.thresholds.running_froude),
@@ -168,16 +169,6 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
 /// Least number of frames in a row that is no noise.
 fn frames_that_last(shortest_s: f64, grid: TimeGrid) -> usize {
     ((shortest_s / grid.step_s - 1e-9).ceil().max(1.0) as usize).min(grid.frames.max(1))
-}
-
-/// The wrench at the roots, about the first one's centre.
-fn residual(forces: &Forces, roots: &[usize], frame: usize) -> Wrench {
-    let reactions = || roots.iter().map(|&root| forces.reactions[root][frame]);
-    let Some(first) = reactions().next() else { return Wrench::ZERO };
-    reactions().fold(Wrench::ZERO, |sum, reaction| {
-        let moved = reaction.wrench.about(reaction.center - first.center);
-        Wrench { force: sum.force + moved.force, moment: sum.moment + moved.moment }
-    })
 }
 
 fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {

@@ -1,7 +1,9 @@
 //! From a scene file to a world that runs.
 
 use super::closing::Closing;
+use super::closure::Closure as AskedClosure;
 use super::event::Event;
+use super::figure::Figure;
 use super::file::SceneFile;
 use super::names::{Carrier, Partner};
 use super::output::Outputs;
@@ -10,6 +12,8 @@ use super::solver::{Integrator as AskedIntegrator, Method as AskedMethod};
 use super::sources::{Load, Sources};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
+use super::synthetic;
+use super::walk_keeper::WalkKeeper;
 use super::walker::{self, Walker};
 use super::{Coordinate, coordinate::CoordinateKind};
 use super::{Place, SceneError};
@@ -21,7 +25,7 @@ use crate::simulation::world::{
     Body, Closure, ContactLaw, Drive, Joint, JointCoordinate, Motor, Obstacle, ObstaclePath, Owner, Spring, Surface,
     World,
 };
-use crate::spatial::{Pose, Twist, Wrench};
+use crate::spatial::{Pose, Twist, Vec3, Wrench};
 
 /// Points of a closure with a body of a figure, where it is active from the start, are at most this far apart [m].
 const LARGEST_GAP_M: f64 = 1e-3;
@@ -47,6 +51,8 @@ pub struct Scene {
     /// Names of the file's joints and bodies, for what is drawn.
     pub(super) joint_names: Vec<String>,
     pub(super) walkers: Vec<Walker>,
+    /// What is kept of figures that walk, every step.
+    pub(super) keepers: Vec<WalkKeeper>,
     pub(super) workspace: StepWorkspace,
     /// Poses at the beginning of the last step, where its forces are taken; only where there are figures.
     pub(super) before: Vec<Pose>,
@@ -78,7 +84,7 @@ impl Scene {
         let mut sources = Sources::new(load, findings, duration_s);
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
-        let walkers = add_bodies(&mut world, file, &mut sources)?;
+        let (walkers, keepers) = add_bodies(&mut world, file, &mut sources)?;
         let bodies = Bodies { file, walkers: &walkers, world: &world };
         let (joints, starts, rates) = make_joints(&bodies, &mut sources)?;
         let figure_joints = std::mem::take(&mut world.joints);
@@ -87,7 +93,8 @@ impl Scene {
         world.joints.extend(figure_joints);
         start_moving(&mut world, file, &rates);
         let closings = add_closures(&mut world, file, &walkers)?;
-        world.ignored = ignored(&world, file, &walkers)?;
+        let ignored = ignored(&world, file, &walkers)?;
+        world.ignored.extend(ignored);
         report_untouchable(&world, findings);
         let mut state = State::new(&world);
         for (number, start) in starts.iter().enumerate() {
@@ -107,6 +114,7 @@ impl Scene {
             joint_numbers,
             joint_names: file.joints.iter().map(|joint| joint.name.clone()).collect(),
             walkers,
+            keepers,
             workspace: StepWorkspace::default(),
             before: Vec::new(),
             world,
@@ -135,7 +143,11 @@ fn settings(file: &SceneFile, changes: Changes) -> StepSettings {
 }
 
 /// Bodies of the file, obstacles and figures, with their surfaces and the figures' joints.
-fn add_bodies(world: &mut World, file: &SceneFile, sources: &mut Sources<'_, '_>) -> Result<Vec<Walker>, SceneError> {
+fn add_bodies(
+    world: &mut World,
+    file: &SceneFile,
+    sources: &mut Sources<'_, '_>,
+) -> Result<(Vec<Walker>, Vec<WalkKeeper>), SceneError> {
     for (i, body) in file.bodies.iter().enumerate() {
         world.bodies.push(Body {
             name: body.name.clone(),
@@ -175,8 +187,14 @@ fn add_bodies(world: &mut World, file: &SceneFile, sources: &mut Sources<'_, '_>
         });
         world.obstacles.push(Obstacle { name: asked.name.clone(), pose: asked.pose, path: path.transpose()? });
     }
-    let add = |(i, figure)| walker::add(world, figure, i + 1, sources);
-    file.figures.iter().enumerate().map(add).collect()
+    let add = |(i, figure): (usize, &Figure)| match &figure.built {
+        Some(built) => synthetic::add(world, figure, built, i + 1, sources),
+        None => walker::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
+    };
+    let added: Vec<(Walker, Option<WalkKeeper>)> =
+        file.figures.iter().enumerate().map(add).collect::<Result<_, _>>()?;
+    let (walkers, keepers): (Vec<_>, Vec<_>) = added.into_iter().unzip();
+    Ok((walkers, keepers.into_iter().flatten().collect()))
 }
 
 /// Names of the file as bodies of the world.
@@ -189,21 +207,34 @@ struct Bodies<'a> {
 impl Bodies<'_> {
     /// The body that a joint or closure holds on to; `None` is the world.
     fn of(&self, carrier: &Carrier, place: impl Fn() -> Place) -> Result<Option<usize>, SceneError> {
+        self.point_of(carrier, place).map(|(body, _)| body)
+    }
+
+    /// The same, and the point from which points on it are counted: the mass centre, or a marker of a figure.
+    fn point_of(&self, carrier: &Carrier, place: impl Fn() -> Place) -> Result<(Option<usize>, Vec3), SceneError> {
         match carrier {
-            Carrier::World => Ok(None),
-            Carrier::Body(body) => Ok(Some(*body)),
-            Carrier::FigureBody { figure, body } => self.of_figure(*figure, body, place).map(Some),
+            Carrier::World => Ok((None, Vec3::zeros())),
+            Carrier::Body(body) => Ok((Some(*body), Vec3::zeros())),
+            Carrier::FigureBody { figure, body } => {
+                self.of_figure(*figure, body, place).map(|(body, point)| (Some(body), point))
+            }
         }
     }
 
-    fn of_figure(&self, figure: usize, body: &str, place: impl Fn() -> Place) -> Result<usize, SceneError> {
+    fn of_figure(&self, figure: usize, body: &str, place: impl Fn() -> Place) -> Result<(usize, Vec3), SceneError> {
         let (walker, name) = (&self.walkers[figure], &self.file.figures[figure].name);
         let model = &self.world.figures[walker.figure].model;
-        model.body(body).map(|id| walker.first_body + id.index()).ok_or_else(|| {
-            let known: Vec<String> = model.bodies().iter().map(|b| format!("{name}/{}", b.name)).collect();
-            let found = format!("found \"{name}/{body}\"; expected a body of the figure");
-            place().error(found).hint(&format!("they are {}", known.join(", ")))
-        })
+        if let Some(id) = model.body(body) {
+            return Ok((walker.first_body + id.index(), Vec3::zeros()));
+        }
+        let marker = model.markers().iter().find(|marker| marker.name == body);
+        if let Some((marker, id)) = marker.and_then(|marker| Some((marker, marker.body?))) {
+            let point = marker.location - model.bodies()[id.index()].inertia.center();
+            return Ok((walker.first_body + id.index(), point));
+        }
+        let known: Vec<String> = model.bodies().iter().map(|b| format!("{name}/{}", b.name)).collect();
+        let found = format!("found \"{name}/{body}\"; expected a body of the figure");
+        Err(place().error(found).hint(&format!("they are {}", known.join(", "))))
     }
 }
 
@@ -250,7 +281,11 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
 }
 
 /// What acts on a coordinate.
-fn acting(asked: &Coordinate, place: &Place, sources: &mut Sources<'_, '_>) -> Result<JointCoordinate, SceneError> {
+pub(super) fn acting(
+    asked: &Coordinate,
+    place: &Place,
+    sources: &mut Sources<'_, '_>,
+) -> Result<JointCoordinate, SceneError> {
     let turns = asked.kind == CoordinateKind::Rotation;
     let drive = asked.drive.as_ref().map(|drive| -> Result<Drive, SceneError> {
         let signal = sources.signal(place, &drive.function, turns)?;
@@ -278,8 +313,9 @@ fn add_closures(world: &mut World, file: &SceneFile, walkers: &[Walker]) -> Resu
     for (i, asked) in file.closures.iter().enumerate() {
         let place = |key: &str| Place { line: asked.line, key: format!("closure[{}].{key}", i + 1) };
         let bodies = Bodies { file, walkers, world };
-        let first = bodies.of(&asked.first, || place("first"))?;
-        let second = bodies.of(&asked.second, || place("second"))?;
+        let (first, on_first) = bodies.point_of(&asked.first, || place("first"))?;
+        let (second, on_second) = bodies.point_of(&asked.second, || place("second"))?;
+        let asked = &AskedClosure { anchor: asked.anchor.shifted(on_first, on_second), ..asked.clone() };
         let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| world.bodies[body].pose);
         let Some(closing) = Closing::new(asked, [first, second], [pose(first), pose(second)]) else {
             return Err(place("second").error("found the world at both ends; expected a body at one of them"));
@@ -316,7 +352,7 @@ fn ignored(world: &World, file: &SceneFile, walkers: &[Walker]) -> Result<Vec<(O
             Ok(match partner {
                 Partner::Body(body) => vec![Owner::Body(*body)],
                 Partner::Obstacle(obstacle) => vec![Owner::Obstacle(*obstacle)],
-                Partner::FigureBody { figure, body } => vec![Owner::Body(bodies.of_figure(*figure, body, place)?)],
+                Partner::FigureBody { figure, body } => vec![Owner::Body(bodies.of_figure(*figure, body, place)?.0)],
                 Partner::Figure(figure) => {
                     let walker = &walkers[*figure];
                     let count = world.figures[walker.figure].model.bodies().len();

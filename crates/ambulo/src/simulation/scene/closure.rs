@@ -48,6 +48,19 @@ pub enum Anchor {
     },
 }
 
+impl Anchor {
+    /// The same with points that are counted from other places of the bodies than their mass centres.
+    pub(super) fn shifted(self, first: Vec3, second: Vec3) -> Anchor {
+        match self {
+            Anchor::Start { at } => Anchor::Start { at },
+            Anchor::Points { on_first, on_second } => {
+                Anchor::Points { on_first: on_first + first, on_second: on_second + second }
+            }
+            Anchor::AsFound { on_first } => Anchor::AsFound { on_first: on_first + first },
+        }
+    }
+}
+
 const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on_second", "active"];
 /// How far apart the points of a closure that is active from the start may be [m]: what a tenth of a millimetre of
 /// rounding in a few lengths adds up to.

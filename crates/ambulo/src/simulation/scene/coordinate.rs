@@ -82,7 +82,7 @@ pub struct Drive {
     pub max: f64,
 }
 
-const KEYS: &[&str] = &[
+pub(super) const KEYS: &[&str] = &[
     "start_deg",
     "start",
     "rate_deg",
@@ -141,16 +141,29 @@ impl Coordinate {
 
     fn read(table: &Table<'_>, kind: CoordinateKind, child: &Body, duration_s: f64) -> Result<Coordinate, SceneError> {
         table.only(&[KEYS])?;
+        let coordinate = Coordinate::read_acting(table, kind, true, duration_s)?;
+        refuse_rates_twice(table, child)?;
+        Ok(coordinate)
+    }
+
+    /// Reads the keys of a coordinate; other keys are not looked at. Limits must hold the start if it is known.
+    pub(super) fn read_acting(
+        table: &Table<'_>,
+        kind: CoordinateKind,
+        start_is_known: bool,
+        duration_s: f64,
+    ) -> Result<Coordinate, SceneError> {
         let drive = drive(table, kind, duration_s)?;
-        refuse_twice(table, drive.is_some(), child)?;
+        refuse_beside_drive(table, drive.is_some())?;
         let start = kind.value(table, "start")?.unwrap_or(0.0);
+        let unchecked = drive.is_some() || !start_is_known;
         Ok(Coordinate {
             line: table.line,
             kind,
             start,
             rate: kind.value(table, "rate")?.unwrap_or(0.0),
             spring: table.get("spring").map(|value| spring(&value, kind)).transpose()?,
-            limits: table.get("limits").map(|value| limits(&value, kind, start, drive.is_some())).transpose()?,
+            limits: table.get("limits").map(|value| limits(&value, kind, start, unchecked)).transpose()?,
             motor: table.get("motor").map(|value| motor(&value, kind, duration_s)).transpose()?,
             drive,
             friction: table.zero_or_more_or("friction", 0.0)?,
@@ -159,19 +172,25 @@ impl Coordinate {
 }
 
 /// What is said twice could contradict itself.
-fn refuse_twice(table: &Table<'_>, driven: bool, child: &Body) -> Result<(), SceneError> {
-    let present = |keys: &[&str]| keys.iter().find_map(|key| table.get(key));
-    if let (true, Some(value)) = (driven, present(&["start_deg", "start", "rate_deg", "rate", "motor"])) {
-        let expected = "no such key beside a drive";
-        return Err(value.wrong(expected).hint("the drive's own value and rate at time zero hold"));
+fn refuse_beside_drive(table: &Table<'_>, driven: bool) -> Result<(), SceneError> {
+    let keys = ["start_deg", "start", "rate_deg", "rate", "motor"];
+    match keys.iter().find_map(|key| table.get(key)).filter(|_| driven) {
+        Some(value) => {
+            let expected = "no such key beside a drive";
+            Err(value.wrong(expected).hint("the drive's own value and rate at time zero hold"))
+        }
+        None => Ok(()),
     }
+}
+
+fn refuse_rates_twice(table: &Table<'_>, child: &Body) -> Result<(), SceneError> {
     let own = child.velocity.is_some() || child.angular_velocity.is_some();
-    match present(&["rate_deg", "rate"]) {
-        Some(value) if own => {
+    match ["rate_deg", "rate"].iter().find_map(|key| table.get(key)).filter(|_| own) {
+        Some(value) => {
             let expected = format!("no rate, as body \"{}\" has its own velocity (line {})", child.name, child.line);
             Err(value.wrong(&expected).hint("take one of them away"))
         }
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 
@@ -197,7 +216,7 @@ fn spring(value: &Value<'_>, kind: CoordinateKind) -> Result<Spring, SceneError>
     })
 }
 
-fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, driven: bool) -> Result<Limits, SceneError> {
+fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, unchecked: bool) -> Result<Limits, SceneError> {
     let table = value.table("{ lower_deg = …, upper_deg = … }")?;
     table.only(&[&["lower_deg", "lower", "upper_deg", "upper"]])?;
     let (lower, upper) = (kind.value(&table, "lower")?, kind.value(&table, "upper")?);
@@ -208,7 +227,7 @@ fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, driven: bool) -> 
     if limits.lower >= limits.upper {
         return Err(value.wrong("a lower limit below the upper one"));
     }
-    if !driven && !(limits.lower..=limits.upper).contains(&start) {
+    if !unchecked && !(limits.lower..=limits.upper).contains(&start) {
         let error = value.wrong("limits around the value at the start");
         return Err(
             error.hint("`start_deg` (or `start`) says what the value is called where the bodies stand; default 0")

@@ -1,12 +1,13 @@
-//! Figures: bodies and joints of an OpenSim model, moved by a recording.
+//! Figures: bodies and joints of an OpenSim model, moved by a recording; or those that the program builds.
 
+use super::built::{self, Built};
 use super::material::{self, Material};
 use super::names::{Item, Names};
 use super::{Place, SceneError};
 use crate::spatial::{Pose, Vec3};
 use crate::toml_reader::{Table, Value};
 
-/// A figure from an OpenSim model. Its files are not opened here.
+/// A figure from an OpenSim model, or one that the program builds. Its files are not opened here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Name, its own among bodies, obstacles and figures.
@@ -15,7 +16,9 @@ pub struct Figure {
     pub line: usize,
     /// Where the path of the model stands.
     pub model_place: Place,
-    /// Path of the `.osim` file as it stands in the scene, relative to the scene.
+    /// Built by the program; then no model, motion, `driven` or `root` plays a part.
+    pub built: Option<Built>,
+    /// Path of the `.osim` file as it stands in the scene, relative to the scene; empty if the figure is built.
     pub model: String,
     /// Where the path of the motion stands; the model's place if there is none.
     pub motion_place: Place,
@@ -68,20 +71,51 @@ pub struct FigureSphere {
     pub material: usize,
 }
 
-const KEYS: &[&str] = &["name", "model", "motion", "from", "drive", "root", "at", "rotation", "sphere"];
+const KEYS: &[&str] = &["name", "build", "model", "motion", "from", "drive", "root", "at", "rotation", "sphere"];
 
 impl Figure {
     pub(super) fn read_all(
         root: &Table<'_>,
         names: &mut Names,
         materials: &[Material],
+        duration_s: f64,
     ) -> Result<Vec<Figure>, SceneError> {
-        let read = |(i, table)| Figure::read(table, names.declare_first(table, KEYS, Item::Figure(i))?, materials);
+        let read = |(i, table): (usize, &Table<'_>)| {
+            if let Some(value) = table.get("build") {
+                let name = names.declare_first(table, built::KEYS, Item::Figure(i))?;
+                return Figure::read_built(table, name, &value, materials, duration_s);
+            }
+            Figure::read(table, names.declare_first(table, KEYS, Item::Figure(i))?, materials)
+        };
         root.tables("figure")?.iter().enumerate().map(read).collect()
     }
 
+    fn read_built(
+        table: &Table<'_>,
+        name: String,
+        value: &Value<'_>,
+        materials: &[Material],
+        duration_s: f64,
+    ) -> Result<Figure, SceneError> {
+        let sphere = |sphere: &Table<'_>| FigureSphere::read(sphere, materials);
+        Ok(Figure {
+            name,
+            line: table.line,
+            model_place: value.place(),
+            built: Some(Built::read(table, value, materials, duration_s)?),
+            model: String::new(),
+            motion_place: value.place(),
+            motion: None,
+            from_s: None,
+            driven: Driven::Nothing,
+            root: Root::Free,
+            pose: table.pose("at")?,
+            spheres: table.tables("sphere")?.iter().map(sphere).collect::<Result<_, _>>()?,
+        })
+    }
+
     fn read(table: &Table<'_>, name: String, materials: &[Material]) -> Result<Figure, SceneError> {
-        let model = table.need("model", "the path of an .osim file")?;
+        let model = table.need("model", "the path of an .osim file, or `build` with a table, a mass and a height")?;
         let motion_place = table.get("motion").map_or_else(|| model.place(), |value| value.place());
         let motion = table.get("motion").map(|value| value.filled_text()).transpose()?;
         let sphere = |sphere: &Table<'_>| FigureSphere::read(sphere, materials);
@@ -89,6 +123,7 @@ impl Figure {
             name,
             line: table.line,
             model_place: model.place(),
+            built: None,
             model: model.filled_text()?,
             motion_place,
             from_s: table.get("from").map(|value| value.number()).transpose()?,

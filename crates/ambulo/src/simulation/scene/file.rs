@@ -112,7 +112,7 @@ impl SceneFile {
         let (mut things, mut links) = (Names::default(), Names::default());
         let bodies = Body::read_all(&root, &mut things, &materials)?;
         let obstacles = Obstacle::read_all(&root, &mut things, &materials, duration_s)?;
-        let figures = Figure::read_all(&root, &mut things, &materials)?;
+        let figures = Figure::read_all(&root, &mut things, &materials, duration_s)?;
         if bodies.is_empty() && figures.is_empty() {
             return Err(root.missing("body", "at least one [[body]] or [[figure]]"));
         }

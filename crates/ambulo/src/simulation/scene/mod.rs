@@ -6,6 +6,7 @@
 
 mod body;
 mod build;
+mod built;
 mod closing;
 mod closure;
 mod coordinate;
@@ -26,13 +27,16 @@ mod solver;
 mod sources;
 mod starting;
 mod surfaces;
+mod synthetic;
 mod tree;
 mod uniform;
+mod walk_keeper;
 mod walker;
 
 pub use crate::toml_reader::{Place, TomlError as SceneError};
 pub use body::Body;
 pub use build::{Changes, Scene};
+pub use built::{Arm, AskedWalk, Built, Follow, GaitSource, OwnCoordinate, WalkMode};
 pub use closure::{Anchor, Closure};
 pub use coordinate::{Coordinate, CoordinateKind, Drive, Limits, Motor, Spring};
 pub use event::{Change, Event};
@@ -49,3 +53,4 @@ pub use saved::{ResumeError, SavedState};
 pub use shape::{Shape, Solid};
 pub use solver::{Integrator, Method, Solver};
 pub use sources::Load;
+pub use walk_keeper::FigureWalk;

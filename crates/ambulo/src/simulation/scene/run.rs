@@ -3,10 +3,11 @@
 use super::build::Scene;
 use super::event::Change;
 use super::output::Outputs;
-use super::walker::Walker;
+use super::walk_keeper::FigureWalk;
+use super::walker::{Placed, Walker};
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::Findings;
-use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::projection::{closure_errors, largest_joint_error};
@@ -174,6 +175,9 @@ impl Scene {
         if !self.walkers.is_empty() {
             self.before.clone_from(&self.state.poses);
         }
+        for keeper in &mut self.keepers {
+            keeper.before_step(&self.world, &self.state);
+        }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {
             for closure in self.workspace.undetermined_closures() {
@@ -187,6 +191,13 @@ impl Scene {
         self.steps += 1;
         // Counted, so that times do not drift.
         self.state.time_s = self.steps as f64 * self.settings.step_s;
+        if !self.keepers.is_empty() {
+            self.workspace.read_wrenches();
+            for keeper in &mut self.keepers {
+                let (step_s, solved) = (self.settings.step_s, convergence.converged);
+                keeper.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
+            }
+        }
         let finite = |body: usize| {
             let (pose, twist) = (&self.state.poses[body], &self.state.twists[body]);
             let numbers = pose.translation.iter().chain(pose.rotation.iter());
@@ -205,6 +216,14 @@ impl Scene {
     #[must_use]
     pub fn forces(&self) -> StepForces {
         self.workspace.forces(&self.world)
+    }
+
+    /// What the figures that walk have done since the scene was built or resumed, in the order of the file.
+    ///
+    /// # Errors
+    /// No step yet.
+    pub fn walks(&self) -> Result<Vec<FigureWalk>, TrajectoryError> {
+        self.keepers.iter().map(|keeper| keeper.walk(self.settings.step_s)).collect()
     }
 
     /// Whether the last step has passed an instant of output.
@@ -253,13 +272,17 @@ impl Scene {
     }
 
     /// Generalised forces of each figure, one a coordinate of its model [N.m or N], with the coordinates themselves and
-    /// their rates: (value, rate, force). Zero where nothing holds or drives a joint; values are those of the recording.
+    /// their rates: (value, rate, force). Zero where nothing holds or drives a joint; values of figures from a model file are those of
+    /// the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
     }
 
     fn of_walker(&self, walker: &Walker, forces: &StepForces) -> Vec<[f64; 3]> {
+        if let Some(placed) = &walker.placed {
+            return self.of_joints(placed, forces);
+        }
         let figure = &self.world.figures[walker.figure];
         let recorded = |time_s: f64| {
             let values = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect::<Vec<[f64; 3]>>();
@@ -284,6 +307,17 @@ impl Scene {
         let tau = project_wrenches(&mut workspace, posture, &wrenches);
         let [q, qd, _] = recorded(self.state.time_s);
         q.iter().zip(qd).zip(tau).map(|((value, rate), tau)| [*value, rate, *tau]).collect()
+    }
+
+    fn of_joints(&self, placed: &[Placed], forces: &StepForces) -> Vec<[f64; 3]> {
+        let joint_of = self.world.joint_of_body();
+        let of = |placed: &Placed| {
+            let Some(joint) = joint_of[placed.body] else { return [0.0; 3] };
+            let k = placed.coordinate;
+            let rate = self.state.rates(&self.world.joints[joint])[k];
+            [self.state.coordinates[joint][k], rate, forces.efforts[joint][k]]
+        };
+        placed.iter().map(of).collect()
     }
 
     /// How far the two points that a closure keeps together are apart, as far as it minds [m].

@@ -42,6 +42,15 @@ impl<'a, 'f> Sources<'a, 'f> {
         Ok(table)
     }
 
+    /// A file as text.
+    pub(super) fn text(&mut self, place: &Place, path: &str) -> Result<String, SceneError> {
+        let bytes = (self.load)(path).map_err(|message| place.error(message))?;
+        String::from_utf8(bytes).map_err(|e| {
+            let at = e.utf8_error().valid_up_to();
+            place.error(format!("{path}: byte {at} is not UTF-8; expected a text"))
+        })
+    }
+
     /// A function of the scene, which belongs to `of`, as a signal; `turns` says that it is an angle.
     pub(super) fn signal(&mut self, of: &Place, function: &Function, turns: bool) -> Result<Signal, SceneError> {
         Ok(match function {

@@ -31,6 +31,17 @@ pub(super) struct Walker {
     pub(super) first_body: usize,
     /// Name in the scene.
     pub(super) name: String,
+    /// Of a built figure: where each coordinate of its model is.
+    pub(super) placed: Option<Vec<Placed>>,
+}
+
+/// A coordinate of a figure's model as that of a joint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    /// The joint's child, among the bodies of the world.
+    pub(super) body: usize,
+    /// Number of the joint's coordinate.
+    pub(super) coordinate: usize,
 }
 
 /// A figure under construction.
@@ -67,10 +78,10 @@ pub(super) fn add(
         world.joints.extend(making.joint(id)?);
     }
     making.refuse_massless(world)?;
-    making.add_spheres(world)?;
+    add_spheres(world, asked, number, &making.model, first_body)?;
     let Making { model, signals, .. } = making;
     world.figures.push(Figure { model, coordinates: signals });
-    Ok(Walker { figure, first_body, name: asked.name.clone() })
+    Ok(Walker { figure, first_body, name: asked.name.clone(), placed: None })
 }
 
 /// The model with its ground moved.
@@ -321,26 +332,33 @@ impl Making<'_> {
         }
         Ok(())
     }
+}
 
-    fn add_spheres(&self, world: &mut World) -> Result<(), SceneError> {
-        for (k, sphere) in self.asked.spheres.iter().enumerate() {
-            let key = format!("figure[{}].sphere[{}]", self.number, k + 1);
-            let Some(id) = self.model.body(&sphere.body) else {
-                let known: Vec<&str> = self.model.bodies().iter().map(|b| b.name.as_str()).collect();
-                let place = Place { line: sphere.line, key: format!("{key}.body") };
-                let found = format!("found \"{}\"; expected a body of the model", sphere.body);
-                return Err(place.error(found).hint(&format!("they are {}", known.join(", "))));
-            };
-            let place = Place { line: sphere.line, key };
-            world.surfaces.push(Surface {
-                owner: Owner::Body(self.first_body + id.index()),
-                shape: Shape::sphere(sphere.radius).map_err(|e| place.error(e.to_string()))?,
-                owner_from_shape: Pose::at(sphere.at - self.model.bodies()[id.index()].inertia.center()),
-                material: sphere.material,
-            });
-        }
-        Ok(())
+/// Spheres that the scene adds to a figure.
+pub(super) fn add_spheres(
+    world: &mut World,
+    asked: &Asked,
+    number: usize,
+    model: &Model,
+    first_body: usize,
+) -> Result<(), SceneError> {
+    for (k, sphere) in asked.spheres.iter().enumerate() {
+        let key = format!("figure[{number}].sphere[{}]", k + 1);
+        let Some(id) = model.body(&sphere.body) else {
+            let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+            let place = Place { line: sphere.line, key: format!("{key}.body") };
+            let found = format!("found \"{}\"; expected a body of the model", sphere.body);
+            return Err(place.error(found).hint(&format!("they are {}", known.join(", "))));
+        };
+        let place = Place { line: sphere.line, key };
+        world.surfaces.push(Surface {
+            owner: Owner::Body(first_body + id.index()),
+            shape: Shape::sphere(sphere.radius).map_err(|e| place.error(e.to_string()))?,
+            owner_from_shape: Pose::at(sphere.at - model.bodies()[id.index()].inertia.center()),
+            material: sphere.material,
+        });
     }
+    Ok(())
 }
 
 /// A joint of the simulator, in the words of a scene.

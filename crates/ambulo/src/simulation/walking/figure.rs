@@ -65,6 +65,8 @@ pub struct Walker {
     pub(super) sides: Vec<Option<Side>>,
     /// The body that carries each foot's heel, right and left.
     pub(super) feet: [BodyId; 2],
+    /// Another body of each foot that has soles, right and left.
+    pub(super) toes: [Option<BodyId>; 2],
 }
 
 impl Walker {
@@ -84,6 +86,7 @@ impl Walker {
             placed: vec![Placed { joint: 0, coordinate: 0, sense: 1.0 }; expected],
             sides: Vec::new(),
             feet: [BodyId(0); 2],
+            toes: [None; 2],
             model,
             signals,
         };
@@ -170,9 +173,11 @@ impl Walker {
             });
             self.sides.push(Some(sole.side));
         }
-        for (foot, side) in self.feet.iter_mut().zip(Side::BOTH) {
-            if let Some(sole) = human.soles.iter().find(|sole| sole.side == side) {
-                *foot = sole.body;
+        for (k, side) in Side::BOTH.into_iter().enumerate() {
+            let mut bodies = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
+            if let Some(heel) = bodies.next() {
+                self.feet[k] = heel;
+                self.toes[k] = bodies.find(|body| *body != heel);
             }
         }
         self.world.obstacles.push(Obstacle { name: "ground".to_owned(), pose: Pose::IDENTITY, path: None });

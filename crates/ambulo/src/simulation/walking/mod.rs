@@ -9,14 +9,17 @@
 //! ([`Impact::Sticking`](super::Impact::Sticking)) are apart from forces.
 
 mod error;
+mod excerpt;
 mod feet;
 mod figure;
 mod recording;
 mod run;
 mod signals;
+mod start;
 
 pub use error::WalkingError;
-pub use feet::FootRecord;
+pub use excerpt::{Excerpt, Rows};
+pub use feet::{FootRecord, ToeRecord};
 pub use figure::{Ground, Shoes, Walker};
 pub use recording::{FootBlow, WalkRecording};
 pub use signals::gait_signals;

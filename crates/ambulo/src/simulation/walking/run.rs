@@ -6,9 +6,9 @@ use super::figure::{Placed, Walker};
 use super::recording::{FootBlow, WalkRecording};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
-use crate::model::Side;
+use crate::model::{BodyId, Side};
 use crate::motion::TimeGrid;
-use crate::simulation::{Blow, Integrator, State, StepSettings, StepWorkspace, World, step};
+use crate::simulation::{Blow, Integrator, Owner, State, StepSettings, StepWorkspace, World, step};
 use crate::spatial::{Pose, Twist, Vec3};
 
 /// A recording under way.
@@ -92,7 +92,7 @@ impl<'a> Keeping<'a> {
             walker,
             columns: (0..count).map(|_| [column(), column(), column()]).collect(),
             efforts: (0..count).map(|_| column()).collect(),
-            feet: walker.feet.map(|body| FootRecord::new(body, rows)),
+            feet: std::array::from_fn(|k| FootRecord::new(walker.feet[k], walker.toes[k], rows)),
             blows: Vec::new(),
             unsolved: 0,
         }
@@ -139,7 +139,8 @@ impl<'a> Keeping<'a> {
         self.feet.iter_mut().for_each(FootRecord::begin_row);
         for contact in w.contacts() {
             let Some(side) = self.walker.sides[contact.surfaces.0] else { continue };
-            self.feet[usize::from(side == Side::Left)].add(&contact, friction);
+            let Owner::Body(body) = self.walker.world.surfaces[contact.surfaces.0].owner else { continue };
+            self.feet[usize::from(side == Side::Left)].add(&contact, BodyId(body), friction);
         }
         self.feet.iter_mut().for_each(FootRecord::end_row);
     }

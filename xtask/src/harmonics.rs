@@ -4,7 +4,7 @@
 //! noise. The tables' 0 % and 100 % differ by up to 0.5°, because they are means over all cycles' ends: the straight line
 //! between the two ends is taken out first, so that nothing jumps.
 
-use super::normative::SAMPLES;
+use crate::normative::SAMPLES;
 use std::f64::consts::TAU;
 
 /// Harmonics kept.

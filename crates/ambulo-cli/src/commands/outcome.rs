@@ -1,0 +1,80 @@
+//! From an analysis to a verdict, files and words: what recordings and synthetic walks share.
+
+use super::stopwatch::Stopwatch;
+use crate::args::Voice;
+use crate::{Verdict, files, printer};
+use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
+use ambulo::analysis::{Analysis, Settings};
+use ambulo::findings::Findings;
+use ambulo::model::Model;
+use ambulo::report::{Input, OutputFile, Summary, WalkSummary, output_files, summary};
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+
+/// What an analysis is judged and reported with.
+pub(super) struct Outcome<'a> {
+    pub(super) model: &'a Model,
+    pub(super) settings: &'a Settings,
+    pub(super) thresholds: &'a Thresholds,
+    pub(super) input: &'a Input,
+    pub(super) person: Person,
+    /// What a worn device gives of the generalised forces.
+    pub(super) device: Option<&'a [Vec<f64>]>,
+    /// Every file that was read; none of them is written over.
+    pub(super) read: &'a [PathBuf],
+    /// How a synthetic walk was made, and the files that only walks have.
+    pub(super) walk: Option<(WalkSummary, Vec<OutputFile>)>,
+}
+
+impl Outcome<'_> {
+    /// Judges, writes and reports.
+    pub(super) fn write(
+        self,
+        mut analysis: Analysis,
+        mut findings: Findings,
+        mut clock: Stopwatch,
+        output: &Path,
+        voice: Voice,
+    ) -> Result<Verdict> {
+        if analysis.cycles.is_empty() {
+            findings
+                .note("cycles.none", "no whole gait cycle in the window: cycles.csv and the figure were not written");
+        }
+        let feasible = self.judge(&mut analysis, &mut findings);
+        clock.lap("feasibility");
+        let mut written = output_files(self.model, &analysis, self.device)?;
+        let (walk, own_files) = self.walk.unzip();
+        written.extend(own_files.unwrap_or_default());
+        files::replace_results(output, &written, self.read)?;
+        clock.lap("write");
+        let mut summary = summary(self.model, &analysis, self.settings, self.input.clone(), &findings);
+        summary.height_m = walk.is_some().then_some(self.person.height_m);
+        summary.walk = walk;
+        summary.timing_ms = clock.into_laps();
+        write_summary(output, &summary)?;
+        printer::forces(&summary, output, voice)?;
+        Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
+    }
+
+    /// Whether a person could do this; the verdict stays with the analysis.
+    fn judge(&self, analysis: &mut Analysis, findings: &mut Findings) -> bool {
+        let Analysis { trajectory, forces, ground, .. } = &*analysis;
+        let evidence = Evidence { model: self.model, trajectory, forces, ground, device: self.device };
+        let verdict = feasibility::check(&evidence, &self.person, self.thresholds, findings);
+        analysis.verdict.insert(verdict).feasible
+    }
+}
+
+/// The thresholds of a file, or the built-in ones.
+pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
+    let Some(path) = path else { return Ok(Thresholds::default()) };
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    Thresholds::from_toml(&text).with_context(shown)
+}
+
+fn write_summary(output: &Path, summary: &Summary) -> Result<()> {
+    let mut json = serde_json::to_vec_pretty(summary)?;
+    json.push(b'\n');
+    files::write(&output.join("summary.json"), &json)
+}

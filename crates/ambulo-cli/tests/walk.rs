@@ -1,0 +1,267 @@
+//! `ambulo walk` and `ambulo demo`: files, summary, verdict, and what cannot be asked for.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+mod workbench;
+
+use serde_json::Value;
+use workbench::{RAW, Workbench};
+
+/// Every file of a walk.
+const FILES: [&str; 12] = [
+    "kinematics.mot",
+    "moments.sto",
+    "powers.sto",
+    "reactions.sto",
+    "grf.mot",
+    "external_loads.xml",
+    "events.csv",
+    "cycles.csv",
+    "summary.json",
+    "figure.osim",
+    "figures/moments.svg",
+    "figures/gait.svg",
+];
+
+fn rows<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
+    text.lines().filter(|line| line.starts_with(begin)).collect()
+}
+
+#[test]
+fn a_walk_leaves_the_files_of_a_recording_on_the_same_instants() {
+    let bench = Workbench::empty("walk_files");
+    let run = bench.run(&["walk", "--cycles", "2", "-o", "out"]).done();
+    for words in
+        ["de-leva-male 75 kg 1.75 m, gait free", "ankle_angle_r_moment", "corrected mode", "verdict   feasible"]
+    {
+        assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
+    }
+    for file in FILES {
+        assert!(!bench.read(&format!("out/{file}")).is_empty(), "{file}");
+    }
+    let times = bench.table("out/kinematics.mot").times().unwrap().to_vec();
+    assert!((times[1] - times[0] - 0.01).abs() < 1e-9 && times[0].abs() < 1e-12);
+    for file in ["moments.sto", "powers.sto", "reactions.sto", "grf.mot"] {
+        assert_eq!(bench.table(&format!("out/{file}")).times().unwrap(), times, "{file}");
+    }
+    let events = bench.text("out/events.csv");
+    assert_eq!((rows(&events, "r,strike").len(), rows(&events, "l,strike").len()), (3, 3), "{events}");
+    let cycles = bench.text("out/cycles.csv");
+    assert_eq!(rows(&cycles, "hip_flexion_moment,r,2,").len(), 101);
+    assert!(rows(&cycles, "hip_flexion_moment,r,3,").is_empty());
+}
+
+#[test]
+fn the_summary_says_how_the_walk_was_made() {
+    let bench = Workbench::empty("walk_summary");
+    let run = bench.run(&["walk", "--cycles", "1", "--json", "-o", "out"]).done();
+    let summary: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(summary, bench.json("out/summary.json"));
+    assert_eq!((&summary["ground"]["source"], &summary["ground"]["rule"]), (&"simulated".into(), &"soft shoes".into()));
+    assert_eq!((&summary["height_m"], &summary["mass_source"]), (&1.75.into(), &"model".into()));
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
+    assert!((number(&summary["mass_kg"]) - 75.0).abs() < 1e-9);
+    assert!((number(&summary["speed_m_s"]) / number(&summary["walk"]["speed_asked_m_s"]) - 1.0).abs() < 0.03);
+    assert_eq!(summary["verdict"]["feasible"], true);
+    let walk = &summary["walk"];
+    assert_eq!((&walk["gait"], &walk["style"], &walk["mode"]), (&"free".into(), &"knots".into(), &"corrected".into()));
+    for joint in ["hip_flexion_r", "knee_angle_r", "ankle_angle_r", "mtp_angle_r", "pelvis_tilt", "lumbar_extension"] {
+        let size = &walk["adjustment_deg"][joint];
+        assert!(number(&size["rms"]) > 0.0 && number(&size["rms"]) <= number(&size["largest"]), "{joint}: {size}");
+    }
+    for key in ["forward", "up"] {
+        assert!(number(&walk["pelvis_path_mm"][key]["largest"]) < 50.0, "{walk}");
+    }
+    assert!(number(&walk["trunk_torque_nm"]["rms"]) < 5.0 && number(&walk["foot_slip_mm"]) < 5.0, "{walk}");
+    assert!(number(&walk["parameters_adjusted"]) > 50.0 && walk["solver"].as_array().unwrap().len() > 3, "{walk}");
+    assert!(number(&walk["flight_s"]) < 1e-9 && number(&walk["blows"]) < 0.5, "{walk}");
+    // Recordings have no such part.
+    let recorded = Workbench::new("walk_summary_of_forces");
+    recorded.forces(&RAW).done();
+    assert_eq!(recorded.json("out/summary.json")["walk"], Value::Null);
+}
+
+#[test]
+fn figure_speed_and_steps_can_be_asked_for() {
+    let bench = Workbench::empty("walk_options");
+    let walk = |more: &[&str]| {
+        let run = bench.run(&[&["walk", "--cycles", "1", "--json", "-o", "out"], more].concat());
+        assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
+        serde_json::from_str::<Value>(&run.stdout).unwrap()
+    };
+    let near = |value: &Value, expected: f64| {
+        let found = value.as_f64().unwrap();
+        assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
+    };
+    let woman = walk(&["--figure", "de-leva-female", "--mass", "58", "--height", "1.62", "--speed", "1.1"]);
+    near(&woman["mass_kg"], 58.0);
+    near(&woman["height_m"], 1.62);
+    near(&woman["walk"]["speed_asked_m_s"], 1.1);
+    assert_eq!(woman["walk"]["figure"], "de-leva-female");
+    let steps = walk(&["--step-length", "0.6", "--cadence", "110", "--no-toe-joint"]);
+    near(&steps["walk"]["step_length_m"], 0.6);
+    near(&steps["walk"]["cadence_steps_min"], 110.0);
+    near(&steps["walk"]["speed_asked_m_s"], 0.6 * 110.0 / 60.0);
+    assert!(!bench.text("out/moments.sto").contains("mtp_angle"));
+    // One number leaves the rest to the gait: short steps stay short at another speed.
+    near(&walk(&["--step-length", "0.65"])["walk"]["step_length_m"], 0.65);
+    let [short, standard] = ["short", "standard"].map(|gait| walk(&["--gait", gait, "--speed", "1.2"])["walk"].clone());
+    near(&short["speed_asked_m_s"], 1.2);
+    near(&short["step_length_m"], 0.62 * standard["step_length_m"].as_f64().unwrap());
+    let rows = |rate: &str| {
+        walk(&["--rate", rate]);
+        bench.table("out/moments.sto").rows()
+    };
+    assert!(rows("200").abs_diff(2 * rows("100")) <= 2);
+    bench.write("mine.toml", "base = \"slow\"\nspeed = 0.9\n");
+    near(&walk(&["--gait", "mine.toml"])["walk"]["speed_asked_m_s"], 0.9);
+    assert_eq!(walk(&["--style", "1997"])["walk"]["style"], "1997");
+}
+
+#[test]
+fn the_papers_mode_walks_and_is_no_feasible_walk() {
+    let bench = Workbench::empty("walk_paper");
+    let paper = ["walk", "--gait", "standard", "--mode", "paper", "--figure", "faure-1997", "-o", "out"];
+    let run = bench.run(&paper).infeasible();
+    assert!(run.stdout.contains("paper mode") && run.stdout.contains("blows"), "{}", run.stdout);
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["ground"]["rule"], "rigid soles");
+    assert_eq!(summary["walk"]["parameters_adjusted"], Value::Null);
+    assert!(summary["walk"]["largest_blow_n_s"].as_f64().unwrap() > 1.0);
+    assert!(!summary["verdict"]["reasons"].as_array().unwrap().is_empty());
+    assert!(bench.text("out/figures/moments.svg").contains("red: not feasible"));
+}
+
+#[test]
+fn a_gait_that_cannot_be_put_right_is_said_to_be_so_and_judged() {
+    let bench = Workbench::empty("walk_goose");
+    let run = bench.run(&["walk", "--gait", "goose", "--cycles", "1", "-o", "out"]).infeasible();
+    run.says(&["warning: no small change makes this gait one that the ground carries", "hint: "]);
+    let findings = bench.json("out/summary.json")["findings"].clone();
+    assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
+}
+
+#[test]
+fn states_are_printed_and_drawn() {
+    let bench = Workbench::empty("walk_states");
+    let run = bench.run(&["walk", "--gait", "standard", "--states"]).done();
+    for words in ["standard, style 1997: 1.50 m/s", "right knee", "double support", "E1", "leads to, when"] {
+        assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
+    }
+    assert!(!bench.exists("out"));
+    bench.run(&["walk", "--states", "-o", "drawn", "--quiet"]).done();
+    assert!(bench.text("drawn/figures/gait.svg").starts_with("<svg") && !bench.exists("drawn/moments.sto"));
+    let json = bench.run(&["walk", "--states", "--json"]).done().stdout;
+    let table = serde_json::from_str::<Value>(&json).unwrap()["states"].as_str().unwrap().to_owned();
+    assert!(table.contains("right hip"), "{table}");
+}
+
+#[test]
+fn two_walks_give_identical_bytes() {
+    let bench = Workbench::empty("walk_twice");
+    for folder in ["a", "b"] {
+        bench.run(&["walk", "--cycles", "1", "-o", folder, "--quiet"]).done();
+    }
+    for file in FILES.into_iter().filter(|file| *file != "summary.json") {
+        assert_eq!(bench.read(&format!("a/{file}")), bench.read(&format!("b/{file}")), "{file}");
+    }
+}
+
+#[test]
+fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
+    let bench = Workbench::empty("demo");
+    let run = bench.run(&["demo", "-o", "demo"]).done();
+    println!("ambulo demo took {:.2} s", run.took.as_secs_f64());
+    for file in FILES {
+        assert!(!bench.read(&format!("demo/{file}")).is_empty(), "{file}");
+    }
+    let model = ["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim"];
+    bench.run(&[&model[..], &["--loads", "demo/input/walk_grf.xml", "-o", "again"], &RAW].concat()).done();
+    let (made, read) = (bench.table("demo/moments.sto"), bench.table("again/moments.sto"));
+    let frames = made.rows();
+    // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate feels the whole foot, so
+    // the moment at the ball of the foot is lost.
+    for name in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment", "lumbar_extension_moment"] {
+        let (a, b) = (made.column(name).unwrap(), read.column(name).unwrap());
+        let differences: Vec<f64> = (10..frames - 10).map(|i| (a[i] - b[i]).powi(2)).collect();
+        let rms = (differences.iter().sum::<f64>() / differences.len() as f64).sqrt();
+        println!("{name}: {rms:.3} N.m rms");
+        assert!(rms < 0.5, "{name}: {rms} N.m rms");
+    }
+    let vertical =
+        |folder: &str| bench.table(&format!("{folder}/grf.mot")).column("ground_force_r_vy").unwrap().to_vec();
+    let worst = vertical("demo").iter().zip(vertical("again")).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(worst < 1e-6, "{worst} N");
+}
+
+#[test]
+fn what_makes_no_walk_is_refused() {
+    let bench = Workbench::empty("walk_refused");
+    let refused = |args: &[&str], words: &[&str]| {
+        bench.run(&[&["walk", "-o", "out"], args].concat()).refused(words);
+        assert!(!bench.exists("out"), "{args:?}");
+    };
+    for speed in ["0", "-1", "nan", "inf"] {
+        refused(&["--speed", speed], &["speed", "found", "expected"]);
+    }
+    for (option, value) in [
+        ("--step-length", "0"),
+        ("--step-length", "-0.7"),
+        ("--cadence", "0"),
+        ("--cadence", "nan"),
+        ("--step-height", "-1"),
+    ] {
+        refused(&[option, value], &["found", "expected"]);
+    }
+    refused(&["--speed", "1", "--step-length", "0.7", "--cadence", "120"], &["speed = step length", "hint: leave one"]);
+    for mass in ["0", "-75", "nan", "5000"] {
+        refused(&["--mass", mass], &["the body mass is", "expected 2 to 300 kg"]);
+    }
+    for height in ["0", "-1.75", "nan", "175"] {
+        refused(&["--height", height], &["the height is", "expected 0.4 to 2.5 m"]);
+    }
+    refused(&["--mass", "20"], &["20 kg at 1.75 m; expected"]);
+    refused(&["--gait", "moonwalk"], &["--gait", "found `moonwalk`", "standard, long, short, goose, slow, free, fast"]);
+    refused(&["--gait", "gose"], &["hint: is `goose` meant?"]);
+    refused(&["--style", "2024"], &["--style: found `2024`; expected one of knots, 1997"]);
+    refused(&["--figure", "barbie"], &["--figure", "no figure is named `barbie`", "de-leva-male"]);
+    refused(&["--cycles", "0"], &["found 0 cycles; expected 1 to 1000"]);
+    for rate in ["0", "-100", "nan", "1e9"] {
+        refused(&["--rate", rate], &["Hz; expected 20 to 5000 Hz"]);
+    }
+    refused(&["--gait", "none.toml"], &["none.toml: there is no such file"]);
+    for (args, words) in
+        [(&["--mode", "slide"][..], "corrected, paper"), (&["--speed", "fast"], "--speed"), (&["--cycles", "-3"], "-3")]
+    {
+        let run = bench.run(&[&["walk"], args].concat());
+        assert!(run.code == Some(2) && run.stderr.contains(words), "{args:?}: {}", run.stderr);
+    }
+    bench.write("limits.toml", "[frictoin]\n");
+    refused(&["--thresholds", "limits.toml"], &["limits.toml: line 1", "hint: is `friction` meant?"]);
+}
+
+#[test]
+fn gait_files_with_faults_are_refused_by_line() {
+    let bench = Workbench::empty("walk_gait_files");
+    let refused = |content: &str, words: &[&str]| {
+        bench.write("gait.toml", content);
+        bench.run(&["walk", "--gait", "gait.toml"]).refused(words);
+    };
+    refused("speed = 0\n", &["gait.toml", "speed"]);
+    refused("speed = \"quick\"\n", &["gait.toml: line 1", "quick"]);
+    refused("sped = 1.2\n", &["gait.toml: line 1", "hint: is `speed` meant?"]);
+    refused("style = \"2024\"\n", &["gait.toml: line 1", "2024"]);
+    refused("= 3\n", &["gait.toml: line 1", "this is not TOML"]);
+    let overlapping = "[[knot]]\njoint = \"knee\"\nknot = \"stance peak\"\nphase = 0.5\n";
+    refused(overlapping, &["knee"]);
+}
+
+#[test]
+fn a_gait_file_is_never_written_over() {
+    let bench = Workbench::empty("walk_same_folder");
+    let walk = |folder: &str| bench.run(&["walk", "--gait", "summary.json/../mine.toml", "-o", folder]);
+    bench.write("mine.toml", "base = \"free\"\n");
+    assert_eq!(walk(".").code, Some(2), "a path through a file is none");
+    assert_eq!(bench.text("mine.toml"), "base = \"free\"\n");
+}

@@ -1,0 +1,171 @@
+//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, markers.
+//!
+//! Numbers are written so that they read back the same, to the last bit; but for orientations of frames, which are written as
+//! angles and come back to rounding.
+
+use super::{
+    OsimAxis, OsimBody, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker, OsimModel,
+};
+use crate::error::{Error, quoted};
+use crate::xml::escaped;
+
+/// The layout that is written.
+const VERSION: u32 = 40000;
+
+impl OsimModel {
+    /// Writes a document.
+    ///
+    /// # Errors
+    /// What this writer does not know: constraints, functions but constants, lines and polynomials, ellipsoid joints; numbers that
+    /// are not finite.
+    pub fn write(&self) -> Result<Vec<u8>, Error> {
+        if !self.constraints.is_empty() {
+            return Err(unknown(format!("{} constraints", self.constraints.len()), "a model without constraints"));
+        }
+        let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
+        let joints = self.joints.iter().map(joint).collect::<Result<String, Error>>()?;
+        let markers = self.markers.iter().map(marker).collect::<Result<String, Error>>()?;
+        let mut out = format!("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"{VERSION}\">\n");
+        out += &format!("\t<Model name=\"{}\">\n", escaped(&self.name));
+        out += &element(2, "gravity", &numbers(&self.gravity)?);
+        out += &set("BodySet", "bodyset", &bodies);
+        out += &set("JointSet", "jointset", &joints);
+        if !markers.is_empty() {
+            out += &set("MarkerSet", "markerset", &markers);
+        }
+        out += "\t</Model>\n</OpenSimDocument>\n";
+        Ok(out.into_bytes())
+    }
+}
+
+fn unknown(found: String, expected: &str) -> Error {
+    Error::Record { found, expected: expected.to_owned() }
+}
+
+fn numbers(values: &[f64]) -> Result<String, Error> {
+    if let Some(odd) = values.iter().find(|value| !value.is_finite()) {
+        return Err(unknown(odd.to_string(), "finite numbers"));
+    }
+    Ok(values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
+}
+
+fn element(depth: usize, tag: &str, text: &str) -> String {
+    format!("{}<{tag}>{}</{tag}>\n", "\t".repeat(depth), escaped(text))
+}
+
+/// An element with a name around others.
+fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
+    let indent = "\t".repeat(depth);
+    format!("{indent}<{tag} name=\"{}\">\n{content}{indent}</{tag}>\n", escaped(name))
+}
+
+fn group(depth: usize, tag: &str, content: &str) -> String {
+    let indent = "\t".repeat(depth);
+    format!("{indent}<{tag}>\n{content}{indent}</{tag}>\n")
+}
+
+fn set(tag: &str, name: &str, objects: &str) -> String {
+    holder(2, tag, name, &group(3, "objects", objects))
+}
+
+fn body(body: &OsimBody) -> Result<String, Error> {
+    let content = element(5, "mass", &numbers(&[body.mass_kg])?)
+        + &element(5, "mass_center", &numbers(&body.mass_center_m)?)
+        + &element(5, "inertia", &numbers(&body.inertia)?);
+    Ok(holder(4, "Body", &body.name, &content))
+}
+
+fn joint(joint: &OsimJoint) -> Result<String, Error> {
+    let [parent, child] = ["parent", "child"].map(|end| format!("{}_{end}", joint.name));
+    let coordinates = joint.coordinates.iter().map(coordinate).collect::<Result<String, Error>>()?;
+    let frames = frame(&parent, &joint.parent)? + &frame(&child, &joint.child)?;
+    let mut content = element(5, "socket_parent_frame", &parent) + &element(5, "socket_child_frame", &child);
+    content += &group(5, "coordinates", &coordinates);
+    content += &group(5, "frames", &frames);
+    if let OsimJointKind::Custom(axes) = &joint.kind {
+        let axes = axes.iter().enumerate().map(|(i, a)| axis(i, a)).collect::<Result<String, Error>>()?;
+        content += &group(5, "SpatialTransform", &axes);
+    }
+    Ok(holder(4, tag(joint)?, &joint.name, &content))
+}
+
+fn tag(joint: &OsimJoint) -> Result<&'static str, Error> {
+    Ok(match joint.kind {
+        OsimJointKind::Weld => "WeldJoint",
+        OsimJointKind::Pin => "PinJoint",
+        OsimJointKind::Slider => "SliderJoint",
+        OsimJointKind::Universal => "UniversalJoint",
+        OsimJointKind::Ball => "BallJoint",
+        OsimJointKind::Gimbal => "GimbalJoint",
+        OsimJointKind::Planar => "PlanarJoint",
+        OsimJointKind::Free => "FreeJoint",
+        OsimJointKind::Custom(_) => "CustomJoint",
+        OsimJointKind::Ellipsoid { .. } => {
+            let found = format!("the ellipsoid joint {}", quoted(&joint.name));
+            return Err(unknown(found, "any other joint"));
+        }
+    })
+}
+
+fn coordinate(coordinate: &OsimCoordinate) -> Result<String, Error> {
+    if coordinate.prescribed.is_some() {
+        let found = format!("the prescribed motion of {}", quoted(&coordinate.name));
+        return Err(unknown(found, "coordinates that are free or locked"));
+    }
+    let mut content = element(7, "default_value", &numbers(&[coordinate.default_value])?);
+    if let Some(range) = coordinate.range {
+        content += &element(7, "range", &numbers(&range)?);
+    }
+    // Ranges are the author's advice: motion may leave them.
+    content += &element(7, "clamped", "false");
+    content += &element(7, "locked", if coordinate.locked { "true" } else { "false" });
+    Ok(holder(6, "Coordinate", &coordinate.name, &content))
+}
+
+fn path(body: &str) -> String {
+    if super::is_ground(body) { "/ground".to_owned() } else { format!("/bodyset/{body}") }
+}
+
+fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
+    let content = element(7, "socket_parent", &path(&frame.body))
+        + &element(7, "translation", &numbers(&frame.translation_m)?)
+        + &element(7, "orientation", &numbers(&angles(&frame.rotation))?);
+    Ok(holder(6, "PhysicalOffsetFrame", name, &content))
+}
+
+/// Body-fixed X-Y-Z angles of a rotation, R = Rx(a) Ry(b) Rz(c) [rad].
+fn angles(r: &[[f64; 3]; 3]) -> [f64; 3] {
+    // Against -0, which is a number of its own in text.
+    let plain = |angle: f64| angle + 0.0;
+    let b = r[0][2].clamp(-1.0, 1.0).asin();
+    [plain((-r[1][2]).atan2(r[2][2])), plain(b), plain((-r[0][1]).atan2(r[0][0]))]
+}
+
+fn axis(number: usize, axis: &OsimAxis) -> Result<String, Error> {
+    const NAMES: [&str; 6] = ["rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"];
+    let content = element(7, "coordinates", axis.coordinate.as_deref().unwrap_or_default())
+        + &element(7, "axis", &numbers(&axis.axis)?)
+        + &function(&axis.function)?;
+    Ok(holder(6, "TransformAxis", NAMES.get(number).copied().unwrap_or_default(), &content))
+}
+
+fn function(function: &OsimFunction) -> Result<String, Error> {
+    let (tag, content) = match function {
+        OsimFunction::Constant(value) => ("Constant", element(8, "value", &numbers(&[*value])?)),
+        OsimFunction::Linear { slope, intercept } => {
+            ("LinearFunction", element(8, "coefficients", &numbers(&[*slope, *intercept])?))
+        }
+        OsimFunction::Polynomial(coefficients) => {
+            ("PolynomialFunction", element(8, "coefficients", &numbers(coefficients)?))
+        }
+        _ => return Err(unknown("a function of another kind".into(), "a constant, a line or a polynomial")),
+    };
+    Ok(holder(7, tag, "function", &content))
+}
+
+fn marker(marker: &OsimMarker) -> Result<String, Error> {
+    let content = element(5, "socket_parent_frame", &path(&marker.body))
+        + &element(5, "location", &numbers(&marker.location_m)?)
+        + &element(5, "fixed", "false");
+    Ok(holder(4, "Marker", &marker.name, &content))
+}

@@ -1,0 +1,110 @@
+//! Models written and read back: every kind of joint that the writer knows, and what it refuses.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+use ambulo_formats::osim::{Knots, OsimConstraint, OsimFunction, OsimJointKind, OsimModel};
+
+/// A chain of bodies with odd names, turned frames and every joint.
+fn document() -> String {
+    let joints = [
+        ("WeldJoint", 0),
+        ("PinJoint", 1),
+        ("SliderJoint", 1),
+        ("UniversalJoint", 2),
+        ("BallJoint", 3),
+        ("GimbalJoint", 3),
+        ("PlanarJoint", 3),
+        ("FreeJoint", 6),
+        ("CustomJoint", 2),
+    ];
+    let (mut bodies, mut all) = (String::new(), String::new());
+    for (i, (kind, count)) in joints.into_iter().enumerate() {
+        bodies += &format!(
+            "<Body name=\"b&amp;{i}\"><mass>{}</mass><mass_center>0.1 -0.25 1e-3</mass_center><inertia>0.3 0.2 0.1 0.01 -0.02 0</inertia></Body>",
+            0.1 + i as f64 / 3.0
+        );
+        let parent = if i == 0 { "/ground".to_owned() } else { format!("/bodyset/b&amp;{}", i - 1) };
+        let coordinates: String = (0..count)
+            .map(|k| format!("<Coordinate name=\"q{i}_{k}\"><default_value>0.{k}</default_value><range>-1.5 2.25</range><locked>{}</locked></Coordinate>", k == 1))
+            .collect();
+        let axis = |content: &str| format!("<TransformAxis>{content}</TransformAxis>");
+        let still = "<axis>0 0 1</axis><Constant><value>0.125</value></Constant>";
+        let transform = [
+            axis("<coordinates>q8_0</coordinates><axis>0 0.6 0.8</axis><LinearFunction><coefficients>-1 0.1</coefficients></LinearFunction>"),
+            axis("<coordinates>q8_1</coordinates><axis>1 0 0</axis><PolynomialFunction><coefficients>2 0 1</coefficients></PolynomialFunction>"),
+            axis(still),
+            axis(still),
+            axis(still),
+            axis(still),
+        ]
+        .concat();
+        let transform = if kind == "CustomJoint" {
+            format!("<SpatialTransform>{transform}</SpatialTransform>")
+        } else {
+            String::new()
+        };
+        all += &format!(
+            "<{kind} name=\"j{i}\"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>c</socket_child_frame>\
+             <coordinates>{coordinates}</coordinates><frames>\
+             <PhysicalOffsetFrame name=\"p\"><socket_parent>{parent}</socket_parent><translation>0 {i} 0.1</translation><orientation>0.3 -0.7 2.1</orientation></PhysicalOffsetFrame>\
+             <PhysicalOffsetFrame name=\"c\"><socket_parent>/bodyset/b&amp;{i}</socket_parent><translation>0 0 0</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\
+             </frames>{transform}</{kind}>"
+        );
+    }
+    format!(
+        "<OpenSimDocument Version=\"40000\"><Model name=\"all &lt;joints&gt;\"><gravity>0 -1.62 0</gravity><BodySet><objects>{bodies}</objects></BodySet>\
+         <JointSet><objects>{all}</objects></JointSet><MarkerSet><objects><Marker name=\"m\"><socket_parent_frame>/bodyset/b&amp;2</socket_parent_frame>\
+         <location>1 2 3</location></Marker></objects></MarkerSet></Model></OpenSimDocument>"
+    )
+}
+
+/// The same but for lines of the text.
+fn without_lines(mut model: OsimModel) -> OsimModel {
+    model.bodies.iter_mut().for_each(|body| body.line = 0);
+    for joint in &mut model.joints {
+        joint.line = 0;
+        joint.coordinates.iter_mut().for_each(|coordinate| coordinate.line = 0);
+    }
+    model
+}
+
+#[test]
+fn what_is_written_reads_back_the_same() {
+    let model = without_lines(OsimModel::read(document().as_bytes()).unwrap());
+    let written = model.write().unwrap();
+    let mut again = without_lines(OsimModel::read(&written).unwrap());
+    assert!(again.remarks.is_empty(), "{:?}", again.remarks);
+    for (a, b) in again.joints.iter_mut().zip(&model.joints) {
+        for (a, b) in [(&mut a.parent, &b.parent), (&mut a.child, &b.child)] {
+            for (x, y) in a.rotation.as_flattened_mut().iter_mut().zip(b.rotation.as_flattened()) {
+                // Matrix to angles and back.
+                assert!((*x - y).abs() < 1e-15 * 8.0, "{x} instead of {y}");
+                *x = *y;
+            }
+        }
+    }
+    assert_eq!(again, model);
+    assert_eq!(without_lines(OsimModel::read(&written).unwrap()).write().unwrap(), again.write().unwrap());
+}
+
+#[test]
+fn what_the_writer_does_not_know_is_refused() {
+    let model = OsimModel::read(document().as_bytes()).unwrap();
+    let refused = |change: &dyn Fn(&mut OsimModel), words: &str| {
+        let mut changed = model.clone();
+        change(&mut changed);
+        let error = changed.write().unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    };
+    refused(&|m| m.constraints.push(OsimConstraint::Off { name: "c".into() }), "1 constraints");
+    refused(&|m| m.joints[0].kind = OsimJointKind::Ellipsoid { radii_m: [1.0; 3] }, "the ellipsoid joint");
+    refused(&|m| m.bodies[0].mass_kg = f64::NAN, "found NaN; expected finite numbers");
+    refused(&|m| m.joints[1].coordinates[0].prescribed = Some(OsimFunction::Constant(0.0)), "the prescribed motion of");
+    let curve = OsimFunction::SimmSpline(Knots { x: vec![0.0, 1.0], y: vec![0.0, 1.0] });
+    let bend = |m: &mut OsimModel| {
+        if let OsimJointKind::Custom(axes) = &mut m.joints[8].kind {
+            axes[0].function = curve.clone();
+        }
+    };
+    refused(&bend, "a function of another kind");
+}

@@ -1,0 +1,210 @@
+//! Nonlinear least squares by Levenberg's and Marquardt's method.
+//!
+//! With residuals r(x) and Jacobian J, a step solves (JᵀJ + λ diag JᵀJ) Δ = -Jᵀr; λ falls when the step helps and grows
+//! when it does not. JᵀJ is gathered row by row and never J itself, so thousands of residuals cost no memory.
+//!
+//! Source: Levenberg 1944; Marquardt 1963 (both unverified).
+//! Cost: a Cholesky factorisation an iteration, and what the rows cost.
+//! Pinned by: the tests below; tests/consistent_walk.rs
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// What is minimised: half the sum of squares of residuals.
+pub trait Residuals {
+    /// How many unknowns.
+    fn count(&self) -> usize;
+    /// Sum of squares.
+    fn cost(&mut self, x: &[f64]) -> f64;
+    /// Sum of squares; hands every residual to the normal equations.
+    fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64;
+}
+
+/// JᵀJ (lower triangle) and Jᵀr, gathered row by row.
+///
+/// Rows that follow each other on the same unknowns are summed in a small matrix of their own, which is spread over the whole one
+/// when others come.
+#[derive(Debug, Clone)]
+pub struct NormalEquations {
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    numbers: Vec<usize>,
+    block: Vec<f64>,
+    block_right: Vec<f64>,
+}
+
+impl NormalEquations {
+    fn new(count: usize) -> NormalEquations {
+        NormalEquations {
+            matrix: DMatrix::zeros(count, count),
+            right: DVector::zeros(count),
+            numbers: Vec::new(),
+            block: Vec::new(),
+            block_right: Vec::new(),
+        }
+    }
+
+    fn clear(&mut self) {
+        self.matrix.fill(0.0);
+        self.right.fill(0.0);
+        self.begin(&[]);
+    }
+
+    /// One residual with its derivatives by some unknowns.
+    pub fn add(&mut self, residual: f64, numbers: &[usize], slopes: &[f64]) {
+        if self.numbers != numbers {
+            self.spread();
+            self.begin(numbers);
+        }
+        let count = numbers.len();
+        for (i, a) in slopes.iter().enumerate() {
+            self.block_right[i] += a * residual;
+            for (sum, b) in self.block[i * count..=i * count + i].iter_mut().zip(slopes) {
+                *sum += a * b;
+            }
+        }
+    }
+
+    fn begin(&mut self, numbers: &[usize]) {
+        self.numbers.clear();
+        self.numbers.extend_from_slice(numbers);
+        self.block.clear();
+        self.block.resize(numbers.len() * numbers.len(), 0.0);
+        self.block_right.clear();
+        self.block_right.resize(numbers.len(), 0.0);
+    }
+
+    /// Adds the small matrix to the whole one. Two columns of the small one may stand for one unknown.
+    fn spread(&mut self) {
+        let count = self.numbers.len();
+        for (i, &row) in self.numbers.iter().enumerate() {
+            self.right[row] += self.block_right[i];
+            for (j, &column) in self.numbers[..i].iter().enumerate() {
+                let share = self.block[i * count + j];
+                let doubled = if row == column { 2.0 } else { 1.0 };
+                self.matrix[(row.max(column), row.min(column))] += doubled * share;
+            }
+            self.matrix[(row, row)] += self.block[i * count + i];
+        }
+    }
+}
+
+/// How a minimisation went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Steps taken.
+    pub iterations: usize,
+    /// Sum of squares at the start.
+    pub from: f64,
+    /// Sum of squares at the end.
+    pub to: f64,
+}
+
+/// A relative gain below this ends the iteration.
+const SMALL_GAIN: f64 = 1e-4;
+const FIRST_DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-10;
+/// Tries in one iteration until a step helps.
+const TRIES: usize = 12;
+
+/// Improves `x` in place, in at most `iterations` steps.
+pub fn minimise(problem: &mut impl Residuals, x: &mut [f64], iterations: usize) -> Progress {
+    let mut normal = NormalEquations::new(problem.count());
+    let mut damping = FIRST_DAMPING;
+    let mut progress = Progress { iterations: 0, from: problem.cost(x), to: f64::INFINITY };
+    progress.to = progress.from;
+    for _ in 0..iterations {
+        normal.clear();
+        let cost = problem.linearise(x, &mut normal);
+        normal.spread();
+        let Some((next, cost_after)) = step(problem, x, cost, &normal, &mut damping) else { break };
+        x.copy_from_slice(&next);
+        progress.iterations += 1;
+        progress.to = cost_after;
+        if cost - cost_after < SMALL_GAIN * cost {
+            break;
+        }
+    }
+    progress
+}
+
+/// A step that lowers the cost, if one is found.
+fn step(
+    problem: &mut impl Residuals,
+    x: &[f64],
+    cost: f64,
+    normal: &NormalEquations,
+    damping: &mut f64,
+) -> Option<(Vec<f64>, f64)> {
+    for _ in 0..TRIES {
+        let mut damped = normal.matrix.clone();
+        for i in 0..x.len() {
+            damped[(i, i)] += *damping * damped[(i, i)] + f64::EPSILON;
+        }
+        if let Some(factor) = Cholesky::new(damped) {
+            let delta = factor.solve(&normal.right);
+            let next: Vec<f64> = x.iter().zip(delta.iter()).map(|(x, d)| x - d).collect();
+            let after = problem.cost(&next);
+            if after < cost {
+                *damping = (*damping / 5.0).max(LEAST_DAMPING);
+                return Some((next, after));
+            }
+        }
+        *damping *= 6.0;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rosenbrock's valley: 10 (x₂ - x₁²) and 1 - x₁.
+    struct Valley;
+
+    impl Residuals for Valley {
+        fn count(&self) -> usize {
+            2
+        }
+        fn cost(&mut self, x: &[f64]) -> f64 {
+            (10.0 * (x[1] - x[0] * x[0])).powi(2) + (1.0 - x[0]).powi(2)
+        }
+        fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
+            normal.add(10.0 * (x[1] - x[0] * x[0]), &[0, 1], &[-20.0 * x[0], 10.0]);
+            normal.add(1.0 - x[0], &[0], &[-1.0]);
+            self.cost(x)
+        }
+    }
+
+    #[test]
+    fn the_bottom_of_a_curved_valley_is_found() {
+        let mut x = [-1.2, 1.0];
+        let progress = minimise(&mut Valley, &mut x, 100);
+        assert!((x[0] - 1.0).abs() < 1e-6 && (x[1] - 1.0).abs() < 1e-6, "{x:?} after {progress:?}");
+        assert!(progress.to < 1e-12 && progress.from > 24.0);
+    }
+
+    /// A straight line through points, the slope standing in two columns of every row.
+    struct Line([(f64, f64); 4]);
+
+    impl Residuals for Line {
+        fn count(&self) -> usize {
+            2
+        }
+        fn cost(&mut self, x: &[f64]) -> f64 {
+            self.0.iter().map(|(t, y)| (x[0] + x[1] * t - y).powi(2)).sum()
+        }
+        fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64 {
+            for (t, y) in self.0 {
+                normal.add(x[0] + x[1] * t - y, &[1, 0, 1], &[0.25 * t, 1.0, 0.75 * t]);
+            }
+            self.cost(x)
+        }
+    }
+
+    #[test]
+    fn an_unknown_may_stand_in_two_columns() {
+        let mut x = [5.0, 5.0];
+        minimise(&mut Line([(0.0, 1.0), (1.0, 3.0), (2.0, 4.0), (3.0, 8.0)]), &mut x, 50);
+        assert!((x[0] - 0.7).abs() < 1e-5 && (x[1] - 2.2).abs() < 1e-5, "{x:?}");
+    }
+}

@@ -1,0 +1,100 @@
+//! Whether a person could do what the walking figures of a scene do.
+
+use crate::analysis::feasibility::{Evidence, Person, Thresholds, Verdict, check};
+use crate::dynamics::{Forces, JointReaction};
+use crate::findings::Findings;
+use crate::ground::{BodyForces, MeasuredGround, upward};
+use crate::kinematics::{TrajectoryError, each_body_motion};
+use crate::model::{CoordinateKind, Model};
+use crate::simulation::scene::{FigureWalk, Scene};
+use crate::simulation::walking::WalkRecording;
+use crate::spatial::{Vec3, Wrench};
+use serde::Serialize;
+
+/// The verdict on all figures of a scene that walk.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneVerdict {
+    /// Nothing was found against any of them.
+    pub feasible: bool,
+    /// One entry a figure, in the order of the file.
+    pub figures: Vec<FigureVerdict>,
+}
+
+/// The verdict on one figure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FigureVerdict {
+    /// Its name.
+    pub figure: String,
+    /// What was found.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+}
+
+/// Judges every figure that walked; `None` if none did.
+///
+/// # Errors
+/// A scene that has not been stepped.
+pub fn scene_verdict(
+    scene: &Scene,
+    thresholds: &Thresholds,
+    findings: &mut Findings,
+) -> Result<Option<SceneVerdict>, TrajectoryError> {
+    let judged = |walk: FigureWalk| {
+        let verdict = judged(&walk, thresholds, findings);
+        FigureVerdict { figure: walk.name, verdict }
+    };
+    let figures: Vec<FigureVerdict> = scene.walks()?.into_iter().map(judged).collect();
+    let feasible = figures.iter().all(|figure| figure.verdict.feasible);
+    Ok((!figures.is_empty()).then_some(SceneVerdict { feasible, figures }))
+}
+
+fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
+    let recording = &walk.recording;
+    let forces = forces(recording);
+    let ground = ground(recording);
+    let evidence = Evidence {
+        model: &recording.model,
+        trajectory: &recording.trajectory,
+        forces: &forces,
+        ground: &ground,
+        device: None,
+    };
+    check(&evidence, &Person::of_human(&walk.human), thresholds, findings)
+}
+
+/// What the ground does to the feet; points do not twist, so it has no moment about the centre of pressure.
+fn ground(recording: &WalkRecording) -> MeasuredGround {
+    let up = upward(&recording.model);
+    let bodies = recording.feet.iter().map(|foot| {
+        let moments: Vec<Vec3> = foot.point.iter().zip(&foot.force).map(|(point, force)| point.cross(force)).collect();
+        BodyForces::on_level_ground(foot.body, &foot.force, &moments, up, 0.0)
+    });
+    MeasuredGround { bodies: bodies.collect() }
+}
+
+/// Drives as generalised forces. Of the root's reaction only what holds the trunk's turn counts: the rest keeps the figure in its
+/// plane, which is no part of a planar walk; nothing holds its slides.
+fn forces(recording: &WalkRecording) -> Forces {
+    let WalkRecording { model, trajectory, efforts, .. } = recording;
+    let powers = model.coordinate_ids().map(|id| {
+        let pairs = efforts[id.index()].iter().zip(trajectory.rates(id));
+        pairs.map(|(effort, rate)| effort * rate).collect()
+    });
+    let mut reactions = vec![Vec::new(); model.bodies().len()];
+    each_body_motion(model, trajectory, |frame, bodies| {
+        for (body, about) in model.bodies().iter().enumerate() {
+            let center = bodies[body].pose.place(about.joint.child_from_joint.translation);
+            let held = if about.joint.parent.is_none() { turn(model, efforts, body, frame) } else { Vec3::zeros() };
+            reactions[body].push(JointReaction { center, wrench: Wrench { moment: held, force: Vec3::zeros() } });
+        }
+    });
+    Forces { generalized: efforts.clone(), powers: powers.collect(), reactions }
+}
+
+/// Moment that turns the root, world axes [N.m].
+fn turn(model: &Model, efforts: &[Vec<f64>], root: usize, frame: usize) -> Vec3 {
+    let joint = &model.bodies()[root].joint;
+    let turning = |id: &crate::model::CoordinateId| model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+    let moment: f64 = joint.coordinates().iter().filter(|id| turning(id)).map(|id| efforts[id.index()][frame]).sum();
+    joint.parent_from_joint.rotation * Vec3::z() * moment
+}

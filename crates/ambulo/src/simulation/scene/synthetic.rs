@@ -1,0 +1,342 @@
+//! Built figures as the simulator has them: every coordinate of the model is one of a joint.
+//!
+//! The root moves in the plane through the figure's place: forward and up freely, its turn, which holds the trunk, driven as
+//! in section 4.1 of Faure, Debunne, Cani, Multon 1997. What keeps the figure in its plane is the joint's reaction.
+
+use super::build::acting;
+use super::built::{AskedWalk, Built, Follow, GaitSource, OwnCoordinate, WalkMode};
+use super::figure::Figure as Asked;
+use super::sources::{Sources, chain};
+use super::walk_keeper::WalkKeeper;
+use super::walker::{Placed, Walker, add_spheres};
+use super::{Place, SceneError};
+use crate::contact::Shape;
+use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
+use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::model::anthropometry::Human;
+use crate::model::{
+    self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
+    ModelError, Side,
+};
+use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, SOFT_SHOES, make_consistent};
+use crate::simulation::joint::{JointKind, rotation};
+use crate::simulation::samples::Samples;
+use crate::simulation::signal::Signal;
+use crate::simulation::world::{
+    Body, ContactLaw, Drive, Figure, Joint, JointCoordinate, Material, Motor, Owner, Spring, Surface, World,
+};
+use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use std::sync::Arc;
+
+/// Samples of the motion are no farther apart [s].
+const STEP_S: f64 = 1e-3;
+/// Where a hand grips, from the wrist to the tip of the fingers.
+const GRIP: f64 = 0.5;
+
+/// A motion of all coordinates, and how the scene finds it.
+struct Motion {
+    signals: Vec<Signal>,
+    /// Coordinates and their rates at the start.
+    start: [Vec<f64>; 2],
+}
+
+/// Adds a figure to the world.
+pub(super) fn add(
+    world: &mut World,
+    asked: &Asked,
+    built: &Built,
+    number: usize,
+    sources: &mut Sources<'_, '_>,
+) -> Result<(Walker, Option<WalkKeeper>), SceneError> {
+    let wrong = |e: &dyn std::error::Error| built.place.error(chain(e));
+    let mut human = built.build.human().map_err(|e| wrong(&e))?;
+    let mut motion = match &built.walk {
+        Some(walk) => walking(walk, &human, sources)?,
+        None => standing(&human.model),
+    };
+    human.model = placed_model(&human, asked, built).map_err(|e| wrong(&e))?;
+    for coordinate in &human.model.coordinates()[motion.signals.len()..] {
+        motion.signals.push(Signal::Constant(coordinate.default_value));
+        motion.start[0].push(coordinate.default_value);
+        motion.start[1].push(0.0);
+    }
+    let model = &human.model;
+    own_starts(built, model, &mut motion);
+    let rest = vec![0.0; model.coordinates().len()];
+    let [q, qd] = &motion.start;
+    let motions = body_motion(model, Posture { q, qd, qdd: &rest });
+    let (first_body, figure) = (world.bodies.len(), world.figures.len());
+    let mut placed = vec![Placed { body: first_body, coordinate: 0 }; model.coordinates().len()];
+    for id in model.body_ids() {
+        world.bodies.push(body(asked, model, id, &motions[id.index()]));
+        let coordinates = coordinates_of(model, id);
+        for (k, coordinate) in coordinates.iter().enumerate() {
+            placed[coordinate.index()] = Placed { body: first_body + id.index(), coordinate: k };
+        }
+        let acting = |id: &CoordinateId| acting_on(built, number, model, *id, &motion.signals, sources);
+        let acting = coordinates.iter().map(acting).collect::<Result<Vec<_>, _>>()?;
+        world.joints.push(joint(asked, model, id, first_body, acting));
+    }
+    add_spheres(world, asked, number, model, first_body)?;
+    let soles = add_soles(world, built, &human, first_body)?;
+    world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
+    let keeper = built.walk.is_some().then(|| WalkKeeper::new(&asked.name, &human, placed.clone(), soles));
+    Ok((Walker { figure, first_body, name: asked.name.clone(), placed: Some(placed) }, keeper))
+}
+
+/// Upright, every coordinate at its default.
+fn standing(model: &Model) -> Motion {
+    let values: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+    let rest = vec![0.0; values.len()];
+    Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest] }
+}
+
+fn walking(asked: &AskedWalk, human: &Human, sources: &mut Sources<'_, '_>) -> Result<Motion, SceneError> {
+    let place = &asked.place;
+    let wrong = |e: &dyn std::error::Error| place.error(chain(e));
+    let mut gait = match &asked.gait {
+        GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e))?,
+        GaitSource::File(path) => {
+            let text = sources.text(place, path)?;
+            Gait::from_toml(&text).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
+        }
+    };
+    if let Some(speed) = asked.speed {
+        gait.pace.speed = Some(Speed::MetersPerSecond(speed));
+    }
+    let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
+    match asked.mode {
+        WalkMode::Curves => Ok(along_curves(&walk, human, asked.phase)),
+        WalkMode::Corrected => {
+            let settings = ConsistencySettings::default();
+            let walk = make_consistent(human, &walk, &settings).map_err(|e| wrong(&e))?;
+            Ok(corrected(&walk, &human.model, asked.phase))
+        }
+    }
+}
+
+/// The curves of the gait as they are, the lowest sole on the ground.
+fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
+    let model = &human.model;
+    let coordinates = WalkCoordinates::of(model);
+    let defaults: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| {
+        q.copy_from_slice(&defaults);
+        coordinates.write(&walk.at(t), q, qd, qdd);
+    };
+    let (signals, [mut q, mut qd, qdd]) = sampled(model, walk.cycle_s(), phase, write);
+    if let Some(forward) = model.coordinate("pelvis_tx") {
+        (q[forward.index()], qd[forward.index()]) = (0.0, walk.speed());
+    }
+    if let Some(up) = model.coordinate("pelvis_ty") {
+        q[up.index()] = 0.0;
+        let motions = body_motion(model, Posture { q: &q, qd: &qd, qdd: &qdd });
+        let heights = human.soles.iter().map(|s| motions[s.body.index()].pose.place(s.center).y - s.radius);
+        q[up.index()] = -heights.fold(f64::INFINITY, f64::min);
+    }
+    Motion { signals, start: [q, qd] }
+}
+
+fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
+    let write = |t: f64, [q, qd, qdd]: &mut [Vec<f64>; 3]| walk.write(t, q, qd, qdd);
+    let (signals, [mut q, qd, _]) = sampled(model, walk.walk().cycle_s(), phase, write);
+    if let Some(forward) = model.coordinate("pelvis_tx") {
+        q[forward.index()] = 0.0;
+    }
+    Motion { signals, start: [q, qd] }
+}
+
+/// A motion that repeats every cycle as signals, begun at a phase; and coordinates, rates and accelerations at the start. Signals
+/// of the root's slides mean nothing: forces move them.
+fn sampled(
+    model: &Model,
+    cycle_s: f64,
+    phase: f64,
+    write: impl Fn(f64, &mut [Vec<f64>; 3]),
+) -> (Vec<Signal>, [Vec<f64>; 3]) {
+    let count = model.coordinates().len();
+    let mut posture = [0, 1, 2].map(|_| vec![0.0; count]);
+    let forward = model.coordinate("pelvis_tx").map(CoordinateId::index);
+    let samples = Samples::new(count, [0.0, cycle_s], STEP_S, true, |t, row| {
+        write(t + phase * cycle_s, &mut posture);
+        for (k, entry) in row.iter_mut().enumerate() {
+            *entry = if Some(k) == forward { [0.0; 3] } else { [0, 1, 2].map(|d| posture[d][k]) };
+        }
+    });
+    let samples = Arc::new(samples);
+    write(phase * cycle_s, &mut posture);
+    ((0..count).map(|k| Signal::Sampled(Arc::clone(&samples), k)).collect(), posture)
+}
+
+/// The model on its place of the scene, arms held away from the trunk, with markers where the hands grip.
+fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, ModelError> {
+    let model = &human.model;
+    let mut bodies = model.bodies().to_vec();
+    let mut markers = model.markers().to_vec();
+    for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
+        body.joint.parent_from_joint = asked.pose * body.joint.parent_from_joint;
+    }
+    let mut coordinates = model.coordinates().to_vec();
+    for ((side, arm), outwards) in Side::BOTH.into_iter().zip(built.arms).zip([-1.0, 1.0]) {
+        if let Some(humerus) = model.body(&format!("humerus_{}", side.letter())) {
+            let joint = &mut bodies[humerus.index()].joint;
+            if arm.spring.is_some() {
+                let adduction = CoordinateId(coordinates.len());
+                coordinates.push(Coordinate {
+                    name: adduction_name(side),
+                    kind: CoordinateKind::Rotation,
+                    default_value: -arm.abduction,
+                    range: None,
+                    drive: model::Drive::Free,
+                });
+                let follows = Function::Linear { slope: 1.0, intercept: 0.0 };
+                let displacement = Displacement::Follows(adduction, follows);
+                joint.rotations.insert(0, JointAxis { direction: Vec3::x() * -outwards, displacement });
+            } else {
+                joint.parent_from_joint.rotation *= rotation(&(Vec3::x() * arm.abduction * outwards));
+            }
+        }
+        if let Some(forearm) = model.body(&format!("forearm_{}", side.letter())) {
+            let down = human.dimensions.forearm + GRIP * human.dimensions.hand;
+            let location = Vec3::new(0.0, -down, 0.0);
+            markers.push(Marker { name: format!("hand_{}", side.letter()), body: Some(forearm), location });
+        }
+    }
+    Model::new(model.name(), model.gravity(), bodies, coordinates, markers)
+}
+
+/// Starts that the scene gives, or that drives of its own have.
+fn own_starts(built: &Built, model: &Model, motion: &mut Motion) {
+    for own in &built.coordinates {
+        let Some(id) = model.coordinate(&own.name) else { continue };
+        let [q, qd] = &mut motion.start;
+        if own.starts[0] {
+            // At rest unless a rate is given.
+            (q[id.index()], qd[id.index()]) = (own.acting.start, own.acting.rate);
+        } else if own.starts[1] {
+            qd[id.index()] = own.acting.rate;
+        }
+    }
+}
+
+/// Towards the trunk, as OpenSim counts.
+fn adduction_name(side: Side) -> String {
+    format!("arm_add_{}", side.letter())
+}
+
+fn own_of<'a>(built: &'a Built, model: &Model, id: CoordinateId) -> Option<(usize, &'a OwnCoordinate)> {
+    let name = &model.coordinates()[id.index()].name;
+    built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
+}
+
+/// Coordinates of a body's joint in the simulator's order: slides, then turns.
+fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
+    let joint = &model.bodies()[id.index()].joint;
+    let of = |axes: &[JointAxis]| {
+        axes.iter()
+            .filter_map(|axis| match &axis.displacement {
+                Displacement::Follows(id, _) => Some(*id),
+                Displacement::Fixed(_) => None,
+            })
+            .collect::<Vec<_>>()
+    };
+    [of(&joint.translations), of(&joint.rotations)].concat()
+}
+
+fn acting_on(
+    built: &Built,
+    number: usize,
+    model: &Model,
+    id: CoordinateId,
+    signals: &[Signal],
+    sources: &mut Sources<'_, '_>,
+) -> Result<JointCoordinate, SceneError> {
+    let signal = || signals[id.index()].clone();
+    let slides = matches!(model.coordinates()[id.index()].kind, CoordinateKind::Translation);
+    for (arm, side) in built.arms.iter().zip(Side::BOTH) {
+        if let (Some([stiffness, damping]), true) =
+            (arm.spring, model.coordinates()[id.index()].name == adduction_name(side))
+        {
+            let spring = Some(Spring { stiffness, damping, rest: -arm.abduction });
+            return Ok(JointCoordinate { spring, ..JointCoordinate::default() });
+        }
+    }
+    let Some((k, own)) = own_of(built, model, id) else {
+        let drive = (!slides).then(|| Drive { signal: signal(), max: None });
+        return Ok(JointCoordinate { drive, ..JointCoordinate::default() });
+    };
+    let place = Place { line: own.line, key: format!("figure[{number}].coordinate[{}]", k + 1) };
+    let mut acting = acting(&own.acting, &place, sources)?;
+    if let Some(Follow { stiffness, damping, max }) = own.follow {
+        acting.motor = Some(Motor { target: signal(), kp: stiffness, kd: damping, max });
+    }
+    Ok(acting)
+}
+
+fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> Body {
+    let about = &model.bodies()[id.index()];
+    Body {
+        name: format!("{}/{}", asked.name, about.name),
+        mass: about.inertia.mass(),
+        inertia: about.inertia.about_center(),
+        pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
+        twist: motion.twist,
+        load: Wrench::ZERO,
+    }
+}
+
+fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> Joint {
+    let joint = &model.bodies()[id.index()].joint;
+    let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
+    let (kind, turn) = match (&joint.rotations[..], joint.parent) {
+        (_, None) => (JointKind::Planar, Mat3::identity()),
+        // The simulator's universal joint turns about its x, then about its y.
+        ([first, second], _) => {
+            let (x, y) = (first.direction, second.direction);
+            (JointKind::Universal, Mat3::from_columns(&[x, y, x.cross(&y)]))
+        }
+        _ => (JointKind::Revolute, Mat3::identity()),
+    };
+    let turn = Pose { rotation: turn, translation: Vec3::zeros() };
+    Joint {
+        name: format!("{}/{}", asked.name, joint.name),
+        child: first_body + id.index(),
+        parent: joint.parent.map(|p| first_body + p.index()),
+        parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint * turn,
+        child_from_joint: center(id) * joint.child_from_joint * turn,
+        kind,
+        coordinates,
+        follows: None,
+    }
+}
+
+/// The soles, which pass each other; numbers of their surfaces.
+fn add_soles(
+    world: &mut World,
+    built: &Built,
+    human: &Human,
+    first_body: usize,
+) -> Result<Vec<(usize, Side)>, SceneError> {
+    let material = built.shoes.unwrap_or_else(|| {
+        let law = ContactLaw::HuntCrossley(SOFT_SHOES);
+        world.materials.push(Material { friction: SOFT_SHOES.dynamic_friction, restitution: 0.0, law });
+        world.materials.len() - 1
+    });
+    let mut soles = Vec::new();
+    for sole in &human.soles {
+        soles.push((world.surfaces.len(), sole.side));
+        world.surfaces.push(Surface {
+            owner: Owner::Body(first_body + sole.body.index()),
+            shape: Shape::sphere(sole.radius).map_err(|e| built.place.error(e.to_string()))?,
+            owner_from_shape: Pose::at(sole.center - human.model.bodies()[sole.body.index()].inertia.center()),
+            material,
+        });
+    }
+    let feet = |wanted: Side| human.soles.iter().filter(move |s| s.side == wanted).map(|s| first_body + s.body.index());
+    for right in feet(Side::Right) {
+        world.ignored.extend(feet(Side::Left).map(|left| (Owner::Body(right), Owner::Body(left))));
+    }
+    world.ignored.sort_unstable();
+    world.ignored.dedup();
+    Ok(soles)
+}

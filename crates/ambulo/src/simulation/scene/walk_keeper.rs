@@ -1,0 +1,160 @@
+//! What a walking figure of a scene does, kept step by step: by it the walk can be judged.
+
+use super::walker::Placed;
+use crate::kinematics::{Trajectory, TrajectoryError};
+use crate::model::anthropometry::Human;
+use crate::model::{BodyId, Side};
+use crate::motion::TimeGrid;
+use crate::simulation::forces::ContactForce;
+use crate::simulation::state::State;
+use crate::simulation::step::StepWorkspace;
+use crate::simulation::walking::{FootRecord, WalkRecording};
+use crate::simulation::world::{Owner, World};
+
+/// A contact belongs to the ground if its normal rises at least this steeply (sine): less than 45° off the vertical.
+const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// More rows than this are not kept [steps].
+const MOST_ROWS: usize = 1_000_000;
+
+/// A walk of a scene's figure.
+#[derive(Debug, Clone)]
+pub struct FigureWalk {
+    /// Name of the figure.
+    pub name: String,
+    /// The figure as the scene has it: on its place, arms away from the trunk.
+    pub human: Human,
+    /// Posture and forces of every step.
+    pub recording: WalkRecording,
+}
+
+/// A recording under way.
+#[derive(Debug, Clone)]
+pub(super) struct WalkKeeper {
+    name: String,
+    human: Human,
+    placed: Vec<Placed>,
+    /// Surfaces of the soles.
+    soles: Vec<(usize, Side)>,
+    start_s: f64,
+    /// Coordinates and rates before the step.
+    before: Vec<[f64; 2]>,
+    columns: Vec<[Vec<f64>; 3]>,
+    efforts: Vec<Vec<f64>>,
+    feet: [FootRecord; 2],
+    unsolved: usize,
+}
+
+impl WalkKeeper {
+    pub(super) fn new(name: &str, human: &Human, placed: Vec<Placed>, soles: Vec<(usize, Side)>) -> WalkKeeper {
+        let count = placed.len();
+        let foot = |side: Side| human.soles.iter().find(|sole| sole.side == side).map_or(BodyId(0), |sole| sole.body);
+        let toes = |side: Side| {
+            let mut bodies = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
+            bodies.find(|body| *body != foot(side))
+        };
+        WalkKeeper {
+            name: name.to_owned(),
+            human: human.clone(),
+            placed,
+            soles,
+            start_s: 0.0,
+            before: Vec::new(),
+            columns: vec![Default::default(); count],
+            efforts: vec![Vec::new(); count],
+            feet: Side::BOTH.map(|side| FootRecord::new(foot(side), toes(side), 0)),
+            unsolved: 0,
+        }
+    }
+
+    /// Coordinates and rates of all coordinates.
+    fn read(&self, world: &World, state: &State) -> Vec<[f64; 2]> {
+        let joint_of = world.joint_of_body();
+        let mut rates: Vec<Vec<f64>> = vec![Vec::new(); world.joints.len()];
+        let mut value = |placed: &Placed| {
+            let Some(joint) = joint_of[placed.body] else { return [0.0; 2] };
+            if rates[joint].is_empty() {
+                rates[joint] = state.rates(&world.joints[joint]);
+            }
+            [state.coordinates[joint][placed.coordinate], rates[joint][placed.coordinate]]
+        };
+        self.placed.iter().map(&mut value).collect()
+    }
+
+    pub(super) fn before_step(&mut self, world: &World, state: &State) {
+        if self.feet[0].force.is_empty() {
+            self.start_s = state.time_s;
+        }
+        self.before = self.read(world, state);
+    }
+
+    /// Keeps a step; wrenches of the workspace have been read. The posture is that at its start: velocities stand in the middle of
+    /// steps.
+    pub(super) fn after_step(&mut self, world: &World, state: &State, w: &StepWorkspace, step_s: f64, solved: bool) {
+        if self.feet[0].force.len() >= MOST_ROWS {
+            return;
+        }
+        self.unsolved += usize::from(!solved);
+        let after = self.read(world, state);
+        let joint_of = world.joint_of_body();
+        for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.placed).enumerate() {
+            let ([q, old], [_, new]) = (self.before[id], after[id]);
+            let mut values = [q, 0.5 * (old + new), (new - old) / step_s];
+            let mut effort = 0.0;
+            if let Some(joint) = joint_of[placed.body] {
+                let acting = &world.joints[joint].coordinates[placed.coordinate];
+                if let Some(drive) = acting.drive.as_ref().filter(|drive| drive.max.is_none()) {
+                    values = drive.signal.at(state.time_s - step_s);
+                }
+                effort = w.effort(placed.body, joint, placed.coordinate);
+            }
+            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+            self.efforts[id].push(effort);
+        }
+        self.keep_feet(world, w);
+    }
+
+    fn keep_feet(&mut self, world: &World, w: &StepWorkspace) {
+        self.feet.iter_mut().for_each(FootRecord::begin_row);
+        for contact in w.contacts() {
+            let (a, b) = contact.surfaces;
+            let (contact, other) = match self.soles.iter().find(|(sole, _)| *sole == a || *sole == b) {
+                None => continue,
+                Some((sole, _)) if *sole == a => (contact, b),
+                Some(_) => (turned(contact), a),
+            };
+            let fixed = matches!(world.surfaces[other].owner, Owner::Obstacle(_));
+            let touching = self.soles.iter().position(|(sole, _)| *sole == contact.surfaces.0);
+            let sole = touching.and_then(|number| self.human.soles.get(number));
+            if let (Some(sole), true) = (sole, fixed && contact.normal.y >= GROUND) {
+                let [one, two] = [a, b].map(|s| world.materials[world.surfaces[s].material].friction);
+                self.feet[usize::from(sole.side == Side::Left)].add(&contact, sole.body, (one * two).sqrt());
+            }
+        }
+        self.feet.iter_mut().for_each(FootRecord::end_row);
+    }
+
+    pub(super) fn walk(&self, step_s: f64) -> Result<FigureWalk, TrajectoryError> {
+        let grid = TimeGrid { start_s: self.start_s, step_s, frames: self.feet[0].force.len() };
+        let trajectory = Trajectory::new(&self.human.model, grid, self.columns.clone())?;
+        let recording = WalkRecording {
+            model: self.human.model.clone(),
+            trajectory,
+            efforts: self.efforts.clone(),
+            feet: self.feet.clone(),
+            blows: Vec::new(),
+            unsolved_steps: self.unsolved,
+        };
+        Ok(FigureWalk { name: self.name.clone(), human: self.human.clone(), recording })
+    }
+}
+
+/// The same contact with its surfaces exchanged.
+fn turned(contact: ContactForce) -> ContactForce {
+    ContactForce {
+        surfaces: (contact.surfaces.1, contact.surfaces.0),
+        normal: -contact.normal,
+        force: -contact.force,
+        slip: -contact.slip,
+        ..contact
+    }
+}

@@ -1,0 +1,241 @@
+//! Walks that need no hand to hold them: the plan, the walk stepped through time, and what must not depend on anything.
+
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Walk};
+use ambulo::kinematics::each_body_motion;
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, gait_signals};
+use ambulo::simulation::{Impact, StepSettings};
+use std::sync::LazyLock;
+
+/// Of the simulator [s].
+const STEP_S: f64 = 1e-3;
+/// Cycles until the start is forgotten; the one after them is judged.
+const CYCLES: f64 = 5.0;
+
+struct Case {
+    human: Human,
+    walk: Walk,
+    consistent: ConsistentWalk,
+    recording: WalkRecording,
+}
+
+fn human(mass: f64) -> Human {
+    let build = Build { table: SegmentTable::DeLevaMale, mass, height: 1.75, toe_joint: true };
+    build.human().unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn free_walk(human: &Human) -> Walk {
+    let gait = Gait::named("free").unwrap_or_else(|e| panic!("{e}"));
+    Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn consistent(human: &Human, walk: &Walk, settings: &ConsistencySettings) -> ConsistentWalk {
+    make_consistent(human, walk, settings).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Free walking of de Leva's man, 75 kg.
+static CASE: LazyLock<Case> = LazyLock::new(|| {
+    let human = human(75.0);
+    let walk = free_walk(&human);
+    let settings = ConsistencySettings::default();
+    let consistent = consistent(&human, &walk, &settings);
+    let recording = consistent
+        .simulate(&human, &settings, STEP_S, CYCLES, &mut Findings::default())
+        .unwrap_or_else(|e| panic!("{e}"));
+    Case { human, walk, consistent, recording }
+});
+
+/// Rows of the last whole cycle.
+fn last_cycle(recording: &WalkRecording, walk: &Walk) -> std::ops::Range<usize> {
+    let rows = recording.grid().frames;
+    rows - (walk.cycle_s() / STEP_S).round() as usize..rows
+}
+
+fn rms_and_peak(values: &[f64]) -> (f64, f64) {
+    let mean = values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64;
+    (mean.sqrt(), values.iter().fold(0.0, |m: f64, x| m.max(x.abs())))
+}
+
+fn trunk_torque(recording: &WalkRecording, walk: &Walk) -> (f64, f64) {
+    let Some(effort) = recording.effort("pelvis_tilt") else { panic!("no trunk") };
+    rms_and_peak(&effort[last_cycle(recording, walk)])
+}
+
+#[test]
+fn nothing_holds_the_trunk_of_a_simulated_walk() {
+    let (rms, peak) = trunk_torque(&CASE.recording, &CASE.walk);
+    println!("trunk-holding torque {rms:.2} N.m RMS, {peak:.2} N.m peak");
+    assert!(rms < 3.0 && peak < 10.0, "{rms} N.m RMS, {peak} N.m peak");
+}
+
+#[test]
+fn the_same_curves_unchanged_need_a_hand() {
+    let case = &*CASE;
+    let settings = ConsistencySettings::default();
+    let ground = Ground { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: Impact::Coulomb };
+    let signals = gait_signals(&case.walk, &case.human.model);
+    let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
+    let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };
+    let recording =
+        walker.walk(&steps, CYCLES * case.walk.cycle_s(), &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"));
+    let (rms, peak) = trunk_torque(&recording, &case.walk);
+    println!("without any change: {rms:.0} N.m RMS, {peak:.0} N.m peak");
+    assert!(rms > 20.0 && peak > 60.0, "{rms} N.m RMS, {peak} N.m peak");
+}
+
+#[test]
+fn feet_carry_the_weight_and_never_fly() {
+    let case = &*CASE;
+    let rows = last_cycle(&case.recording, &case.walk);
+    let weight = case.human.model.mass() * case.human.model.gravity().norm();
+    let total = |row: usize| case.recording.feet.iter().map(|foot| foot.force[row]).sum::<ambulo::spatial::Vec3>();
+    let mean = rows.clone().map(total).sum::<ambulo::spatial::Vec3>() / (rows.len() as f64 * weight);
+    println!("mean force of a cycle: vertical {:.5}, fore-aft {:.5} body weights", mean.y, mean.x);
+    assert!((mean.y - 1.0).abs() < 0.005 && mean.x.abs() < 0.01, "{mean:?}");
+    assert!(rows.clone().all(|row| !case.recording.flies(row)));
+    let least = rows.map(|row| total(row).y / weight).fold(f64::INFINITY, f64::min);
+    assert!(least > 0.6, "{least} body weights");
+}
+
+#[test]
+fn standing_feet_stay_where_they_are() {
+    let case = &*CASE;
+    let rows = last_cycle(&case.recording, &case.walk);
+    for foot in &case.recording.feet {
+        let (mut place, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for row in rows.clone() {
+            if foot.force[row].y > 20.0 {
+                place += foot.slip[row] * STEP_S;
+                (least, most) = (least.min(place), most.max(place));
+            } else {
+                place = 0.0;
+            }
+        }
+        println!("the sole creeps over {:.2} mm", 1e3 * (most - least));
+        assert!(most - least < 2e-3, "{} m", most - least);
+    }
+}
+
+#[test]
+fn cycles_repeat_and_sides_mirror_each_other() {
+    let case = &*CASE;
+    let last = last_cycle(&case.recording, &case.walk);
+    let (period, half) = (last.len(), last.len() / 2);
+    let weight = case.human.model.mass() * case.human.model.gravity().norm();
+    let vertical = |side: usize, row: usize| case.recording.feet[side].force[row].y / weight;
+    for row in last {
+        let before = (vertical(0, row) - vertical(0, row - period)).abs();
+        let mirrored = (vertical(0, row) - vertical(1, row - half)).abs();
+        // Half a step of a millisecond lies between samples of both sides at strikes, where force rises by 20 weights a second.
+        assert!(before < 0.03 && mirrored < 0.03, "row {row}: {before}, {mirrored} body weights");
+    }
+}
+
+#[test]
+fn the_plan_and_the_simulation_agree() {
+    let case = &*CASE;
+    let shoes = ConsistencySettings::default().shoes;
+    let weight = case.human.model.mass() * case.human.model.gravity().norm();
+    let mut off = Vec::new();
+    for row in last_cycle(&case.recording, &case.walk).step_by(7) {
+        let planned = case
+            .consistent
+            .planned(&case.human, &shoes, case.recording.grid().time(row))
+            .unwrap_or_else(|e| panic!("{e}"));
+        for (foot, force) in case.recording.feet.iter().zip(planned.feet) {
+            off.push((foot.force[row].y - force[1]) / weight);
+            off.push((foot.force[row].x - force[0]) / weight);
+        }
+    }
+    let (rms, peak) = rms_and_peak(&off);
+    println!("plan and simulation: {rms:.4} RMS, {peak:.3} peak, in body weights");
+    assert!(rms < 0.02, "{rms}");
+}
+
+#[test]
+fn momentum_changes_by_what_the_feet_push() {
+    let case = &*CASE;
+    let model = &case.human.model;
+    let mut worst = 0.0_f64;
+    each_body_motion(model, &case.recording.trajectory, |row, bodies| {
+        let needed: ambulo::spatial::Vec3 = model
+            .bodies()
+            .iter()
+            .zip(bodies)
+            .map(|(body, motion)| (motion.acceleration.linear - model.gravity()) * body.inertia.mass())
+            .sum();
+        let given: ambulo::spatial::Vec3 = case.recording.feet.iter().map(|foot| foot.force[row]).sum();
+        // The first steps settle.
+        if row > 100 {
+            worst = worst.max((needed - given).norm());
+        }
+    });
+    println!("m (a - g) and the feet's forces differ by up to {worst:.2} N");
+    // Impulses of a step of a millisecond are of first order: legs (14 kg each) jerk by up to 100 m/s3.
+    assert!(worst < 2.0, "{worst} N");
+}
+
+#[test]
+fn heavier_people_on_stiffer_shoes_walk_the_same_way() {
+    let settings = ConsistencySettings { instants: 24, splines: [16, 8], ..ConsistencySettings::default() };
+    let mut stiffer = settings;
+    stiffer.shoes.stiffness *= 1.6;
+    let (light, heavy) = (human(60.0), human(96.0));
+    let (a, b) = (consistent(&light, &free_walk(&light), &settings), consistent(&heavy, &free_walk(&heavy), &stiffer));
+    for k in 0..20 {
+        let t = 0.05 * f64::from(k);
+        let [pa, pb] = [(&a, &light, &settings), (&b, &heavy, &stiffer)]
+            .map(|(walk, human, s)| walk.planned(human, &s.shoes, t).unwrap_or_else(|e| panic!("{e}")));
+        for side in 0..2 {
+            for joint in 0..3 {
+                let (x, y) = (1.6 * pa.moments[side][joint], pb.moments[side][joint]);
+                assert!((x - y).abs() < 1e-3 * (1.0 + x.abs()), "moment {joint} at {t}: {x} and {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_walk_has_the_same_bits() {
+    let settings = ConsistencySettings { instants: 24, splines: [16, 8], ..ConsistencySettings::default() };
+    let human = human(75.0);
+    let walk = free_walk(&human);
+    let [a, b] = [0, 1].map(|_| consistent(&human, &walk, &settings));
+    let count = human.model.coordinates().len();
+    let read = |walk: &ConsistentWalk| {
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let [q, qd, qdd] = &mut posture;
+        walk.write(0.321, q, qd, qdd);
+        posture
+    };
+    assert_eq!(read(&a), read(&b));
+}
+
+#[test]
+fn the_motion_is_periodic_and_its_rates_are_its_derivatives() {
+    let case = &*CASE;
+    let count = case.human.model.coordinates().len();
+    let read = |t: f64| {
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let [q, qd, qdd] = &mut posture;
+        case.consistent.write(t, q, qd, qdd);
+        posture
+    };
+    let forward = case.human.model.coordinate("pelvis_tx").map(|id| id.index());
+    let (h, period) = (1e-5, case.walk.cycle_s());
+    for k in 0..200 {
+        let t = 0.0057 * f64::from(k) + 0.0011;
+        let [before, at, after] = [t - h, t, t + h].map(read);
+        let later = read(t + period);
+        for i in 0..count {
+            let rate = (after[0][i] - before[0][i]) / (2.0 * h);
+            let acceleration = (after[1][i] - before[1][i]) / (2.0 * h);
+            assert!((rate - at[1][i]).abs() < 1e-5 * (1.0 + rate.abs()), "rate {i} at {t}");
+            assert!((acceleration - at[2][i]).abs() < 0.02 * (1.0 + acceleration.abs()), "acceleration {i} at {t}");
+            let gain = if Some(i) == forward { case.walk.speed() * period } else { 0.0 };
+            assert!((later[0][i] - at[0][i] - gain).abs() < 1e-9, "coordinate {i} at {t}");
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Figures that walk in scenes: alone, hand in hand, with a box, into a kerb; and the verdict on them.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+use ambulo::analysis::feasibility::{Check, Thresholds};
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Speed, Walk};
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::report::{SceneVerdict, scene_verdict};
+use ambulo::simulation::consistent::{ConsistencySettings, make_consistent};
+use ambulo::simulation::scene::{Changes, Frame, Scene, SceneError, SceneFile};
+use ambulo::spatial::Vec3;
+use std::path::{Path, PathBuf};
+
+const G: f64 = 9.80665;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
+}
+
+fn built(text: &str) -> Result<Scene, SceneError> {
+    let mut load = |path: &str| std::fs::read(folder().join(path)).map_err(|e| format!("{path}: {e}"));
+    Scene::build(&SceneFile::parse(text)?, Changes::default(), &mut load, &mut Findings::default())
+}
+
+fn scene(text: &str) -> Scene {
+    built(text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn example(name: &str) -> String {
+    std::fs::read_to_string(folder().join(name)).unwrap()
+}
+
+fn run(scene: &mut Scene, visit: impl FnMut(&Frame<'_>)) {
+    let statistics = scene.run(&mut Findings::default(), visit).unwrap();
+    assert_eq!(statistics.not_converged, 0);
+}
+
+fn verdict(scene: &Scene) -> SceneVerdict {
+    scene_verdict(scene, &Thresholds::default(), &mut Findings::default()).unwrap().unwrap()
+}
+
+fn body(scene: &Scene, name: &str) -> usize {
+    scene.world().bodies.iter().position(|body| body.name == name).unwrap_or_else(|| panic!("no body {name}"))
+}
+
+fn place(scene: &Scene, name: &str) -> Vec3 {
+    scene.state().poses[body(scene, name)].translation
+}
+
+fn joint(scene: &Scene, name: &str) -> usize {
+    scene.world().joints.iter().position(|joint| joint.name == name).unwrap_or_else(|| panic!("no joint {name}"))
+}
+
+/// One walker on a floor; `more` are keys of the walk.
+fn alone(more: &str, duration_s: f64) -> String {
+    format!(
+        "step = 0.001\nduration = {duration_s}\noutput_rate = 1000\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n\
+         [[figure]]\nname = \"ann\"\nbuild = {{ table = \"de-leva-female\", mass = 60, height = 1.65 }}\n\
+         walk = {{ gait = \"free\", speed = 1.2{more} }}\n"
+    )
+}
+
+#[test]
+fn a_walker_goes_as_its_consistent_walk_does() {
+    let mut scene = scene(&alone("", 1.2));
+    let start = place(&scene, "ann/pelvis").x;
+    let (root, mut trunk) = (joint(&scene, "ann/ground_pelvis"), 0.0_f64);
+    run(&mut scene, |frame| {
+        if let Some(forces) = &frame.forces {
+            trunk = trunk.max(forces.efforts[root][2].abs());
+        }
+    });
+    let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
+    let human = build.human().unwrap();
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(1.2));
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let settings = ConsistencySettings::default();
+    let consistent = make_consistent(&human, &walk, &settings).unwrap();
+    let known = consistent.simulate(&human, &settings, 0.001, 1.0, &mut Findings::default()).unwrap();
+    let walks = scene.walks().unwrap();
+    for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r", "pelvis_tilt"] {
+        let (a, b) = (known.effort(name).unwrap(), walks[0].recording.effort(name).unwrap());
+        let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{name}: at most {worst:.2e} N.m apart");
+        assert!(worst < 1e-3, "{name}: {worst} N.m");
+    }
+    for (a, b) in known.feet.iter().zip(&walks[0].recording.feet) {
+        let worst = a.force.iter().zip(&b.force).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        assert!(worst < 1e-2, "{worst} N");
+    }
+    let speed = (place(&scene, "ann/pelvis").x - start) / 1.2;
+    println!("{speed:.4} m/s, the trunk is held with {trunk:.2} N.m at most");
+    assert!((speed - 1.2).abs() < 0.02, "{speed} m/s");
+    // At a strike, for a millisecond: a third of what is taken to be in balance.
+    assert!(trunk < 0.5 * 60.0, "{trunk} N.m");
+    assert!(verdict(&scene).feasible);
+}
+
+#[test]
+fn curves_as_they_are_cannot_be_walked_without_a_hand_that_holds() {
+    let mut scene = scene(&alone(", mode = \"curves\"", 1.2));
+    run(&mut scene, |_| {});
+    let verdict = verdict(&scene);
+    assert!(!verdict.feasible && verdict.figures[0].verdict.reasons.iter().any(|r| r.check == Check::Balance));
+}
+
+#[test]
+fn a_walk_that_hits_a_kerb_is_infeasible_from_then_on_and_feasible_without_it() {
+    let text = example("stumble.toml");
+    let mut free = scene(&text.replace("at = [2.15,", "at = [50,"));
+    run(&mut free, |_| {});
+    let before = verdict(&free);
+    assert!(before.feasible, "{:?}", before.figures[0].verdict.reasons);
+
+    let mut stumbling = scene(&text.replace("duration", "output_rate = 1000\nduration"));
+    let mut hit_s = None;
+    run(&mut stumbling, |frame| {
+        let world = frame.scene.world();
+        let kerb = |surface: usize| world.owner_name(world.surfaces[surface].owner) == "kerb";
+        let touched = frame
+            .forces
+            .iter()
+            .flat_map(|f| &f.contacts)
+            .any(|c| c.normal_force > 0.0 && (kerb(c.surfaces.0) || kerb(c.surfaces.1)));
+        if touched {
+            hit_s.get_or_insert(frame.scene.state().time_s);
+        }
+    });
+    let hit_s = hit_s.unwrap();
+    let found = verdict(&stumbling);
+    let reasons = &found.figures[0].verdict.reasons;
+    println!("hit at {hit_s} s; {} reasons, the first: {}", reasons.len(), reasons[0].message);
+    assert!(!found.feasible && found.figures[0].figure == "ann");
+    // Rows carry the instant at which their step begins.
+    assert!(reasons.iter().all(|r| r.time_s[0] > hit_s - 0.0015), "{reasons:#?}");
+    assert!(reasons[0].time_s[0] < hit_s + 0.05);
+    let knee = reasons.iter().find(|r| r.check == Check::Strength && r.quantity == "knee_angle_l_moment").unwrap();
+    assert!(knee.value.abs() > 5.0 * knee.limit.abs() && knee.message.contains("the muscles give"));
+}
+
+/// Forces on the first body of a closure, at its point.
+fn closing(frame: &Frame<'_>, name: &str) -> Option<Vec3> {
+    let closure = frame.scene.world().closures.iter().position(|closure| closure.name == name).unwrap();
+    let forces = frame.forces.as_ref()?;
+    forces.closing.iter().find(|(number, _)| *number == closure).map(|(_, wrench)| wrench.force)
+}
+
+#[test]
+fn two_walk_hand_in_hand() {
+    let mut scene = scene(&example("hand-in-hand.toml"));
+    let (mut largest, mut gap, mut sum) = (0.0_f64, 0.0_f64, 0.0);
+    let starts = ["ann/pelvis", "bob/pelvis"].map(|name| place(&scene, name).x);
+    run(&mut scene, |frame| {
+        gap = gap.max(frame.scene.closure_gap(0));
+        if let Some(force) = closing(frame, "hands") {
+            largest = largest.max(force.norm());
+            sum += force.norm();
+        }
+    });
+    let mean = sum / 400.0;
+    println!("hands: {mean:.1} N on average, {largest:.1} N at most; gap {gap:.1e} m");
+    assert!(gap < 1e-6, "{gap} m");
+    assert!((1.0..30.0).contains(&mean) && largest < 50.0, "{mean} N, {largest} N");
+    for (name, start) in ["ann/pelvis", "bob/pelvis"].iter().zip(starts) {
+        let speed = (place(&scene, name).x - start) / 4.0;
+        assert!((speed - 1.25).abs() < 0.03, "{name}: {speed} m/s");
+    }
+    let verdict = verdict(&scene);
+    assert!(verdict.feasible && verdict.figures.len() == 2, "{verdict:#?}");
+}
+
+/// Mirror images of each other, half a cycle apart: what one does forwards and upwards the other does too.
+#[test]
+fn the_hands_of_mirror_images_push_only_sideways() {
+    let person = |name: &str, side: &str, phase: f64, z: f64| {
+        let own = |joint: &str, deg: f64| {
+            format!(
+                "[[figure.coordinate]]\nname = \"{joint}_{side}\"\nstart_deg = {deg}\nspring = {{ stiffness = 40, damping = 3, rest_deg = {deg} }}\n"
+            )
+        };
+        let word = if side == "r" { "right" } else { "left" };
+        format!(
+            "[[figure]]\nname = \"{name}\"\nbuild = {{ table = \"de-leva-female\", mass = 60, height = 1.65 }}\n\
+             walk = {{ speed = 1.2, phase = {phase} }}\narms = {{ {word} = {{ abduction_deg = 20 }} }}\nat = [0, 0, {z}]\n{}{}",
+            own("arm_flex", 0.0),
+            own("elbow_flex", 20.0)
+        )
+    };
+    let text = format!(
+        "step = 0.001\nduration = 1.0\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n{}{}\
+         [[closure]]\nname = \"hands\"\nkind = \"ball\"\nfirst = \"ann/hand_l\"\nsecond = \"eve/hand_r\"\non_first = [0, 0, 0]\n",
+        person("ann", "l", 0.0, 0.0),
+        person("eve", "r", 0.5, -0.8)
+    );
+    let mut scene = scene(&text);
+    let (mut across, mut along) = (0.0_f64, 0.0_f64);
+    run(&mut scene, |frame| {
+        if let Some(force) = closing(frame, "hands") {
+            (across, along) = (across.max(force.z.abs()), along.max(force.xy().norm()));
+        }
+    });
+    println!("sideways {across:.2} N at most, in the plane {along:.2e} N");
+    assert!(across > 0.1 && along < 1e-3 * across, "{across} N, {along} N");
+}
+
+#[test]
+fn a_walker_carries_a_box_in_both_hands() {
+    let mut scene = scene(&example("carry.toml"));
+    let (root, mut rows, mut weight, mut trunk, mut gap) =
+        (joint(&scene, "carl/ground_pelvis"), 0.0, 0.0, 0.0, 0.0_f64);
+    // Whole cycles: those of the gait, once the box has come to rest in the hands.
+    let height = place(&scene, "box").y;
+    run(&mut scene, |frame| {
+        gap = gap.max(frame.scene.closure_gap(0)).max(frame.scene.closure_gap(1));
+        let hands = ["right hand", "left hand"].map(|name| closing(frame, name));
+        if let [Some(right), Some(left)] = hands.map(|h| h.filter(|_| frame.scene.state().time_s > 0.5)) {
+            // Springs on both sides are alike: so are the forces.
+            assert!((right.y - left.y).abs() < 0.2 * (right.y + left.y).abs(), "{right:?} {left:?}");
+            (rows, weight) = (rows + 1.0, weight - right.y - left.y);
+            trunk += frame.forces.as_ref().unwrap().efforts[root][2];
+        }
+    });
+    let (weight, trunk) = (weight / rows, trunk / rows);
+    println!("hands carry {weight:.2} N, the trunk is held with {trunk:.2} N.m on average");
+    assert!(gap < 1e-6);
+    assert!((weight - 5.0 * G).abs() < 2.0, "{weight} N");
+    assert!((place(&scene, "box").y - height).abs() < 0.1);
+    // The box's weight 0.45 m before the hips, and the arms'.
+    assert!((15.0..40.0).contains(&trunk), "{trunk} N.m");
+    assert!(verdict(&scene).feasible);
+}
+
+#[test]
+fn a_figure_without_a_walk_stands_and_its_arms_can_hang_free() {
+    let text = "step = 0.001\nduration = 0.5\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n[[figure]]\nname = \"guard\"\n\
+                build = { table = \"faure-1997\", mass = 80, height = 1.80, toe_joint = false }\n\
+                [[figure.coordinate]]\nname = \"arm_flex_r\"\nstart_deg = 10\n";
+    let mut scene = scene(text);
+    let (shoulder, mut angles) = (joint(&scene, "guard/arm_flex_r"), Vec::new());
+    run(&mut scene, |frame| angles.push(frame.scene.state().coordinates[shoulder][0]));
+    assert!((angles[0] - 10_f64.to_radians()).abs() < 1e-9 && angles.iter().any(|a| *a < 0.0), "{angles:?}");
+    let weight: f64 = scene.forces().contacts.iter().map(|c| c.force.y.abs()).sum();
+    assert!((weight - 80.0 * G).abs() < 0.05 * 80.0 * G, "{weight} N");
+    // It does not walk: nothing is judged.
+    assert!(scene_verdict(&scene, &Thresholds::default(), &mut Findings::default()).unwrap().is_none());
+}
+
+#[test]
+fn a_figure_that_follows_its_walk_by_motors_stays_near_it() {
+    let text =
+        alone("", 0.6) + "[[figure.coordinate]]\nname = \"arm_flex_r\"\nfollow = { stiffness = 100, damping = 5 }\n";
+    let mut scene = scene(&text);
+    run(&mut scene, |_| {});
+    let value = |name: &str| scene.state().coordinates[joint(&scene, name)][0];
+    let walks = scene.walks().unwrap();
+    let id = walks[0].recording.coordinate("arm_flex_r").unwrap();
+    assert!(walks[0].recording.trajectory.values(id).iter().all(|angle| angle.is_finite()));
+    // The left arm was there half a cycle ago; motors lag by gravity over stiffness.
+    assert!(value("ann/arm_flex_r").abs() < 0.7, "{}", value("ann/arm_flex_r"));
+    assert!(verdict(&scene).feasible);
+}
+
+#[test]
+fn what_only_other_files_show_is_refused_with_its_place() {
+    let refusal = |text: &str| built(text).err().map_or_else(|| panic!("a bad scene"), |e| e.to_string());
+    let text = alone("", 0.1).replace("\"free\"", "\"none.toml\"");
+    assert!(refusal(&text).starts_with("line 10, `figure[1].walk`: none.toml"), "{}", refusal(&text));
+    let text = alone("", 0.1).replace("\"free\"", "\"stumble.toml\"");
+    assert!(refusal(&text).starts_with("line 10, `figure[1].walk`: stumble.toml: line "), "{}", refusal(&text));
+    let text = alone("", 0.1)
+        + "[[closure]]\nname = \"c\"\nkind = \"ball\"\nfirst = \"ann/paw\"\nsecond = \"world\"\nat = [0, 0, 0]\n";
+    assert!(refusal(&text).contains("`closure[1].first`: found \"ann/paw\"; expected a body of the figure"));
+}

@@ -1,0 +1,198 @@
+//! Synthetic walks through the analysis of recordings: the forces that come out are those that the simulator applied.
+//!
+//! | claim                                                        | tolerance and its reason                                   |
+//! |--------------------------------------------------------------|------------------------------------------------------------|
+//! | inverse dynamics under the simulated ground forces gives the | 0.6 N.m: the body's weight (735 N) times half the way of a |
+//! | simulator's efforts                                          | step of 1 ms (0.65 mm); less than a third at 4 kHz         |
+//! | cycles repeat                                                | 2 % of the largest moment                                  |
+//! | mean vertical force over a cycle is the weight               | 0.5 % (the issue's)                                        |
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+use ambulo::analysis::{Analysis, ForceSource, MassSource, analyse_trajectory};
+use ambulo::findings::Findings;
+use ambulo::gait::Gait;
+use ambulo::model::Side;
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::simulation::synthetic::{Mode, SyntheticError, SyntheticWalk, WalkOrder, synthesise};
+
+const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+
+fn order<'a>(gait: &'a Gait, build: Build, mode: Mode) -> WalkOrder<'a> {
+    WalkOrder { gait, build, mode, cycles: 2, rate_hz: 100.0 }
+}
+
+fn made(gait: &str, build: Build, mode: Mode) -> (SyntheticWalk, Findings) {
+    let (gait, mut findings) = (Gait::named(gait).unwrap(), Findings::default());
+    (synthesise(&order(&gait, build, mode), &mut findings).unwrap(), findings)
+}
+
+fn analysed(walk: &SyntheticWalk) -> Analysis {
+    let (model, mut findings) = (&walk.human.model, Findings::default());
+    let trajectory = walk.trajectory.clone();
+    analyse_trajectory(model, trajectory, &walk.loads, ForceSource::Simulated, &mut findings, &mut |_| ()).unwrap()
+}
+
+/// Largest difference between moments of inverse dynamics and the simulator's efforts, with the coordinate [N.m].
+fn worst_moment(walk: &SyntheticWalk, analysis: &Analysis) -> (f64, String) {
+    let mut worst = (0.0, String::new());
+    for (id, coordinate) in walk.human.model.coordinates().iter().enumerate() {
+        if coordinate.name == "pelvis_tx" || coordinate.name == "pelvis_ty" {
+            continue;
+        }
+        for (found, applied) in analysis.forces.generalized[id].iter().zip(&walk.efforts[id]) {
+            if (found - applied).abs() > worst.0 {
+                worst = ((found - applied).abs(), coordinate.name.clone());
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn inverse_dynamics_finds_the_efforts_of_the_simulator() {
+    for toe_joint in [true, false] {
+        let (walk, _) = made("free", Build { toe_joint, ..MAN }, Mode::Corrected);
+        let analysis = analysed(&walk);
+        let (worst, name) = worst_moment(&walk, &analysis);
+        println!("toe joint {toe_joint}: moments differ by {worst:.4} N.m at most, {name}");
+        assert!(worst < 0.6, "{name}: {worst} N.m");
+        // Nothing but the ground carries the body: the root's slides have no force.
+        let residual = analysis.residual.unwrap();
+        println!("root: {residual:?}");
+        assert!(residual.force_peak_n < 2.0, "{residual:?}");
+    }
+}
+
+#[test]
+fn the_agreement_grows_with_the_rate_of_the_simulator() {
+    let gait = Gait::named("free").unwrap();
+    let worst = [1000.0, 4000.0].map(|rate_hz| {
+        let order = WalkOrder { rate_hz, cycles: 1, ..order(&gait, MAN, Mode::Corrected) };
+        let walk = synthesise(&order, &mut Findings::default()).unwrap();
+        worst_moment(&walk, &analysed(&walk)).0
+    });
+    println!("moments differ by {:.4} N.m at 1 kHz, by {:.4} N.m at 4 kHz", worst[0], worst[1]);
+    assert!(worst[1] < 0.35 * worst[0], "{worst:?}");
+}
+
+#[test]
+fn without_the_ground_forces_the_moments_are_others() {
+    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let bare = SyntheticWalk { loads: Vec::new(), ..walk };
+    let analysis = analysed(&bare);
+    assert!(worst_moment(&bare, &analysis).0 > 50.0);
+    assert!(analysis.residual.unwrap().force_peak_n > 700.0);
+}
+
+#[test]
+fn every_cycle_is_whole_and_like_the_one_before() {
+    let (walk, findings) = made("free", MAN, Mode::Corrected);
+    let analysis = analysed(&walk);
+    for side in Side::BOTH {
+        let cycles: Vec<_> = analysis.cycles.iter().filter(|cycle| cycle.side == side).collect();
+        assert_eq!(cycles.len(), 2, "{side}");
+        for cycle in cycles {
+            let duration = cycle.end_s - cycle.start_s;
+            assert!((duration - walk.walk.cycle_s()).abs() < 2e-3, "{side}: {duration} s");
+            assert!(cycle.toe_off_s.is_some());
+        }
+    }
+    let grid = analysis.trajectory.grid();
+    let later = walk.walk.cycle_s() / grid.step_s;
+    let ankle = &analysis.forces.generalized[walk.human.model.coordinate("ankle_angle_r").unwrap().index()];
+    let after = |i: usize| {
+        let (whole, share) = ((i as f64 + later).floor() as usize, (i as f64 + later).fract());
+        ankle[whole] * (1.0 - share) + ankle[whole + 1] * share
+    };
+    let range = ankle.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let count = grid.frames - later.ceil() as usize - 1;
+    let worst = (0..count).map(|i| (ankle[i] - after(i)).abs()).fold(0.0, f64::max);
+    println!("ankle from cycle to cycle: {worst:.2} of {range:.1} N.m");
+    assert!(worst < 0.02 * range, "{worst} of {range} N.m");
+    assert!(walk.report.speed_drift < 0.005, "{} m/s", walk.report.speed_drift);
+    assert!(findings.as_slice().is_empty(), "{findings:?}");
+    let speed = analysis.speed_m_s.unwrap();
+    assert!((speed / walk.walk.speed() - 1.0).abs() < 0.02, "{speed} m/s");
+    assert_eq!((analysis.mass.kg, analysis.mass.source), (walk.human.model.mass(), MassSource::Model));
+}
+
+#[test]
+fn the_ground_carries_the_weight() {
+    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let analysis = analysed(&walk);
+    let (grid, cycle) = (analysis.trajectory.grid(), analysis.cycles[0]);
+    let inside: Vec<usize> =
+        (0..grid.frames).filter(|&i| (cycle.start_s..cycle.end_s).contains(&grid.time(i))).collect();
+    let total: f64 = analysis.ground.bodies.iter().flat_map(|b| inside.iter().map(|&i| b.force[i].y)).sum();
+    let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
+    let share = total / inside.len() as f64 / weight;
+    println!("mean vertical force {share:.4} BW");
+    assert!((share - 1.0).abs() < 0.005, "{share} BW");
+}
+
+#[test]
+fn the_correction_is_reported() {
+    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let report = walk.report.correction.unwrap();
+    assert!(report.parameters > 50);
+    let names: Vec<&str> = report.adjustment.angles.iter().map(|(name, _)| name.as_str()).collect();
+    for name in ["hip_flexion_r", "knee_angle_r", "ankle_angle_r", "mtp_angle_r", "pelvis_tilt", "lumbar_extension"] {
+        assert!(names.contains(&name), "{names:?}");
+    }
+    for (name, change) in &report.adjustment.angles {
+        assert!(change.rms > 0.0 && change.rms <= change.largest && change.largest < 1.2, "{name}: {change:?}");
+    }
+    let [forward, up] = report.adjustment.pelvis;
+    assert!(forward.largest < 0.1 && up.largest < 0.1 && up.rms > 0.0, "{forward:?} {up:?}");
+    assert!(report.progress.iter().all(|stage| stage.to <= stage.from), "{:?}", report.progress);
+}
+
+#[test]
+fn a_gait_that_no_small_change_makes_consistent_is_said_to_be_so() {
+    let (_, findings) = made("goose", MAN, Mode::Corrected);
+    let found = findings.as_slice().iter().find(|finding| finding.code == "walk.not_consistent");
+    assert!(found.is_some_and(|finding| finding.message.contains("no small change")), "{findings:?}");
+}
+
+#[test]
+fn the_papers_mode_holds_the_trunk_and_keeps_its_blows_apart() {
+    let build = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false };
+    let (walk, _) = made("standard", build, Mode::Paper);
+    assert!(walk.report.correction.is_none() && walk.report.blows.0 > 0 && walk.report.blows.1 > 0.0);
+    assert!(walk.report.trunk_torque.rms > 20.0, "{:?}", walk.report.trunk_torque);
+    let tilt = walk.human.model.coordinate("pelvis_tilt").unwrap();
+    assert!(walk.trajectory.values(tilt).iter().all(|angle| angle.abs() < 1e-12));
+}
+
+#[test]
+fn orders_that_make_no_walk_are_refused() {
+    let gait = Gait::named("free").unwrap();
+    let refused = |order: WalkOrder<'_>| synthesise(&order, &mut Findings::default()).unwrap_err().to_string();
+    let good = order(&gait, MAN, Mode::Corrected);
+    assert_eq!(refused(WalkOrder { cycles: 0, ..good }), "found 0 cycles; expected 1 to 1000");
+    for rate_hz in [0.0, -100.0, f64::NAN, 1e9] {
+        assert!(refused(WalkOrder { rate_hz, ..good }).contains("Hz; expected 20 to 5000 Hz"), "{rate_hz}");
+    }
+    let heavy = Build { mass: 1000.0, ..MAN };
+    let error = synthesise(&order(&gait, heavy, Mode::Corrected), &mut Findings::default()).unwrap_err();
+    assert!(matches!(error, SyntheticError::Build(_)), "{error}");
+}
+
+#[test]
+fn other_rates_show_the_same_walk() {
+    let gait = Gait::named("free").unwrap();
+    let at = |rate_hz: f64| {
+        let order = WalkOrder { rate_hz, cycles: 1, ..order(&gait, MAN, Mode::Corrected) };
+        synthesise(&order, &mut Findings::default()).unwrap()
+    };
+    let (coarse, fine) = (at(50.0), at(250.0));
+    let knee = coarse.human.model.coordinate("knee_angle_r").unwrap();
+    let (a, b) = (coarse.trajectory.values(knee), fine.trajectory.values(knee));
+    assert!((coarse.trajectory.grid().rate_hz() - 50.0).abs() < 1e-9 && fine.trajectory.grid().frames > 4 * a.len());
+    for (i, value) in a.iter().enumerate().take(a.len() - 1) {
+        // Both start at the same step of 1 ms.
+        assert!((value - b[5 * i]).abs() < 1e-9, "frame {i}");
+    }
+}

@@ -1,0 +1,121 @@
+//! Synthetic walks: made, made consistent, walked by the simulator as put right and as in 1997.
+
+use super::timing::{Timing, cpu_us};
+use super::{Row, table, verdict};
+use ambulo::dynamics::{Workspace, inverse_frame};
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Walk, WalkCoordinates};
+use ambulo::kinematics::Posture;
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::reproduction::{Footwear, Request, paper_human, paper_walk};
+use ambulo::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use cpu_time::ThreadTime;
+use std::hint::black_box;
+
+/// Rate at which a cycle is made [Hz].
+const RATE_HZ: f64 = 100.0;
+/// A cycle with its torques takes less than this [ms].
+const ASKED_OF_CYCLE_MS: f64 = 1.0;
+/// A step of the paper's mode takes at most this [us]: 200 times real time at 1 kHz.
+const ASKED_OF_STEP_US: f64 = 5.0;
+/// Steps of the simulator [s], and how many cycles it walks.
+const STEP_S: f64 = 1e-3;
+const CYCLES: usize = 6;
+/// How often a walk is made consistent: a second each.
+const RUNS: usize = 5;
+
+/// Prints and returns the rows.
+#[expect(clippy::print_stdout, reason = "the table is the command's result")]
+pub(super) fn bench() -> Result<Vec<Row>, String> {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let human = build.human().map_err(|e| e.to_string())?;
+    let cycle = cycle(&human)?;
+    let (consistent, walk) = consistent(&human)?;
+    let corrected = corrected(&human, &walk)?;
+    let paper = paper()?;
+    let row = |quantity: &str, unit, timing| Row { quantity: quantity.to_owned(), unit, timing };
+    let rows = vec![
+        row("gait and torques of a cycle at 100 Hz", "ms", cycle),
+        row("making a walk consistent", "s", consistent),
+        row("corrected mode, 1 kHz", "us/step", corrected),
+        row("paper mode, 1 kHz", "us/step", paper),
+    ];
+    println!("\nsynthetic walks");
+    print!("{}", table(&rows));
+    println!("asked of a cycle: less than {ASKED_OF_CYCLE_MS} ms: {}", verdict(cycle.median, ASKED_OF_CYCLE_MS));
+    let times = |us: f64| STEP_S * 1e6 / us;
+    println!("corrected mode: {:.0} times real time", times(corrected.median));
+    println!(
+        "paper mode: {:.0} times real time, asked {:.0}: {}",
+        times(paper.median),
+        times(ASKED_OF_STEP_US),
+        verdict(paper.median, ASKED_OF_STEP_US)
+    );
+    Ok(rows)
+}
+
+fn free(human: &Human) -> Result<Walk, String> {
+    let gait = Gait::named("free").map_err(|e| e.to_string())?;
+    Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())
+}
+
+/// From the gait's name to the torques of a cycle, ground forces apart: every joint and the root, workspace included [ms].
+fn cycle(human: &Human) -> Result<Timing, String> {
+    free(human)?;
+    let count = human.model.coordinates().len();
+    let timing = cpu_us(1, || {
+        let Ok(walk) = free(human) else { return };
+        let (coordinates, mut workspace) = (WalkCoordinates::of(&human.model), Workspace::new(&human.model));
+        let (mut q, mut qd, mut qdd) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+        for frame in 0..(walk.cycle_s() * RATE_HZ).ceil() as usize {
+            coordinates.write(&walk.at(frame as f64 / RATE_HZ), &mut q, &mut qd, &mut qdd);
+            let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
+            black_box(inverse_frame(&mut workspace, posture, &[]).generalized());
+        }
+    });
+    Ok(scaled(timing, 1e-3))
+}
+
+/// [s]
+fn consistent(human: &Human) -> Result<(Timing, ConsistentWalk), String> {
+    let walk = free(human)?;
+    let make = || make_consistent(human, &walk, &ConsistencySettings::default()).map_err(|e| e.to_string());
+    let made = make()?;
+    let mut times = Vec::new();
+    for _ in 0..RUNS {
+        let start = ThreadTime::now();
+        black_box(make()?);
+        times.push(start.elapsed().as_secs_f64());
+    }
+    Ok((Timing::of(times), made))
+}
+
+/// [us/step]
+fn corrected(human: &Human, walk: &ConsistentWalk) -> Result<Timing, String> {
+    let simulate = || {
+        let findings = &mut Findings::default();
+        walk.simulate(human, &ConsistencySettings::default(), STEP_S, CYCLES as f64, findings)
+            .map_err(|e| e.to_string())
+    };
+    let steps = simulate()?.grid().frames;
+    Ok(cpu_us(steps, || {
+        black_box(simulate().is_ok());
+    }))
+}
+
+/// The paper's figure in its standard gait on rigid soles [us/step].
+fn paper() -> Result<Timing, String> {
+    let human = paper_human().map_err(|e| e.to_string())?;
+    let gait = Gait::named("standard").map_err(|e| e.to_string())?;
+    let (shoes, friction) = (Footwear::Own, 1.0);
+    let request = Request { gait: &gait, human: &human, shoes, friction, rate_hz: 1.0 / STEP_S, cycles: CYCLES };
+    let steps = paper_walk(&request).map_err(|e| e.to_string())?.recording.grid().frames;
+    Ok(cpu_us(steps, || {
+        black_box(paper_walk(&request).is_ok());
+    }))
+}
+
+fn scaled(timing: Timing, factor: f64) -> Timing {
+    let scale = |value: f64| value * factor;
+    Timing { median: scale(timing.median), spread: timing.spread.map(|spread| spread.map(scale)) }
+}

@@ -1,0 +1,85 @@
+//! How far feet slip while they stand.
+
+use super::cycle::STEP_S;
+use ambulo::simulation::walking::WalkRecording;
+
+/// A foot stands where it carries more than this [N].
+const LOADED_N: f64 = 20.0;
+/// A foot that carries nothing for longer has been swung [s].
+const SWING_S: f64 = 0.1;
+
+/// Slip of the most loaded point of a sole, added up over a stance [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slip {
+    /// Farthest place less rearmost.
+    pub(super) excursion: f64,
+    /// Way there and back.
+    pub(super) path: f64,
+}
+
+/// The worst of all stances of both feet that begin and end after a row; no number if there are none.
+pub(super) fn slip(recording: &WalkRecording, first: usize) -> Slip {
+    let all: Vec<Slip> = recording
+        .feet
+        .iter()
+        .flat_map(|foot| stances((first..foot.force.len()).map(|row| (foot.force[row].y, foot.slip[row]))))
+        .collect();
+    let worst = |part: fn(&Slip) -> f64| all.iter().map(part).fold(f64::NAN, f64::max);
+    Slip { excursion: worst(|slip| slip.excursion), path: worst(|slip| slip.path) }
+}
+
+/// A stance under way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    at: f64,
+    rear: f64,
+    front: f64,
+    path: f64,
+}
+
+/// From what a foot carries [N] and its slip [m/s] in each row.
+fn stances(rows: impl Iterator<Item = (f64, f64)>) -> Vec<Slip> {
+    let mut ended = Vec::new();
+    // The first stance may have begun before the rows: it is not kept.
+    let (mut begun, mut place, mut unloaded) = (false, Place::default(), 0);
+    for (carried, slip) in rows {
+        if carried > LOADED_N {
+            unloaded = 0;
+            place.add(slip * STEP_S);
+            continue;
+        }
+        unloaded += 1;
+        if f64::from(unloaded) * STEP_S > SWING_S {
+            if begun && place.path > 0.0 {
+                ended.push(Slip { excursion: place.front - place.rear, path: place.path });
+            }
+            (begun, place) = (true, Place::default());
+        }
+    }
+    ended
+}
+
+impl Place {
+    fn add(&mut self, step: f64) {
+        self.at += step;
+        self.path += step.abs();
+        self.rear = self.rear.min(self.at);
+        self.front = self.front.max(self.at);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slip_adds_up_over_whole_stances_alone() {
+        let swing = [(0.0, 9.0); 200];
+        // A millimetre forwards, half of it back; a bounce in the middle is no swing.
+        let stance = [vec![(700.0, 0.1); 10], vec![(5.0, 9.0); 30], vec![(700.0, -0.05); 10]].concat();
+        let rows = [&stance[..], &swing, &stance, &swing, &stance].concat();
+        let found = stances(rows.into_iter());
+        assert_eq!(found.len(), 1, "the first and the last are cut");
+        assert!((found[0].excursion - 1e-3).abs() < 1e-12 && (found[0].path - 1.5e-3).abs() < 1e-12, "{found:?}");
+    }
+}
