@@ -49,6 +49,8 @@ fn measure(evidence: &Evidence, what: &str, of: fn(&Distance) -> f64) -> Numbers
         means.push(mean(&distances));
     }
     numbers.push(("order".into(), order(&means)));
+    let unsolved: usize = evidence.rates.iter().map(|run| run.recording.unsolved_steps).sum();
+    numbers.push(("steps_left_unsolved".into(), unsolved as f64));
     numbers
 }
 

@@ -73,6 +73,8 @@ pub fn paper_walk(request: &Request<'_>) -> Result<Run, ReproductionError> {
 /// # Errors
 /// A gait that the figure cannot have, or a walk that cannot be simulated.
 pub fn paper_walk_with(settings: &PaperSettings, request: &Request<'_>) -> Result<Run, ReproductionError> {
+    // Nobody is told of what is odd on the way: speeds outside of the gait's data, and steps that contacts leave unsolved, which the
+    // recording counts.
     let mut findings = Findings::default();
     let human = settings.figure(request.human)?;
     let walk = Walk::new(&settings.gait(request.gait), human.dimensions.leg_length, &mut findings)?;

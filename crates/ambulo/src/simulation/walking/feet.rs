@@ -18,7 +18,8 @@ pub struct FootRecord {
     pub point: Vec<Vec3>,
     /// Forward velocity of the most loaded point of the sole against the ground [m/s]; zero where nothing presses.
     pub slip: Vec<f64>,
-    /// Whether a loaded point of the sole is at the limit of friction.
+    /// Whether a loaded point of the sole is at the limit of the ground's friction; of no meaning under Hunt and Crossley's shoes,
+    /// whose friction is a law of its own.
     pub at_limit: Vec<bool>,
     /// The part of it that another body of the foot feels, the toes.
     pub toes: Option<ToeRecord>,
