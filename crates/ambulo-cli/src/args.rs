@@ -136,8 +136,8 @@ pub(crate) struct DemoArgs {
 
 Modes: `corrected` changes the gait by a few degrees until its forces come from the ground alone, and steps it on soft shoes;
 `paper` drives the joints as the gait has them, holds the trunk upright and lets rigid soles strike, as Faure, Debunne, Cani and Multon
-did in 1997. Both take every gait and style; standard, long, short and goose are the paper's own and of style 1997, the others
-of style knots. A gait that no small change makes consistent is said to be so, and the verdict judges what comes out.
+did in 1997. Both take every gait and style; standard, long, short and goose are the paper's own: of style 1997 in its mode, of
+style knots in the corrected one, unless --style says otherwise. A gait that no small change makes consistent is said to be so, and the verdict judges what comes out.
 
 Of --speed, --step-length and --cadence two make the third; with one, the others follow from how people share speed between the two
 (docs/GAITS.md, which also describes gait files); the gait's own count no more.

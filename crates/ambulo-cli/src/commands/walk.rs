@@ -2,7 +2,7 @@
 
 use super::outcome::{Outcome, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{FigureArgs, GaitArgs, Voice, WalkArgs};
+use crate::args::{FigureArgs, GaitArgs, Voice, WalkArgs, WalkMode};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::analysis::{ForceSource, Settings, analyse_trajectory};
@@ -33,6 +33,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
     }
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
+    let gait = if args.mode == WalkMode::Corrected { put_right(gait, &args.gait) } else { gait };
     let order = WalkOrder { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
@@ -152,14 +153,18 @@ fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
         (Gait::named(&args.gait).context("--gait")?, Vec::new())
     };
     if let Some(word) = &args.style {
-        gait.style = style(word)?;
-        gait.pelvis = gait.style.pelvis();
+        gait = gait.in_style(style(word)?);
     }
     gait.pace = paced(gait.pace, args);
     if let Some(height) = args.step_height {
         gait.step_height = height;
     }
     Ok((gait, read))
+}
+
+/// Built-in gaits of style 1997 have curves without acceleration at their knots; put right, they get some, unless a style was asked for.
+fn put_right(gait: Gait, args: &GaitArgs) -> Gait {
+    if args.style.is_none() && Gait::NAMES.contains(&args.gait.as_str()) { gait.in_style(Style::Knots) } else { gait }
 }
 
 fn style(word: &str) -> Result<Style> {

@@ -174,6 +174,12 @@ impl Gait {
         }
     }
 
+    /// The same gait in another style, on the pelvis that goes with it.
+    #[must_use]
+    pub fn in_style(self, style: Style) -> Gait {
+        Gait { style, pelvis: style.pelvis(), ..self }
+    }
+
     /// Share of speed that frequency takes.
     #[must_use]
     pub fn cadence_exponent(&self) -> f64 {

@@ -6,7 +6,7 @@
 use super::error::ReproductionError;
 use super::mode::{Footwear, Request, Run};
 use crate::findings::Findings;
-use crate::gait::{Gait, Pelvis, Style, Walk};
+use crate::gait::{Gait, Style, Walk};
 use crate::model::anthropometry::{Build, Human};
 use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
 use crate::simulation::walking::{Ground, Shoes};
@@ -67,7 +67,8 @@ impl Corrected {
             return Ok(number);
         }
         let human = with_toes(request.human)?;
-        let gait = corrected_gait(request.gait);
+        // The same speed, steps and changes, by curves that carry velocity and acceleration.
+        let gait = request.gait.clone().in_style(Style::Knots);
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default())?;
         let walk = make_consistent(&human, &walk, &self.settings)
             .map_err(|e| ReproductionError::Mode { gait: gait.name.clone(), reason: e.to_string() })?;
@@ -90,9 +91,4 @@ fn with_toes(human: &Human) -> Result<Human, ReproductionError> {
         sole.radius *= old / new;
     }
     Ok(figure)
-}
-
-/// The same speed, steps and changes, by curves that carry velocity and acceleration, on a pelvis that moves.
-fn corrected_gait(gait: &Gait) -> Gait {
-    Gait { style: Style::Knots, pelvis: Pelvis::Moving, ..gait.clone() }
 }
