@@ -35,8 +35,8 @@ const HELD_OUT: &str = "\
 What these numbers are a test of, and what not:
 
 - **Free walking is no independent test.** The settings of the adjustment (deviations, shoes, numbers of splines) were set by hand in
-  several dozen trials at free speed, with agreement to these same bands in view, moments included. They are the same at all
-  speeds and for all figures.
+  several dozen trials at free speed, with agreement to these same bands in view, moments included; the numbers of splines also
+  after a look at very slow and fast walking. They are the same at all speeds and for all figures.
 - **Slow and fast were held out** of the laws of the ground forces, which go through very slow, free and very fast alone
   (data/gait/ground_forces.toml). The joint curves were not: the gait's laws are fitted to all five speeds, so angles are
   in-sample throughout.
