@@ -77,6 +77,27 @@ pub(crate) fn curves(sheet: Sheet, quantity: &str) -> Result<Curves, String> {
     Ok(bands(sheet, quantity)?.map(|band| band.mean))
 }
 
+/// Mean curves of a quantity in two laboratories, children at the speed they chose: Pinzone, Schwartz, Thomason, Baker 2014.
+pub(crate) fn two_laboratories(quantity: &str) -> Result<[Vec<f64>; 2], String> {
+    const FILE: &str = "pinzone2014.csv";
+    let mut means: [Vec<f64>; 2] = Default::default();
+    for line in read(FILE)?.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [_, name, _, first, _, second, _] = cells[..] else {
+            return Err(format!("{FILE}: found the line `{line}`; expected 7 cells"));
+        };
+        if name == quantity {
+            for (mean, cell) in means.iter_mut().zip([first, second]) {
+                mean.push(cell.parse().map_err(|e| format!("{FILE}: found `{cell}` in `{line}`: {e}"))?);
+            }
+        }
+    }
+    match means.iter().find(|mean| mean.len() != SAMPLES) {
+        Some(mean) => Err(format!("{FILE}, {quantity}: found {} samples; expected {SAMPLES}", mean.len())),
+        None => Ok(means),
+    }
+}
+
 /// Foot off of the curve's own foot [share of the cycle] at five speeds.
 pub(crate) fn foot_off() -> Result<[f64; 5], String> {
     let text = read("schwartz2008_cycle_events.csv")?;

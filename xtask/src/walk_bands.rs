@@ -11,6 +11,7 @@ mod curve;
 mod cycle;
 mod figure;
 mod page;
+mod second_laboratory;
 mod slip;
 mod trend;
 
@@ -53,6 +54,8 @@ struct Results {
     man: [Cycle; 5],
     /// Bands of free walking with other legs of the people: where from, how long [m].
     other_legs: Vec<(&'static str, f64, [Band; 8])>,
+    /// Free walking against a second laboratory.
+    second_laboratory: String,
     /// Walks of others.
     others: Vec<(Build, Walked)>,
 }
@@ -122,6 +125,7 @@ fn measure() -> Result<Results, String> {
         legs,
         people,
         foot_off: normative::foot_off()?,
+        second_laboratory: second_laboratory::section(&man[FREE])?,
         man,
         other_legs,
         others,
