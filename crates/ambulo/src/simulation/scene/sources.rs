@@ -1,11 +1,14 @@
 //! Files that a scene names, read by the caller, and the functions of time in them.
 
+use super::built::GaitSource;
 use super::function::Function;
 use super::{Place, SceneError};
 use crate::findings::Findings;
+use crate::model::anthropometry::Build;
 use crate::model::{Model, from_osim_bytes};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
+use crate::simulation::consistent::ConsistentWalk;
 use crate::simulation::signal::Signal;
 use std::collections::BTreeMap;
 
@@ -16,6 +19,8 @@ pub type Load<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 pub(super) struct Sources<'a, 'f> {
     load: &'a mut Load<'f>,
     tables: BTreeMap<String, RecordedTable>,
+    /// Walks that were corrected for figures of this scene, which others of the same build share.
+    pub(super) corrected: Vec<(Build, GaitSource, Option<f64>, ConsistentWalk)>,
     pub(super) findings: &'a mut Findings,
     /// How long the scene lasts [s].
     pub(super) duration_s: f64,
@@ -23,7 +28,7 @@ pub(super) struct Sources<'a, 'f> {
 
 impl<'a, 'f> Sources<'a, 'f> {
     pub(super) fn new(load: &'a mut Load<'f>, findings: &'a mut Findings, duration_s: f64) -> Sources<'a, 'f> {
-        Sources { load, tables: BTreeMap::new(), findings, duration_s }
+        Sources { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {

@@ -92,6 +92,11 @@ fn standing(model: &Model) -> Motion {
 }
 
 fn walking(asked: &AskedWalk, human: &Human, sources: &mut Sources<'_, '_>) -> Result<Motion, SceneError> {
+    let same =
+        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &asked.gait, &asked.speed);
+    if let (WalkMode::Corrected, Some((_, _, _, walk))) = (asked.mode, sources.corrected.iter().find(same)) {
+        return Ok(corrected(walk, &human.model, asked.phase));
+    }
     let place = &asked.place;
     let wrong = |e: &dyn std::error::Error| place.error(chain(e));
     let mut gait = match &asked.gait {
@@ -110,7 +115,9 @@ fn walking(asked: &AskedWalk, human: &Human, sources: &mut Sources<'_, '_>) -> R
         WalkMode::Corrected => {
             let settings = ConsistencySettings::default();
             let walk = make_consistent(human, &walk, &settings).map_err(|e| wrong(&e))?;
-            Ok(corrected(&walk, &human.model, asked.phase))
+            let motion = corrected(&walk, &human.model, asked.phase);
+            sources.corrected.push((human.build, asked.gait.clone(), asked.speed, walk));
+            Ok(motion)
         }
     }
 }
