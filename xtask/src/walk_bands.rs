@@ -12,7 +12,6 @@ mod cycle;
 mod figure;
 mod page;
 mod second_laboratory;
-mod slip;
 mod trend;
 
 use crate::normative::{self, Band, SPEEDS};

@@ -143,9 +143,15 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         say(&format!("  changed   by {count} numbers: {} deg rms", angles.join(", ")))?;
         say(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
     }
+    let slip = match (walk.foot_slip_mm, walk.foot_slip_path_mm) {
+        (Some(distance), Some(path)) => {
+            format!("; feet get {distance:.1} mm from where they stood, by a way of {path:.1} mm")
+        }
+        _ => String::new(),
+    };
     say(&format!(
-        "  trunk     held with {:.1} N.m rms, {:.1} N.m peak; feet slide {:.1} mm at most in a stance",
-        walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest, walk.foot_slip_mm
+        "  trunk     held with {:.1} N.m rms, {:.1} N.m peak{slip}",
+        walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest
     ))?;
     if walk.blows > 0 {
         say(&format!("  blows     {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;

@@ -2,7 +2,6 @@
 
 use super::adjustment::{Adjustment, adjustments};
 use super::curve::Peaks;
-use super::slip::{Slip, slip};
 use crate::normative::SAMPLES;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Trunk, Walk};
@@ -11,7 +10,7 @@ use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, Human};
 use ambulo::reproduction::{extremes, mean, rms};
 use ambulo::simulation::consistent::{ConsistencySettings, make_consistent};
-use ambulo::simulation::walking::WalkRecording;
+use ambulo::simulation::walking::{StanceSlip, WalkRecording};
 use cpu_time::ThreadTime;
 
 /// Step of the simulator [s].
@@ -36,7 +35,7 @@ pub(super) struct Cycle {
     /// Peak-to-peak forward speed of the centre of mass over its mean.
     pub(super) speed_range: f64,
     /// The worst of the stances that the last two cycles hold whole.
-    pub(super) slip: Slip,
+    pub(super) slip: StanceSlip,
     /// How long no foot is pressed in the cycle [s].
     pub(super) flight_s: f64,
     /// Torque that holds the trunk from outside [N.m]: root mean square, largest.
@@ -103,7 +102,7 @@ pub(super) fn walk(build: &Build, speed: f64) -> Result<Cycle, String> {
         net_share: mean_force[1] / propulsion,
         speed_range: (fastest - slowest) / mean(&curves[8][..FINE]),
         curves,
-        slip: slip(&recording, last.row((CYCLES - 2) as f64) as usize),
+        slip: recording.stance_slip(last.row((CYCLES - 2) as f64) as usize).ok_or("no whole stance in two cycles")?,
         flight_s: flying as f64 * STEP_S,
         trunk: [rms(&trunk[..FINE]), trunk.iter().fold(0.0, |most, torque| torque.abs().max(most))],
         parameters: consistent.parameters(),

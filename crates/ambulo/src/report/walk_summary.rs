@@ -45,8 +45,10 @@ pub struct WalkSummary {
     pub trunk_torque_nm: Size,
     /// The same by kg of body mass [N.m/kg].
     pub trunk_torque_nm_kg: Size,
-    /// How far the loaded foot wanders along the ground in the worst stance [mm].
-    pub foot_slip_mm: f64,
+    /// How far a loaded sole gets from where it stood, in the worst stance [mm]; `null` without a whole stance.
+    pub foot_slip_mm: Option<f64>,
+    /// Its way there and back [mm].
+    pub foot_slip_path_mm: Option<f64>,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,
     /// Blows of rigid soles on the ground.
@@ -129,7 +131,8 @@ impl WalkSummary {
             solver: correction.map(|c| c.progress.iter().map(stage).collect()),
             trunk_torque_nm: Size::new(report.trunk_torque, 1.0),
             trunk_torque_nm_kg: Size::new(report.trunk_torque, 1.0 / model.mass()),
-            foot_slip_mm: 1e3 * report.slip,
+            foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),
+            foot_slip_path_mm: report.slip.map(|slip| 1e3 * slip.path),
             flight_s: report.flight_s,
             blows: report.blows.0,
             largest_blow_n_s: report.blows.1,

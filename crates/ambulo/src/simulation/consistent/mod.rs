@@ -124,8 +124,6 @@ pub struct PlannedForces {
     pub moments: [[f64; 3]; 2],
     /// Fore-aft and vertical force on each foot [N].
     pub feet: [[f64; 2]; 2],
-    /// Fastest slip of a sole that carries more than 20 N [m/s], right, left.
-    pub slip: [f64; 2],
 }
 
 impl ConsistentWalk {

@@ -120,6 +120,5 @@ pub(super) fn planned(
         root: std::array::from_fn(|k| out[k] * scales[k]),
         moments: [0, 1].map(|s| std::array::from_fn(|k| out[side(s) + MOMENTS + k] * body.mass)),
         feet: [0, 1].map(|s| [out[side(s) + FORE_AFT] * body.weight, out[side(s) + VERTICAL] * body.weight]),
-        slip: [0, 1].map(|s| (0..3).map(|k| out[side(s) + SLIPS + k].abs()).fold(0.0, f64::max)),
     })
 }

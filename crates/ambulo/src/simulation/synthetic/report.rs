@@ -5,6 +5,7 @@ use crate::gait::Style;
 use crate::model::anthropometry::SegmentTable;
 use crate::numerics::Progress;
 use crate::simulation::consistent::{Adjustment, Change};
+use crate::simulation::walking::StanceSlip;
 
 /// How a walk came about.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +32,8 @@ pub struct WalkReport {
     pub correction: Option<CorrectionReport>,
     /// Torque that holds the trunk from outside [N.m].
     pub trunk_torque: Change,
-    /// The farthest that a loaded sole gets from where it stood, in a stance [m].
-    pub slip: f64,
+    /// How far a loaded sole gets from where it stood, in the worst whole stance.
+    pub slip: Option<StanceSlip>,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,
     /// Blows of rigid soles, and the largest impulse on a foot [N.s]; none on soft shoes.

@@ -6,7 +6,7 @@ use super::{SyntheticError, SyntheticWalk};
 use crate::gait::Walk;
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent::Change;
-use crate::simulation::walking::{FootRecord, Rows, WalkRecording};
+use crate::simulation::walking::{Rows, WalkRecording};
 
 /// What is kept begins this share of a cycle before the right foot's nominal contact, so that its strike is inside.
 const LEAD_IN: f64 = 0.2;
@@ -65,30 +65,11 @@ fn report(
         leg_length: human.dimensions.leg_length,
         correction,
         trunk_torque: Change::of(trunk.iter().copied()),
-        slip: recording.feet.iter().map(|foot| slip(foot, &all, step_s)).fold(0.0, f64::max),
+        slip: recording.stance_slip(rows.first.saturating_sub(cycle_rows)),
         flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
         blows: (impulses.len() / 2, impulses.iter().copied().fold(0.0, f64::max)),
         speed_drift: later.map(|row| (speed[row + cycle_rows] - speed[row]).abs()).fold(0.0, f64::max),
         steps_hz: 1.0 / step_s,
         unsolved_steps: recording.unsolved_steps,
     }
-}
-
-/// A foot carries enough to be judged above this vertical force [N].
-const LOADED_N: f64 = 20.0;
-
-/// The farthest that a loaded sole gets from where it stood: the range of the integral of its most loaded point's slip over a
-/// stance [m].
-fn slip(foot: &FootRecord, rows: &std::ops::Range<usize>, step_s: f64) -> f64 {
-    let (mut farthest, mut place, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-    for row in rows.clone() {
-        if foot.force[row].y > LOADED_N {
-            place += foot.slip[row] * step_s;
-            (least, most) = (least.min(place), most.max(place));
-            farthest = farthest.max(most - least);
-        } else {
-            (place, least, most) = (0.0, 0.0, 0.0);
-        }
-    }
-    farthest
 }

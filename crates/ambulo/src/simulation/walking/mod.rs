@@ -15,6 +15,7 @@ mod figure;
 mod recording;
 mod run;
 mod signals;
+mod slip;
 mod start;
 
 pub use error::WalkingError;
@@ -23,3 +24,4 @@ pub use feet::{FootRecord, ToeRecord};
 pub use figure::{Ground, Shoes, Walker};
 pub use recording::{FootBlow, WalkRecording};
 pub use signals::gait_signals;
+pub use slip::StanceSlip;

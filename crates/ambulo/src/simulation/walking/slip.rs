@@ -1,7 +1,6 @@
 //! How far feet slip while they stand.
 
-use super::cycle::STEP_S;
-use ambulo::simulation::walking::WalkRecording;
+use super::recording::WalkRecording;
 
 /// A foot stands where it carries more than this [N].
 const LOADED_N: f64 = 20.0;
@@ -10,22 +9,27 @@ const SWING_S: f64 = 0.1;
 
 /// Slip of the most loaded point of a sole, added up over a stance [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Slip {
-    /// Farthest place less rearmost.
-    pub(super) excursion: f64,
-    /// Way there and back.
-    pub(super) path: f64,
+pub struct StanceSlip {
+    /// Farthest place less rearmost [m].
+    pub excursion: f64,
+    /// Way there and back [m].
+    pub path: f64,
 }
 
-/// The worst of all stances of both feet that begin and end after a row; no number if there are none.
-pub(super) fn slip(recording: &WalkRecording, first: usize) -> Slip {
-    let all: Vec<Slip> = recording
-        .feet
-        .iter()
-        .flat_map(|foot| stances((first..foot.force.len()).map(|row| (foot.force[row].y, foot.slip[row]))))
-        .collect();
-    let worst = |part: fn(&Slip) -> f64| all.iter().map(part).fold(f64::NAN, f64::max);
-    Slip { excursion: worst(|slip| slip.excursion), path: worst(|slip| slip.path) }
+impl WalkRecording {
+    /// The worst of all stances of both feet that begin and end after a row; none if no stance is whole.
+    #[must_use]
+    pub fn stance_slip(&self, first_row: usize) -> Option<StanceSlip> {
+        let step_s = self.grid().step_s;
+        let of_foot = |foot: &super::FootRecord| {
+            stances((first_row..foot.force.len()).map(|row| (foot.force[row].y, foot.slip[row])), step_s)
+        };
+        let worse = |a: StanceSlip, b: StanceSlip| StanceSlip {
+            excursion: a.excursion.max(b.excursion),
+            path: a.path.max(b.path),
+        };
+        self.feet.iter().flat_map(of_foot).reduce(worse)
+    }
 }
 
 /// A stance under way.
@@ -38,20 +42,20 @@ struct Place {
 }
 
 /// From what a foot carries [N] and its slip [m/s] in each row.
-fn stances(rows: impl Iterator<Item = (f64, f64)>) -> Vec<Slip> {
+fn stances(rows: impl Iterator<Item = (f64, f64)>, step_s: f64) -> Vec<StanceSlip> {
     let mut ended = Vec::new();
     // The first stance may have begun before the rows: it is not kept.
     let (mut begun, mut place, mut unloaded) = (false, Place::default(), 0);
     for (carried, slip) in rows {
         if carried > LOADED_N {
             unloaded = 0;
-            place.add(slip * STEP_S);
+            place.add(slip * step_s);
             continue;
         }
         unloaded += 1;
-        if f64::from(unloaded) * STEP_S > SWING_S {
+        if f64::from(unloaded) * step_s > SWING_S {
             if begun && place.path > 0.0 {
-                ended.push(Slip { excursion: place.front - place.rear, path: place.path });
+                ended.push(StanceSlip { excursion: place.front - place.rear, path: place.path });
             }
             (begun, place) = (true, Place::default());
         }
@@ -78,7 +82,7 @@ mod tests {
         // A millimetre forwards, half of it back; a bounce in the middle is no swing.
         let stance = [vec![(700.0, 0.1); 10], vec![(5.0, 9.0); 30], vec![(700.0, -0.05); 10]].concat();
         let rows = [&stance[..], &swing, &stance, &swing, &stance].concat();
-        let found = stances(rows.into_iter());
+        let found = stances(rows.into_iter(), 1e-3);
         assert_eq!(found.len(), 1, "the first and the last are cut");
         assert!((found[0].excursion - 1e-3).abs() < 1e-12 && (found[0].path - 1.5e-3).abs() < 1e-12, "{found:?}");
     }
