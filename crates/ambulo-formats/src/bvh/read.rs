@@ -187,6 +187,7 @@ fn begin_joint(
     }
     let name = words.rest_of_line().map(|word| word.text).unwrap_or_default();
     let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let name = name.trim().to_owned();
     if name.is_empty() || name.contains('}') {
         let found = if name.is_empty() { format!("{} without a name", quoted(&keyword.text)) } else { quoted(&name) };
         return Err(Error::Line { line: keyword.line, found, expected: "a name without braces".into() });
