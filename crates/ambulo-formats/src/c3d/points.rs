@@ -135,6 +135,19 @@ fn word_of_real(value: f32) -> Option<u16> {
     (word != ALL_BITS).then_some(word)
 }
 
+/// The word of a point that was seen; `None` if residual and cameras do not fit into it.
+pub(super) fn word_of_sighting(residual: f64, cameras: u8, scale: f64, storage: Storage) -> Option<u16> {
+    let steps = if residual.is_nan() { 0.0 } else { (residual / scale).round() };
+    if !(0.0..=255.0).contains(&steps) {
+        return None;
+    }
+    let word = u16::from_be_bytes([cameras, steps as u8]);
+    match storage {
+        Storage::Integer => (cameras < 128).then_some(word),
+        Storage::Real => (word != ALL_BITS).then_some(word),
+    }
+}
+
 fn sighting(position: [f64; 3], word: u16, scale: f64) -> Sighting {
     let [cameras, residual] = word.to_be_bytes();
     Sighting { position, residual: f64::from(residual) * scale, cameras }
