@@ -5,6 +5,7 @@
 
 pub mod anthropometry;
 mod export;
+pub mod full_body;
 mod function;
 mod import;
 mod joint;
