@@ -10,6 +10,7 @@ mod function;
 mod import;
 mod joint;
 mod knots;
+pub mod marker_set;
 mod side;
 mod simm_spline;
 
