@@ -12,6 +12,7 @@ mod import;
 mod marker_recording;
 mod recording;
 mod smooth;
+mod subject_parameters;
 mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
@@ -20,5 +21,6 @@ pub use force_recording::{ForceRecording, force_recordings};
 pub use import::coordinates_from_table;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_trc};
 pub use recording::{Motion, MotionError};
+pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use time_grid::{TimeGrid, Window, interpolate};
