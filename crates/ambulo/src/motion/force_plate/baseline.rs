@@ -20,6 +20,9 @@ const QUIET_FACTOR: f64 = 3.0;
 const QUIET_N: f64 = 1.0;
 /// Blocks within this of the lowest level belong to it [N]; wider where the blocks themselves are noisier.
 const LEVEL_WIDTH_N: f64 = 4.0;
+/// A plate that rings after a step may dip below its level for this share of the samples; one that does so for longer was
+/// pressed on at its quietest.
+const RINGING_SHARE: f64 = 0.02;
 /// An upward offset above this needs a witness [N].
 const LARGEST_UNSURE_N: f64 = 50.0;
 /// With the witness of the ZERO frames, an offset may be this share of the load above it.
@@ -43,7 +46,12 @@ struct Block {
 }
 
 /// The baseline, if the plate was seen without load. `vertical` is the upward force on the foot [N] with its offset.
-pub(super) fn find(channels: &[Vec<f64>], vertical: &[f64], rate_hz: f64, zero: Option<Range<usize>>) -> Option<Baseline> {
+pub(super) fn find(
+    channels: &[Vec<f64>],
+    vertical: &[f64],
+    rate_hz: f64,
+    zero: Option<Range<usize>>,
+) -> Option<Baseline> {
     let length = ((BLOCK_S * rate_hz).round() as usize).max(BLOCK_SAMPLES);
     let blocks = blocks(vertical, length);
     let quiet = unloaded(&blocks)?;
@@ -52,6 +60,9 @@ pub(super) fn find(channels: &[Vec<f64>], vertical: &[f64], rate_hz: f64, zero: 
     }
     let level = mean(quiet.iter().map(|b| b.mean));
     let noise = quiet.iter().map(|b| b.deviation).fold(0.0, f64::max);
+    if level > 0.0 && share_below(vertical, level - LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)) > RINGING_SHARE {
+        return None;
+    }
     let peak = vertical.iter().copied().filter(|x| x.is_finite()).fold(f64::NEG_INFINITY, f64::max);
     let zero = zero.filter(|span| span.len() >= 2 && span.end <= vertical.len());
     let witness = zero.filter(|span| {
@@ -94,6 +105,10 @@ fn unloaded(blocks: &[Block]) -> Option<Vec<&Block>> {
     let lowest = *means.get(means.len() / 20)?;
     let width = LEVEL_WIDTH_N.max(QUIET_FACTOR * quietest);
     Some(quiet.into_iter().filter(|b| (b.mean - lowest).abs() <= width).collect())
+}
+
+fn share_below(values: &[f64], limit: f64) -> f64 {
+    values.iter().filter(|x| **x < limit).count() as f64 / values.len().max(1) as f64
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {

@@ -44,8 +44,8 @@ pub fn plates_from_c3d(
     let mut plates = Vec::new();
     for (i, platform) in platforms.iter().enumerate() {
         let name = format!("plate {}", i + 1);
-        let plate = source(file, platform, unit_m, body, name.clone())
-            .and_then(|source| decode(&source, settings, findings));
+        let plate =
+            source(file, platform, unit_m, body, name.clone()).and_then(|source| decode(&source, settings, findings));
         match plate {
             Ok(plate) => plates.push(plate),
             Err(reason) => findings.warn("plates.unusable", format!("{name} was left out: {reason}")),

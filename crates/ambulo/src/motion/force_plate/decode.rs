@@ -280,7 +280,8 @@ fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
     let units = stated.units;
     match stated.kind {
         PlateKind::Wrench => {
-            let moment = |factor: f64| Reading { units: Units { moment_nm: units.moment_nm * factor, ..units }, ..stated };
+            let moment =
+                |factor: f64| Reading { units: Units { moment_nm: units.moment_nm * factor, ..units }, ..stated };
             let turned = Reading { origin: -stated.origin, ..stated };
             vec![
                 (moment(1000.0), "moments a thousand times larger (N.m instead of N.mm)"),
@@ -289,7 +290,8 @@ fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
             ]
         }
         PlateKind::Point => {
-            let length = |factor: f64| Reading { units: Units { length_m: units.length_m * factor, ..units }, ..stated };
+            let length =
+                |factor: f64| Reading { units: Units { length_m: units.length_m * factor, ..units }, ..stated };
             vec![
                 (length(1000.0), "points a thousand times larger (m instead of mm)"),
                 (length(0.001), "points a thousand times smaller (mm instead of m)"),

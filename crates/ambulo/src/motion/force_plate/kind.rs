@@ -107,9 +107,7 @@ impl PlateKind {
                 ];
                 on_four_sensors(sensors.map(|f| f * units.force_n), origin)
             }
-            PlateKind::TwelveForces => {
-                on_four_sensors([0, 3, 6, 9].map(|i| triple(i) * units.force_n), origin)
-            }
+            PlateKind::TwelveForces => on_four_sensors([0, 3, 6, 9].map(|i| triple(i) * units.force_n), origin),
         }
     }
 
