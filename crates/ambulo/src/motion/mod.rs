@@ -11,6 +11,7 @@ pub(crate) mod gaps;
 mod import;
 mod marker_recording;
 mod recording;
+pub mod skeleton;
 mod smooth;
 mod time_grid;
 
