@@ -13,6 +13,7 @@ mod import;
 mod marker_recording;
 mod real_points;
 mod recording;
+pub mod skeleton;
 mod smooth;
 mod subject_parameters;
 mod time_grid;
