@@ -25,6 +25,6 @@ pub use force_recording::{ForceRecording, force_recordings};
 pub use import::coordinates_from_table;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use recording::{Motion, MotionError};
-pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
+pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use time_grid::{TimeGrid, Window, interpolate};
