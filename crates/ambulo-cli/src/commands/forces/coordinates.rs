@@ -54,17 +54,19 @@ fn read_motion(model: &Model, path: &Path, findings: &mut Findings) -> Result<Mo
 fn read_ground(
     args: &ForcesArgs,
     model: &Model,
-    findings: &mut Findings,
+    reading: &mut Reading,
 ) -> Result<(Option<GroundTable>, Vec<ForceRecording>)> {
     if args.no_ground {
         return Ok((None, Vec::new()));
     }
-    let ground = ground_input::read(args, model, findings)?;
+    let ground = ground_table::read(args, model, &mut reading.findings)?;
     let shown = || match &args.loads {
         Some(loads) => format!("{} with {}", ground.path.display(), loads.display()),
         None => ground.path.display().to_string(),
     };
-    let plates = force_recordings(model, &ground.loads, &ground.table, findings).with_context(shown)?;
+    let plates = force_recordings(model, &ground.loads, &ground.table, &mut reading.findings).with_context(shown)?;
+    reading.read.push(ground.path.clone());
+    reading.read.extend(args.loads.clone());
     Ok((Some(ground), plates))
 }
 

@@ -2,10 +2,9 @@
 
 use super::Reading;
 use crate::files;
-use ambulo::motion::force_plate::{PlateRecording, PlateSettings, plates_from_c3d};
-use ambulo::motion::{
-    MarkerRecording, SubjectParameters, markers_from_c3d, markers_from_trc, subject_from_c3d,
-};
+use ambulo::analysis::LaboratoryRecording;
+use ambulo::motion::force_plate::{PlateSettings, plates_from_c3d};
+use ambulo::motion::{SubjectParameters, markers_from_c3d, markers_from_trc, subject_from_c3d};
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::trc::Trc;
 use anyhow::{Context, Result, bail};
@@ -13,12 +12,8 @@ use std::path::Path;
 
 /// One file of markers, in the laboratory's axes.
 pub(super) struct LaboratoryFile {
-    /// Markers [m].
-    pub(super) markers: MarkerRecording,
-    /// Force plates; none in a TRC.
-    pub(super) plates: Vec<PlateRecording>,
-    /// The unit of length as the file states it.
-    pub(super) unit: String,
+    /// Markers and force plates; a TRC has none of these.
+    pub(super) recording: LaboratoryRecording,
     /// What it states of the person.
     pub(super) subject: SubjectParameters,
 }
@@ -35,7 +30,7 @@ pub(super) fn read(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile>
         _ => bail!("{shown}: expected markers, a .c3d or a .trc"),
     };
     let mut file = read.with_context(|| shown.clone())?;
-    file.markers.name = shown;
+    file.recording.markers.name = shown;
     Ok(file)
 }
 
@@ -44,9 +39,11 @@ fn from_c3d(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<Laborato
     let findings = &mut reading.findings;
     files::note_remarks(shown, &remarks, findings);
     Ok(LaboratoryFile {
-        markers: markers_from_c3d(&c3d, findings)?,
-        plates: plates_from_c3d(&c3d, PlateSettings::default(), findings)?,
-        unit: c3d.point_unit.clone(),
+        recording: LaboratoryRecording {
+            markers: markers_from_c3d(&c3d, findings)?,
+            plates: plates_from_c3d(&c3d, PlateSettings::default(), findings)?,
+            unit: c3d.point_unit.clone(),
+        },
         subject: subject_from_c3d(&c3d),
     })
 }
@@ -55,9 +52,11 @@ fn from_trc(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<Laborato
     let (trc, remarks) = Trc::read(bytes)?;
     files::note_remarks(shown, &remarks, &mut reading.findings);
     Ok(LaboratoryFile {
-        markers: markers_from_trc(&trc, &mut reading.findings)?,
-        plates: Vec::new(),
-        unit: trc.unit.symbol().to_owned(),
+        recording: LaboratoryRecording {
+            markers: markers_from_trc(&trc, &mut reading.findings)?,
+            plates: Vec::new(),
+            unit: trc.unit.symbol().to_owned(),
+        },
         subject: SubjectParameters::default(),
     })
 }
