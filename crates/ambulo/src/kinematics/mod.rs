@@ -5,6 +5,7 @@
 //! [`crate::dynamics`].
 
 mod body_motion;
+pub mod calibration;
 pub(crate) mod lanes;
 pub(crate) mod plan;
 mod sin_cos;
