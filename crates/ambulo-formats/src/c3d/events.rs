@@ -1,0 +1,110 @@
+//! Events: instants with a name, in the group EVENT and in the header.
+//!
+//! | where | what |
+//! |---|---|
+//! | EVENT:USED, LABELS, CONTEXTS, TIMES (2 a event: minutes, seconds), DESCRIPTIONS, SUBJECTS, ICON_IDS | any number |
+//! | header words 150 (key 12345), 151 (count), 153-188 (seconds), 189-197 (a byte each), 199-234 (4 letters each) | at most 18 |
+//!
+//! In the group, times count as the frames do: frame 1 is at zero. In the header the first frame of the file is at zero; such
+//! times are moved. Source: C3D user guide (c3d.org), "The EVENT group", "Header events". What the byte means is told in
+//! two ways there (0 on, 1 off; and the opposite), so it is kept as it is.
+
+use super::parameters::Parameters;
+use super::section::text;
+use super::words::Words;
+use crate::error::Remark;
+
+/// An instant with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// What happens: `Foot Strike`, `Foot Off`; four letters in the header.
+    pub label: String,
+    /// Side or object: `Left`, `Right`, `General`; empty in the header.
+    pub context: String,
+    /// When \[s\]; frame 1 is at zero.
+    pub time_s: f64,
+    /// Whose it is, where the file says so.
+    pub subject: String,
+    /// What the file says about it.
+    pub description: String,
+    /// Number of the icon with which programs show it.
+    pub icon: i16,
+    /// Where in the file it stands.
+    pub place: EventPlace,
+}
+
+/// Where an event stands in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EventPlace {
+    /// In the group EVENT.
+    Group,
+    /// In the header. Old programs repeat here what the group has.
+    Header {
+        /// Its flag, which says whether programs show it.
+        flag: u8,
+    },
+}
+
+/// Word 150 says that the header has events.
+const EVENT_KEY: u16 = 12345;
+/// The header has room for so many.
+pub(super) const HEADER_EVENTS: usize = 18;
+/// Bytes of the header in which the key, the count, times, flags and labels stand.
+pub(super) const KEY_AT: usize = 298;
+const COUNT_AT: usize = 300;
+const TIMES_AT: usize = 304;
+const FLAGS_AT: usize = 376;
+const LABELS_AT: usize = 396;
+
+/// All events of the file.
+/// `start_s` is the time of the first frame.
+pub(super) fn read(words: Words<'_>, parameters: &Parameters, start_s: f64, remarks: &mut Vec<Remark>) -> Vec<Event> {
+    let mut events = of_group(parameters, remarks);
+    events.extend(of_header(words, start_s, remarks));
+    events
+}
+
+fn of_group(parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Event> {
+    let times = parameters.numbers("EVENT", "TIMES");
+    let used = parameters.count("EVENT", "USED").unwrap_or(times.len() / 2);
+    if times.len() / 2 < used {
+        let message = format!("EVENT:USED is {used}, but EVENT:TIMES has {} events; read those", times.len() / 2);
+        remarks.push(Remark { line: None, message });
+    }
+    let list = |name| parameters.texts("EVENT", name);
+    let (labels, contexts, subjects) = (list("LABELS"), list("CONTEXTS"), list("SUBJECTS"));
+    let descriptions = list("DESCRIPTIONS");
+    let icons = parameters.numbers("EVENT", "ICON_IDS");
+    let text = |texts: &[&str], i: usize| texts.get(i).copied().unwrap_or_default().to_owned();
+    let event = |(i, time): (usize, &[f64; 2])| Event {
+        label: text(&labels, i),
+        context: text(&contexts, i),
+        time_s: 60.0 * time[0] + time[1],
+        subject: text(&subjects, i),
+        description: text(&descriptions, i),
+        icon: icons.get(i).map_or(0, |&icon| icon as i16),
+        place: EventPlace::Group,
+    };
+    times.as_chunks().0.iter().take(used).enumerate().map(event).collect()
+}
+
+fn of_header(words: Words<'_>, start_s: f64, remarks: &mut Vec<Remark>) -> Vec<Event> {
+    if words.u16(KEY_AT) != Some(EVENT_KEY) {
+        return vec![];
+    }
+    let count = usize::from(words.u16(COUNT_AT).unwrap_or(0));
+    if count > HEADER_EVENTS {
+        let message = format!("the header states {count} events and has room for {HEADER_EVENTS}; read those");
+        remarks.push(Remark { line: None, message });
+    }
+    (0..count.min(HEADER_EVENTS)).filter_map(|i| header_event(words, start_s, i)).collect()
+}
+
+fn header_event(words: Words<'_>, start_s: f64, i: usize) -> Option<Event> {
+    let time_s = start_s + f64::from(words.f32(TIMES_AT + 4 * i)?);
+    let flag = words.u8(FLAGS_AT + i)?;
+    let label = text(&words.array::<4>(LABELS_AT + 4 * i)?);
+    let nothing = String::new;
+    let place = EventPlace::Header { flag };
+    Some(Event { label, context: nothing(), time_s, subject: nothing(), description: nothing(), icon: 0, place })
+}
