@@ -6,6 +6,7 @@
 
 mod body_motion;
 pub(crate) mod lanes;
+pub mod marker_fit;
 pub(crate) mod plan;
 mod sin_cos;
 pub(crate) mod sweep;

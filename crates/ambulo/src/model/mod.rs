@@ -70,6 +70,8 @@ pub struct Coordinate {
     pub default_value: f64,
     /// Range that the model's author allows [rad or m], if stated.
     pub range: Option<[f64; 2]>,
+    /// Whether motion must stay inside the range; otherwise the range is the author's advice.
+    pub clamped: bool,
     /// What else decides its value.
     pub drive: Drive,
 }
