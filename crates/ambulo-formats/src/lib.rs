@@ -11,7 +11,7 @@
 //! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`c3d`] | recordings `.c3d`: points, analog channels, force plates, events, all parameters | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
-//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | - |
+//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | yes |
 
 pub mod bvh;
 pub mod c3d;

@@ -1,27 +1,33 @@
 //! `ambulo forces`: what may be typed.
 
 use super::Voice;
-use super::values::{AddedMass, Cutoff, FootColumns, order, seconds};
+use super::values::{AddedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
-  ambulo forces demo/input/walk.mot --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
+  ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o out
+  ambulo forces demo/input/walk.trc --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
+Markers (.c3d, .trc) are fitted with the built-in body, calibrated from --static or, without one, from the trial itself, or with an
+OpenSim model, which --static scales. Plates inside a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names.
+
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, summary.json, figures/moments.svg, with --device moments_biological.sto.
-Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
+events.csv, cycles.csv, summary.json, figures/moments.svg; from markers also subject.osim (the body that was fitted);
+with --device moments_biological.sto. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
 
 Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
 forces that nothing supplies; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct ForcesArgs {
-    /// Recorded coordinates: .mot or .sto.
+    /// The recording: markers (.c3d, .trc), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,
-    /// The body: an OpenSim model (.osim).
+    /// The body: an OpenSim model (.osim); coordinates need one [default for markers and skeletons: the built-in body].
     #[arg(long, value_name = "FILE")]
-    pub(crate) model: PathBuf,
+    pub(crate) model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) subject: SubjectArgs,
     /// Measured ground forces: .mot, .sto or .csv [default: the file that --loads names; the columns by their usual names if neither --loads nor --right and --left are given].
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
@@ -81,4 +87,42 @@ pub(crate) enum Filter {
     Butterworth,
     /// Smoothing spline.
     Spline,
+}
+
+/// Who was recorded, and how markers are read.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SubjectArgs {
+    /// Markers of the same person standing still: .c3d or .trc.
+    #[arg(long = "static", value_name = "FILE")]
+    pub(crate) still: Option<PathBuf>,
+    /// Body mass [kg] [default: what the recording states, or the plates carry; with --model the model's own].
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) mass: Option<f64>,
+    /// Stature [m] [default: what the recording states, or an estimate from the markers].
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) height: Option<f64>,
+    /// Table of body segments of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
+    #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
+    pub(crate) figure: String,
+    /// The marker set: a name of docs/MARKERS.md or a .toml [default: the one whose names are found].
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) markers: Option<String>,
+    /// Which foot stands on a plate of the C3D, such as 1=r; `off` leaves a plate out; may be repeated [default: found].
+    #[arg(long, value_name = "N=r|l|off")]
+    pub(crate) plate: Vec<PlateFoot>,
+    /// How markers become coordinates: frame by frame, or all frames together with a prior on acceleration.
+    #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
+    pub(crate) fit: MarkerFitting,
+    /// Gaps of markers up to this long are bridged [s]; longer ones stay gaps.
+    #[arg(long, value_name = "S", default_value_t = 0.2, value_parser = zero_or_more_seconds)]
+    pub(crate) max_gap: f64,
+}
+
+/// How markers become coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MarkerFitting {
+    /// Each frame by itself.
+    Frames,
+    /// All frames together.
+    Trajectory,
 }

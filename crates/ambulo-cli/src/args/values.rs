@@ -1,5 +1,6 @@
 //! Numbers and names as they are typed.
 
+use ambulo::model::Side;
 use ambulo::spatial::Vec3;
 use std::fmt;
 use std::str::FromStr;
@@ -15,6 +16,13 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         _ => Err("expected a number of seconds".into()),
+    }
+}
+
+pub(super) fn zero_or_more_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("expected a number of seconds, zero or more".into()),
     }
 }
 
@@ -68,6 +76,33 @@ impl FromStr for FootColumns {
                       PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
                     .into(),
             ),
+        }
+    }
+}
+
+/// Which foot stands on a force plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PlateFoot {
+    /// The plate, counted from 1.
+    pub(crate) plate: usize,
+    /// The foot; `None` leaves the plate out.
+    pub(crate) side: Option<Side>,
+}
+
+impl FromStr for PlateFoot {
+    type Err = String;
+    fn from_str(text: &str) -> Result<PlateFoot, String> {
+        let expected = "expected PLATE=FOOT, plates counted from 1, the foot r, l or off, such as 1=r";
+        let (plate, foot) = text.split_once('=').ok_or(expected)?;
+        let side = match foot.trim().to_ascii_lowercase().as_str() {
+            "r" | "right" => Some(Side::Right),
+            "l" | "left" => Some(Side::Left),
+            "off" => None,
+            _ => return Err(expected.into()),
+        };
+        match plate.trim().parse() {
+            Ok(plate @ 1..) => Ok(PlateFoot { plate, side }),
+            _ => Err(expected.into()),
         }
     }
 }

@@ -15,6 +15,7 @@ mod real_points;
 mod recording;
 pub mod skeleton;
 mod smooth;
+mod subject_parameters;
 mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
@@ -25,4 +26,5 @@ pub use import::coordinates_from_table;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use recording::{Motion, MotionError};
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
+pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use time_grid::{TimeGrid, Window, interpolate};
