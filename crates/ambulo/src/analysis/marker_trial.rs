@@ -10,7 +10,7 @@ use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_marker
 use crate::model::Model;
 use crate::model::marker_set::{MarkerSet, RecognitionError, Recognised};
 use crate::motion::force_plate::PlateRecording;
-use crate::motion::laboratory::{Laboratory, laboratory};
+use crate::motion::{Laboratory, laboratory};
 use crate::motion::MarkerRecording;
 use std::collections::BTreeMap;
 
@@ -135,11 +135,11 @@ impl Subject {
         set: Option<&MarkerSet>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
-        let (recording, trial) = still.map_or((walk, Trial::Walking), |still| (still, Trial::Static));
+        let (recording, trial) = still.map_or((walk, Trial::Moving), |still| (still, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
             Some(set) => Recognised::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
-            None => Recognised::recognise(names)?,
+            None => MarkerSet::recognise(names)?,
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
         let human = calibrated.human;

@@ -21,13 +21,13 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let still = args.subject.still.as_deref().map(|path| laboratory_file::read(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let settings = fit_settings(args);
+    let model = args.model.as_deref().map(|path| read_model(path, args, reading)).transpose()?;
     let Reading { findings, clock, .. } = reading;
     let stage = &mut |stage: &'static str| clock.lap(stage);
     let standing = still.as_ref().map(|still| &still.recording);
-    let body = match &args.model {
-        Some(path) => {
-            let model = read_model(path, args, reading)?;
-            body_in_motion(&walk.recording, standing, &Body::Model(&model), &settings, &mut reading.findings, stage)
+    let body = match &model {
+        Some(model) => {
+            body_in_motion(&walk.recording, standing, &Body::Model(model), &settings, findings, stage)
         }
         None => {
             let person = person(args, &walk, still.as_ref(), findings)?;
