@@ -121,12 +121,13 @@ fn the_bytes_are_those_of_the_format() {
     let data = 512 * (usize::from(word(9)) - 1);
     assert_eq!(bytes[512 + 2], (data / 512 - 1) as u8, "blocks of parameters");
     assert_eq!(bytes[512 + 3], 84);
-    let real = |at: usize| f32::from_le_bytes(*bytes[data + 4 * at..].first_chunk().unwrap());
+    let real = |at: usize| *bytes[data + 4 * at..].first_chunk().unwrap();
+    let bytes_of = |values: [f32; 4]| values.map(f32::to_le_bytes);
     // HEEL with cameras 1 and 3 and a residual of two steps, then TOE, then two samples of two channels.
-    assert_eq!([0, 1, 2, 3].map(real), [1.0, -2.0, 3.5, 5.0 * 256.0 + 2.0]);
-    assert_eq!([8, 9, 10, 11].map(real), [0.5, 2048.0, 1.5, 2051.0]);
+    assert_eq!([0, 1, 2, 3].map(real), bytes_of([1.0, -2.0, 3.5, 5.0 * 256.0 + 2.0]));
+    assert_eq!([8, 9, 10, 11].map(real), bytes_of([0.5, 2048.0, 1.5, 2051.0]));
     // The lost point of the second frame.
-    assert_eq!([12, 13, 14, 15].map(real), [0.0, 0.0, 0.0, -1.0]);
+    assert_eq!([12, 13, 14, 15].map(real), bytes_of([0.0, 0.0, 0.0, -1.0]));
     assert_eq!(bytes.len() % 512, 0);
 }
 
