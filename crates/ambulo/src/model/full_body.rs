@@ -124,7 +124,14 @@ impl Making<'_> {
         let own = RANGES.iter().find(|(known, _)| *known == stem).map(|(_, range)| range.map(f64::to_radians));
         let range = own.or_else(|| self.in_plane(&name).and_then(|c| c.range));
         self.axis(
-            Coordinate { name, kind: CoordinateKind::Rotation, default_value: 0.0, range, drive: Drive::Free },
+            Coordinate {
+                name,
+                kind: CoordinateKind::Rotation,
+                default_value: 0.0,
+                range,
+                clamped: false,
+                drive: Drive::Free,
+            },
             direction,
         )
     }
@@ -132,7 +139,10 @@ impl Making<'_> {
     fn translation(&mut self, name: &str, direction: Vec3) -> JointAxis {
         let default_value = self.in_plane(name).map_or(0.0, |c| c.default_value);
         let (kind, drive) = (CoordinateKind::Translation, Drive::Free);
-        self.axis(Coordinate { name: name.to_owned(), kind, default_value, range: None, drive }, direction)
+        self.axis(
+            Coordinate { name: name.to_owned(), kind, default_value, range: None, clamped: false, drive },
+            direction,
+        )
     }
 
     /// The planar figure's coordinate of this name.
