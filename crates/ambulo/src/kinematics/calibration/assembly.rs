@@ -14,6 +14,7 @@ use crate::model::full_body::{SegmentShape, SubjectShape, reshaped};
 use crate::model::marker_set::{NamedMarker, Segment};
 use crate::model::{Marker, Side};
 use crate::spatial::{Pose, Vec3};
+use std::collections::BTreeMap;
 
 /// Markers of the trunk beside the head's that make the head's superfluous.
 const ENOUGH_ON_TRUNK: usize = 3;
@@ -33,13 +34,13 @@ pub(super) fn assemble(
     parts: &Parts<'_>,
     mut assumptions: Vec<String>,
 ) -> Result<Calibrated, CalibrationError> {
-    let (mut markers, mut weights, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut markers, mut weights, mut places) = (Vec::new(), BTreeMap::new(), Vec::new());
     let mut unused = Vec::new();
     for (named, number) in chosen(sight, parts, &mut unused) {
         match placed(sight, frames, generic, parts, named, number) {
             Some((marker, place)) => {
                 markers.push(marker);
-                weights.push(named.definition.weight);
+                weights.insert(named.name.clone(), named.definition.weight);
                 places.push(place);
             }
             None => unused.push(named.name.as_str()),

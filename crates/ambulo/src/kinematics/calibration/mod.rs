@@ -47,14 +47,15 @@ use crate::model::full_body::full_body;
 use crate::model::marker_set::Recognised;
 use crate::motion::MarkerRecording;
 use sight::Sight;
+use std::collections::BTreeMap;
 
 /// A subject's body.
 #[derive(Debug, Clone)]
 pub struct Calibrated {
     /// The body: joints, masses and soles of the subject, the recording's markers where they stand.
     pub human: Human,
-    /// How much each marker counts in a fit, in the order of the model's markers.
-    pub weights: Vec<f64>,
+    /// How much each marker counts in a fit, by its name: [`FitSettings::weights`](super::marker_fit::FitSettings::weights).
+    pub weights: BTreeMap<String, f64>,
     /// What came of it.
     pub report: CalibrationReport,
 }
