@@ -9,6 +9,7 @@ pub mod calibration;
 pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;
+pub mod retarget;
 mod sin_cos;
 pub(crate) mod sweep;
 mod trajectory;

@@ -12,6 +12,7 @@
 //! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm |
 //! | `pelvis_up` `pelvis_front` | [`REACH`] above and in front of mid-hip, fixed to the pelvis |
 //! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`REACH`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
+//! | `foot_front_s` | [`REACH`] in front of the ankle along a foot that stands flat, fixed to the foot |
 //!
 //! Above, in front and to the right are meant of a person who stands upright: as in the file's own resting pose where that is
 //! one, else as on average over the recording.
@@ -146,11 +147,18 @@ fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, rea
         }
         let chain = [Landmark::Hip, Landmark::Knee, Landmark::Ankle].map(|landmark| landmarks.get(landmark, side));
         let [Some(hip), Some(knee), Some(ankle)] = chain else { continue };
-        for (name, carrier, base) in
-            [("thigh_side", hip, knee), ("shank_side", knee, ankle), ("foot_side", ankle, ankle)]
-        {
-            let offset = neutral.right_beside(carrier, skeleton.way(carrier, base)) * reach;
-            points.push(Point { name: sided(name), between: vec![base], beside: Some((carrier, offset)) });
+        let bone = last.map_or(Vec3::zeros(), |last| match skeleton.way(ankle, last) {
+            way if way.norm() > 0.0 => way,
+            _ => skeleton.tip(ankle).unwrap_or_default(),
+        });
+        let [front, right] = neutral.along_foot(ankle, bone);
+        for (name, carrier, base, direction) in [
+            ("thigh_side", hip, knee, neutral.right_beside(hip, skeleton.way(hip, knee))),
+            ("shank_side", knee, ankle, neutral.right_beside(knee, skeleton.way(knee, ankle))),
+            ("foot_side", ankle, ankle, right),
+            ("foot_front", ankle, ankle, front),
+        ] {
+            points.push(Point { name: sided(name), between: vec![base], beside: Some((carrier, direction * reach)) });
         }
     }
     points

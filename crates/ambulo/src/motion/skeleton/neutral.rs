@@ -69,6 +69,15 @@ impl Neutral {
         up.cross(&right).try_normalize(0.0).unwrap_or_default()
     }
 
+    /// Forward along a bone as seen from above, and to the right of that, in the joint's axes, each one long. A bone that
+    /// stands upright counts for nothing.
+    pub(super) fn along_foot(&self, joint: usize, bone: Vec3) -> [Vec3; 2] {
+        let up = self.up(joint);
+        let level = bone - up * bone.dot(&up);
+        let forward = level.try_normalize(1e-6 * bone.norm()).unwrap_or_else(|| self.forward(joint));
+        [forward, forward.cross(&up).try_normalize(0.0).unwrap_or_default()]
+    }
+
     /// To the right, at right angles to a bone, in the joint's axes, one long. A bone of no length counts for nothing.
     pub(super) fn right_beside(&self, joint: usize, bone: Vec3) -> Vec3 {
         let [_, right] = self.directions[joint];
