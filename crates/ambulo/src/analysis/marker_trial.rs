@@ -143,10 +143,9 @@ impl Subject {
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
         let human = calibrated.human;
-        let names = human.model.markers().iter().map(|marker| marker.name.clone());
         Ok(Subject {
             person: Person::of_human(&human),
-            weights: names.zip(calibrated.weights).collect(),
+            weights: calibrated.weights,
             calibration: Some(calibrated.report),
             sets: recognised.sets,
             model: human.model,

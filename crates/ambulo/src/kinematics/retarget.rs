@@ -10,8 +10,8 @@
 
 use super::marker_fit::{FitError, FitSettings, Guard, MarkerFit, fit_markers};
 use crate::findings::Findings;
-use crate::model::anthropometry::{Build, BuildError, Human};
-use crate::model::full_body::{SegmentShape, full_body, reshaped};
+use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
+use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::{REACH, SkeletonRecording};
 use crate::motion::{MarkerPath, MarkerRecording};
@@ -212,6 +212,13 @@ impl Lengths {
         }
     }
 
+    /// The table's dimensions with these lengths.
+    fn dimensions(&self, table: Dimensions) -> Dimensions {
+        let mean = |pair: [f64; 2]| (pair[0] + pair[1]) / 2.0;
+        let (thigh, shank) = (mean(self.thigh), mean(self.shank));
+        Dimensions { thigh, shank, leg_length: thigh + shank + table.ankle_height, hip_width: self.hip_width, ..table }
+    }
+
     /// The table's body with these lengths.
     fn body(&self, measured: &Measured<'_>, table: &Human) -> Result<Human, RetargetError> {
         let mut fitting = Fitting { table, shapes: SegmentShape::of(table), markers: Vec::new() };
@@ -222,7 +229,14 @@ impl Lengths {
             fitting.arm(self, side, k);
         }
         let Fitting { shapes, markers, .. } = fitting;
-        Ok(reshaped(table, &shapes, markers, [table.dimensions.ankle_height; 2])?)
+        let shape = SubjectShape {
+            segments: shapes,
+            markers,
+            feet: [FootPrint::of(&table.dimensions); 2],
+            dimensions: self.dimensions(table.dimensions),
+            locked: Vec::new(),
+        };
+        Ok(reshaped(table, &shape)?)
     }
 }
 
