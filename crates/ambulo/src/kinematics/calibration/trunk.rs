@@ -199,10 +199,7 @@ impl Finder<'_> {
         let (elbow, axis) = match (at(Landmark::ElbowCentre), at(Landmark::LateralElbow), at(Landmark::MedialElbow)) {
             (Some(centre), ..) => (centre, bending_axis(shoulder, centre, wrist).unwrap_or(across)),
             (None, Some(lateral), Some(medial)) => ((lateral + medial) * 0.5, direction(lateral - medial)? * out),
-            (None, Some(lateral), None) => {
-                let axis = bending_axis(shoulder, lateral, wrist).unwrap_or(across);
-                (lateral - axis * (out * self.half_elbow(side)), axis)
-            }
+            (None, Some(lateral), None) => self.elbow(shoulder, lateral, wrist, across, side, frame),
             _ => return None,
         };
         let humerus = from_y_z(shoulder - elbow, axis)?;
@@ -211,6 +208,32 @@ impl Finder<'_> {
             _ => from_y_z(elbow - wrist, axis)?,
         };
         Some([Pose { rotation: humerus, translation: shoulder }, Pose { rotation: forearm, translation: elbow }])
+    }
+
+    /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of shoulder, centre and
+    /// wrist where the elbow is bent; else that of a forearm halfway between pronation and supination.
+    fn elbow(
+        &self,
+        shoulder: Vec3,
+        lateral: Vec3,
+        wrist: Vec3,
+        across: Vec3,
+        side: Side,
+        frame: usize,
+    ) -> (Vec3, Vec3) {
+        const ROUNDS: usize = 4;
+        /// A normal further than 60° from the forearm's axis is a straight arm's.
+        const AGREEING: f64 = 0.5;
+        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let thumb = at(Landmark::RadialStyloid).zip(at(Landmark::UlnarStyloid)).map(|(radial, ulnar)| radial - ulnar);
+        let usual = thumb.and_then(|thumb| direction(thumb.cross(&(lateral - wrist)))).unwrap_or(across);
+        let reach = self.half_elbow(side) * if side == Side::Right { 1.0 } else { -1.0 };
+        let mut axis = usual;
+        for _ in 0..ROUNDS {
+            let normal = bending_axis(shoulder, lateral - axis * reach, wrist);
+            axis = normal.filter(|n| n.dot(&usual) > AGREEING).unwrap_or(usual);
+        }
+        (lateral - axis * reach, axis)
     }
 
     /// Lateral marker to elbow centre [m].

@@ -157,6 +157,9 @@ pub(super) const TABLE: [Row; 50] = {
     ]
 };
 
+/// Weight of markers that move on the body that carries them in the model.
+pub(super) const LOOSE_WEIGHT: f64 = 0.1;
+
 impl Landmark {
     /// All landmarks, from the pelvis down and then up.
     pub fn all() -> impl Iterator<Item = Landmark> {
@@ -183,6 +186,20 @@ impl Landmark {
     #[must_use]
     pub fn segment(self) -> Segment {
         self.row().segment
+    }
+
+    /// How much a marker on it counts where markers are fitted: little on arms and shoulders, whose girdle moves on the trunk by
+    /// centimetres, and on the head, which turns on it.
+    #[must_use]
+    pub fn weight(self) -> f64 {
+        use Landmark as L;
+        match (self, self.segment()) {
+            (_, Segment::Humerus | Segment::Forearm)
+            | (L::Acromion | L::ShoulderCentre | L::FrontHead | L::BackHead | L::Ear | L::Nose | L::Vertex, _) => {
+                LOOSE_WEIGHT
+            }
+            _ => 1.0,
+        }
     }
 
     /// Where a marker on it stands on a body of mean build, on the right side, in shares of the segment's length.
