@@ -6,17 +6,26 @@
 mod curves;
 mod device_recording;
 pub mod filter;
+pub mod force_plate;
 mod force_recording;
 pub(crate) mod gaps;
 mod import;
+mod laboratory;
+pub mod landmarks;
+mod marker_recording;
+mod real_points;
 mod recording;
 mod smooth;
 mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
+pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use import::coordinates_from_table;
+pub use laboratory::{Heading, Laboratory, laboratory};
+pub use landmarks::Landmarks;
+pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use recording::{Motion, MotionError};
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use time_grid::{TimeGrid, Window, interpolate};

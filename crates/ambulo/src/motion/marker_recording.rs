@@ -1,0 +1,194 @@
+//! What cameras saw: the paths of markers, in metres, gaps as not-a-number.
+
+use super::real_points::{one_of_each_name, real_points, shared_prefix};
+use crate::findings::Findings;
+use crate::spatial::{Mat3, Vec3};
+use ambulo_formats::c3d::{C3d, Point};
+use ambulo_formats::trc::Trc;
+
+/// Paths of markers over time. From a file they stand in the laboratory's axes; [`MarkerRecording::turned`] brings them
+/// to the world's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkerRecording {
+    /// Where they came from, for people.
+    pub name: String,
+    /// Frames a second [Hz].
+    pub rate_hz: f64,
+    /// Instants [s], strictly rising.
+    pub times: Vec<f64>,
+    /// The markers, in the order of the file.
+    pub markers: Vec<MarkerPath>,
+}
+
+/// The path of one marker.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkerPath {
+    /// Name as it stands in the file, without the subject's prefix.
+    pub name: String,
+    /// Position [m], one a frame; not a number where it was not seen.
+    pub positions: Vec<Vec3>,
+}
+
+/// Why markers cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MarkerError {
+    /// No marker that was seen at least once.
+    #[error(
+        "no marker was seen in any of the {frames} frames of `{name}` (listed: {listed}); expected at least one. hint: is this the recording of the trial, and were its markers labelled?"
+    )]
+    NoMarker {
+        /// Where they came from.
+        name: String,
+        /// How many frames the recording has.
+        frames: usize,
+        /// The first names that it lists.
+        listed: String,
+    },
+    /// Lengths without a unit.
+    #[error(
+        "the markers have the unit `{found}` (POINT:UNITS); expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+    )]
+    Unit {
+        /// What the file says.
+        found: String,
+    },
+    /// Time that runs backwards or stands still.
+    #[error(
+        "frame {frame} of `{name}`: time {later} s comes after {earlier} s; expected rising times. hint: sort the rows, or cut the file where the clock was reset"
+    )]
+    TimeNotRising {
+        /// Where they came from.
+        name: String,
+        /// Frame, counted from 1.
+        frame: usize,
+        /// The instant before.
+        earlier: f64,
+        /// The instant that follows it.
+        later: f64,
+    },
+}
+
+impl MarkerPath {
+    /// Whether the marker was seen in a frame.
+    #[must_use]
+    pub fn is_seen(&self, frame: usize) -> bool {
+        self.positions.get(frame).is_some_and(is_finite)
+    }
+}
+
+impl MarkerRecording {
+    /// Number of frames.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.times.len()
+    }
+
+    /// The marker with exactly this name.
+    #[must_use]
+    pub fn marker(&self, name: &str) -> Option<&MarkerPath> {
+        self.markers.iter().find(|marker| marker.name == name)
+    }
+
+    /// The same paths seen from axes that are turned: `world_from_lab * p`.
+    #[must_use]
+    pub fn turned(&self, world_from_lab: &Mat3) -> MarkerRecording {
+        let turn = |path: &MarkerPath| MarkerPath {
+            name: path.name.clone(),
+            positions: path.positions.iter().map(|p| world_from_lab * p).collect(),
+        };
+        MarkerRecording {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz,
+            times: self.times.clone(),
+            markers: self.markers.iter().map(turn).collect(),
+        }
+    }
+}
+
+/// The markers of a TRC file, in the laboratory's axes.
+///
+/// A position of exactly 0 0 0 is how some programs write a gap; it is read as one and reported.
+///
+/// # Errors
+/// Times that do not rise, no marker that was ever seen.
+pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
+    let paths = trc.markers().iter().map(|marker| MarkerPath {
+        name: marker.name.clone(),
+        positions: marker.positions_m.iter().map(|p| Vec3::from(*p)).collect(),
+    });
+    let recording = MarkerRecording {
+        name: trc.name.clone(),
+        rate_hz: trc.rate_hz,
+        times: trc.times().to_vec(),
+        markers: paths.collect(),
+    };
+    checked(recording, findings)
+}
+
+/// The markers of a C3D file, in the laboratory's axes.
+///
+/// Points that hold angles, forces, moments, powers or scalars, points that programs computed (axes and joint centres of
+/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A subject's prefix that all labels share is cut off:
+/// `Anna:LASI` becomes `LASI`. Of two points with one name the one that was seen longer is kept.
+///
+/// # Errors
+/// No unit of length, times that do not rise, no marker that was ever seen.
+pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
+    let Some(unit_m) = file.metres_per_unit() else {
+        return Err(MarkerError::Unit { found: file.point_unit.clone() });
+    };
+    let points = real_points(file);
+    let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
+    let prefix = shared_prefix(&names);
+    let path = |point: &&Point| MarkerPath {
+        name: point.name[prefix..].to_owned(),
+        positions: point.positions.iter().map(|p| Vec3::from(*p) * unit_m).collect(),
+    };
+    let recording = MarkerRecording {
+        name: String::new(),
+        rate_hz: file.point_rate_hz,
+        times: file.times(),
+        markers: one_of_each_name(points.iter().map(path).collect(), findings),
+    };
+    checked(recording, findings)
+}
+
+/// The recording with zeros read as gaps, if it is one at all.
+fn checked(mut recording: MarkerRecording, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
+    if let Some(i) = (1..recording.frames()).find(|&i| recording.times[i - 1] >= recording.times[i]) {
+        let (earlier, later) = (recording.times[i - 1], recording.times[i]);
+        return Err(MarkerError::TimeNotRising { name: recording.name, frame: i + 1, earlier, later });
+    }
+    read_zeros_as_gaps(&mut recording, findings);
+    if !recording.markers.iter().any(|m| m.positions.iter().any(is_finite)) {
+        let listed: Vec<&str> = recording.markers.iter().take(6).map(|m| m.name.as_str()).collect();
+        let listed = if listed.is_empty() { "none".to_owned() } else { listed.join(", ") };
+        return Err(MarkerError::NoMarker { frames: recording.frames(), listed, name: recording.name });
+    }
+    Ok(recording)
+}
+
+fn read_zeros_as_gaps(recording: &mut MarkerRecording, findings: &mut Findings) {
+    let mut names = Vec::new();
+    let mut count = 0;
+    for marker in &mut recording.markers {
+        let before = count;
+        for position in marker.positions.iter_mut().filter(|p| **p == Vec3::zeros()) {
+            *position = Vec3::repeat(f64::NAN);
+            count += 1;
+        }
+        if count > before {
+            names.push(marker.name.as_str());
+        }
+    }
+    if count > 0 {
+        let message =
+            format!("{count} positions of exactly 0 0 0 were read as gaps, of the markers {}", names.join(", "));
+        findings.warn("markers.zero_is_gap", message);
+    }
+}
+
+fn is_finite(position: &Vec3) -> bool {
+    position.iter().all(|x| x.is_finite())
+}
