@@ -19,11 +19,11 @@ pub(super) struct Layout {
     pub(super) point_rate_hz: f64,
 }
 
-/// A number and who says it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Claim<T> {
+/// A number of frames and who says it.
+#[derive(Debug, Clone, Copy)]
+struct Claim {
     who: &'static str,
-    value: T,
+    value: usize,
 }
 
 impl Layout {
@@ -127,7 +127,9 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
         return Ok(rate);
     }
     if usable(&in_header) {
-        remark(remarks, format!("no usable POINT:RATE; the header's rate of {in_header} Hz counts"));
+        if let Some(rate) = parameter {
+            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz counts"));
+        }
         return Ok(in_header);
     }
     let found =
@@ -135,17 +137,26 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "frames a second above zero".into() })
 }
 
-/// What header and parameters say about the number of frames.
-fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim<usize>> {
-    let mut claims = Vec::new();
-    let mut claim = |who, value: Option<usize>| claims.extend(value.map(|value| Claim { who, value }));
-    claim("the header", header.frames());
+/// What header and parameters say about the number of frames. Numbers of 16 bits that only lack the higher bits of a
+/// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
+fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
-    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start));
-    claim("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual.filter(|&frames| frames > 0));
-    claim("POINT:FRAMES", parameters.count("POINT", "FRAMES").filter(|&frames| frames > 0));
-    claim("POINT:LONG_FRAMES", long_frames(parameters));
-    claims
+    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start)).filter(|&frames| frames > 0);
+    let frames = parameters.count("POINT", "FRAMES");
+    let long = long_frames(parameters);
+    let in_header = header.frames();
+    let largest = [actual, frames, long].into_iter().flatten().max().unwrap_or(0);
+    let first = start.unwrap_or(usize::from(header.first_frame));
+    let last = (first + largest).saturating_sub(1);
+    let header_full = last > 65535 && [65535, last & 0xffff].contains(&usize::from(header.last_frame));
+    let cut = |frames: &usize| largest > 65535 && *frames < largest && [65535, largest & 0xffff].contains(frames);
+    let claims = [
+        ("the header", in_header.filter(|_| !header_full)),
+        ("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual),
+        ("POINT:FRAMES", frames.filter(|frames| !cut(frames))),
+        ("POINT:LONG_FRAMES", long),
+    ];
+    claims.into_iter().filter_map(|(who, value)| value.map(|value| Claim { who, value })).collect()
 }
 
 /// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
@@ -167,48 +178,35 @@ fn long_frames(parameters: &Parameters) -> Option<usize> {
     }
 }
 
-/// Chooses points, channels and samples so that a number of frames which somebody states fills the file.
+/// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
+/// what the header says.
 fn choose_frame(
     layout: &mut Layout,
     header: &Header,
     parameters: &Parameters,
     room: usize,
-    frames: &[Claim<usize>],
+    frames: &[Claim],
     remarks: &mut Vec<Remark>,
 ) {
     let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
     let samples = sample_candidates(layout.point_rate_hz, header, parameters);
-    let mut best: Option<Layout> = None;
-    for &points in &points {
-        for &(channels, samples_per_frame) in &samples {
-            let candidate = Layout { points, channels, samples_per_frame, ..*layout };
-            let fits = frames.iter().any(|claim| fills(&candidate, claim.value, room));
-            if best.is_none() || fits {
-                best = Some(candidate);
-            }
-            if fits {
-                break;
-            }
-        }
-        if best.is_some_and(|best| frames.iter().any(|claim| fills(&best, claim.value, room))) {
-            break;
-        }
+    let candidates: Vec<Layout> = points
+        .iter()
+        .flat_map(|&points| samples.iter().map(move |&(channels, samples)| (points, channels, samples)))
+        .map(|(points, channels, samples_per_frame)| Layout { points, channels, samples_per_frame, ..*layout })
+        .collect();
+    let fits = |candidate: &&Layout| frames.iter().any(|claim| fills(candidate, claim.value, room));
+    if let Some(best) = candidates.iter().find(fits).or(candidates.first()) {
+        *layout = *best;
     }
-    if let Some(best) = best {
-        *layout = best;
-    }
-    if points.len() > 1 {
-        let [a, b] = [points[0], points[1]];
-        remark(remarks, format!("the header has {a} points, POINT:USED {b}; read {}", layout.points));
+    if let [in_header, used] = points[..] {
+        remark(remarks, format!("the header has {in_header} points, POINT:USED {used}; read {}", layout.points));
     }
     if samples.len() > 1 {
-        let words = header.analog_words;
+        let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
         let message = format!(
-            "the header has {words} analog values a frame, {} a channel; ANALOG:USED is {}; read {} channels with {} a frame",
-            header.samples_per_frame,
-            parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string()),
-            layout.channels,
-            layout.samples_per_frame
+            "the header has {} analog values a frame, {} a channel; ANALOG:USED is {used}; read {} channels with {} a frame",
+            header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
         );
         remark(remarks, message);
     }
@@ -249,7 +247,7 @@ fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
 }
 
-fn choose_frames(layout: &Layout, room: usize, claims: &[Claim<usize>], remarks: &mut Vec<Remark>) -> usize {
+fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
     let available = room.checked_div(layout.frame_bytes()).unwrap_or(0);
     if layout.frame_bytes() == 0 {
         return 0;
@@ -269,6 +267,10 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim<usize>], remarks:
             remarks,
             format!("{one} frames are stated, but the file ends after {available}; it is truncated; read {available}"),
         );
+    }
+    let rest = room - frames * layout.frame_bytes();
+    if frames < available && rest >= BLOCK {
+        remark(remarks, format!("{rest} bytes follow the last frame; they are not read"));
     }
     frames
 }
@@ -306,5 +308,5 @@ fn distinct(values: impl IntoIterator<Item = Option<usize>>) -> Vec<usize> {
 }
 
 fn remark(remarks: &mut Vec<Remark>, message: String) {
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
 }

@@ -31,7 +31,7 @@ pub(super) fn processor(bytes: &[u8], start: usize, remarks: &mut Vec<Remark>) -
     let low_first = bytes[17] <= bytes[16];
     let processor = if low_first { Processor::Intel } else { Processor::Sgi };
     let message = format!("byte {}: processor {code} is none of 84, 85, 86; read as {processor:?}", start + 3);
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
     Ok(processor)
 }
 
@@ -57,7 +57,7 @@ pub(super) fn read(
     let blocks = usize::from(words.u8(start + 2).unwrap_or(0));
     let data = usize::from(data_block).saturating_sub(1) * BLOCK;
     let end = (start + blocks * BLOCK).max(data);
-    let mut reader = Reader { words, at: start + SECTION_HEADER, end };
+    let mut reader = Reader { words, at: start + SECTION_HEADER, end, closed: false };
     let mut records = Vec::new();
     while let Some(record) = reader.record(remarks)? {
         records.push(record);
@@ -71,15 +71,20 @@ struct Reader<'a> {
     at: usize,
     /// First byte after the section.
     end: usize,
+    /// The last record said that it is the last.
+    closed: bool,
 }
 
 impl Reader<'_> {
     /// The next record; `None` at the end of the chain.
     fn record(&mut self, remarks: &mut Vec<Remark>) -> Result<Option<Record>, Error> {
         let offset = self.at;
+        if self.closed {
+            return Ok(None);
+        }
         if offset >= self.end {
             let message = format!("the parameter section ends at byte {offset} without the zero that should close it");
-            remarks.push(Remark { line: None, message });
+            remarks.push(Remark::of_file(message));
             return Ok(None);
         }
         let length = self.byte("the length of a name")?.cast_signed();
@@ -108,11 +113,8 @@ impl Reader<'_> {
         } else {
             Content::Parameter(self.parameter(name, locked, next)?)
         };
-        self.at = if link == 0 { self.end } else { next };
-        if link == 0 {
-            // What follows the last record is of no interest; a zero closes the chain without a remark.
-            self.words.bytes = &self.words.bytes[..self.at.min(self.words.bytes.len())];
-        }
+        self.at = next;
+        self.closed = link == 0;
         Ok(Some(Record { offset, group: number.unsigned_abs(), content }))
     }
 
@@ -260,7 +262,7 @@ fn gather(records: Vec<Record>, remarks: &mut Vec<Remark>) -> Parameters {
                         "byte {offset}: group {group} is named `{}` and again `{}`; its parameters are in the first",
                         first.name, named.name
                     );
-                    remarks.push(Remark { line: None, message });
+                    remarks.push(Remark::of_file(message));
                 }
                 groups.push((group, named));
             }
@@ -270,7 +272,7 @@ fn gather(records: Vec<Record>, remarks: &mut Vec<Remark>) -> Parameters {
     for (group, parameter) in parameters {
         let position = groups.iter().position(|(number, _)| *number == group).unwrap_or_else(|| {
             let message = format!("group {group} has parameters (`{}`) but no name", parameter.name);
-            remarks.push(Remark { line: None, message });
+            remarks.push(Remark::of_file(message));
             groups.push((group, Group::default()));
             groups.len() - 1
         });
