@@ -1,13 +1,13 @@
 //! How well two lists of events agree: from plates, from motion, from the file.
 //!
-//! Events of one side and kind are paired from the closest pair on, up to [`FARTHEST_S`] apart.
+//! Events of one side and kind are paired from the closest pair on, up to 0.15 s apart.
 //! Pinned by: tests/foot_motion.rs
 
 use super::events::{Event, EventKind};
 use serde::Serialize;
 
 /// Events further apart than this are not the same [s]: a third of a fast step.
-pub const FARTHEST_S: f64 = 0.15;
+const FARTHEST_S: f64 = 0.15;
 
 /// Agreement of the events of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -26,7 +26,7 @@ pub struct EventAgreement {
     pub bias_ms: f64,
 }
 
-/// Strikes, then offs. Events beyond the first and last of the reference by more than [`FARTHEST_S`] are not counted:
+/// Strikes, then offs. Events beyond the first and last of the reference by more than 0.15 s are not counted:
 /// nobody knows whether they are right.
 #[must_use]
 pub fn event_agreement(reference: &[Event], found: &[Event]) -> [EventAgreement; 2] {

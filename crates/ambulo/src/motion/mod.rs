@@ -21,7 +21,7 @@ mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
-pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d};
+pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use gait_event::{Event, EventKind, events_from_c3d};
 pub use import::coordinates_from_table;
