@@ -11,8 +11,8 @@
 
 use super::parameters::Parameters;
 use super::section::text;
-use super::words::Words;
-use crate::error::Remark;
+use super::words::{Processor, Words};
+use crate::error::{Error, Remark, quoted};
 
 /// An instant with a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +29,28 @@ pub struct Event {
     pub description: String,
     /// Number of the icon with which programs show it.
     pub icon: i16,
+    /// `EVENT:GENERIC_FLAGS`, or the header's byte, which says whether programs show it.
+    pub flag: u8,
     /// Where in the file it stands.
     pub place: EventPlace,
+}
+
+impl Event {
+    /// An event of the group EVENT.
+    pub fn new(label: &str, context: &str, time_s: f64) -> Event {
+        let nothing = String::new;
+        let (label, context) = (label.into(), context.into());
+        Event {
+            label,
+            context,
+            time_s,
+            subject: nothing(),
+            description: nothing(),
+            icon: 0,
+            flag: 0,
+            place: EventPlace::Group,
+        }
+    }
 }
 
 /// Where an event stands in the file.
@@ -39,18 +59,15 @@ pub enum EventPlace {
     /// In the group EVENT.
     Group,
     /// In the header. Old programs repeat here what the group has.
-    Header {
-        /// Its flag, which says whether programs show it.
-        flag: u8,
-    },
+    Header,
 }
 
 /// Word 150 says that the header has events.
 const EVENT_KEY: u16 = 12345;
 /// The header has room for so many.
-pub(super) const HEADER_EVENTS: usize = 18;
+const HEADER_EVENTS: usize = 18;
 /// Bytes of the header in which the key, the count, times, flags and labels stand.
-pub(super) const KEY_AT: usize = 298;
+const KEY_AT: usize = 298;
 const COUNT_AT: usize = 300;
 const TIMES_AT: usize = 304;
 const FLAGS_AT: usize = 376;
@@ -75,6 +92,7 @@ fn of_group(parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Event> {
     let (labels, contexts, subjects) = (list("LABELS"), list("CONTEXTS"), list("SUBJECTS"));
     let descriptions = list("DESCRIPTIONS");
     let icons = parameters.numbers("EVENT", "ICON_IDS");
+    let flags = parameters.numbers("EVENT", "GENERIC_FLAGS");
     let text = |texts: &[&str], i: usize| texts.get(i).copied().unwrap_or_default().to_owned();
     let event = |(i, time): (usize, &[f64; 2])| Event {
         label: text(&labels, i),
@@ -83,6 +101,7 @@ fn of_group(parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Event> {
         subject: text(&subjects, i),
         description: text(&descriptions, i),
         icon: icons.get(i).map_or(0, |&icon| icon as i16),
+        flag: flags.get(i).map_or(0, |&flag| flag as u8),
         place: EventPlace::Group,
     };
     times.as_chunks().0.iter().take(used).enumerate().map(event).collect()
@@ -104,7 +123,52 @@ fn header_event(words: Words<'_>, start_s: f64, i: usize) -> Option<Event> {
     let time_s = start_s + f64::from(words.f32(TIMES_AT + 4 * i)?);
     let flag = words.u8(FLAGS_AT + i)?;
     let label = text(&words.array::<4>(LABELS_AT + 4 * i)?);
-    let nothing = String::new;
-    let place = EventPlace::Header { flag };
-    Some(Event { label, context: nothing(), time_s, subject: nothing(), description: nothing(), icon: 0, place })
+    Some(Event { flag, place: EventPlace::Header, ..Event::new(&label, "", time_s) })
+}
+
+/// Puts the events of the header into its bytes. `start_s` is the time of the first frame.
+pub(super) fn write_header(
+    events: &[Event],
+    start_s: f64,
+    header: &mut [u8],
+    processor: Processor,
+) -> Result<(), Error> {
+    let events: Vec<&Event> = events.iter().filter(|event| event.place == EventPlace::Header).collect();
+    if events.is_empty() {
+        return Ok(());
+    }
+    if events.len() > HEADER_EVENTS {
+        let expected = format!("at most {HEADER_EVENTS}; put the others into the group EVENT");
+        return Err(Error::Record { found: format!("{} events in the header", events.len()), expected });
+    }
+    put(header, KEY_AT, &processor.u16_bytes(EVENT_KEY));
+    put(header, COUNT_AT, &processor.u16_bytes(events.len() as u16));
+    for (i, event) in events.iter().enumerate() {
+        let seconds = (event.time_s - start_s) as f32;
+        let bytes = processor.f32_bytes(seconds).filter(|_| seconds.is_finite());
+        let bytes = bytes.ok_or_else(|| wrong(event, format!("{} s", event.time_s), "a finite time"))?;
+        put(header, TIMES_AT + 4 * i, &bytes);
+        put(header, FLAGS_AT + i, &[event.flag]);
+        if event.label.len() > 4 {
+            return Err(wrong(event, format!("{} bytes", event.label.len()), "a label of at most four in the header"));
+        }
+        let mut label = [b' '; 4];
+        label[..event.label.len()].copy_from_slice(event.label.as_bytes());
+        put(header, LABELS_AT + 4 * i, &label);
+    }
+    Ok(())
+}
+
+fn put(header: &mut [u8], at: usize, bytes: &[u8]) {
+    header[at..at + bytes.len()].copy_from_slice(bytes);
+}
+
+fn wrong(event: &Event, found: String, expected: &str) -> Error {
+    Error::Record { found: format!("event {} of {found}", quoted(&event.label)), expected: expected.into() }
+}
+
+/// Minutes and seconds of a time. What was read from a file comes out as it was, or as an equal sum.
+pub(super) fn minutes_and_seconds(time_s: f64) -> [f32; 2] {
+    let minutes = (time_s / 60.0).trunc();
+    [minutes as f32, (time_s - 60.0 * minutes) as f32]
 }

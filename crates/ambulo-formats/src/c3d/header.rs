@@ -80,10 +80,9 @@ impl Header {
         })
     }
 
-    /// Frames from first to last, if they are in that order.
+    /// Frames from first to last; `None` if they are in the wrong order.
     pub(super) fn frames(&self) -> Option<usize> {
-        let (first, last) = (usize::from(self.first_frame), usize::from(self.last_frame));
-        (last + 1 > first).then(|| last + 1 - first)
+        (usize::from(self.last_frame) + 1).checked_sub(usize::from(self.first_frame))
     }
 
     /// The first block's words 1 to 12, the rest zero.

@@ -19,11 +19,11 @@ pub(super) struct Layout {
     pub(super) point_rate_hz: f64,
 }
 
-/// A number and who says it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Claim<T> {
+/// A number of frames and who says it.
+#[derive(Debug, Clone, Copy)]
+struct Claim {
     who: &'static str,
-    value: T,
+    value: usize,
 }
 
 impl Layout {
@@ -127,7 +127,9 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
         return Ok(rate);
     }
     if usable(&in_header) {
-        remark(remarks, format!("no usable POINT:RATE; the header's rate of {in_header} Hz counts"));
+        if let Some(rate) = parameter {
+            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz counts"));
+        }
         return Ok(in_header);
     }
     let found =
@@ -135,17 +137,26 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "frames a second above zero".into() })
 }
 
-/// What header and parameters say about the number of frames.
-fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim<usize>> {
-    let mut claims = Vec::new();
-    let mut claim = |who, value: Option<usize>| claims.extend(value.map(|value| Claim { who, value }));
-    claim("the header", header.frames());
+/// What header and parameters say about the number of frames. Numbers of 16 bits that only lack the higher bits of a
+/// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
+fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
-    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start));
-    claim("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual.filter(|&frames| frames > 0));
-    claim("POINT:FRAMES", parameters.count("POINT", "FRAMES").filter(|&frames| frames > 0));
-    claim("POINT:LONG_FRAMES", long_frames(parameters));
-    claims
+    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start)).filter(|&frames| frames > 0);
+    let frames = parameters.count("POINT", "FRAMES");
+    let long = long_frames(parameters);
+    let in_header = header.frames();
+    let largest = [actual, frames, long].into_iter().flatten().max().unwrap_or(0);
+    let first = start.unwrap_or(usize::from(header.first_frame));
+    let last = (first + largest).saturating_sub(1);
+    let header_full = last > 65535 && [65535, last & 0xffff].contains(&usize::from(header.last_frame));
+    let cut = |frames: &usize| largest > 65535 && *frames < largest && [65535, largest & 0xffff].contains(frames);
+    let claims = [
+        ("the header", in_header.filter(|_| !header_full)),
+        ("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual),
+        ("POINT:FRAMES", frames.filter(|frames| !cut(frames))),
+        ("POINT:LONG_FRAMES", long),
+    ];
+    claims.into_iter().filter_map(|(who, value)| value.map(|value| Claim { who, value })).collect()
 }
 
 /// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
@@ -173,7 +184,7 @@ fn choose_frame(
     header: &Header,
     parameters: &Parameters,
     room: usize,
-    frames: &[Claim<usize>],
+    frames: &[Claim],
     remarks: &mut Vec<Remark>,
 ) {
     let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
@@ -249,7 +260,7 @@ fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
 }
 
-fn choose_frames(layout: &Layout, room: usize, claims: &[Claim<usize>], remarks: &mut Vec<Remark>) -> usize {
+fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
     let available = room.checked_div(layout.frame_bytes()).unwrap_or(0);
     if layout.frame_bytes() == 0 {
         return 0;
@@ -269,6 +280,10 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim<usize>], remarks:
             remarks,
             format!("{one} frames are stated, but the file ends after {available}; it is truncated; read {available}"),
         );
+    }
+    let rest = room - frames * layout.frame_bytes();
+    if frames < available && rest >= BLOCK {
+        remark(remarks, format!("{rest} bytes follow the last frame; they are not read"));
     }
     frames
 }

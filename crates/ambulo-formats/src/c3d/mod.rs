@@ -24,7 +24,10 @@ mod platform;
 mod points;
 mod read;
 mod section;
+mod section_write;
+mod stated;
 mod words;
+mod write;
 
 pub use analog::Channel;
 pub use events::{Event, EventPlace};
@@ -86,7 +89,7 @@ impl Default for Encoding {
     /// Intel reals, residuals in hundredths: what programs of today write.
     fn default() -> Self {
         let (processor, storage) = (Processor::Intel, Storage::Real);
-        Encoding { processor, storage, point_scale: 0.01, unsigned_analog: false }
+        Encoding { processor, storage, point_scale: f64::from(0.01f32), unsigned_analog: false }
     }
 }
 
@@ -94,6 +97,30 @@ impl C3d {
     /// Reads a C3D file.
     pub fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
         read::read(bytes)
+    }
+
+    /// Writes a C3D file as [`C3d::encoding`] says. What was read reads back the same.
+    ///
+    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are made
+    /// anew. Refused is what the format cannot hold: records of different lengths, integers beyond 16 bits.
+    pub fn write(&self) -> Result<Vec<u8>, Error> {
+        write::write(self)
+    }
+
+    /// An empty recording, to be filled: Intel reals, frame 1 first, no analog channels.
+    pub fn new(point_rate_hz: f64, point_unit: &str) -> C3d {
+        C3d {
+            encoding: Encoding::default(),
+            point_rate_hz,
+            point_unit: point_unit.into(),
+            first_frame: 1,
+            longest_gap: 0,
+            points: vec![],
+            analog_rate_hz: 0.0,
+            channels: vec![],
+            events: vec![],
+            parameters: Parameters::default(),
+        }
     }
 
     /// Number of frames.
@@ -139,6 +166,11 @@ impl C3d {
     /// The force platforms, with their places and calibrations; none if the file has none.
     pub fn platforms(&self) -> Result<Vec<Platform>, Error> {
         platform::platforms(&self.parameters, self.channels.len())
+    }
+
+    /// Describes these platforms in the parameters, in place of those that are there.
+    pub fn set_platforms(&mut self, platforms: &[Platform]) {
+        self.parameters.set_group(platform::group(platforms));
     }
 }
 

@@ -161,9 +161,34 @@ impl Parameters {
         self.numbered(group, name).into_iter().filter_map(Parameter::numbers).flatten().collect()
     }
 
+    /// Puts a parameter into the group with this name, in place of one with the same name. Makes the group if there is none.
+    pub fn set(&mut self, group: &str, parameter: Parameter) {
+        let parameters = &mut self.group_or_new(group).parameters;
+        match parameters.iter_mut().find(|old| old.name.eq_ignore_ascii_case(&parameter.name)) {
+            Some(old) => *old = parameter,
+            None => parameters.push(parameter),
+        }
+    }
+
+    /// Puts a group in place of one with the same name, or after the others.
+    pub fn set_group(&mut self, group: Group) {
+        let name = group.name.clone();
+        *self.group_or_new(&name) = group;
+    }
+
+    fn group_or_new(&mut self, name: &str) -> &mut Group {
+        let place = self.groups.iter().position(|group| group.name.eq_ignore_ascii_case(name));
+        let place = place.unwrap_or_else(|| {
+            self.groups.push(Group { name: name.into(), ..Group::default() });
+            self.groups.len() - 1
+        });
+        &mut self.groups[place]
+    }
+
     /// `group:name`, then `name2`, `name3`, as long as there is a next one.
+    /// Counts of the format have 16 bits: 65535 values are 257 lists of 255.
     fn numbered(&self, group: &str, name: &str) -> Vec<&Parameter> {
-        (1usize..).map_while(|number| self.get(group, &numbered_name(name, number))).collect()
+        (1usize..=257).map_while(|number| self.get(group, &numbered_name(name, number))).collect()
     }
 }
 

@@ -10,9 +10,18 @@
 //! | CAL_MATRIX | rows, columns, n | by columns; force = matrix · channels |
 //! | ZERO | 2 | first and last frame of the baseline; 0 0: none |
 //!
-//! Source: C3D user guide (c3d.org), "The FORCE_PLATFORM group".
+//! | type | channels |
+//! |---|---|
+//! | 1 | Fx Fy Fz, centre of pressure x y, free moment Tz |
+//! | 2, 4 | Fx Fy Fz Mx My Mz; 4: after multiplication with a 6 x 6 matrix |
+//! | 3, 7 | Fx12 Fx34 Fy14 Fy23 Fz1 Fz2 Fz3 Fz4; 7: after multiplication with an 8 x 8 matrix |
+//! | 5 | Cz Dz Az Bz Yac Xdc Xab Ybd |
+//! | 6 | Fx Fy Fz of each of four sensors, with a 12 x 12 matrix |
+//!
+//! Sources: C3D user guide (c3d.org), "The FORCE_PLATFORM group", "FORCE_PLATFORM:CAL_MATRIX" (by columns);
+//! channels of types 5 to 7: Visual3D documentation (wiki.has-motion.com), "FP_Type".
 
-use super::parameters::Parameters;
+use super::parameters::{Group, Parameter, Parameters, Values};
 use crate::error::Error;
 
 /// One force platform, as the file describes it.
@@ -25,7 +34,8 @@ pub struct Platform {
     pub corners: [[f64; 3]; 4],
     /// ORIGIN as stated, in the unit of the points; what it means depends on the type.
     pub origin: [f64; 3],
-    /// Its channels, as indices (from 0) into [`super::C3d::channels`]; none where the file has the number 0.
+    /// Its channels, as indices (from 0) into [`super::C3d::channels`]; none where the file has the number 0. Types 1 to
+    /// 7 have as many as the type needs (6, 6, 8, 6, 8, 12, 8), or fewer if the file names fewer.
     pub channels: Vec<Option<usize>>,
     /// Rows of the calibration matrix; empty if there is none.
     pub calibration: Vec<Vec<f64>>,
@@ -59,7 +69,7 @@ fn platform(
         kind: kind as u8,
         corners,
         origin: part::<3>(parameters, "ORIGIN", index)?,
-        channels: channel_indices(parameters, index, channels)?,
+        channels: channel_indices(parameters, kind as u8, index, channels)?,
         calibration: calibration(parameters, index)?,
         zero_frames,
     })
@@ -78,7 +88,22 @@ fn part<const N: usize>(parameters: &Parameters, name: &str, index: usize) -> Re
     part.ok_or_else(|| too_few(name, numbers.len(), index))
 }
 
-fn channel_indices(parameters: &Parameters, index: usize, channels: usize) -> Result<Vec<Option<usize>>, Error> {
+/// Channels of one platform of this type; other types: all that the file names.
+fn needed_channels(kind: u8) -> usize {
+    match kind {
+        1 | 2 | 4 => 6,
+        3 | 5 | 7 => 8,
+        6 => 12,
+        _ => usize::MAX,
+    }
+}
+
+fn channel_indices(
+    parameters: &Parameters,
+    kind: u8,
+    index: usize,
+    channels: usize,
+) -> Result<Vec<Option<usize>>, Error> {
     let Some(parameter) = parameters.get(GROUP, "CHANNEL") else {
         return Err(wrong("CHANNEL", "nothing", "numbers of channels"));
     };
@@ -93,7 +118,7 @@ fn channel_indices(parameters: &Parameters, index: usize, channels: usize) -> Re
         }
         place => Ok(place),
     };
-    column.iter().map(checked).collect()
+    column.iter().take(needed_channels(kind)).map(checked).collect()
 }
 
 /// The matrix of one platform, turned from columns to rows. Missing or empty: none.
@@ -115,6 +140,54 @@ fn calibration(parameters: &Parameters, index: usize) -> Result<Vec<Vec<f64>>, E
         return Ok(vec![]);
     };
     Ok((0..rows).map(|row| (0..columns).map(|column| matrix[row + rows * column]).collect()).collect())
+}
+
+/// The group FORCE_PLATFORM that describes these platforms. Lists that are shorter than others are filled up with
+/// channel 0 (none) and with zeros in matrices. The baseline is that of the first platform.
+pub(super) fn group(platforms: &[Platform]) -> Group {
+    let count = platforms.len();
+    let rows = platforms.iter().map(|platform| platform.channels.len()).max().unwrap_or(0);
+    let number = |platform: &Platform, row: usize| {
+        let place = platform.channels.get(row).copied().flatten();
+        place.map_or(0, |place| (place + 1) as u16).cast_signed()
+    };
+    let channels = platforms.iter().flat_map(|platform| (0..rows).map(move |row| number(platform, row))).collect();
+    let zero = platforms.first().and_then(|platform| platform.zero_frames).unwrap_or_default();
+    let reals = |values: &[f64]| values.iter().map(|&value| value as f32).collect::<Vec<f32>>();
+    let corners = platforms.iter().flat_map(|platform| reals(platform.corners.as_flattened())).collect();
+    let origins = platforms.iter().flat_map(|platform| reals(&platform.origin)).collect();
+    let shaped = |name, dimensions: &[usize], values| Parameter {
+        dimensions: dimensions.to_vec(),
+        ..Parameter::list(name, values)
+    };
+    let mut parameters = vec![
+        Parameter::single("USED", Values::Integers(vec![count as i16])),
+        Parameter::list("TYPE", Values::Integers(platforms.iter().map(|platform| i16::from(platform.kind)).collect())),
+        Parameter::list("ZERO", Values::Integers(zero.map(|frame| (frame as u16).cast_signed()).to_vec())),
+        shaped("CORNERS", &[3, 4, count], Values::Reals(corners)),
+        shaped("ORIGIN", &[3, count], Values::Reals(origins)),
+        shaped("CHANNEL", &[rows, count], Values::Integers(channels)),
+    ];
+    parameters.extend(matrices(platforms));
+    Group { name: GROUP.into(), parameters, ..Group::default() }
+}
+
+/// All calibration matrices, by columns; `None` if no platform has one.
+fn matrices(platforms: &[Platform]) -> Option<Parameter> {
+    let rows = platforms.iter().map(|platform| platform.calibration.len()).max()?;
+    let columns = platforms.iter().flat_map(|platform| platform.calibration.iter().map(Vec::len)).max()?;
+    let element = |platform: &Platform, row: usize, column: usize| {
+        let value = platform.calibration.get(row).and_then(|row| row.get(column));
+        value.map_or(0.0, |&value| value as f32)
+    };
+    let mut values = Vec::with_capacity(rows * columns * platforms.len());
+    for platform in platforms {
+        for column in 0..columns {
+            values.extend((0..rows).map(|row| element(platform, row, column)));
+        }
+    }
+    let dimensions = vec![rows, columns, platforms.len()];
+    Some(Parameter { dimensions, ..Parameter::list("CAL_MATRIX", Values::Reals(values)) })
 }
 
 fn zero_frames(parameters: &Parameters) -> Option<[i64; 2]> {

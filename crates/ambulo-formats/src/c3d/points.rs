@@ -53,7 +53,7 @@ const UNSEEN: Sighting = Sighting { position: [f64::NAN; 3], residual: f64::NAN,
 /// All sixteen bits: not seen.
 const ALL_BITS: u16 = 0xffff;
 
-/// All points of the data. Points that are seen at exactly 0 0 0 are kept and counted in a remark.
+/// All points of the data. A point that is seen at exactly 0 0 0 is kept there.
 pub(super) fn read(
     words: Words<'_>,
     layout: &Layout,
@@ -133,6 +133,19 @@ fn word_of_real(value: f32) -> Option<u16> {
     }
     let word = if value <= f32::from(u16::MAX) { value as u16 } else { (value.to_bits() >> 16) as u16 };
     (word != ALL_BITS).then_some(word)
+}
+
+/// The word of a point that was seen; `None` if residual and cameras do not fit into it.
+pub(super) fn word_of_sighting(residual: f64, cameras: u8, scale: f64, storage: Storage) -> Option<u16> {
+    let steps = if residual.is_nan() { 0.0 } else { (residual / scale).round() };
+    if !(0.0..=255.0).contains(&steps) {
+        return None;
+    }
+    let word = u16::from_be_bytes([cameras, steps as u8]);
+    match storage {
+        Storage::Integer => (cameras < 128).then_some(word),
+        Storage::Real => (word != ALL_BITS).then_some(word),
+    }
 }
 
 fn sighting(position: [f64; 3], word: u16, scale: f64) -> Sighting {

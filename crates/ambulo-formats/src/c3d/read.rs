@@ -2,6 +2,7 @@
 
 use super::header::{Header, parameter_offset};
 use super::layout::{self, Layout};
+use super::parameters::Parameters;
 use super::words::Words;
 use super::{C3d, Encoding, analog, events, points, section};
 use crate::error::{Error, Remark};
@@ -19,6 +20,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
     let encoding = Encoding { processor, storage, point_scale, unsigned_analog };
     let points = points::read(words, &layout, &encoding, &parameters, &mut remarks);
     let channels = analog::read(words, &layout, unsigned_analog, &parameters, &mut remarks);
+    check_analog_rate(&layout, &parameters, &mut remarks);
     let start_s = (layout.first_frame - 1) as f64 / layout.point_rate_hz;
     let events = events::read(words, &parameters, start_s, &mut remarks);
     let recording = C3d {
@@ -38,4 +40,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
 
 fn analog_rate(layout: &Layout) -> f64 {
     if layout.channels == 0 { 0.0 } else { layout.point_rate_hz * layout.samples_per_frame as f64 }
+}
+
+fn check_analog_rate(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) {
+    let rate = analog_rate(layout);
+    let stated = parameters.number("ANALOG", "RATE").unwrap_or(rate);
+    // A part in a thousand: rates are rounded, but no device is off by more.
+    if layout.channels > 0 && (stated - rate).abs() > 1e-3 * rate {
+        let samples = layout.samples_per_frame;
+        let message = format!("ANALOG:RATE is {stated} Hz, but a frame holds {samples} samples: {rate} Hz counts");
+        remarks.push(Remark { line: None, message });
+    }
 }

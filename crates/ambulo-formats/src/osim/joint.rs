@@ -74,6 +74,8 @@ pub struct OsimCoordinate {
     pub default_value: f64,
     /// Allowed range as stated [rad or m].
     pub range: Option<[f64; 2]>,
+    /// Whether motion must stay inside the range; otherwise the range is the author's advice.
+    pub clamped: bool,
     /// Held at its default value.
     pub locked: bool,
     /// Driven by this function of time [s], if it is switched on.
@@ -206,6 +208,7 @@ fn read_coordinate(node: Node<'_, '_>) -> Result<OsimCoordinate, Error> {
         line: xml::line_of(node),
         default_value: xml::number(node, "default_value")?.unwrap_or(0.0),
         range,
+        clamped: xml::boolean(node, "clamped")?.unwrap_or(false),
         locked: xml::boolean(node, "locked")?.unwrap_or(false),
         prescribed,
     })

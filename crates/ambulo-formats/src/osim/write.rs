@@ -116,8 +116,7 @@ fn coordinate(coordinate: &OsimCoordinate) -> Result<String, Error> {
     if let Some(range) = coordinate.range {
         content += &element(7, "range", &numbers(&range)?);
     }
-    // Ranges are the author's advice: motion may leave them.
-    content += &element(7, "clamped", "false");
+    content += &element(7, "clamped", if coordinate.clamped { "true" } else { "false" });
     content += &element(7, "locked", if coordinate.locked { "true" } else { "false" });
     Ok(holder(6, "Coordinate", &coordinate.name, &content))
 }

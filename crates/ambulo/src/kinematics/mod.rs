@@ -5,7 +5,9 @@
 //! [`crate::dynamics`].
 
 mod body_motion;
+pub mod calibration;
 pub(crate) mod lanes;
+pub mod marker_fit;
 pub(crate) mod plan;
 mod sin_cos;
 pub(crate) mod sweep;

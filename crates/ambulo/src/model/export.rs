@@ -150,6 +150,7 @@ fn coordinate(coordinate: &Coordinate) -> Result<OsimCoordinate, ExportError> {
         line: 0,
         default_value: coordinate.default_value,
         range: coordinate.range,
+        clamped: coordinate.clamped,
         locked,
         prescribed: None,
     })

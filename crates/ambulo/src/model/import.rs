@@ -384,6 +384,7 @@ fn import_coordinate(
         kind,
         default_value: coordinate.default_value,
         range: coordinate.range,
+        clamped: coordinate.clamped,
         drive,
     })
 }

@@ -5,10 +5,12 @@
 
 pub mod anthropometry;
 mod export;
+pub mod full_body;
 mod function;
 mod import;
 mod joint;
 mod knots;
+pub mod marker_set;
 mod side;
 mod simm_spline;
 
@@ -68,6 +70,8 @@ pub struct Coordinate {
     pub default_value: f64,
     /// Range that the model's author allows [rad or m], if stated.
     pub range: Option<[f64; 2]>,
+    /// Whether motion must stay inside the range; otherwise the range is the author's advice.
+    pub clamped: bool,
     /// What else decides its value.
     pub drive: Drive,
 }

@@ -130,6 +130,7 @@ fn coordinate(i: usize) -> Coordinate {
         kind: CoordinateKind::Rotation,
         default_value: 0.0,
         range: None,
+        clamped: false,
         drive: Drive::Free,
     }
 }

@@ -44,7 +44,7 @@ pub(crate) fn ball(mass: f64) -> Inertia {
 
 /// A coordinate that the recording decides.
 pub(crate) fn free(name: &str, kind: CoordinateKind) -> Coordinate {
-    Coordinate { name: name.to_owned(), kind, default_value: 0.0, range: None, drive: Drive::Free }
+    Coordinate { name: name.to_owned(), kind, default_value: 0.0, range: None, clamped: false, drive: Drive::Free }
 }
 
 /// An axis that follows a coordinate one to one.

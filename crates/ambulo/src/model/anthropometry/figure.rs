@@ -179,7 +179,14 @@ impl Making<'_> {
         default_value: f64,
         range: Option<[f64; 2]>,
     ) -> CoordinateId {
-        self.coordinates.push(Coordinate { name: name.to_owned(), kind, default_value, range, drive: Drive::Free });
+        self.coordinates.push(Coordinate {
+            name: name.to_owned(),
+            kind,
+            default_value,
+            range,
+            clamped: false,
+            drive: Drive::Free,
+        });
         CoordinateId(self.coordinates.len() - 1)
     }
 

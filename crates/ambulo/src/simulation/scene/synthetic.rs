@@ -194,6 +194,7 @@ fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, Mo
                     kind: CoordinateKind::Rotation,
                     default_value: -arm.abduction,
                     range: None,
+                    clamped: false,
                     drive: model::Drive::Free,
                 });
                 let follows = Function::Linear { slope: 1.0, intercept: 0.0 };

@@ -1,0 +1,154 @@
+//! The normal equations of one frame: JᵀWJ and JᵀW(m - p).
+//!
+//! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) the
+//! generalised force of springs w that pull the markers to where they were seen. So both are gathered as in the composite rigid-body
+//! method: mass, first moment and second moment of the weights add up from the leaves to the root, and the entry of two columns
+//! is one twist times the momentum of the other. J is never formed. A body without a weight costs nothing.
+//!
+//! | code       | symbol                | unit |
+//! | `mass`     | Σ w                   | 1    |
+//! | `first`    | Σ w x                 | m    |
+//! | `second`   | Σ w (x² 1 - x xᵀ)     | m²   |
+//! | `force`    | Σ w (m - p)           | m    |
+//! | `moment`   | Σ x × w (m - p)       | m²   |
+//!
+//! x is the marker's place from the reference point.
+//!
+//! Source: R. Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2 (composite-rigid-body algorithm) (unverified).
+//! Cost: each column times the columns between it and the root.
+//! Pinned by: tests/marker_fit.rs
+
+use super::tree::Tree;
+use crate::spatial::{Mat3, Vec3};
+
+/// A marker that is fitted: the node that carries it, and its place in that body's frame [m].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    pub(super) node: usize,
+    pub(super) place: Vec3,
+}
+
+/// What the cameras say of one frame: one target and one weight a point. A weight of zero: not seen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Targets<'a> {
+    pub(super) points: &'a [Point],
+    pub(super) positions: &'a [Vec3],
+    pub(super) weights: &'a [f64],
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Composite {
+    mass: f64,
+    first: Vec3,
+    second: Mat3,
+    force: Vec3,
+    moment: Vec3,
+}
+
+const EMPTY: Composite = Composite {
+    mass: 0.0,
+    first: Vec3::new(0., 0., 0.),
+    second: Mat3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.),
+    force: Vec3::new(0., 0., 0.),
+    moment: Vec3::new(0., 0., 0.),
+};
+
+impl Composite {
+    fn add(&mut self, other: &Composite) {
+        self.mass += other.mass;
+        self.first += other.first;
+        self.second += other.second;
+        self.force += other.force;
+        self.moment += other.moment;
+    }
+}
+
+/// JᵀWJ, rows of `n`, lower half, and JᵀW(m - p).
+#[derive(Debug, Clone)]
+pub(super) struct Normal {
+    n: usize,
+    pub(super) matrix: Vec<f64>,
+    pub(super) right: Vec<f64>,
+    composites: Vec<Composite>,
+}
+
+/// Σ w |m - p|² at the posture of the tree.
+pub(super) fn cost(tree: &Tree, targets: &Targets<'_>) -> f64 {
+    let mut sum = 0.0;
+    for (i, point) in targets.points.iter().enumerate() {
+        let weight = targets.weights[i];
+        if weight > 0.0 {
+            sum += weight * (targets.positions[i] - tree.pose(point.node).place(point.place)).norm_squared();
+        }
+    }
+    sum
+}
+
+impl Normal {
+    pub(super) fn new(tree: &Tree) -> Normal {
+        let n = tree.unknowns();
+        Normal { n, matrix: vec![0.0; n * n], right: vec![0.0; n], composites: vec![EMPTY; tree.node_count()] }
+    }
+
+    /// Gathers both at the posture of the tree.
+    pub(super) fn gather(&mut self, tree: &Tree, targets: &Targets<'_>) {
+        self.matrix.fill(0.0);
+        self.right.fill(0.0);
+        self.composites.fill(EMPTY);
+        self.add_markers(tree, targets);
+        for node in (0..tree.node_count()).rev() {
+            let own = self.composites[node];
+            if own.mass > 0.0 {
+                self.project(tree, node, &own);
+                if let Some(parent) = tree.parent(node) {
+                    self.composites[parent].add(&own);
+                }
+            }
+        }
+    }
+
+    fn add_markers(&mut self, tree: &Tree, targets: &Targets<'_>) {
+        for (i, point) in targets.points.iter().enumerate() {
+            let w = targets.weights[i];
+            if w > 0.0 {
+                let p = tree.pose(point.node).place(point.place);
+                let (x, force) = (p - tree.reference(), (targets.positions[i] - p) * w);
+                self.composites[point.node].add(&Composite {
+                    mass: w,
+                    first: x * w,
+                    second: (Mat3::from_diagonal_element(x.norm_squared()) - x * x.transpose()) * w,
+                    force,
+                    moment: x.cross(&force),
+                });
+            }
+        }
+    }
+
+    /// The rows of a node's own columns against themselves and all columns on the way to the root.
+    fn project(&mut self, tree: &Tree, node: usize, c: &Composite) {
+        let own = tree.columns(node);
+        for (k, column) in own.iter().enumerate() {
+            self.right[column.unknown] += column.angular.dot(&c.moment) + column.linear.dot(&c.force);
+            let linear = column.linear * c.mass + column.angular.cross(&c.first);
+            let angular = c.second * column.angular + c.first.cross(&column.linear);
+            for other in &own[..k] {
+                self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear));
+            }
+            let itself = column.angular.dot(&angular) + column.linear.dot(&linear);
+            self.matrix[column.unknown * self.n + column.unknown] += itself;
+            let mut next = tree.parent(node);
+            while let Some(ancestor) = next {
+                for other in tree.columns(ancestor) {
+                    self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear));
+                }
+                next = tree.parent(ancestor);
+            }
+        }
+    }
+
+    /// Two columns that are not the same one; one unknown may stand in both.
+    fn add(&mut self, a: usize, b: usize, value: f64) {
+        let value = if a == b { 2.0 * value } else { value };
+        self.matrix[a.max(b) * self.n + a.min(b)] += value;
+    }
+}

@@ -1,0 +1,268 @@
+//! One recording and one model, brought together: which markers are fitted, with what weight, on which part of the body.
+
+use super::normal::{Point, Targets, cost};
+use super::result::FitError;
+use super::settings::{FitSettings, Limits};
+use super::solve::{Bounds, Outcome, Solver};
+use super::tree::Tree;
+use crate::findings::Findings;
+use crate::model::{Drive, Function, Model};
+use crate::motion::{MarkerPath, MarkerRecording};
+use crate::spatial::Vec3;
+
+/// Names listed in a message at most.
+const MOST_NAMES: usize = 60;
+
+/// Everything that the fit of any frame needs, and its scratch.
+#[derive(Debug, Clone)]
+pub(super) struct Problem<'a> {
+    pub(super) tree: Tree,
+    pub(super) solver: Solver,
+    pub(super) bounds: Bounds,
+    /// The model's markers.
+    pub(super) points: Vec<Point>,
+    /// The recorded markers, in the same order.
+    pub(super) paths: Vec<&'a MarkerPath>,
+    pub(super) weights: Vec<f64>,
+    pub(super) times: &'a [f64],
+    /// Coordinates that are functions of time.
+    prescribed: Vec<(usize, Function)>,
+    /// Scratch: the markers shifted by offsets, targets and weights of one frame.
+    shifted: Vec<Point>,
+    pub(super) positions: Vec<Vec3>,
+    pub(super) frame_weights: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        model: &Model,
+        recording: &'a MarkerRecording,
+        settings: &FitSettings,
+        findings: &mut Findings,
+    ) -> Result<Problem<'a>, FitError> {
+        check_settings(settings)?;
+        let common = common_markers(model, recording, settings, findings)?;
+        let bodies: Vec<_> = common.iter().map(|c| c.body).collect();
+        let (tree, nodes) = Tree::new(model, &bodies);
+        if tree.unknowns() == 0 {
+            let markers = listed(common.iter().map(|c| c.path.name.as_str()));
+            return Err(FitError::NothingToFit { model: model.name().to_owned(), markers });
+        }
+        let points: Vec<Point> = common.iter().zip(nodes).map(|(c, node)| Point { node, place: c.place }).collect();
+        let prescribed = model.coordinates().iter().enumerate().filter_map(|(i, c)| match &c.drive {
+            Drive::Prescribed(function) => Some((i, function.clone())),
+            _ => None,
+        });
+        Ok(Problem {
+            solver: Solver::new(&tree),
+            bounds: bounds(model, &tree, settings.limits),
+            shifted: points.clone(),
+            positions: vec![Vec3::zeros(); points.len()],
+            frame_weights: vec![0.0; points.len()],
+            paths: common.iter().map(|c| c.path).collect(),
+            weights: common.iter().map(|c| c.weight).collect(),
+            times: &recording.times,
+            prescribed: prescribed.collect(),
+            points,
+            tree,
+        })
+    }
+
+    /// Number of frames.
+    pub(super) fn frames(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Takes the recorded positions of a frame; `used` says which markers are believed, `exchanged` whose path a marker
+    /// took in this frame. Returns how many there are.
+    pub(super) fn load(
+        &mut self,
+        frame: usize,
+        used: impl Fn(usize) -> bool,
+        exchanged: impl Fn(usize) -> usize,
+    ) -> usize {
+        let mut count = 0;
+        let mut sum = Vec3::zeros();
+        for i in 0..self.points.len() {
+            let position = self.paths[exchanged(i)].positions[frame];
+            let is_used = used(i) && position.iter().all(|x| x.is_finite());
+            self.frame_weights[i] = if is_used { self.weights[i] } else { 0.0 };
+            self.positions[i] = if is_used { position } else { Vec3::zeros() };
+            if is_used {
+                sum += position;
+                count += 1;
+            }
+        }
+        if count > 0 {
+            self.tree.refer_to(sum / count as f64);
+        }
+        for (coordinate, function) in &self.prescribed {
+            self.tree.give(*coordinate, function.at(self.times[frame])[0]);
+        }
+        count
+    }
+
+    /// Fits what was loaded to the model's own markers.
+    pub(super) fn fit(&mut self, x: &mut [f64]) -> Outcome {
+        let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
+        self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
+    }
+
+    /// Fits what was loaded to markers shifted by offsets in their bodies' axes [m].
+    pub(super) fn fit_with_offsets(&mut self, offsets: &[Vec3], x: &mut [f64]) -> Outcome {
+        for ((shifted, point), offset) in self.shifted.iter_mut().zip(&self.points).zip(offsets) {
+            shifted.place = point.place + offset;
+        }
+        let targets = Targets { points: &self.shifted, positions: &self.positions, weights: &self.frame_weights };
+        self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
+    }
+
+    /// How far a metre of error in each marker that was loaded would move each unknown [rad/m or m/m].
+    pub(super) fn uncertainty(&mut self, sensitivity: &mut [f64]) {
+        let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
+        self.solver.uncertainty(&self.tree, &targets, sensitivity);
+    }
+
+    /// Puts the model into a posture.
+    pub(super) fn pose_at(&mut self, x: &[f64]) -> f64 {
+        self.tree.pose_at(x);
+        let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
+        cost(&self.tree, &targets)
+    }
+
+    /// From the model's marker to a position, in its body's axes [m].
+    pub(super) fn offset(&self, marker: usize, position: &Vec3) -> Vec3 {
+        let pose = self.tree.pose(self.points[marker].node);
+        pose.rotation.tr_mul(&(position - pose.translation)) - self.points[marker].place
+    }
+
+    /// Where a marker stands that is shifted by an offset in its body's axes, at the posture of the tree [m].
+    pub(super) fn place(&self, marker: usize, offset: &Vec3) -> Vec3 {
+        let point = self.points[marker];
+        self.tree.pose(point.node).place(point.place + offset)
+    }
+
+    /// From the model's marker to its recorded position at the posture of the tree, in world axes [m].
+    pub(super) fn distance(&self, marker: usize) -> f64 {
+        let pose = self.tree.pose(self.points[marker].node);
+        (self.positions[marker] - pose.place(self.points[marker].place)).norm()
+    }
+}
+
+fn check_settings(settings: &FitSettings) -> Result<(), FitError> {
+    let setting = |setting: &str, found: f64, allowed: bool, expected| {
+        if allowed { Ok(()) } else { Err(FitError::Setting { setting: setting.to_owned(), found, expected }) }
+    };
+    for (name, &weight) in &settings.weights {
+        setting(
+            &format!("weight of {name}"),
+            weight,
+            weight >= 0.0 && weight.is_finite(),
+            "a finite number, zero or more",
+        )?;
+    }
+    let gap = settings.longest_gap_s;
+    setting("longest_gap_s", gap, gap >= 0.0 && gap.is_finite(), "a finite number of seconds, zero or more")?;
+    if let Some(smoothing) = settings.smoothing {
+        let numbers = [
+            ("marker_noise_m", smoothing.marker_noise_m),
+            ("rotation_jerk", smoothing.rotation_jerk),
+            ("translation_jerk", smoothing.translation_jerk),
+        ];
+        for (name, value) in numbers {
+            setting(name, value, value > 0.0 && value.is_finite(), "a finite number above zero")?;
+        }
+    }
+    Ok(())
+}
+
+struct Common<'a> {
+    path: &'a MarkerPath,
+    body: crate::model::BodyId,
+    place: Vec3,
+    weight: f64,
+}
+
+/// Markers of the recording that the model has on a body, in the recording's order.
+fn common_markers<'a>(
+    model: &Model,
+    recording: &'a MarkerRecording,
+    settings: &FitSettings,
+    findings: &mut Findings,
+) -> Result<Vec<Common<'a>>, FitError> {
+    let mut common = Vec::new();
+    let mut only_recorded = Vec::new();
+    for path in &recording.markers {
+        let (found, expected) = (path.positions.len(), recording.frames());
+        if found != expected {
+            return Err(FitError::Frames { marker: path.name.clone(), found, expected });
+        }
+        let known = model.markers().iter().find(|m| m.name == path.name);
+        match known.and_then(|m| Some((m.body?, m.location))) {
+            Some((body, place)) => {
+                let weight = settings.weights.get(&path.name).copied().unwrap_or(1.0);
+                if weight > 0.0 {
+                    common.push(Common { path, body, place, weight });
+                }
+            }
+            None => only_recorded.push(path.name.as_str()),
+        }
+    }
+    let recorded = |name: &str| recording.markers.iter().any(|m| m.name == name);
+    if common.is_empty() {
+        return Err(FitError::NoCommonMarker {
+            model: model.name().to_owned(),
+            recording: recording.name.clone(),
+            model_markers: listed(model.markers().iter().map(|m| m.name.as_str())),
+            recorded: listed(recording.markers.iter().map(|m| m.name.as_str())),
+        });
+    }
+    let only_model: Vec<&str> =
+        model.markers().iter().map(|m| m.name.as_str()).filter(|name| !recorded(name)).collect();
+    report_uncommon(common.len(), &only_recorded, &only_model, findings);
+    Ok(common)
+}
+
+fn report_uncommon(common: usize, only_recorded: &[&str], only_model: &[&str], findings: &mut Findings) {
+    if only_recorded.is_empty() && only_model.is_empty() {
+        return;
+    }
+    let part = |what: &str, names: &[&str]| match names {
+        [] => String::new(),
+        _ => format!("; only {what}: {}", listed(names.iter().copied())),
+    };
+    let message = format!(
+        "{common} markers of the recording are on the model and are fitted{}{}",
+        part("recorded", only_recorded),
+        part("on the model", only_model)
+    );
+    findings.note("markers.uncommon", message);
+}
+
+/// Names in one line; the rest counted when there are very many.
+pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    match names.len() {
+        0 => "none".to_owned(),
+        n if n > MOST_NAMES => format!("{} and {} more", names[..MOST_NAMES].join(", "), n - MOST_NAMES),
+        _ => names.join(", "),
+    }
+}
+
+fn bounds(model: &Model, tree: &Tree, limits: Limits) -> Bounds {
+    let mut bounds = Bounds::none(tree.unknowns());
+    for unknown in 0..tree.unknowns() {
+        let coordinate = &model.coordinates()[tree.coordinate(unknown)];
+        let obeyed = match limits {
+            Limits::Off => false,
+            Limits::Clamped => coordinate.clamped,
+            Limits::Ranges => true,
+        };
+        if let (true, Some([low, high])) = (obeyed, coordinate.range)
+            && low <= high
+        {
+            (bounds.low[unknown], bounds.high[unknown]) = (low, high);
+        }
+    }
+    bounds
+}

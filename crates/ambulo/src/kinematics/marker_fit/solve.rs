@@ -1,0 +1,219 @@
+//! One frame fitted: Σ w |m - p(q)|² made least inside the ranges of the coordinates.
+//!
+//! Gauss's and Newton's step from the normal equations, damped after Levenberg and Marquardt when it does not help, projected on
+//! the ranges: unknowns that lie at an end and are pushed outwards leave the equations for that step (Bertsekas 1982, SIAM J. Control
+//! Optim. 20:221, the projected Newton method; unverified). Optional springs hold unknowns near a value.
+//!
+//! Markers stay some 10 mm off the model, so convergence is linear with a rate of about distance over lever, 0.05; a last
+//! step below [`SMALL_STEP`] leaves an error of a twentieth of it. Where the model fits exactly it is quadratic.
+//!
+//! Pinned by: tests/marker_fit.rs
+
+use super::cholesky;
+use super::normal::{Normal, Targets, cost};
+use super::tree::Tree;
+
+/// The iteration rests when no unknown moves by more [rad or m].
+const SMALL_STEP: f64 = 1e-7;
+/// Steps at most from a posture that is near.
+pub(super) const STEPS: usize = 60;
+/// Damping of directions that no marker sees, as a share of the largest diagonal entry: they stay where they are.
+const FLOOR: f64 = 1e-12;
+const FIRST_DAMPING: f64 = 1e-4;
+const MOST_DAMPING: f64 = 1e8;
+/// No unknown moves further in one step [rad or m]: where markers hardly see a direction, its step means nothing.
+const LONGEST_STEP: f64 = 0.7;
+/// A cost counts as not higher if it is higher by no more than rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// Ranges and springs of the unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Bounds {
+    pub(super) low: Vec<f64>,
+    pub(super) high: Vec<f64>,
+    /// Stiffness of springs to `anchor`, in weights times m² a rad² (or weights): zero for none.
+    pub(super) stiffness: Vec<f64>,
+    pub(super) anchor: Vec<f64>,
+    /// Unknowns that do not move.
+    pub(super) held: Vec<bool>,
+}
+
+impl Bounds {
+    /// Without ranges and springs.
+    pub(super) fn none(unknowns: usize) -> Bounds {
+        Bounds {
+            low: vec![f64::NEG_INFINITY; unknowns],
+            high: vec![f64::INFINITY; unknowns],
+            stiffness: vec![0.0; unknowns],
+            anchor: vec![0.0; unknowns],
+            held: vec![false; unknowns],
+        }
+    }
+
+    fn spring_cost(&self, x: &[f64]) -> f64 {
+        self.stiffness.iter().zip(&self.anchor).zip(x).map(|((k, a), x)| k * (x - a) * (x - a)).sum()
+    }
+
+    /// Moves values into the ranges.
+    pub(super) fn project(&self, x: &mut [f64]) {
+        for ((x, low), high) in x.iter_mut().zip(&self.low).zip(&self.high) {
+            *x = x.clamp(*low, *high);
+        }
+    }
+}
+
+/// How the fit of one frame went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outcome {
+    /// Σ w |m - p|², springs not counted.
+    pub(super) cost: f64,
+    pub(super) steps: usize,
+    pub(super) converged: bool,
+}
+
+/// Scratch of fits; nothing is allocated after [`Solver::new`].
+#[derive(Debug, Clone)]
+pub(super) struct Solver {
+    normal: Normal,
+    factor: Vec<f64>,
+    step: Vec<f64>,
+    trial: Vec<f64>,
+    fixed: Vec<bool>,
+    scratch: Vec<f64>,
+}
+
+impl Solver {
+    pub(super) fn new(tree: &Tree) -> Solver {
+        let n = tree.unknowns();
+        let zeros = || vec![0.0; n];
+        Solver {
+            normal: Normal::new(tree),
+            factor: vec![0.0; n * n],
+            step: zeros(),
+            trial: zeros(),
+            fixed: vec![false; n],
+            scratch: zeros(),
+        }
+    }
+
+    /// Improves `x` until it rests; the tree is left at that posture.
+    pub(super) fn fit(&mut self, tree: &mut Tree, targets: &Targets<'_>, bounds: &Bounds, x: &mut [f64]) -> Outcome {
+        bounds.project(x);
+        tree.pose_at(x);
+        let mut markers = cost(tree, targets);
+        let mut total = markers + bounds.spring_cost(x);
+        let mut damping = 0.0;
+        let mut steps = 0;
+        while steps < STEPS {
+            self.gather(tree, targets, bounds, x);
+            let Some((after, longest)) = self.step(tree, targets, bounds, x, total, &mut damping) else {
+                tree.pose_at(x);
+                return Outcome { cost: markers, steps, converged: true };
+            };
+            steps += 1;
+            markers = after;
+            total = markers + bounds.spring_cost(x);
+            if longest < SMALL_STEP {
+                return Outcome { cost: markers, steps, converged: true };
+            }
+        }
+        Outcome { cost: markers, steps, converged: false }
+    }
+
+    fn gather(&mut self, tree: &Tree, targets: &Targets<'_>, bounds: &Bounds, x: &[f64]) {
+        let n = x.len();
+        self.normal.gather(tree, targets);
+        for i in 0..n {
+            self.normal.matrix[i * n + i] += bounds.stiffness[i];
+            self.normal.right[i] += bounds.stiffness[i] * (bounds.anchor[i] - x[i]);
+        }
+        for i in 0..n {
+            let push = self.normal.right[i];
+            self.fixed[i] =
+                bounds.held[i] || (x[i] <= bounds.low[i] && push < 0.0) || (x[i] >= bounds.high[i] && push > 0.0);
+        }
+    }
+
+    /// Takes a step that does not raise the cost: the new cost of the markers and the longest move. `None` if there is no
+    /// such step: the posture is the best that numbers can tell.
+    fn step(
+        &mut self,
+        tree: &mut Tree,
+        targets: &Targets<'_>,
+        bounds: &Bounds,
+        x: &mut [f64],
+        total: f64,
+        damping: &mut f64,
+    ) -> Option<(f64, f64)> {
+        loop {
+            if self.solve(*damping) {
+                let mut longest: f64 = 0.0;
+                for i in 0..x.len() {
+                    self.trial[i] = (x[i] + self.step[i]).clamp(bounds.low[i], bounds.high[i]);
+                    longest = longest.max((self.trial[i] - x[i]).abs());
+                }
+                tree.pose_at(&self.trial);
+                let markers = cost(tree, targets);
+                if markers + bounds.spring_cost(&self.trial) <= total * (1.0 + ROUNDING) {
+                    x.copy_from_slice(&self.trial);
+                    *damping = if *damping > FIRST_DAMPING { *damping * 0.1 } else { 0.0 };
+                    return Some((markers, longest));
+                }
+                if longest < SMALL_STEP {
+                    return None;
+                }
+            }
+            *damping = if *damping > 0.0 { *damping * 10.0 } else { FIRST_DAMPING };
+            if *damping > MOST_DAMPING {
+                return None;
+            }
+        }
+    }
+
+    /// The damped step of the unknowns that are not fixed.
+    fn solve(&mut self, damping: f64) -> bool {
+        let n = self.step.len();
+        self.factor.copy_from_slice(&self.normal.matrix);
+        let largest = (0..n).map(|i| self.factor[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
+        for i in 0..n {
+            self.factor[i * n + i] += damping * self.factor[i * n + i] + FLOOR * largest;
+            self.step[i] = self.normal.right[i];
+        }
+        for i in (0..n).filter(|&i| self.fixed[i]) {
+            for j in 0..n {
+                self.factor[i.max(j) * n + i.min(j)] = 0.0;
+            }
+            self.factor[i * n + i] = 1.0;
+            self.step[i] = 0.0;
+        }
+        if !cholesky::factor(&mut self.factor, n) {
+            return false;
+        }
+        cholesky::solve(&self.factor, n, &mut self.step);
+        let longest = self.step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if longest > LONGEST_STEP {
+            self.step.iter_mut().for_each(|x| *x *= LONGEST_STEP / longest);
+        }
+        longest.is_finite()
+    }
+
+    /// How far one unit of error in each marker would move each unknown, root mean square, at the posture of the tree:
+    /// the roots of the diagonal of (JᵀWJ)⁻¹ for weights of one. Infinite where no marker sees the unknown.
+    pub(super) fn uncertainty(&mut self, tree: &Tree, targets: &Targets<'_>, sensitivity: &mut [f64]) {
+        let n = self.step.len();
+        self.normal.gather(tree, targets);
+        let largest = (0..n).map(|i| self.normal.matrix[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
+        for i in 0..n {
+            self.normal.matrix[i * n + i] += FLOOR * largest;
+        }
+        self.factor.copy_from_slice(&self.normal.matrix);
+        if !cholesky::factor(&mut self.factor, n) {
+            sensitivity.fill(f64::INFINITY);
+            return;
+        }
+        cholesky::inverse_diagonal(&self.factor, n, &mut self.scratch, sensitivity);
+        for value in sensitivity.iter_mut() {
+            *value = value.sqrt();
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! A posture from nowhere: the first frame, and frames after long gaps.
+//!
+//! The body in its default posture is laid on the markers as one rigid piece, from each of the turns by 90 degrees that the
+//! root's angles can make; the best of these are fitted in full, and where that stays far off, once more joint by joint from
+//! the root outwards. The closest posture wins.
+//!
+//! Pinned by: tests/marker_fit.rs (recordings turned about the vertical, random postures)
+
+use super::problem::Problem;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// How many rigid placements are fitted in full.
+const CANDIDATES: usize = 3;
+/// Root angles that are turned, at most: an orientation has three.
+const MOST_ANGLES: usize = 3;
+/// A fit with a root mean square distance above this [m] may have the wrong posture.
+const FAR: f64 = 0.04;
+/// Costs that differ by less than this share are those of one placement.
+const SAME: f64 = 1e-6;
+const TURNS: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
+
+/// The posture that brings the model closest to the markers that were loaded, and its cost.
+pub(super) fn posture(problem: &mut Problem<'_>, default: &[f64]) -> Vec<f64> {
+    let total: f64 = problem.frame_weights.iter().sum();
+    let is_far = |cost: f64| cost > FAR * FAR * total;
+    let mut best = (f64::INFINITY, default.to_vec());
+    for start in placements(problem, default) {
+        for by_joint in [false, true] {
+            if by_joint && !is_far(best.0) {
+                continue;
+            }
+            let mut x = start.clone();
+            if by_joint {
+                outwards(problem, &mut x);
+            }
+            let cost = problem.fit(&mut x).cost;
+            if cost < best.0 {
+                best = (cost, x);
+            }
+        }
+        if !is_far(best.0) {
+            break;
+        }
+    }
+    wrap(problem, default, &mut best.1);
+    best.1
+}
+
+/// The body laid on the markers as one piece, best first.
+fn placements(problem: &mut Problem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
+    problem.pose_at(default);
+    let root: Vec<_> = (0..problem.tree.node_count())
+        .filter(|&node| problem.tree.parent(node).is_none())
+        .flat_map(|node| problem.tree.columns(node).to_vec())
+        .collect();
+    if root.is_empty() {
+        return vec![default.to_vec()];
+    }
+    let mut angles: Vec<usize> = root.iter().filter(|c| c.angular.norm() > 0.5).map(|c| c.unknown).collect();
+    angles.truncate(MOST_ANGLES);
+    let held = problem.bounds.held.clone();
+    problem.bounds.held.fill(true);
+    root.iter().for_each(|column| problem.bounds.held[column.unknown] = false);
+    let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+    for k in 0..TURNS.len().pow(angles.len() as u32) {
+        let mut x = default.to_vec();
+        for (place, &unknown) in angles.iter().enumerate() {
+            x[unknown] += TURNS[k / TURNS.len().pow(place as u32) % TURNS.len()];
+        }
+        let cost = problem.fit(&mut x).cost;
+        found.push((cost, x));
+    }
+    problem.bounds.held = held;
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Turns that lead to the same place are one candidate: three angles have two sets of values for one orientation, of
+    // which that nearer to the default posture is meant.
+    let far = |x: &[f64]| x.iter().zip(default).map(|(x, d)| (x - d) * (x - d)).sum::<f64>();
+    found.dedup_by(|later, earlier| {
+        let same = (later.0 - earlier.0).abs() <= SAME * earlier.0.abs();
+        if same && far(&later.1) < far(&earlier.1) {
+            std::mem::swap(later, earlier);
+        }
+        same
+    });
+    found.into_iter().take(CANDIDATES).map(|(_, x)| x).collect()
+}
+
+/// Fits joint by joint from the root, each to the markers of the body that it carries.
+fn outwards(problem: &mut Problem<'_>, x: &mut [f64]) {
+    let held = problem.bounds.held.clone();
+    let weights = problem.frame_weights.clone();
+    for node in 0..problem.tree.node_count() {
+        problem.bounds.held.fill(true);
+        for column in problem.tree.columns(node) {
+            problem.bounds.held[column.unknown] = held[column.unknown];
+        }
+        for (i, point) in problem.points.iter().enumerate() {
+            problem.frame_weights[i] = if point.node == node { weights[i] } else { 0.0 };
+        }
+        if problem.bounds.held.iter().all(|held| *held) || problem.frame_weights.iter().all(|w| *w <= 0.0) {
+            continue;
+        }
+        let mut best = (f64::INFINITY, x.to_vec());
+        let own: Vec<usize> = problem.tree.columns(node).iter().map(|c| c.unknown).collect();
+        let mut starts = vec![x.to_vec()];
+        for (&unknown, step) in own.iter().flat_map(|u| [(u, 1.0), (u, -1.0)]) {
+            let mut start = x.to_vec();
+            start[unknown] += step;
+            starts.push(start);
+        }
+        for mut start in starts {
+            let cost = problem.fit(&mut start).cost;
+            if cost < best.0 {
+                best = (cost, start);
+            }
+        }
+        x.copy_from_slice(&best.1);
+    }
+    problem.bounds.held = held;
+    problem.frame_weights = weights;
+}
+
+/// Takes whole turns out of the root's angles, where the posture stays the same.
+fn wrap(problem: &mut Problem<'_>, default: &[f64], x: &mut [f64]) {
+    let cost = problem.pose_at(x);
+    for i in 0..x.len() {
+        let turns = ((x[i] - default[i]) / (2.0 * PI)).round();
+        let before = x[i];
+        x[i] -= turns * 2.0 * PI;
+        let inside = x[i] >= problem.bounds.low[i] && x[i] <= problem.bounds.high[i];
+        if !inside || (problem.pose_at(x) - cost).abs() > 1e-9 * (1.0 + cost) {
+            x[i] = before;
+        }
+    }
+    problem.pose_at(x);
+}

@@ -1,0 +1,350 @@
+//! The part of a model that carries tracked markers, prepared for repeated fits: where every marker is, and how each
+//! unknown moves it.
+//!
+//! A column is the twist that an unknown coordinate gives to a body at its own joint, and so to everything that body
+//! carries: with M the joint's moving origin, a the direction of a rotation axis in world axes and f' the slope with which
+//! the axis follows the unknown (couplers chain-ruled),
+//!
+//!   angular part  ω = Σ f' a,      velocity of the point of the body at the reference point  v = Σ f' a × (ref - M) + Σ f' d
+//!
+//! d being the directions of translations, and on an ellipsoid radii ∘ (a × z) in F's axes. A marker at p then moves at
+//! v + ω × (p - ref).
+//!
+//! Pinned by: tests/marker_fit.rs (derivatives against finite differences, random models of all joint kinds)
+
+use crate::model::{BodyId, Displacement, Drive, Function, Joint, Measure, Model};
+use crate::spatial::{Mat3, Pose, Vec3};
+
+/// What stands between an axis and the number that moves it.
+#[derive(Debug, Clone)]
+enum Source {
+    Fixed(f64),
+    Line { coordinate: usize, slope: f64, intercept: f64 },
+    Curve { coordinate: usize, function: Function },
+}
+
+#[derive(Debug, Clone)]
+struct Axis {
+    direction: Vec3,
+    source: Source,
+    /// The column that the axis contributes to, if an unknown moves it.
+    column: Option<usize>,
+}
+
+/// A body that carries tracked markers, or carries one that does.
+#[derive(Debug, Clone)]
+struct Node {
+    parent: Option<usize>,
+    parent_from_joint: Pose,
+    joint_from_child: Pose,
+    rotations: Vec<Axis>,
+    translations: Vec<Axis>,
+    ellipsoid: Option<Vec3>,
+    /// Its columns, in [`Tree::columns`].
+    first_column: usize,
+    end_column: usize,
+}
+
+/// One coordinate of the model as the fit sees it.
+#[derive(Debug, Clone)]
+enum Follower {
+    /// Takes the value that the caller gives: unknown, locked or prescribed.
+    Given,
+    /// A function of another coordinate.
+    Follows(usize, Function),
+}
+
+/// The twist that an unknown gives to what hangs at one joint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    pub(super) unknown: usize,
+    pub(super) angular: Vec3,
+    /// At the reference point.
+    pub(super) linear: Vec3,
+}
+
+/// Model prepared for fits of certain markers, and the state of one posture.
+#[derive(Debug, Clone)]
+pub(super) struct Tree {
+    nodes: Vec<Node>,
+    followers: Vec<Follower>,
+    /// Coordinate of each unknown.
+    unknowns: Vec<usize>,
+    /// Unknown of each coordinate, its own or its leader's.
+    unknown_of: Vec<Option<usize>>,
+    /// Of each coordinate: how fast it follows its unknown at this posture.
+    rates: Vec<f64>,
+    columns: Vec<Column>,
+    poses: Vec<Pose>,
+    joint_frames: Vec<Pose>,
+    /// Values of all coordinates at this posture.
+    q: Vec<f64>,
+    reference: Vec3,
+}
+
+impl Tree {
+    /// For markers on these bodies. Unknown are the free coordinates that move one of them. The second list says which node
+    /// each of the bodies became.
+    pub(super) fn new(model: &Model, tracked: &[BodyId]) -> (Tree, Vec<usize>) {
+        let mut wanted = vec![false; model.bodies().len()];
+        for body in tracked {
+            let mut next = Some(*body);
+            while let Some(id) = next.filter(|id| !wanted[id.index()]) {
+                wanted[id.index()] = true;
+                next = model.bodies()[id.index()].joint.parent;
+            }
+        }
+        let mut tree = Tree::empty(model);
+        tree.number_unknowns(model, &wanted);
+        let mut node_of = vec![usize::MAX; wanted.len()];
+        for (i, body) in model.bodies().iter().enumerate().filter(|(i, _)| wanted[*i]) {
+            node_of[i] = tree.nodes.len();
+            let parent = body.joint.parent.map(|id| node_of[id.index()]);
+            tree.push(&body.joint, parent);
+        }
+        let nodes = tracked.iter().map(|body| node_of[body.index()]).collect();
+        (tree, nodes)
+    }
+
+    fn empty(model: &Model) -> Tree {
+        let follower = |drive: &Drive| match drive {
+            Drive::Coupled(leader, function) => Follower::Follows(leader.index(), function.clone()),
+            _ => Follower::Given,
+        };
+        let count = model.coordinates().len();
+        Tree {
+            nodes: Vec::new(),
+            followers: model.coordinates().iter().map(|c| follower(&c.drive)).collect(),
+            unknowns: Vec::new(),
+            unknown_of: vec![None; count],
+            rates: vec![1.0; count],
+            columns: Vec::new(),
+            poses: Vec::new(),
+            joint_frames: Vec::new(),
+            q: model.coordinates().iter().map(|c| c.default_value).collect(),
+            reference: Vec3::zeros(),
+        }
+    }
+
+    /// Numbers the free coordinates that move a wanted body, in the model's order.
+    fn number_unknowns(&mut self, model: &Model, wanted: &[bool]) {
+        let mut moves = vec![false; self.q.len()];
+        for (body, _) in model.bodies().iter().zip(wanted).filter(|(_, wanted)| **wanted) {
+            for id in body.joint.coordinates() {
+                match &model.coordinates()[id.index()].drive {
+                    Drive::Coupled(leader, _) => moves[leader.index()] = true,
+                    _ => moves[id.index()] = true,
+                }
+            }
+        }
+        for (i, coordinate) in model.coordinates().iter().enumerate() {
+            if moves[i] && matches!(coordinate.drive, Drive::Free) {
+                self.unknown_of[i] = Some(self.unknowns.len());
+                self.unknowns.push(i);
+            }
+        }
+        for (i, coordinate) in model.coordinates().iter().enumerate() {
+            if let Drive::Coupled(leader, _) = &coordinate.drive {
+                self.unknown_of[i] = self.unknown_of[leader.index()];
+            }
+        }
+    }
+
+    fn push(&mut self, joint: &Joint, parent: Option<usize>) {
+        let first_column = self.columns.len();
+        let mut axes = |list: &[crate::model::JointAxis]| -> Vec<Axis> {
+            list.iter()
+                .map(|axis| {
+                    let source = match &axis.displacement {
+                        Displacement::Fixed(value) => Source::Fixed(*value),
+                        Displacement::Follows(id, function) => match function.as_linear() {
+                            Some((slope, intercept)) => Source::Line { coordinate: id.index(), slope, intercept },
+                            None => Source::Curve { coordinate: id.index(), function: function.clone() },
+                        },
+                    };
+                    let unknown = source.coordinate().and_then(|c| self.unknown_of[c]);
+                    let column = unknown.map(|unknown| column_of(&mut self.columns, first_column, unknown));
+                    Axis { direction: axis.direction, source, column }
+                })
+                .collect()
+        };
+        let (rotations, translations) = (axes(&joint.rotations), axes(&joint.translations));
+        self.nodes.push(Node {
+            parent,
+            parent_from_joint: joint.parent_from_joint,
+            joint_from_child: joint.child_from_joint.inverse(),
+            rotations,
+            translations,
+            ellipsoid: match joint.measure {
+                Measure::Ellipsoid(radii) => Some(radii),
+                _ => None,
+            },
+            first_column,
+            end_column: self.columns.len(),
+        });
+        self.poses.push(Pose::IDENTITY);
+        self.joint_frames.push(Pose::IDENTITY);
+    }
+
+    /// Number of unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// The coordinate that is this unknown.
+    pub(super) fn coordinate(&self, unknown: usize) -> usize {
+        self.unknowns[unknown]
+    }
+
+    /// Bodies that matter, parents first.
+    pub(super) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The node that carries this one.
+    pub(super) fn parent(&self, node: usize) -> Option<usize> {
+        self.nodes[node].parent
+    }
+
+    /// The columns at a node's own joint.
+    pub(super) fn columns(&self, node: usize) -> &[Column] {
+        &self.columns[self.nodes[node].first_column..self.nodes[node].end_column]
+    }
+
+    /// `world_from_body` at this posture.
+    pub(super) fn pose(&self, node: usize) -> &Pose {
+        &self.poses[node]
+    }
+
+    /// Values of all coordinates at this posture; followers as their coupler has them.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// Sets a coordinate that is given: locked or prescribed.
+    pub(super) fn give(&mut self, coordinate: usize, value: f64) {
+        self.q[coordinate] = value;
+    }
+
+    /// The point about which columns are given.
+    pub(super) fn reference(&self) -> Vec3 {
+        self.reference
+    }
+
+    /// Chooses the point about which columns are given: near the markers, so that digits are not lost.
+    pub(super) fn refer_to(&mut self, point: Vec3) {
+        self.reference = point;
+    }
+
+    /// Puts the body into a posture: one value an unknown.
+    pub(super) fn pose_at(&mut self, x: &[f64]) {
+        for (&coordinate, &value) in self.unknowns.iter().zip(x) {
+            self.q[coordinate] = value;
+        }
+        for i in 0..self.q.len() {
+            if let Follower::Follows(leader, function) = &self.followers[i] {
+                let [value, slope, _] = function.at(self.q[*leader]);
+                (self.q[i], self.rates[i]) = (value, slope);
+            }
+        }
+        for column in &mut self.columns {
+            (column.angular, column.linear) = (Vec3::zeros(), Vec3::zeros());
+        }
+        for i in 0..self.nodes.len() {
+            self.pose_node(i);
+        }
+    }
+
+    fn pose_node(&mut self, i: usize) {
+        let node = &self.nodes[i];
+        let parent = node.parent.map_or(Pose::IDENTITY, |p| self.poses[p]);
+        let world_from_f = parent * node.parent_from_joint;
+        let mut rotation = world_from_f.rotation;
+        let mut turned = [(None, Vec3::zeros(), 0.0); 3];
+        for (axis, slot) in node.rotations.iter().zip(&mut turned) {
+            let (angle, slope) = axis.source.at(&self.q, &self.rates);
+            *slot = (axis.column, rotation * axis.direction, slope);
+            rotation *= turn(&axis.direction, angle);
+        }
+        let mut origin = world_from_f.translation;
+        for axis in &node.translations {
+            let (distance, slope) = axis.source.at(&self.q, &self.rates);
+            let direction = world_from_f.rotation * axis.direction;
+            origin += direction * distance;
+            if let Some(column) = axis.column {
+                self.columns[column].linear += direction * slope;
+            }
+        }
+        if let Some(radii) = node.ellipsoid {
+            let z = world_from_f.rotation.tr_mul(&rotation.column(2));
+            origin += world_from_f.rotation * radii.component_mul(&z);
+            for (column, axis, slope) in turned {
+                let slide = radii.component_mul(&world_from_f.rotation.tr_mul(&axis).cross(&z));
+                if let Some(column) = column {
+                    self.columns[column].linear += world_from_f.rotation * slide * slope;
+                }
+            }
+        }
+        for (column, axis, slope) in turned {
+            if let Some(column) = column {
+                self.columns[column].angular += axis * slope;
+                self.columns[column].linear += axis.cross(&(self.reference - origin)) * slope;
+            }
+        }
+        self.joint_frames[i] = Pose { rotation, translation: origin };
+        self.poses[i] = self.joint_frames[i] * node.joint_from_child;
+    }
+}
+
+/// The column of this unknown among those from `first`, added if there is none.
+fn column_of(columns: &mut Vec<Column>, first: usize, unknown: usize) -> usize {
+    let found = columns[first..].iter().position(|c| c.unknown == unknown);
+    found.map_or_else(
+        || {
+            columns.push(Column { unknown, angular: Vec3::zeros(), linear: Vec3::zeros() });
+            columns.len() - 1
+        },
+        |k| first + k,
+    )
+}
+
+impl Source {
+    fn coordinate(&self) -> Option<usize> {
+        match self {
+            Source::Fixed(_) => None,
+            Source::Line { coordinate, .. } | Source::Curve { coordinate, .. } => Some(*coordinate),
+        }
+    }
+
+    /// Angle or distance, and its slope by the unknown.
+    fn at(&self, q: &[f64], rates: &[f64]) -> (f64, f64) {
+        match self {
+            Source::Fixed(value) => (*value, 0.0),
+            Source::Line { coordinate, slope, intercept } => {
+                (slope * q[*coordinate] + intercept, slope * rates[*coordinate])
+            }
+            Source::Curve { coordinate, function } => {
+                let [value, slope, _] = function.at(q[*coordinate]);
+                (value, slope * rates[*coordinate])
+            }
+        }
+    }
+}
+
+/// Rotation by an angle about a unit axis (Rodrigues): c 1 + s [a]× + (1 - c) a aᵀ.
+fn turn(a: &Vec3, angle: f64) -> Mat3 {
+    let (s, c) = angle.sin_cos();
+    let t = 1.0 - c;
+    let (x, y, z) = (a.x, a.y, a.z);
+    Mat3::new(
+        c + t * x * x,
+        t * x * y - s * z,
+        t * x * z + s * y,
+        t * x * y + s * z,
+        c + t * y * y,
+        t * y * z - s * x,
+        t * x * z - s * y,
+        t * y * z + s * x,
+        c + t * z * z,
+    )
+}
