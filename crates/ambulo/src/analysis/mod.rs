@@ -2,6 +2,7 @@
 
 mod comparison;
 mod cycles;
+mod event_agreement;
 mod events;
 pub mod feasibility;
 mod peaks;
@@ -11,6 +12,7 @@ mod residual;
 
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
+pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
 pub use peaks::{Peak, peak};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
