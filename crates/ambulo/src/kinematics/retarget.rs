@@ -8,7 +8,7 @@
 //! Not handled: floors that are not level, shoulders that move against the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
-use super::marker_fit::{FitError, FitSettings, Guard, MarkerFit, fit_markers};
+use super::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
 use crate::findings::Findings;
 use crate::model::anthropometry::{Build, BuildError, Human};
 use crate::model::full_body::{SegmentShape, full_body, reshaped};
@@ -75,8 +75,8 @@ pub fn retarget(
             format!("the floor was put {floor:.3} m above the skeleton's zero, where its ankles stand lowest");
         findings.note("bvh.floor", message);
     }
-    // What an animation program wrote has no exchanged labels.
-    let settings = FitSettings { guard: Guard::Off, ..FitSettings::default() };
+    // What an animation program wrote has no exchanged labels, but arms so straight that only ranges keep them from turning round.
+    let settings = FitSettings { guard: Guard::Off, limits: Limits::Ranges, ..FitSettings::default() };
     let fit = fit_markers(&human.model, &markers, &settings, findings)?;
     Ok(Retargeted { human, markers, fit })
 }
