@@ -7,8 +7,8 @@ mod common;
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::model::full_body::{SegmentShape, full_body, reshaped};
-use ambulo::model::{Model, Side, to_osim};
+use ambulo::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
+use ambulo::model::{Drive, Model, Side, to_osim};
 use ambulo::spatial::Vec3;
 use common::assert_near;
 
@@ -160,11 +160,19 @@ fn a_reshaped_body_keeps_its_mass_and_stands_on_its_soles() {
             shape.parent_from_joint.translation *= 1.1;
         }
     }
-    let d = human.dimensions;
-    let height = d.ankle_height * 1.2;
-    let other = reshaped(&human, &shapes, human.model.markers().to_vec(), [height; 2]).unwrap();
+    let mut dimensions = human.dimensions;
+    dimensions.ankle_height *= 1.2;
+    dimensions.leg_length = 1.1 * (dimensions.thigh + dimensions.shank) + dimensions.ankle_height;
+    let feet = [FootPrint { ankle_height: dimensions.ankle_height, forward: 0.01, right: -0.003 }; 2];
+    let markers = human.model.markers().to_vec();
+    let mut shape = SubjectShape { segments: shapes, markers, feet, dimensions, locked: vec!["lumbar_bending".into()] };
+    let other = reshaped(&human, &shape).unwrap();
     assert_near(other.model.mass(), 72.5, 72.5 * ROUNDING, "mass");
-    let bodies = moved(&other.model, "pelvis_ty", 1.1 * (d.thigh + d.shank) + height - d.leg_length);
+    let locked = |name: &str| {
+        matches!(other.model.coordinates()[other.model.coordinate(name).unwrap().index()].drive, Drive::Locked)
+    };
+    assert!(locked("lumbar_bending") && !locked("lumbar_rotation"));
+    let bodies = moved(&other.model, "", 0.0);
     for sphere in &other.soles {
         let center = bodies[sphere.body.index()].pose.place(sphere.center);
         assert_near(center.y, sphere.radius, ROUNDING, &sphere.name);
@@ -172,6 +180,6 @@ fn a_reshaped_body_keeps_its_mass_and_stands_on_its_soles() {
     }
     let thigh = |human: &Human| human.model.bodies()[human.model.body("femur_r").unwrap().index()].inertia;
     assert!((thigh(&other).about_center() - thigh(&human).about_center() * 1.21).norm() < ROUNDING);
-    shapes[3].factor = f64::NAN;
-    assert!(reshaped(&human, &shapes, Vec::new(), [height; 2]).is_err());
+    shape.segments[3].factor = f64::NAN;
+    assert!(reshaped(&human, &shape).is_err());
 }

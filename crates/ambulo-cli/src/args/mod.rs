@@ -5,7 +5,7 @@ mod tools;
 mod values;
 mod walk;
 
-pub(crate) use forces::{Filter, ForcesArgs};
+pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};

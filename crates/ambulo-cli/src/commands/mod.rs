@@ -3,7 +3,6 @@
 pub(crate) mod compare;
 pub(crate) mod demo;
 pub(crate) mod forces;
-mod ground_input;
 pub(crate) mod info;
 mod outcome;
 pub(crate) mod reproduce;

@@ -127,7 +127,9 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
         return Ok(rate);
     }
     if usable(&in_header) {
-        remark(remarks, format!("no usable POINT:RATE; the header's rate of {in_header} Hz counts"));
+        if let Some(rate) = parameter {
+            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz counts"));
+        }
         return Ok(in_header);
     }
     let found =
@@ -278,6 +280,10 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut V
             remarks,
             format!("{one} frames are stated, but the file ends after {available}; it is truncated; read {available}"),
         );
+    }
+    let rest = room - frames * layout.frame_bytes();
+    if frames < available && rest >= BLOCK {
+        remark(remarks, format!("{rest} bytes follow the last frame; they are not read"));
     }
     frames
 }

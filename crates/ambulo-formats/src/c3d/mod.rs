@@ -89,7 +89,7 @@ impl Default for Encoding {
     /// Intel reals, residuals in hundredths: what programs of today write.
     fn default() -> Self {
         let (processor, storage) = (Processor::Intel, Storage::Real);
-        Encoding { processor, storage, point_scale: 0.01, unsigned_analog: false }
+        Encoding { processor, storage, point_scale: f64::from(0.01f32), unsigned_analog: false }
     }
 }
 

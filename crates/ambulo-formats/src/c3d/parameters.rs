@@ -186,8 +186,9 @@ impl Parameters {
     }
 
     /// `group:name`, then `name2`, `name3`, as long as there is a next one.
+    /// Counts of the format have 16 bits: 65535 values are 257 lists of 255.
     fn numbered(&self, group: &str, name: &str) -> Vec<&Parameter> {
-        (1usize..).map_while(|number| self.get(group, &numbered_name(name, number))).collect()
+        (1usize..=257).map_while(|number| self.get(group, &numbered_name(name, number))).collect()
     }
 }
 

@@ -53,7 +53,7 @@ const UNSEEN: Sighting = Sighting { position: [f64::NAN; 3], residual: f64::NAN,
 /// All sixteen bits: not seen.
 const ALL_BITS: u16 = 0xffff;
 
-/// All points of the data. Points that are seen at exactly 0 0 0 are kept and counted in a remark.
+/// All points of the data. A point that is seen at exactly 0 0 0 is kept there.
 pub(super) fn read(
     words: Words<'_>,
     layout: &Layout,

@@ -57,7 +57,7 @@ pub(super) fn read(
     let blocks = usize::from(words.u8(start + 2).unwrap_or(0));
     let data = usize::from(data_block).saturating_sub(1) * BLOCK;
     let end = (start + blocks * BLOCK).max(data);
-    let mut reader = Reader { words, at: start + SECTION_HEADER, end };
+    let mut reader = Reader { words, at: start + SECTION_HEADER, end, closed: false };
     let mut records = Vec::new();
     while let Some(record) = reader.record(remarks)? {
         records.push(record);
@@ -71,12 +71,17 @@ struct Reader<'a> {
     at: usize,
     /// First byte after the section.
     end: usize,
+    /// The last record said that it is the last.
+    closed: bool,
 }
 
 impl Reader<'_> {
     /// The next record; `None` at the end of the chain.
     fn record(&mut self, remarks: &mut Vec<Remark>) -> Result<Option<Record>, Error> {
         let offset = self.at;
+        if self.closed {
+            return Ok(None);
+        }
         if offset >= self.end {
             let message = format!("the parameter section ends at byte {offset} without the zero that should close it");
             remarks.push(Remark { line: None, message });
@@ -108,11 +113,8 @@ impl Reader<'_> {
         } else {
             Content::Parameter(self.parameter(name, locked, next)?)
         };
-        self.at = if link == 0 { self.end } else { next };
-        if link == 0 {
-            // What follows the last record is of no interest; a zero closes the chain without a remark.
-            self.words.bytes = &self.words.bytes[..self.at.min(self.words.bytes.len())];
-        }
+        self.at = next;
+        self.closed = link == 0;
         Ok(Some(Record { offset, group: number.unsigned_abs(), content }))
     }
 

@@ -158,8 +158,9 @@ fn write_point(record: &C3d, point: &Point, frame: usize, bytes: &mut Vec<u8>) -
 fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, bytes: &mut Vec<u8>) -> Result<(), Error> {
     let encoding = &record.encoding;
     let value = channel.samples[sample];
-    // A scale of zero makes every sample zero, whatever the raw number.
-    let raw = if scale.abs() > 0.0 { value / scale + channel.offset } else { channel.offset };
+    // A scale of zero makes every sample zero, whatever the raw number. A sum with zero would lose the sign of -0.
+    let steps = if scale.abs() > 0.0 { value / scale } else { 0.0 };
+    let raw = if channel.offset.abs() > 0.0 { steps + channel.offset } else { steps };
     let written = match encoding.storage {
         Storage::Integer => integer(raw, encoding.processor, encoding.unsigned_analog, bytes),
         Storage::Real => real(raw, encoding.processor, bytes),

@@ -5,6 +5,7 @@
 //! [`crate::dynamics`].
 
 mod body_motion;
+pub mod calibration;
 pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;

@@ -19,9 +19,9 @@
 //! that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are rigid with the forearm.
 //! Tables that do not split the trunk have no lumbar joint; their root is `torso`.
 //!
-//! A subject's body is the same tree with other lengths: see [`SegmentShape`] and [`reshaped`].
+//! A subject's body is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
 
-use super::anthropometry::{Build, BuildError, ContactSphere, Human};
+use super::anthropometry::{Build, BuildError, ContactSphere, Dimensions, Human};
 use super::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
     Measure, Model, Side,
@@ -30,6 +30,10 @@ use crate::spatial::{Inertia, Pose, Vec3};
 
 /// Axis of `subtalar_r` in Gait2392 (`subject01_simbody.osim`), in the foot.
 const SUBTALAR: [f64; 3] = [0.787_179_61, 0.604_747_46, -0.120_949_49];
+
+/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
+/// Trost 2008 (10.97° to 13.13°). Hip angles are measured against the tilted pelvis, so a standing hip is flexed by as much.
+pub const STANDING_TILT: f64 = 11.7 * std::f64::consts::PI / 180.0;
 
 /// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35, rotation of the
 /// trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90 both ways; pronation and
@@ -178,45 +182,88 @@ impl SegmentShape {
     }
 }
 
-/// The body with the segments of one subject, one shape a body, and with these markers instead of its own. `ankle_heights` are those
-/// of the right and the left foot [m]: its soles touch the ground that far below.
+/// Where a subject's sole lies: the point under the ankle centre and the rear of the heel, seen from the ankle centre of a foot that
+/// stands flat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootPrint {
+    /// Ankle centre above the ground [m].
+    pub ankle_height: f64,
+    /// How much further forward the foot lies than the table's foot of its size [m].
+    pub forward: f64,
+    /// How far to the right of the ankle centre its middle lies [m].
+    pub right: f64,
+}
+
+impl FootPrint {
+    /// The table's foot.
+    #[must_use]
+    pub fn of(dimensions: &Dimensions) -> FootPrint {
+        FootPrint { ankle_height: dimensions.ankle_height, forward: 0.0, right: 0.0 }
+    }
+
+    /// Where a point of the table's foot, grown by a factor, lies in this one: `above` the ground, `forward` of the ankle [m].
+    #[must_use]
+    pub fn place(&self, forward: f64, above: f64) -> Vec3 {
+        Vec3::new(forward + self.forward, above - self.ankle_height, self.right)
+    }
+}
+
+/// The body of one subject.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SubjectShape {
+    /// One a body, in the model's order.
+    pub segments: Vec<SegmentShape>,
+    /// Markers instead of the figure's own.
+    pub markers: Vec<Marker>,
+    /// Right and left foot.
+    pub feet: [FootPrint; 2],
+    /// Lengths; the leg's is the height at which the pelvis stands.
+    pub dimensions: Dimensions,
+    /// Coordinates that are held at zero.
+    pub locked: Vec<String>,
+}
+
+/// The body with the shape of one subject; the masses stay.
 ///
 /// # Errors
-/// A factor that is no number above zero, shapes that are not one a body, markers or joints that make no model.
-pub fn reshaped(
-    human: &Human,
-    shapes: &[SegmentShape],
-    markers: Vec<Marker>,
-    ankle_heights: [f64; 2],
-) -> Result<Human, BuildError> {
+/// A factor that is no number above zero, markers or joints that make no model.
+pub fn reshaped(human: &Human, shape: &SubjectShape) -> Result<Human, BuildError> {
     let model = &human.model;
     let mut bodies = model.bodies().to_vec();
-    for (body, shape) in bodies.iter_mut().zip(shapes) {
+    for (body, segment) in bodies.iter_mut().zip(&shape.segments) {
         let old = body.inertia;
-        let about_center = old.about_center() * shape.factor.powi(2);
-        body.inertia = Inertia::new(old.mass(), old.center() * shape.factor, about_center)?;
-        body.joint.parent_from_joint = shape.parent_from_joint;
-        body.joint.child_from_joint = shape.child_from_joint;
+        let about_center = old.about_center() * segment.factor.powi(2);
+        body.inertia = Inertia::new(old.mass(), old.center() * segment.factor, about_center)?;
+        body.joint.parent_from_joint = segment.parent_from_joint;
+        body.joint.child_from_joint = segment.child_from_joint;
     }
-    let model = Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), markers)?;
-    let soles = human.soles.iter().map(|sphere| resoled(human, &model, shapes, sphere, ankle_heights)).collect();
-    Ok(Human { model, soles, ..human.clone() })
+    let mut coordinates = model.coordinates().to_vec();
+    for coordinate in &mut coordinates {
+        if coordinate.name == "pelvis_ty" {
+            coordinate.default_value = shape.dimensions.leg_length;
+        }
+        if shape.locked.contains(&coordinate.name) {
+            coordinate.drive = Drive::Locked;
+        }
+    }
+    let model = Model::new(model.name(), model.gravity(), bodies, coordinates, shape.markers.clone())?;
+    let soles = human.soles.iter().map(|sphere| resoled(&model, shape, sphere)).collect();
+    Ok(Human { model, soles, dimensions: shape.dimensions, build: human.build })
 }
 
 /// A sphere scaled with its foot, and set so that it touches the ground under a foot that stands flat.
-fn resoled(
-    human: &Human,
-    model: &Model,
-    shapes: &[SegmentShape],
-    sphere: &ContactSphere,
-    ankle_heights: [f64; 2],
-) -> ContactSphere {
-    let height = ankle_heights[usize::from(sphere.side == Side::Left)];
-    let factor = shapes.get(sphere.body.index()).map_or(1.0, |shape| shape.factor);
+fn resoled(model: &Model, shape: &SubjectShape, sphere: &ContactSphere) -> ContactSphere {
+    let foot = shape.feet[usize::from(sphere.side == Side::Left)];
+    let index = sphere.body.index();
+    let factor = shape.segments.get(index).map_or(1.0, |segment| segment.factor);
     let radius = sphere.radius * factor;
-    let is_toe = human.model.bodies()[sphere.body.index()].name.starts_with("toes");
-    // The ball of the foot, where the toes begin, above the ankle.
-    let origin = if is_toe { model.bodies()[sphere.body.index()].joint.parent_from_joint.translation.y } else { 0.0 };
-    let center = Vec3::new(sphere.center.x * factor, radius - height - origin, sphere.center.z * factor);
+    let body = &model.bodies()[index];
+    let center = if body.name.starts_with("toes") {
+        // From the ball of the foot, which stands a ball's radius above the ground.
+        let above = body.joint.parent_from_joint.translation.y + foot.ankle_height;
+        Vec3::new(sphere.center.x * factor, radius - above, 0.0)
+    } else {
+        foot.place(sphere.center.x * factor, radius)
+    };
     ContactSphere { center, radius, ..sphere.clone() }
 }

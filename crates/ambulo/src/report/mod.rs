@@ -10,6 +10,7 @@ mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod subject_summary;
 mod summary;
 mod tables;
 mod walk_summary;
@@ -26,6 +27,7 @@ pub use scene_summary::{
 };
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
+pub use subject_summary::{MarkerErrorSummary, MarkersSummary, SubjectSummary};
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };

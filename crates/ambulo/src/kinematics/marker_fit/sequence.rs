@@ -108,8 +108,9 @@ fn fit_frame(
         && knows_offsets
         && let Some(outcome) = guarded(problem, frames, memory, frame, t)
     {
-        frames.keep(frame, problem, &memory.x, outcome);
-        remember(frames, memory, frame, t, frames.is_complete(frame));
+        let complete = frames.is_complete(frame);
+        frames.keep(frame, problem, &memory.x, outcome, complete);
+        remember(frames, memory, frame, t, complete);
         return;
     }
     let mut x = std::mem::take(&mut memory.x);
@@ -121,9 +122,10 @@ fn fit_frame(
         drop_unknown(problem, memory);
         problem.fit_with_offsets(&memory.usable, &mut x)
     };
-    frames.keep(frame, problem, &x, outcome);
+    let plain = complete || !knows_offsets;
+    frames.keep(frame, problem, &x, outcome, plain);
     memory.x = x;
-    remember(frames, memory, frame, t, complete || !knows_offsets);
+    remember(frames, memory, frame, t, plain);
 }
 
 /// Starts from where the last two frames lead, if they are recent.
