@@ -8,10 +8,10 @@ use crate::findings::Findings;
 use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
 use crate::model::Model;
-use crate::model::marker_set::{MarkerSet, RecognitionError, Recognised};
+use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
+use crate::motion::MarkerRecording;
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Laboratory, laboratory};
-use crate::motion::MarkerRecording;
 use std::collections::BTreeMap;
 
 /// What one file of a laboratory holds, in its axes.
@@ -103,9 +103,8 @@ pub fn body_in_motion(
     let subject = match body {
         Body::Model(model) => Subject::of_model(model),
         Body::BuiltIn { person, set } => {
-            let still = still.map(|still| {
-                laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers)
-            });
+            let still = still
+                .map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
             Subject::built_in(&markers, still.as_ref(), person, *set, findings)?
         }
     };
@@ -143,10 +142,9 @@ impl Subject {
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
         let human = calibrated.human;
-        let names = human.model.markers().iter().map(|marker| marker.name.clone());
         Ok(Subject {
             person: Person::of_human(&human),
-            weights: names.zip(calibrated.weights).collect(),
+            weights: calibrated.weights.into_iter().collect(),
             calibration: Some(calibrated.report),
             sets: recognised.sets,
             model: human.model,

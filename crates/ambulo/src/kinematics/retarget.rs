@@ -10,8 +10,8 @@
 
 use super::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
 use crate::findings::Findings;
-use crate::model::anthropometry::{Build, BuildError, Human};
-use crate::model::full_body::{SegmentShape, full_body, reshaped};
+use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
+use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::{REACH, SkeletonRecording};
 use crate::motion::{MarkerPath, MarkerRecording};
@@ -212,6 +212,24 @@ impl Lengths {
         }
     }
 
+    /// The table's lengths with these in their place, the mean of both sides.
+    fn dimensions(&self, table: Dimensions) -> Dimensions {
+        let [thigh, shank, upper_arm, forearm] =
+            [self.thigh, self.shank, self.upper_arm, self.forearm].map(|pair| (pair[0] + pair[1]) / 2.0);
+        Dimensions {
+            leg_length: thigh + shank + table.ankle_height,
+            thigh,
+            shank,
+            hip_width: self.hip_width,
+            shoulder_width: self.shoulder_width,
+            shoulder_height: self.shoulder_height,
+            lumbar_height: table.lumbar_height.map(|lumbar| lumbar * self.shoulder_height / table.shoulder_height),
+            upper_arm,
+            forearm,
+            ..table
+        }
+    }
+
     /// The table's body with these lengths.
     fn body(&self, measured: &Measured<'_>, table: &Human) -> Result<Human, RetargetError> {
         let mut fitting = Fitting { table, shapes: SegmentShape::of(table), markers: Vec::new() };
@@ -222,7 +240,9 @@ impl Lengths {
             fitting.arm(self, side, k);
         }
         let Fitting { shapes, markers, .. } = fitting;
-        Ok(reshaped(table, &shapes, markers, [table.dimensions.ankle_height; 2])?)
+        let dimensions = self.dimensions(table.dimensions);
+        let feet = [FootPrint::of(&table.dimensions); 2];
+        Ok(reshaped(table, &SubjectShape { segments: shapes, markers, feet, dimensions, locked: Vec::new() })?)
     }
 }
 
