@@ -144,7 +144,7 @@ impl Subject {
         let human = calibrated.human;
         Ok(Subject {
             person: Person::of_human(&human),
-            weights: calibrated.weights.into_iter().collect(),
+            weights: calibrated.weights,
             calibration: Some(calibrated.report),
             sets: recognised.sets,
             model: human.model,

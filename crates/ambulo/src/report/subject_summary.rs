@@ -1,6 +1,5 @@
 //! How markers became a body in motion: `subject` of `summary.json` (docs/OUTPUTS.md).
 
-use crate::analysis::BodyInMotion;
 use crate::kinematics::marker_fit::MarkerFit;
 use serde::Serialize;
 
@@ -44,15 +43,14 @@ pub struct MarkerErrorSummary {
 }
 
 impl SubjectSummary {
-    /// Of a body in motion.
+    /// Of a body that was fitted to markers.
     #[must_use]
-    pub fn new(body: &BodyInMotion) -> SubjectSummary {
-        let report = body.subject.calibration.as_ref();
+    pub fn new(axes: &str, sets: &[String], fit: &MarkerFit, assumptions: &[String]) -> SubjectSummary {
         SubjectSummary {
-            axes: body.laboratory.statement.clone(),
-            marker_sets: body.subject.sets.clone(),
-            markers: MarkersSummary::new(&body.fit),
-            assumptions: report.map(|r| r.assumptions.clone()).unwrap_or_default(),
+            axes: axes.to_owned(),
+            marker_sets: sets.to_vec(),
+            markers: MarkersSummary::new(fit),
+            assumptions: assumptions.to_vec(),
         }
     }
 }

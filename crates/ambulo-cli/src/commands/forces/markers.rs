@@ -4,7 +4,7 @@ use super::laboratory_file::{self, LaboratoryFile};
 use super::{Reading, Recorded, coordinates, read_model};
 use crate::args::{ForcesArgs, MarkerFitting};
 use crate::files;
-use ambulo::analysis::{Body, body_in_motion, standing_mass};
+use ambulo::analysis::{Body, BodyInMotion, body_in_motion, standing_mass};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Measures, Person};
 use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
@@ -37,7 +37,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let body = body.with_context(|| args.input.display().to_string())?;
     let input = coordinates::input(args, None);
     Ok(Recorded {
-        subject: Some(SubjectSummary::new(&body)),
+        subject: Some(subject_summary(&body)),
         files: Vec::new(),
         plates: Vec::new(),
         input,
@@ -45,6 +45,11 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
         model: body.subject.model,
         person: body.subject.person,
     })
+}
+
+fn subject_summary(body: &BodyInMotion) -> SubjectSummary {
+    let assumptions = body.subject.calibration.as_ref().map_or(&[][..], |report| &report.assumptions);
+    SubjectSummary::new(&body.laboratory.statement, &body.subject.sets, &body.fit, assumptions)
 }
 
 fn fit_settings(args: &ForcesArgs) -> FitSettings {
