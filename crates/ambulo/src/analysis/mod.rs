@@ -2,6 +2,7 @@
 
 mod comparison;
 mod cycles;
+mod event_agreement;
 mod events;
 pub mod feasibility;
 mod marker_trial;
@@ -13,6 +14,7 @@ mod standing_mass;
 
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
+pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
 pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};

@@ -8,6 +8,7 @@ mod device_recording;
 pub mod filter;
 pub mod force_plate;
 mod force_recording;
+mod gait_event;
 pub(crate) mod gaps;
 mod import;
 mod laboratory;
@@ -22,8 +23,9 @@ mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
-pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d};
+pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
+pub use gait_event::{Event, EventKind, events_from_c3d};
 pub use import::coordinates_from_table;
 pub use laboratory::{Heading, Laboratory, laboratory};
 pub use landmarks::Landmarks;

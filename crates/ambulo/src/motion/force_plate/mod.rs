@@ -21,10 +21,12 @@ mod c3d;
 mod clipping;
 mod decode;
 mod kind;
+mod standing;
 mod surface;
 mod units;
 
 pub use c3d::{PlateError, plates_from_c3d};
+pub use standing::standing_weight_n;
 
 use crate::spatial::{Mat3, Vec3};
 
