@@ -260,6 +260,27 @@ fn platforms_are_read_from_bytes_short_lists_and_wide_channel_tables() {
 }
 
 #[test]
+fn platforms_of_every_type_have_their_channels_and_matrices() {
+    for (kind, channels, shape) in [(1, 6, [6, 6]), (3, 8, [0, 0]), (5, 8, [6, 8]), (6, 12, [12, 12]), (7, 8, [8, 8])] {
+        let mut file = File::new(0, 1, 12, 1, -1.0);
+        file.reals(&[0.0; 12]).integer(4, "USED", &[], &[1]).integer(4, "TYPE", &[1], &[kind]);
+        file.float(4, "CORNERS", &[3, 4, 1], &[0.0; 12]).float(4, "ORIGIN", &[3, 1], &[0.0; 3]);
+        let numbers: Vec<i16> = (1..=12).collect();
+        file.integer(4, "CHANNEL", &[12, 1], &numbers);
+        let values: Vec<f32> = (0..shape[0] * shape[1]).map(|n| n as f32).collect();
+        // Without a third dimension: there is one platform.
+        file.float(4, "CAL_MATRIX", &shape.map(|n| n as u8), &values);
+        let platform = read(&file).0.platforms().unwrap().remove(0);
+        assert_eq!((platform.kind, platform.channels.len()), (kind as u8, channels));
+        assert_eq!(platform.calibration.len(), shape[0]);
+        for (row, values) in platform.calibration.iter().enumerate() {
+            let by_columns: Vec<f64> = (0..shape[1]).map(|column| (row + shape[0] * column) as f64).collect();
+            assert_close(values, &by_columns);
+        }
+    }
+}
+
+#[test]
 fn platforms_that_the_file_does_not_describe_are_errors() {
     let mut file = File::new(0, 1, 1, 1, -1.0);
     file.reals(&[0.0]).integer(4, "USED", &[], &[1]).integer(4, "TYPE", &[1], &[2]);

@@ -178,7 +178,8 @@ fn long_frames(parameters: &Parameters) -> Option<usize> {
     }
 }
 
-/// Chooses points, channels and samples so that a number of frames which somebody states fills the file.
+/// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
+/// what the header says.
 fn choose_frame(
     layout: &mut Layout,
     header: &Header,
@@ -189,37 +190,23 @@ fn choose_frame(
 ) {
     let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
     let samples = sample_candidates(layout.point_rate_hz, header, parameters);
-    let mut best: Option<Layout> = None;
-    for &points in &points {
-        for &(channels, samples_per_frame) in &samples {
-            let candidate = Layout { points, channels, samples_per_frame, ..*layout };
-            let fits = frames.iter().any(|claim| fills(&candidate, claim.value, room));
-            if best.is_none() || fits {
-                best = Some(candidate);
-            }
-            if fits {
-                break;
-            }
-        }
-        if best.is_some_and(|best| frames.iter().any(|claim| fills(&best, claim.value, room))) {
-            break;
-        }
+    let candidates: Vec<Layout> = points
+        .iter()
+        .flat_map(|&points| samples.iter().map(move |&(channels, samples)| (points, channels, samples)))
+        .map(|(points, channels, samples_per_frame)| Layout { points, channels, samples_per_frame, ..*layout })
+        .collect();
+    let fits = |candidate: &&Layout| frames.iter().any(|claim| fills(candidate, claim.value, room));
+    if let Some(best) = candidates.iter().find(fits).or(candidates.first()) {
+        *layout = *best;
     }
-    if let Some(best) = best {
-        *layout = best;
-    }
-    if points.len() > 1 {
-        let [a, b] = [points[0], points[1]];
-        remark(remarks, format!("the header has {a} points, POINT:USED {b}; read {}", layout.points));
+    if let [in_header, used] = points[..] {
+        remark(remarks, format!("the header has {in_header} points, POINT:USED {used}; read {}", layout.points));
     }
     if samples.len() > 1 {
-        let words = header.analog_words;
+        let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
         let message = format!(
-            "the header has {words} analog values a frame, {} a channel; ANALOG:USED is {}; read {} channels with {} a frame",
-            header.samples_per_frame,
-            parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string()),
-            layout.channels,
-            layout.samples_per_frame
+            "the header has {} analog values a frame, {} a channel; ANALOG:USED is {used}; read {} channels with {} a frame",
+            header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
         );
         remark(remarks, message);
     }
@@ -321,5 +308,5 @@ fn distinct(values: impl IntoIterator<Item = Option<usize>>) -> Vec<usize> {
 }
 
 fn remark(remarks: &mut Vec<Remark>, message: String) {
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
 }

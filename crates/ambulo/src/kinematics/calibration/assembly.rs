@@ -11,7 +11,7 @@ use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
 use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::full_body::{SegmentShape, SubjectShape, reshaped};
-use crate::model::marker_set::{NamedMarker, Segment};
+use crate::model::marker_set::{Landmark, NamedMarker, Segment};
 use crate::model::{Marker, Side};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
@@ -117,8 +117,11 @@ fn placed(
         Some(inside(&pose(parts, segment, side, ball, measured)?, sight.place(number, frame)?))
     };
     let points: Vec<Vec3> = frames.iter().enumerate().filter_map(seen).collect();
-    let location = median_point(&points)?;
+    let mut location = median_point(&points)?;
     let rms_m = (points.iter().map(|p| (p - location).norm_squared()).sum::<f64>() / points.len() as f64).sqrt();
+    if named.definition.landmark == Some(Landmark::Acromion) {
+        location.y -= parts.trunk.lift;
+    }
     let body_name = generic.model.bodies()[body.index()].name.clone();
     let place = MarkerPlace { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
     Some((Marker { name: named.name.clone(), body: Some(body), location }, place))

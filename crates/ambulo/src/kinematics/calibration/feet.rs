@@ -1,6 +1,6 @@
 //! Feet that stand flat: ankle joints, sizes, soles.
 
-use super::axes::{about_x, about_y, angles_zxy, from_z_y, inside, median, median_point};
+use super::axes::{about_x, about_y, angles_zxy, from_y_z, inside, median, median_point};
 use super::legs::{Leg, Legs};
 use super::person::index;
 use super::reference::Trial;
@@ -207,7 +207,8 @@ fn heading(ends: &Ends) -> Mat3 {
     about_y(angle(ends.front - ends.rear) - angle(ends.table_front - ends.table_rear))
 }
 
-/// Axes of the ankle's joint in the shank: z along the ankle axis, y as near to the shank's as that leaves. The frames in which the foot
+/// Axes of the ankle's joint in the shank: y along the shank, z along the line of the malleoli as far as that leaves it. The line itself
+/// is 6 to 10 degrees off a right angle to the shank, by a marker's place as much as by the joint's axis. The frames in which the foot
 /// lies flat count, all frames if it never does.
 fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
     let axis = |all: bool| {
@@ -217,7 +218,7 @@ fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
         median_point(&list)
     };
     let axis = axis(false).or_else(|| axis(true)).unwrap_or_else(Vec3::z);
-    from_z_y(axis, Vec3::y()).unwrap_or_else(Mat3::identity)
+    from_y_z(Vec3::y(), axis).unwrap_or_else(Mat3::identity)
 }
 
 /// What the flat foot deviates from the joint's axes beside dorsiflexion.

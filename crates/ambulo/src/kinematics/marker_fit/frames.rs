@@ -149,11 +149,8 @@ impl Frames {
     }
 
     /// Notes the offsets at which a frame is fitted.
-    pub(super) fn aim(&mut self, frame: usize, offsets: &[Vec3], weights: &[f64]) {
-        let own = &mut self.targets[frame * self.markers..(frame + 1) * self.markers];
-        for ((target, offset), weight) in own.iter_mut().zip(offsets).zip(weights) {
-            *target = if *weight > 0.0 { *offset } else { Vec3::repeat(f64::NAN) };
-        }
+    pub(super) fn aim(&mut self, frame: usize, offsets: &[Vec3]) {
+        self.targets[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(offsets);
     }
 
     /// Keeps the posture of a frame, at which the problem stands.

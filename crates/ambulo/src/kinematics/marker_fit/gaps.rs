@@ -1,13 +1,16 @@
 //! Frames that lack markers.
 //!
 //! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that lack
-//! markers the offsets go straight from those of the complete frame before to those of the one after, and the markers that are
-//! seen are fitted at their offsets: they agree with each other, so that one more or less moves the posture only by what the
-//! offsets changed meanwhile. Fitted without offsets, the posture leaps by the pull of what is missing.
+//! markers the offsets go straight from those of the complete frame before to those of the one after. The frames are fitted twice:
 //!
-//! An unknown is determined if the seen markers hold it: an error of one metre in each, root mean square, may move it by
-//! [`MOST_GAIN`], or by three times as much as in the complete frame. What is not determined follows [`bridge`] for as
-//! long as the settings allow, drawn by springs, so that a single marker of a foot still has its say.
+//! 1. to the markers that are seen, at their offsets: these agree with each other, so that one more or less moves the posture
+//!    only by what the offsets changed meanwhile. Fitted without offsets, the posture leaps by the pull of what is missing;
+//! 2. to the markers that are seen, as they are, and to the missing ones where the first posture has them at their offsets. So parts
+//!    of the body that miss nothing are fitted as ever, and all is continuous where the run begins and ends.
+//!
+//! Between both, unknowns that the seen markers do not determine follow a curve ([`bridge`]), drawn by springs, so that a single
+//! marker of a foot still has its say. An error of one metre in each seen marker, root mean square, moves an unknown by its gain: above
+//! [`LOOSE`] the curve helps, above [`UNSEEN`] nothing is known and the curve leads across for as long as the settings allow.
 //!
 //! Pinned by: tests/marker_gaps.rs
 
@@ -17,18 +20,24 @@ use super::problem::Problem;
 use super::solve::Outcome;
 use crate::spatial::Vec3;
 
-/// An unknown that moves by more than this for a metre of error in the markers is not determined [rad/m]: 5 mm make 10 degrees.
-const MOST_GAIN: f64 = 35.0;
-/// An unknown that the complete frame determines badly may be this much worse.
-const MOST_LOSS: f64 = 3.0;
-/// Stiffness of the springs [m²/rad²]: a marker 10 mm off weighs as much as 0.1 rad off the curve.
-const STIFFNESS: f64 = 0.01;
+/// Gain above which a curve helps [rad/m]: 5 mm make 7 degrees.
+const LOOSE: f64 = 25.0;
+/// Gain above which an unknown is not determined [rad/m]: 5 mm make 30 degrees.
+const UNSEEN: f64 = 100.0;
+/// Both count only above this multiple of the gain in the complete frame.
+const LOSS: f64 = 3.0;
+/// How far a marker's offset strays from a straight line in time [m].
+const STRAY: f64 = 0.005;
+/// Third derivative of a joint's angle [rad/s³]: 0.3 rad at 2 Hz have 0.3 (4π)³.
+const JERK: f64 = 600.0;
 
 /// What became of each unknown in each frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
     /// Markers determine it.
     Determined,
+    /// Markers determine it badly, and a curve helps.
+    Loose,
     /// No marker determines it, and a curve leads across.
     Bridged,
     /// No marker determines it for too long, or at an end of the recording.
@@ -56,6 +65,11 @@ pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f
         frame = end + 1;
     }
     bridge_all(problem, frames, longest_s, &mut states);
+    for frame in (0..frames.count()).filter(|&frame| !complete[frame]) {
+        if !states[frame * unknowns..(frame + 1) * unknowns].contains(&State::Gap) {
+            fit_as_if_seen(problem, frames, frame);
+        }
+    }
     states
 }
 
@@ -99,17 +113,18 @@ fn refit_run(problem: &mut Problem<'_>, frames: &mut Frames, start: usize, end: 
     for frame in start..end {
         frames.load(frame, problem);
         interpolate_offsets(problem, frames, [before, after], frame, &mut offsets);
+        frames.aim(frame, &offsets);
         let Some(mut x) = nearby(frames, frame) else { continue };
-        let outcome = problem.fit_with_offsets(&offsets, &mut x);
-        frames.aim(frame, &offsets, &problem.frame_weights);
+        let known = known_offsets(problem, frames, frame);
+        let outcome = problem.fit_with_offsets(&known, &mut x);
         frames.keep(frame, problem, &x, outcome, false);
         judge_loaded(problem, frame, &usual, states);
     }
 }
 
-/// Offsets on a straight line in time between two frames; markers without any are left out of what is loaded.
+/// Offsets on a straight line in time between two frames; not a number for markers without any.
 fn interpolate_offsets(
-    problem: &mut Problem<'_>,
+    problem: &Problem<'_>,
     frames: &Frames,
     ends: [Option<usize>; 2],
     frame: usize,
@@ -124,10 +139,7 @@ fn interpolate_offsets(
         *offset = match (at(ends[0]), at(ends[1])) {
             (Some((t0, a)), Some((t1, b))) => a + (b - a) * ((problem.times[frame] - t0) / (t1 - t0)),
             (Some((_, a)), None) | (None, Some((_, a))) => a,
-            (None, None) => {
-                problem.frame_weights[i] = 0.0;
-                Vec3::zeros()
-            }
+            (None, None) => Vec3::repeat(f64::NAN),
         };
     }
 }
@@ -150,18 +162,20 @@ fn judge_loaded(problem: &mut Problem<'_>, frame: usize, usual: &[f64], states: 
     let mut gains = vec![0.0; unknowns];
     problem.uncertainty(&mut gains);
     for (u, gain) in gains.iter().enumerate() {
-        if *gain > MOST_GAIN.max(MOST_LOSS * usual[u]) {
-            states[frame * unknowns + u] = State::Gap;
+        let usual = LOSS * usual[u];
+        if *gain > LOOSE.max(usual) {
+            states[frame * unknowns + u] = if *gain > UNSEEN.max(usual) { State::Gap } else { State::Loose };
         }
     }
 }
 
-/// Leads curves across stretches in which an unknown is not determined, and fits those frames once more on springs.
+/// Leads curves across stretches in which an unknown is badly determined, and fits those frames once more on springs.
 fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, states: &mut [State]) {
     let (count, unknowns) = (frames.count(), problem.tree.unknowns());
     let step_s = (problem.times[count - 1] - problem.times[0]) / (count.max(2) - 1) as f64;
     let mut touched = vec![false; count];
-    let mut curves = vec![f64::NAN; count * unknowns];
+    // Value and stiffness of each spring.
+    let mut springs = vec![(f64::NAN, 0.0); count * unknowns];
     for u in 0..unknowns {
         let known: Vec<bool> = (0..count).map(|f| states[f * unknowns + u] == State::Determined).collect();
         if known.iter().all(|k| *k) {
@@ -170,20 +184,36 @@ fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, st
         let mut values: Vec<f64> = (0..count).map(|f| frames.posture(f)[u]).collect();
         for (start, end) in stretches(&known) {
             touched[start..end].fill(true);
-            let inside = start > 0 && end < count;
             let length_s = (end - start) as f64 * step_s;
-            if inside && length_s <= longest_s + 0.5 * step_s {
+            if start > 0 && end < count {
                 bridge::fill(&mut values, &known, start, end, step_s);
-                (start..end).for_each(|f| states[f * unknowns + u] = State::Bridged);
             } else {
                 draw(&mut values, start, end);
             }
-            (start..end).for_each(|f| curves[f * unknowns + u] = values[f]);
+            bridge_gaps(&mut states[u..], unknowns, [start, end, count], longest_s + 0.5 * step_s, step_s);
+            (start..end).for_each(|f| springs[f * unknowns + u] = (values[f], stiffness(length_s)));
         }
     }
     for frame in (0..count).filter(|&frame| touched[frame]) {
-        fit_on_springs(problem, frames, frame, &curves[frame * unknowns..(frame + 1) * unknowns]);
+        fit_on_springs(problem, frames, frame, &springs[frame * unknowns..(frame + 1) * unknowns]);
     }
+}
+
+/// Of the stretch, what is not seen for a short time is bridged.
+fn bridge_gaps(states: &mut [State], stride: usize, [start, end, count]: [usize; 3], longest_s: f64, step_s: f64) {
+    let seen: Vec<bool> = (start..end).map(|f| states[f * stride] != State::Gap).collect();
+    for (a, b) in stretches(&seen) {
+        let inside = start + a > 0 && start + b < count;
+        if inside && (b - a) as f64 * step_s <= longest_s {
+            (start + a..start + b).for_each(|f| states[f * stride] = State::Bridged);
+        }
+    }
+}
+
+/// Weight of a curve across a stretch [s] against markers [m²/rad²]: its error grows as that of a parabola under jerk, J (T/2)³ / 6.
+fn stiffness(length_s: f64) -> f64 {
+    let error = JERK * (0.5 * length_s).powi(3) / 6.0;
+    (STRAY / error).powi(2).min(1.0)
 }
 
 /// Stretches without knowledge, as first frame and end.
@@ -219,19 +249,43 @@ fn draw(values: &mut [f64], start: usize, end: usize) {
 }
 
 /// Fits a frame with springs that draw some unknowns to their curves.
-fn fit_on_springs(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize, curves: &[f64]) {
+fn fit_on_springs(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize, springs: &[(f64, f64)]) {
     let Some(mut x) = nearby(frames, frame) else { return };
-    for (u, curve) in curves.iter().enumerate().filter(|(_, curve)| curve.is_finite()) {
-        (problem.bounds.stiffness[u], problem.bounds.anchor[u]) = (STIFFNESS, *curve);
-        x[u] = *curve;
+    for (u, (value, stiffness)) in springs.iter().enumerate().filter(|(_, (value, _))| value.is_finite()) {
+        (problem.bounds.stiffness[u], problem.bounds.anchor[u]) = (*stiffness, *value);
+        x[u] = *value;
     }
     frames.load(frame, problem);
+    let offsets = known_offsets(problem, frames, frame);
+    let outcome: Outcome = problem.fit_with_offsets(&offsets, &mut x);
+    problem.bounds.stiffness.fill(0.0);
+    frames.keep(frame, problem, &x, outcome, false);
+}
+
+/// The offsets of a frame that lacks markers; markers without one are left out of what is loaded.
+fn known_offsets(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> Vec<Vec3> {
     let mut offsets = frames.targets(frame).to_vec();
     for (i, offset) in offsets.iter_mut().enumerate().filter(|(_, o)| !o.iter().all(|x| x.is_finite())) {
         problem.frame_weights[i] = 0.0;
         *offset = Vec3::zeros();
     }
-    let outcome: Outcome = problem.fit_with_offsets(&offsets, &mut x);
-    problem.bounds.stiffness.fill(0.0);
+    offsets
+}
+
+/// Fits a frame to the markers that are seen and to the missing ones where the posture has them at their offsets.
+fn fit_as_if_seen(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) {
+    let Some(mut x) = nearby(frames, frame) else { return };
+    frames.load(frame, problem);
+    let seen = problem.frame_weights.clone();
+    problem.pose_at(&x);
+    for (i, offset) in frames.targets(frame).iter().enumerate() {
+        let is_known = offset.iter().all(|x| x.is_finite());
+        if seen[i] <= 0.0 && frames.core[i] && is_known {
+            problem.positions[i] = problem.place(i, offset);
+            problem.frame_weights[i] = problem.weights[i];
+        }
+    }
+    let outcome = problem.fit(&mut x);
+    problem.frame_weights.copy_from_slice(&seen);
     frames.keep(frame, problem, &x, outcome, false);
 }
