@@ -3,6 +3,7 @@
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 use crate::args::Voice;
+use crate::commands::info::Sheet;
 use ambulo::analysis::Agreement;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::{Finding, Findings};
@@ -10,7 +11,6 @@ use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary, WalkSummary};
 use ambulo::reproduction::{Claim, Sensitivity};
 use anyhow::Result;
 use serde::Serialize;
-use serde_json::Value;
 use std::io::{ErrorKind, Write, stdout};
 use std::path::Path;
 
@@ -364,32 +364,12 @@ pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice)
 }
 
 /// The outcome of `info`.
-pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
+pub(crate) fn info(sheet: &Sheet, voice: Voice) -> Result<()> {
     if voice.json {
-        say(&serde_json::to_string_pretty(info)?)?;
+        say(&serde_json::to_string_pretty(&sheet.json())?)?;
     }
     if voice.json || voice.quiet {
         return Ok(());
     }
-    let Some(keys) = info.as_object() else { return Ok(()) };
-    for (key, value) in keys {
-        let label = key.replace('_', " ");
-        match value {
-            Value::Number(number) if number.is_f64() => {
-                // Six digits for the eye; --json has them all.
-                let rounded = format!("{:.6}", number.as_f64().unwrap_or_default());
-                say(&format!("{label}: {}", rounded.trim_end_matches('0').trim_end_matches('.')))?;
-            }
-            Value::Null => {}
-            Value::Array(items) if items.iter().all(Value::is_string) => {
-                say(&format!("{label}: {}", items.len()))?;
-                for item in items {
-                    say(&format!("  {}", item.as_str().unwrap_or_default()))?;
-                }
-            }
-            Value::String(text) => say(&format!("{label}: {text}"))?,
-            other => say(&format!("{label}: {other}"))?,
-        }
-    }
-    Ok(())
+    sheet.lines().iter().try_for_each(|line| say(line))
 }

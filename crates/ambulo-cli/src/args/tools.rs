@@ -41,7 +41,8 @@ pub(crate) struct SimulateArgs {
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo info demo/input/figure.osim
 
-Knows .osim models, .mot/.sto tables, .csv tables, .trc markers and external-loads .xml.")]
+Knows recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external loads (.xml). Says what
+is inside (rates, markers and their gaps, marker set, plates, events, subject), what was odd, and what to type next.")]
 pub(crate) struct InfoArgs {
     /// The file.
     pub(crate) file: PathBuf,

@@ -8,10 +8,10 @@ use crate::findings::Findings;
 use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
 use crate::model::Model;
-use crate::model::marker_set::{MarkerSet, RecognitionError, Recognised};
+use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
+use crate::motion::MarkerRecording;
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Laboratory, laboratory};
-use crate::motion::MarkerRecording;
 use std::collections::BTreeMap;
 
 /// What one file of a laboratory holds, in its axes.
@@ -103,9 +103,8 @@ pub fn body_in_motion(
     let subject = match body {
         Body::Model(model) => Subject::of_model(model),
         Body::BuiltIn { person, set } => {
-            let still = still.map(|still| {
-                laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers)
-            });
+            let still = still
+                .map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
             Subject::built_in(&markers, still.as_ref(), person, *set, findings)?
         }
     };

@@ -8,7 +8,7 @@
 //! Not handled: floors that are not level, shoulders that move against the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
-use super::marker_fit::{FitError, FitSettings, Guard, MarkerFit, fit_markers};
+use super::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
 use crate::findings::Findings;
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
 use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
@@ -75,8 +75,8 @@ pub fn retarget(
             format!("the floor was put {floor:.3} m above the skeleton's zero, where its ankles stand lowest");
         findings.note("bvh.floor", message);
     }
-    // What an animation program wrote has no exchanged labels.
-    let settings = FitSettings { guard: Guard::Off, ..FitSettings::default() };
+    // What an animation program wrote has no exchanged labels, but arms so straight that only ranges keep them from turning round.
+    let settings = FitSettings { guard: Guard::Off, limits: Limits::Ranges, ..FitSettings::default() };
     let fit = fit_markers(&human.model, &markers, &settings, findings)?;
     Ok(Retargeted { human, markers, fit })
 }
@@ -212,11 +212,22 @@ impl Lengths {
         }
     }
 
-    /// The table's dimensions with these lengths.
+    /// The table's lengths with these in their place, the mean of both sides.
     fn dimensions(&self, table: Dimensions) -> Dimensions {
-        let mean = |pair: [f64; 2]| (pair[0] + pair[1]) / 2.0;
-        let (thigh, shank) = (mean(self.thigh), mean(self.shank));
-        Dimensions { thigh, shank, leg_length: thigh + shank + table.ankle_height, hip_width: self.hip_width, ..table }
+        let [thigh, shank, upper_arm, forearm] =
+            [self.thigh, self.shank, self.upper_arm, self.forearm].map(|pair| (pair[0] + pair[1]) / 2.0);
+        Dimensions {
+            leg_length: thigh + shank + table.ankle_height,
+            thigh,
+            shank,
+            hip_width: self.hip_width,
+            shoulder_width: self.shoulder_width,
+            shoulder_height: self.shoulder_height,
+            lumbar_height: table.lumbar_height.map(|lumbar| lumbar * self.shoulder_height / table.shoulder_height),
+            upper_arm,
+            forearm,
+            ..table
+        }
     }
 
     /// The table's body with these lengths.
@@ -229,14 +240,9 @@ impl Lengths {
             fitting.arm(self, side, k);
         }
         let Fitting { shapes, markers, .. } = fitting;
-        let shape = SubjectShape {
-            segments: shapes,
-            markers,
-            feet: [FootPrint::of(&table.dimensions); 2],
-            dimensions: self.dimensions(table.dimensions),
-            locked: Vec::new(),
-        };
-        Ok(reshaped(table, &shape)?)
+        let dimensions = self.dimensions(table.dimensions);
+        let feet = [FootPrint::of(&table.dimensions); 2];
+        Ok(reshaped(table, &SubjectShape { segments: shapes, markers, feet, dimensions, locked: Vec::new() })?)
     }
 }
 

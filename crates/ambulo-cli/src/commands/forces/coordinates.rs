@@ -69,4 +69,3 @@ fn read_ground(
     reading.read.extend(args.loads.clone());
     Ok((Some(ground), plates))
 }
-

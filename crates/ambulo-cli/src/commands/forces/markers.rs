@@ -26,9 +26,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let stage = &mut |stage: &'static str| clock.lap(stage);
     let standing = still.as_ref().map(|still| &still.recording);
     let body = match &model {
-        Some(model) => {
-            body_in_motion(&walk.recording, standing, &Body::Model(model), &settings, findings, stage)
-        }
+        Some(model) => body_in_motion(&walk.recording, standing, &Body::Model(model), &settings, findings, stage),
         None => {
             let person = person(args, &walk, still.as_ref(), findings)?;
             let set = args.subject.markers.as_deref().map(read_set).transpose()?;
@@ -89,7 +87,12 @@ fn person(
 }
 
 /// Body mass [kg]: what the user says, else what the files say, else what the plates carry in the standing trial.
-fn mass(args: &ForcesArgs, walk: &LaboratoryFile, still: Option<&LaboratoryFile>, findings: &mut Findings) -> Result<f64> {
+fn mass(
+    args: &ForcesArgs,
+    walk: &LaboratoryFile,
+    still: Option<&LaboratoryFile>,
+    findings: &mut Findings,
+) -> Result<f64> {
     let in_file = still.and_then(|still| still.subject.mass_kg).or(walk.subject.mass_kg);
     let stated = args.subject.mass.or(in_file);
     let standing = still.and_then(|still| standing_mass(&still.recording.plates));
@@ -105,7 +108,10 @@ fn mass(args: &ForcesArgs, walk: &LaboratoryFile, still: Option<&LaboratoryFile>
         }
         (Some(mass), None) => Ok(mass),
         (None, Some(mass)) => {
-            findings.note("mass.standing", format!("no mass is stated; {mass:.1} kg stand on the plates in the standing trial"));
+            findings.note(
+                "mass.standing",
+                format!("no mass is stated; {mass:.1} kg stand on the plates in the standing trial"),
+            );
             Ok(mass)
         }
         (None, None) => bail!(

@@ -27,7 +27,8 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
     {
         bail!("--from {from} is after --to {to}; expected a range of time that runs forwards");
     }
-    let mut reading = Reading { findings: Findings::default(), clock: Stopwatch::new(), read: vec![args.input.clone()] };
+    let mut reading =
+        Reading { findings: Findings::default(), clock: Stopwatch::new(), read: vec![args.input.clone()] };
     let recorded = match Kind::of(&args.input)? {
         Kind::Coordinates => coordinates::read(args, &mut reading)?,
         Kind::Markers => markers::read(args, &mut reading)?,

@@ -42,6 +42,9 @@ use unit::Unit;
 /// How far the points that show turning stand from their joint [m].
 pub const REACH: f64 = 0.1;
 
+/// Faster than this no joint moves [m/s]: hands of athletes who throw reach about 20 m/s (unverified).
+const LEAP: f64 = 30.0;
+
 /// Joint centres of a skeleton over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkeletonRecording {
@@ -87,14 +90,32 @@ pub fn skeleton_from_bvh(
     }
     let times = (0..skeleton.frames()).map(|frame| frame as f64 * bvh.frame_time_s()).collect();
     let rate_hz = 1.0 / bvh.frame_time_s();
+    let mut markers = MarkerRecording { name: name.to_owned(), rate_hz, times, markers };
+    leave_out_pose(&mut markers, findings);
     warn_of_low_trust(&unit, &neutral, findings);
     Ok(SkeletonRecording {
-        markers: MarkerRecording { name: name.to_owned(), rate_hz, times, markers },
+        markers,
         statement: format!("{}; {}", unit.statement, axes.statement),
         metres_per_unit: unit.metres,
         world_from_file: axes.world_from_file,
         height_m: unit.height_m,
     })
+}
+
+/// A first frame from which a joint leaps faster than [`LEAP`] is no motion but a pose for the program that reads the file.
+fn leave_out_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
+    let rate_hz = markers.rate_hz;
+    let speed = |path: &MarkerPath| path.positions.windows(2).next().map(|pair| (pair[1] - pair[0]).norm() * rate_hz);
+    let fastest = markers.markers.iter().filter_map(speed).fold(0.0, f64::max);
+    if fastest <= LEAP || markers.frames() < 3 {
+        return;
+    }
+    markers.times.remove(0);
+    for path in &mut markers.markers {
+        path.positions.remove(0);
+    }
+    let message = format!("the first frame is a pose, from which joints leap at {fastest:.0} m/s; it was left out");
+    findings.note("bvh.pose", message);
 }
 
 fn warn_of_low_trust(unit: &Unit, neutral: &Neutral, findings: &mut Findings) {
