@@ -166,6 +166,15 @@ fn truncated_data_are_told_and_the_frames_that_are_there_are_read() {
 }
 
 #[test]
+fn without_a_frame_only_names_count() {
+    let mut file = File::new(60_000, 9, 60_000, 1, -1.0);
+    file.texts(1, "LABELS", &["HEEL", "TOE"]);
+    let (record, remarks) = read(&file);
+    assert_eq!((record.points.len(), record.channels.len(), record.frames()), (2, 0, 0));
+    assert_eq!(remarks[0], "9 frames are stated, but the file ends after 0; it is truncated; read 0");
+}
+
+#[test]
 fn bytes_after_the_last_frame_are_told() {
     let mut file = File::new(1, 2, 0, 0, -1.0);
     file.texts(1, "LABELS", &["HEEL"]).reals(&[0.0; 8]).reals(&[1.0; 4 * 40]);

@@ -71,6 +71,9 @@ pub(super) fn decide(
     let room = size.saturating_sub(data_offset);
     choose_frame(&mut layout, header, parameters, room, &frame_claims, remarks);
     layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
+    if layout.frames == 0 {
+        keep_named(&mut layout, parameters);
+    }
     layout.first_frame = first_frame(header, parameters, layout.frames, remarks);
     Ok(layout)
 }
@@ -245,6 +248,12 @@ fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameter
 fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     let bytes = layout.frame_bytes().checked_mul(frames);
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
+}
+
+/// Without a frame nothing but the names says that there are points and channels: a count alone may be anything.
+fn keep_named(layout: &mut Layout, parameters: &Parameters) {
+    layout.points = layout.points.min(parameters.texts("POINT", "LABELS").len());
+    layout.channels = layout.channels.min(parameters.texts("ANALOG", "LABELS").len());
 }
 
 fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
