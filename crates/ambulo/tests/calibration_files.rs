@@ -65,7 +65,9 @@ fn agreement(ours: &[f64], theirs: &[f64]) -> Agreement {
 fn compare(body: &Calibrated, fit: &MarkerFit, file: &File) -> f64 {
     let model = &body.human.model;
     let mut worst: f64 = 1.0;
-    for (ours, sign, theirs) in [("hip_flexion", 1.0, "HipAngles"), ("knee_angle", -1.0, "KneeAngles"), ("ankle_angle", 1.0, "AnkleAngles")] {
+    for (ours, sign, theirs) in
+        [("hip_flexion", 1.0, "HipAngles"), ("knee_angle", -1.0, "KneeAngles"), ("ankle_angle", 1.0, "AnkleAngles")]
+    {
         for side in Side::BOTH {
             let id = model.coordinate(&format!("{ours}_{}", side.letter())).unwrap();
             let column: Vec<f64> = fit.motion.column(id).unwrap().iter().map(|v| sign * v.to_degrees()).collect();
@@ -73,7 +75,10 @@ fn compare(body: &Calibrated, fit: &MarkerFit, file: &File) -> f64 {
             // A frame that Plug-in-Gait did not compute holds zeros.
             let reference: Vec<f64> = reference.into_iter().map(|v| if v == 0.0 { f64::NAN } else { v }).collect();
             let a = agreement(&column, &reference);
-            println!("  {ours:<12} {side:<5} r {:.4}  offset {:6.2} deg  rmse {:.2} deg", a.r, a.offset_deg, a.rmse_deg);
+            println!(
+                "  {ours:<12} {side:<5} r {:.4}  offset {:6.2} deg  rmse {:.2} deg",
+                a.r, a.offset_deg, a.rmse_deg
+            );
             worst = worst.min(a.r);
         }
     }
@@ -84,8 +89,15 @@ fn show(body: &Calibrated) {
     let r = &body.report;
     println!("  height {:.3} hip width {:.1} mm, {} frames", r.height_m, 1e3 * r.hip_width_m, r.frames);
     let d = body.human.dimensions;
-    println!("  thigh {:.3} shank {:.3} ankle {:.3} foot {:.3} arm {:.3} {:.3}", d.thigh, d.shank, d.ankle_height, d.foot_length, d.upper_arm, d.forearm);
-    let scales: Vec<String> = r.segments.iter().map(|s| format!("{} {:.2}{}", s.body, s.factor, if s.is_measured { "" } else { "*" })).collect();
+    println!(
+        "  thigh {:.3} shank {:.3} ankle {:.3} foot {:.3} arm {:.3} {:.3}",
+        d.thigh, d.shank, d.ankle_height, d.foot_length, d.upper_arm, d.forearm
+    );
+    let scales: Vec<String> = r
+        .segments
+        .iter()
+        .map(|s| format!("{} {:.2}{}", s.body, s.factor, if s.is_measured { "" } else { "*" }))
+        .collect();
     println!("  {}", scales.join(", "));
     for assumption in &r.assumptions {
         println!("  assumed: {assumption}");
@@ -105,7 +117,12 @@ fn hip_centres_stand_where_the_same_regression_put_them_in_the_file() {
         let pig = subject.standing.point(&name[..4]);
         let frame = theirs.len() / 2;
         let ours = origin(&body, &found, frame, &format!("femur_{side}"));
-        println!("{name}: {:.1} mm off, {:.1?} (Plug-in-Gait's own hip {:.1} mm)", 1e3 * (ours - theirs[frame]).norm(), (ours - theirs[frame]) * 1e3, 1e3 * (ours - pig[frame]).norm());
+        println!(
+            "{name}: {:.1} mm off, {:.1?} (Plug-in-Gait's own hip {:.1} mm)",
+            1e3 * (ours - theirs[frame]).norm(),
+            (ours - theirs[frame]) * 1e3,
+            1e3 * (ours - pig[frame]).norm()
+        );
         assert!((ours - theirs[frame]).norm() < 0.015);
     }
 }
