@@ -95,6 +95,13 @@ pub struct Remark {
     pub message: String,
 }
 
+impl Remark {
+    /// A remark on the file as a whole, or on a place that has no line.
+    pub(crate) fn of_file(message: impl Into<String>) -> Remark {
+        Remark { line: None, message: message.into() }
+    }
+}
+
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {

@@ -7,10 +7,10 @@
 //! A frame holds its samples one after the other, all channels of the first sample first.
 //! Source: C3D user guide (c3d.org), "Analog data - integer format".
 
-use super::Storage;
 use super::layout::Layout;
 use super::parameters::Parameters;
 use super::words::Words;
+use super::{Encoding, Storage};
 use crate::error::Remark;
 
 /// One analog channel.
@@ -50,7 +50,7 @@ pub(super) fn unsigned(parameters: &Parameters, remarks: &mut Vec<Remark>) -> bo
     };
     let message =
         format!("ANALOG:OFFSET is {offset} and ANALOG:FORMAT is missing; samples and offsets are read without sign");
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
     true
 }
 
@@ -58,18 +58,18 @@ pub(super) fn unsigned(parameters: &Parameters, remarks: &mut Vec<Remark>) -> bo
 pub(super) fn read(
     words: Words<'_>,
     layout: &Layout,
-    unsigned: bool,
+    encoding: &Encoding,
     parameters: &Parameters,
     remarks: &mut Vec<Remark>,
 ) -> Vec<Channel> {
-    let mut channels = named(layout, unsigned, parameters, remarks);
+    let mut channels = named(layout, encoding, parameters, remarks);
     let width = layout.width();
     for frame in 0..layout.frames {
         let start = layout.data_offset + frame * layout.frame_bytes() + 4 * layout.points * width;
         for sample in 0..layout.samples_per_frame {
             for (i, channel) in channels.iter_mut().enumerate() {
                 let at = start + (sample * layout.channels + i) * width;
-                let raw = raw(words, at, layout.storage, unsigned).unwrap_or(f64::NAN);
+                let raw = raw(words, at, encoding).unwrap_or(f64::NAN);
                 channel.samples.push((raw - channel.offset) * channel.scale);
             }
         }
@@ -77,22 +77,34 @@ pub(super) fn read(
     channels
 }
 
-fn raw(words: Words<'_>, at: usize, storage: Storage, unsigned: bool) -> Option<f64> {
-    Some(match storage {
+fn raw(words: Words<'_>, at: usize, encoding: &Encoding) -> Option<f64> {
+    Some(match encoding.storage {
         Storage::Real => f64::from(words.f32(at)?),
-        Storage::Integer if unsigned => f64::from(words.u16(at)?),
+        Storage::Integer if encoding.unsigned_analog => f64::from(words.u16(at)?),
         Storage::Integer => f64::from(words.i16(at)?),
     })
 }
 
+/// ANALOG:GEN_SCALE; one where it is missing, or would make nothing of every sample.
+fn general_scale(parameters: &Parameters, remarks: &mut Vec<Remark>) -> f64 {
+    match parameters.number("ANALOG", "GEN_SCALE") {
+        Some(scale) if scale.is_finite() && scale.abs() > 0.0 => scale,
+        Some(scale) => {
+            remarks.push(Remark::of_file(format!("ANALOG:GEN_SCALE is {scale}; 1 is taken")));
+            1.0
+        }
+        None => 1.0,
+    }
+}
+
 /// The channels without their samples.
-fn named(layout: &Layout, unsigned: bool, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Channel> {
+fn named(layout: &Layout, encoding: &Encoding, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Channel> {
     let labels = parameters.texts("ANALOG", "LABELS");
     let units = parameters.texts("ANALOG", "UNITS");
     let descriptions = parameters.texts("ANALOG", "DESCRIPTIONS");
     let scales = parameters.numbers("ANALOG", "SCALE");
     let offsets = parameters.numbers("ANALOG", "OFFSET");
-    let general = parameters.number("ANALOG", "GEN_SCALE").unwrap_or(1.0);
+    let general = general_scale(parameters, remarks);
     for (name, count) in [("LABELS", labels.len()), ("SCALE", scales.len()), ("OFFSET", offsets.len())] {
         if count < layout.channels {
             let taken = match name {
@@ -101,10 +113,10 @@ fn named(layout: &Layout, unsigned: bool, parameters: &Parameters, remarks: &mut
                 _ => "0 is taken for the rest",
             };
             let message = format!("ANALOG:{name} has {count} values for {} channels; {taken}", layout.channels);
-            remarks.push(Remark { line: None, message });
+            remarks.push(Remark::of_file(message));
         }
     }
-    let signless = |offset: f64| if unsigned && offset < 0.0 { offset + 65536.0 } else { offset };
+    let signless = |offset: f64| if encoding.unsigned_analog && offset < 0.0 { offset + 65536.0 } else { offset };
     let named = |i: usize| Channel {
         name: labels.get(i).filter(|name| !name.is_empty()).map_or_else(|| format!("*{}", i + 1), |&name| name.into()),
         unit: units.get(i).copied().unwrap_or_default().into(),

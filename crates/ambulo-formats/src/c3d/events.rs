@@ -86,7 +86,7 @@ fn of_group(parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Event> {
     let used = parameters.count("EVENT", "USED").unwrap_or(times.len() / 2);
     if times.len() / 2 < used {
         let message = format!("EVENT:USED is {used}, but EVENT:TIMES has {} events; read those", times.len() / 2);
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
     let list = |name| parameters.texts("EVENT", name);
     let (labels, contexts, subjects) = (list("LABELS"), list("CONTEXTS"), list("SUBJECTS"));
@@ -114,7 +114,7 @@ fn of_header(words: Words<'_>, start_s: f64, remarks: &mut Vec<Remark>) -> Vec<E
     let count = usize::from(words.u16(COUNT_AT).unwrap_or(0));
     if count > HEADER_EVENTS {
         let message = format!("the header states {count} events and has room for {HEADER_EVENTS}; read those");
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
     (0..count.min(HEADER_EVENTS)).filter_map(|i| header_event(words, start_s, i)).collect()
 }

@@ -71,7 +71,10 @@ pub(super) fn decide(
     let room = size.saturating_sub(data_offset);
     choose_frame(&mut layout, header, parameters, room, &frame_claims, remarks);
     layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
-    layout.first_frame = first_frame(header, parameters, remarks);
+    if layout.frames == 0 {
+        keep_named(&mut layout, parameters);
+    }
+    layout.first_frame = first_frame(header, parameters, layout.frames, remarks);
     Ok(layout)
 }
 
@@ -178,7 +181,8 @@ fn long_frames(parameters: &Parameters) -> Option<usize> {
     }
 }
 
-/// Chooses points, channels and samples so that a number of frames which somebody states fills the file.
+/// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
+/// what the header says.
 fn choose_frame(
     layout: &mut Layout,
     header: &Header,
@@ -189,37 +193,23 @@ fn choose_frame(
 ) {
     let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
     let samples = sample_candidates(layout.point_rate_hz, header, parameters);
-    let mut best: Option<Layout> = None;
-    for &points in &points {
-        for &(channels, samples_per_frame) in &samples {
-            let candidate = Layout { points, channels, samples_per_frame, ..*layout };
-            let fits = frames.iter().any(|claim| fills(&candidate, claim.value, room));
-            if best.is_none() || fits {
-                best = Some(candidate);
-            }
-            if fits {
-                break;
-            }
-        }
-        if best.is_some_and(|best| frames.iter().any(|claim| fills(&best, claim.value, room))) {
-            break;
-        }
+    let candidates: Vec<Layout> = points
+        .iter()
+        .flat_map(|&points| samples.iter().map(move |&(channels, samples)| (points, channels, samples)))
+        .map(|(points, channels, samples_per_frame)| Layout { points, channels, samples_per_frame, ..*layout })
+        .collect();
+    let fits = |candidate: &&Layout| frames.iter().any(|claim| fills(candidate, claim.value, room));
+    if let Some(best) = candidates.iter().find(fits).or(candidates.first()) {
+        *layout = *best;
     }
-    if let Some(best) = best {
-        *layout = best;
-    }
-    if points.len() > 1 {
-        let [a, b] = [points[0], points[1]];
-        remark(remarks, format!("the header has {a} points, POINT:USED {b}; read {}", layout.points));
+    if let [in_header, used] = points[..] {
+        remark(remarks, format!("the header has {in_header} points, POINT:USED {used}; read {}", layout.points));
     }
     if samples.len() > 1 {
-        let words = header.analog_words;
+        let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
         let message = format!(
-            "the header has {words} analog values a frame, {} a channel; ANALOG:USED is {}; read {} channels with {} a frame",
-            header.samples_per_frame,
-            parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string()),
-            layout.channels,
-            layout.samples_per_frame
+            "the header has {} analog values a frame, {} a channel; ANALOG:USED is {used}; read {} channels with {} a frame",
+            header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
         );
         remark(remarks, message);
     }
@@ -260,6 +250,12 @@ fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
 }
 
+/// Without a frame nothing but the names says that there are points and channels: a count alone may be anything.
+fn keep_named(layout: &mut Layout, parameters: &Parameters) {
+    layout.points = layout.points.min(parameters.texts("POINT", "LABELS").len());
+    layout.channels = layout.channels.min(parameters.texts("ANALOG", "LABELS").len());
+}
+
 fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
     let available = room.checked_div(layout.frame_bytes()).unwrap_or(0);
     if layout.frame_bytes() == 0 {
@@ -288,24 +284,22 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut V
     frames
 }
 
-fn first_frame(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> i64 {
+/// The group TRIAL is believed where header and it differ, unless it counts other frames than were read.
+fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks: &mut Vec<Remark>) -> i64 {
     let in_header = usize::from(header.first_frame);
-    let first = match field(parameters, "ACTUAL_START_FIELD") {
-        Some(actual) if actual != in_header => {
-            // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
-            let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
-            if !explained {
-                remark(
-                    remarks,
-                    format!(
-                        "the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {actual} counts"
-                    ),
-                );
-            }
-            actual
-        }
-        _ => in_header,
+    let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
+        return i64::from(header.first_frame);
     };
+    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| (end + 1).checked_sub(actual));
+    let header_alone = header.frames() == Some(frames) && counted != Some(frames);
+    let first = if header_alone { in_header } else { actual };
+    // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
+    let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
+    if !explained {
+        let message =
+            format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");
+        remark(remarks, message);
+    }
     i64::try_from(first).unwrap_or(i64::from(u32::MAX))
 }
 
@@ -321,5 +315,5 @@ fn distinct(values: impl IntoIterator<Item = Option<usize>>) -> Vec<usize> {
 }
 
 fn remark(remarks: &mut Vec<Remark>, message: String) {
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
 }

@@ -12,6 +12,22 @@
 //!
 //! Positions stay in the file's unit and axes. A point that was not seen is three times not-a-number.
 //!
+//! ```
+//! use ambulo_formats::c3d::{C3d, Event, Point};
+//!
+//! let mut record = C3d::new(100.0, "mm");
+//! record.points.push(Point::new("HEEL", vec![[12.0, 30.5, 4.0], [f64::NAN; 3]])); // not seen in the second frame
+//! record.events.push(Event::new("Foot Strike", "Left", 0.01));
+//! let bytes = record.write()?;
+//!
+//! let (read, remarks) = C3d::read(&bytes)?;
+//! assert!(remarks.is_empty());
+//! assert_eq!(read.frames(), 2);
+//! assert_eq!(read.point("HEEL").unwrap().positions[0], [12.0, 30.5, 4.0]);
+//! assert_eq!(read.parameters.text("POINT", "UNITS"), Some("mm"));
+//! # Ok::<(), ambulo_formats::Error>(())
+//! ```
+//!
 //! Source: C3D user guide, c3d.org.
 //! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs
 

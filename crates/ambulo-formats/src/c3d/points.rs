@@ -90,7 +90,7 @@ fn named(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) ->
             layout.points - labels.len(),
             layout.points
         );
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
     let named = |i: usize| Point {
         name: labels.get(i).filter(|name| !name.is_empty()).map_or_else(|| format!("*{}", i + 1), |&name| name.into()),

@@ -19,7 +19,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
     let unsigned_analog = analog::unsigned(&parameters, &mut remarks);
     let encoding = Encoding { processor, storage, point_scale, unsigned_analog };
     let points = points::read(words, &layout, &encoding, &parameters, &mut remarks);
-    let channels = analog::read(words, &layout, unsigned_analog, &parameters, &mut remarks);
+    let channels = analog::read(words, &layout, &encoding, &parameters, &mut remarks);
     check_analog_rate(&layout, &parameters, &mut remarks);
     let start_s = (layout.first_frame - 1) as f64 / layout.point_rate_hz;
     let events = events::read(words, &parameters, start_s, &mut remarks);
@@ -49,6 +49,6 @@ fn check_analog_rate(layout: &Layout, parameters: &Parameters, remarks: &mut Vec
     if layout.channels > 0 && (stated - rate).abs() > 1e-3 * rate {
         let samples = layout.samples_per_frame;
         let message = format!("ANALOG:RATE is {stated} Hz, but a frame holds {samples} samples: {rate} Hz counts");
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn processor(bytes: &[u8], start: usize, remarks: &mut Vec<Remark>) -
     let low_first = bytes[17] <= bytes[16];
     let processor = if low_first { Processor::Intel } else { Processor::Sgi };
     let message = format!("byte {}: processor {code} is none of 84, 85, 86; read as {processor:?}", start + 3);
-    remarks.push(Remark { line: None, message });
+    remarks.push(Remark::of_file(message));
     Ok(processor)
 }
 
@@ -84,7 +84,7 @@ impl Reader<'_> {
         }
         if offset >= self.end {
             let message = format!("the parameter section ends at byte {offset} without the zero that should close it");
-            remarks.push(Remark { line: None, message });
+            remarks.push(Remark::of_file(message));
             return Ok(None);
         }
         let length = self.byte("the length of a name")?.cast_signed();
@@ -169,7 +169,9 @@ impl Reader<'_> {
         let Some(bytes) = self.words.bytes.get(self.at..self.at + length) else {
             return Err(self.cut(&format!("a name of {length} bytes")));
         };
-        if bytes.iter().any(u8::is_ascii_control) {
+        // Zeros at the end only fill up, as blanks do.
+        let filled = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+        if filled == 0 || bytes[..filled].iter().any(u8::is_ascii_control) {
             return Err(Error::Byte {
                 offset,
                 found: format!("a parameter's name with unprintable characters, `{}`", bytes.escape_ascii()),
@@ -262,7 +264,7 @@ fn gather(records: Vec<Record>, remarks: &mut Vec<Remark>) -> Parameters {
                         "byte {offset}: group {group} is named `{}` and again `{}`; its parameters are in the first",
                         first.name, named.name
                     );
-                    remarks.push(Remark { line: None, message });
+                    remarks.push(Remark::of_file(message));
                 }
                 groups.push((group, named));
             }
@@ -272,7 +274,7 @@ fn gather(records: Vec<Record>, remarks: &mut Vec<Remark>) -> Parameters {
     for (group, parameter) in parameters {
         let position = groups.iter().position(|(number, _)| *number == group).unwrap_or_else(|| {
             let message = format!("group {group} has parameters (`{}`) but no name", parameter.name);
-            remarks.push(Remark { line: None, message });
+            remarks.push(Remark::of_file(message));
             groups.push((group, Group::default()));
             groups.len() - 1
         });

@@ -54,13 +54,13 @@ impl Stated {
         self.texts("POINT", "DESCRIPTIONS", points.iter().map(|point| point.description.clone()));
     }
 
-    /// Frames beyond 65535 are a real in POINT:FRAMES and two words in the group TRIAL.
+    /// Of more than 65535 frames POINT:FRAMES says 65535; their number is in POINT:LONG_FRAMES and in the group TRIAL. (The
+    /// user guide would have a real in POINT:FRAMES, which ezc3d 1.7.2 refuses.)
     fn frames(&mut self, record: &C3d) {
         let frames = record.frames() as i64;
         let last = record.first_frame + frames - 1;
         let many = frames > WORD;
-        let count = if many { Values::Reals(vec![frames as f32]) } else { word(record.frames()) };
-        self.set("POINT", "FRAMES", count);
+        self.set("POINT", "FRAMES", word(frames.min(WORD) as usize));
         if many || self.parameters.get("POINT", "LONG_FRAMES").is_some() {
             self.set("POINT", "LONG_FRAMES", Values::Reals(vec![frames as f32]));
         }

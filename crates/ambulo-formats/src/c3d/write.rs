@@ -5,9 +5,14 @@ use super::points::word_of_sighting;
 use super::words::Processor;
 use super::{C3d, Channel, Point, Storage, events, section_write, stated};
 use crate::error::{Error, quoted};
+use std::ops::RangeInclusive;
 
 /// Block of the parameter section.
 const PARAMETER_BLOCK: u8 = 2;
+/// Range of 16-bit integers with sign.
+const SIGNED: RangeInclusive<f64> = -32768.0..=32767.0;
+/// Range of 16-bit integers without sign.
+const UNSIGNED: RangeInclusive<f64> = 0.0..=65535.0;
 /// Counts of the header are words of 16 bits.
 const WORD: usize = 65535;
 
@@ -21,7 +26,10 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     let mut bytes = header(record, data_block)?;
     bytes.extend(section);
     write_frames(record, &mut bytes)?;
-    bytes.resize(bytes.len().next_multiple_of(BLOCK), 0);
+    // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file holds, so nothing may follow them.
+    if record.frames() <= WORD {
+        bytes.resize(bytes.len().next_multiple_of(BLOCK), 0);
+    }
     Ok(bytes)
 }
 
@@ -140,7 +148,7 @@ fn write_point(record: &C3d, point: &Point, frame: usize, bytes: &mut Vec<u8>) -
     for value in position {
         let value = if seen { value } else { 0.0 };
         let written = match encoding.storage {
-            Storage::Integer => integer(value / scale, encoding.processor, false, bytes),
+            Storage::Integer => integer(value / scale, encoding.processor, SIGNED, bytes),
             Storage::Real => real(value, encoding.processor, bytes),
         };
         written.ok_or_else(|| {
@@ -149,7 +157,7 @@ fn write_point(record: &C3d, point: &Point, frame: usize, bytes: &mut Vec<u8>) -
         })?;
     }
     let written = match encoding.storage {
-        Storage::Integer => integer(word.map_or(-1.0, f64::from), encoding.processor, false, bytes),
+        Storage::Integer => integer(word.map_or(-1.0, f64::from), encoding.processor, SIGNED, bytes),
         Storage::Real => real(word.map_or(-1.0, f64::from), encoding.processor, bytes),
     };
     written.ok_or_else(|| invalid("a word beyond 16 bits", "cameras and residual"))
@@ -162,7 +170,8 @@ fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, byte
     let steps = if scale.abs() > 0.0 { value / scale } else { 0.0 };
     let raw = if channel.offset.abs() > 0.0 { steps + channel.offset } else { steps };
     let written = match encoding.storage {
-        Storage::Integer => integer(raw, encoding.processor, encoding.unsigned_analog, bytes),
+        Storage::Integer if encoding.unsigned_analog => integer(raw, encoding.processor, UNSIGNED, bytes),
+        Storage::Integer => integer(raw, encoding.processor, SIGNED, bytes),
         Storage::Real => real(raw, encoding.processor, bytes),
     };
     written.ok_or_else(|| {
@@ -176,9 +185,8 @@ fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, byte
 }
 
 /// Appends the nearest 16-bit integer; `None` if there is none.
-fn integer(value: f64, processor: Processor, unsigned: bool, bytes: &mut Vec<u8>) -> Option<()> {
+fn integer(value: f64, processor: Processor, range: RangeInclusive<f64>, bytes: &mut Vec<u8>) -> Option<()> {
     let nearest = value.round();
-    let range = if unsigned { 0.0..=65535.0 } else { -32768.0..=32767.0 };
     let word = range.contains(&nearest).then_some((nearest as i32) as u16)?;
     bytes.extend(processor.u16_bytes(word));
     Some(())
