@@ -4,6 +4,7 @@
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 
+mod band_cholesky;
 mod banded;
 mod least_squares;
 mod natural_spline;
@@ -11,6 +12,7 @@ mod periodic_spline;
 mod spline_fitter;
 mod spline_grid;
 
+pub use band_cholesky::{BandFactor, BandMatrix};
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};

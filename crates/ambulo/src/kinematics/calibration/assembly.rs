@@ -11,13 +11,18 @@ use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
 use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::full_body::{SegmentShape, SubjectShape, reshaped};
-use crate::model::marker_set::{NamedMarker, Segment};
+use crate::model::marker_set::{Landmark, NamedMarker, Segment};
 use crate::model::{Marker, Side};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 
 /// Markers of the trunk beside the head's that make the head's superfluous.
 const ENOUGH_ON_TRUNK: usize = 3;
+
+/// Markers of less weight than this do not show how the trunk moves.
+const FIRM: f64 = 0.4;
+/// Weight of shoulders that must.
+const SHOULDER_WEIGHT: f64 = 0.1;
 
 /// What was found of the body.
 pub(super) struct Parts<'a> {
@@ -46,6 +51,7 @@ pub(super) fn assemble(
             None => unused.push(named.name.as_str()),
         }
     }
+    lean_on_shoulders(sight, &mut weights);
     if !unused.is_empty() {
         assumptions.push(format!(
             "{} markers are not used (head beside trunk, or a segment that was not found): {}",
@@ -66,6 +72,21 @@ pub(super) fn assemble(
         frames: frames.len(),
     };
     Ok(Calibrated { human, weights, report })
+}
+
+/// Shoulders show how a trunk moves if too little else does.
+fn lean_on_shoulders(sight: &Sight<'_>, weights: &mut BTreeMap<String, f64>) {
+    let trunk = || sight.markers.iter().map(|(m, _)| m).filter(|m| m.definition.segment == Segment::Torso);
+    let is_shoulder = |l: Option<Landmark>| matches!(l, Some(Landmark::Acromion | Landmark::ShoulderCentre));
+    let firm = trunk().filter(|m| m.definition.weight >= FIRM && weights.contains_key(&m.name)).count();
+    if firm >= ENOUGH_ON_TRUNK {
+        return;
+    }
+    for marker in trunk().filter(|m| is_shoulder(m.definition.landmark)) {
+        if let Some(weight) = weights.get_mut(&marker.name) {
+            *weight = weight.max(SHOULDER_WEIGHT);
+        }
+    }
 }
 
 /// The markers that are used: those of the head only where the trunk has few others.
@@ -117,8 +138,11 @@ fn placed(
         Some(inside(&pose(parts, segment, side, ball, measured)?, sight.place(number, frame)?))
     };
     let points: Vec<Vec3> = frames.iter().enumerate().filter_map(seen).collect();
-    let location = median_point(&points)?;
+    let mut location = median_point(&points)?;
     let rms_m = (points.iter().map(|p| (p - location).norm_squared()).sum::<f64>() / points.len() as f64).sqrt();
+    if named.definition.landmark == Some(Landmark::Acromion) {
+        location.y -= parts.trunk.lift;
+    }
     let body_name = generic.model.bodies()[body.index()].name.clone();
     let place = MarkerPlace { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
     Some((Marker { name: named.name.clone(), body: Some(body), location }, place))

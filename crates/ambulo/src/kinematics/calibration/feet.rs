@@ -1,6 +1,6 @@
 //! Feet that stand flat: ankle joints, sizes, soles.
 
-use super::axes::{about_x, about_y, angles_zxy, from_z_y, inside, median, median_point};
+use super::axes::{about_x, about_y, angles_zxy, from_y_z, inside, median, median_point};
 use super::legs::{Leg, Legs};
 use super::person::index;
 use super::reference::Trial;
@@ -19,6 +19,8 @@ const NEARLY_FLAT: f64 = 0.02;
 const LEAST_FRAMES: usize = 3;
 /// The ground is y = 0 if the lowest foot marker of a flat foot stands between these heights above it [m].
 const MARKER_HEIGHTS: [f64; 2] = [0.0, 0.1];
+/// Heights of ankles, against the table's for a foot of that size, that need no remark.
+const ANKLE_HEIGHTS: [f64; 2] = [0.6, 1.4];
 /// Sizes of feet against the table's that walkers have.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
@@ -158,6 +160,14 @@ impl Finder<'_> {
             assumptions.push(format!("the {side} foot was never seen flat; it keeps the table's shape"));
             return Foot { factor, ..self.unmeasured(leg, count) };
         };
+        let usual = self.dimensions.ankle_height * factor;
+        if !(ANKLE_HEIGHTS[0]..=ANKLE_HEIGHTS[1]).contains(&(ankle_height / usual)) {
+            assumptions.push(format!(
+                "the {side} ankle stands {:.0} mm above y = 0, where a foot of this length has {:.0}: shoes, or the ground is elsewhere",
+                1e3 * ankle_height,
+                1e3 * usual
+            ));
+        }
         let rear = |(pose, ends): (&Option<Pose>, &Option<Ends>)| Some(inside(pose.as_ref()?, ends.as_ref()?.rear));
         let rear = median_point(&poses.iter().zip(&ends).filter_map(rear).collect::<Vec<_>>()).unwrap_or_default();
         let table_rear = ends.iter().flatten().map(|e| e.table_rear).next().unwrap_or_default();
@@ -207,7 +217,8 @@ fn heading(ends: &Ends) -> Mat3 {
     about_y(angle(ends.front - ends.rear) - angle(ends.table_front - ends.table_rear))
 }
 
-/// Axes of the ankle's joint in the shank: z along the ankle axis, y as near to the shank's as that leaves. The frames in which the foot
+/// Axes of the ankle's joint in the shank: y along the shank, z along the line of the malleoli as far as that leaves it. The line itself
+/// is 6 to 10 degrees off a right angle to the shank, by a marker's place as much as by the joint's axis. The frames in which the foot
 /// lies flat count, all frames if it never does.
 fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
     let axis = |all: bool| {
@@ -217,7 +228,7 @@ fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
         median_point(&list)
     };
     let axis = axis(false).or_else(|| axis(true)).unwrap_or_else(Vec3::z);
-    from_z_y(axis, Vec3::y()).unwrap_or_else(Mat3::identity)
+    from_y_z(Vec3::y(), axis).unwrap_or_else(Mat3::identity)
 }
 
 /// What the flat foot deviates from the joint's axes beside dorsiflexion.

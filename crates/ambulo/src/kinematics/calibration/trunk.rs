@@ -13,6 +13,8 @@ use crate::spatial::{Pose, Vec3};
 const ELBOW_BREADTH: f64 = 0.046;
 /// An elbow flexed less than this [rad] does not show in which plane it bends.
 const BENT: f64 = 0.17;
+/// Upper arms further from the trunk than this are raised [rad].
+const RAISED: f64 = 0.6;
 /// Sizes against the table's that walkers have.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 /// Landmarks of the head, which turns on the trunk.
@@ -36,6 +38,8 @@ pub(super) struct Trunk {
     pub(super) factor: f64,
     /// Shoulder centres in the body frame [m], right first.
     pub(super) shoulders: [Vec3; 2],
+    /// How much higher they stood in the frames measured, arms raised [m].
+    pub(super) lift: f64,
     /// Right first; `None` where the recording has none.
     pub(super) arms: [Option<Arm>; 2],
 }
@@ -69,8 +73,15 @@ pub(super) fn find(
         return finder.unmeasured();
     }
     let mut trunk = finder.trunk(fitted);
+    if trunk.lift > 0.0 {
+        assumptions.push(format!(
+            "the arms are raised, which lifts the shoulders; for hanging arms their centres are taken {:.0} mm lower, by neck and table",
+            1e3 * trunk.lift
+        ));
+    }
     for (slot, side) in trunk.arms.iter_mut().zip(Side::BOTH) {
-        *slot = finder.arm(&trunk.poses, trunk.shoulders[super::person::index(side)], side);
+        let raised = trunk.shoulders[super::person::index(side)] + Vec3::y() * trunk.lift;
+        *slot = finder.arm(&trunk.poses, raised, side);
         if slot.is_none() {
             assumptions.push(format!(
                 "the {side} arm has too few markers; it keeps the table's size and is not measured: hanging"
@@ -102,7 +113,7 @@ impl Finder<'_> {
         let d = self.dimensions;
         let shoulder = |out: f64| Vec3::new(0.0, self.length(), out * 0.5 * d.shoulder_width);
         let poses = vec![None; self.frames.len()];
-        Trunk { poses, factor: 1.0, shoulders: [shoulder(1.0), shoulder(-1.0)], arms: [None, None] }
+        Trunk { poses, factor: 1.0, shoulders: [shoulder(1.0), shoulder(-1.0)], lift: 0.0, arms: [None, None] }
     }
 
     /// The landmarks' usual places fitted to those seen and to the lumbar joint.
@@ -140,11 +151,41 @@ impl Finder<'_> {
         let [Some(right), Some(left)] = shoulders else {
             return Trunk { poses, ..self.unmeasured() };
         };
+        let lift = if self.are_arms_raised(&poses) { self.lift(&poses, 0.5 * (right.y + left.y)) } else { 0.0 };
+        let [right, left] = [right, left].map(|s| s - Vec3::y() * lift);
         let middle = (right + left) * 0.5;
         let turn = about_z((-middle.x).atan2(middle.y));
         let poses = poses.into_iter().map(|pose| pose.map(|p| Pose { rotation: p.rotation * turn, ..p })).collect();
         let factor = (middle.x.hypot(middle.y) / self.length()).clamp(FACTORS[0], FACTORS[1]);
-        Trunk { poses, factor, shoulders: [right, left].map(|s| turn.transpose() * s), arms: [None, None] }
+        let shoulders = [right, left].map(|s| turn.transpose() * s);
+        Trunk { poses, factor, shoulders, lift, arms: [None, None] }
+    }
+
+    /// Whether the upper arms stand off the trunk.
+    fn are_arms_raised(&self, poses: &[Option<Pose>]) -> bool {
+        let cosine = |side: Side| {
+            move |(pose, &frame): (&Option<Pose>, &usize)| {
+                let arm = self.sight.of(Landmark::LateralElbow, side, frame)?
+                    - self.sight.of(Landmark::Acromion, side, frame)?;
+                Some(-direction(arm)?.dot(&pose.as_ref()?.rotation.column(1)))
+            }
+        };
+        let all = Side::BOTH.into_iter().flat_map(|side| poses.iter().zip(self.frames).filter_map(cosine(side)));
+        median(all).is_some_and(|cosine| cosine < RAISED.cos())
+    }
+
+    /// How much higher the shoulders stand at `height` than neck and table say they do with hanging arms [m].
+    fn lift(&self, poses: &[Option<Pose>], height: f64) -> f64 {
+        let neck = [Landmark::C7, Landmark::Jugular].map(|landmark| {
+            let heights = poses
+                .iter()
+                .zip(self.frames)
+                .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.at(landmark, None, frame)?).y));
+            median(heights).map(|found| found / landmark.place().y)
+        });
+        let shoulders =
+            median(neck.into_iter().flatten()).unwrap_or(self.length()) * Landmark::ShoulderCentre.place().y;
+        (height - shoulders).max(0.0)
     }
 
     /// Where a shoulder centre stands in the trunk [m].
@@ -199,10 +240,7 @@ impl Finder<'_> {
         let (elbow, axis) = match (at(Landmark::ElbowCentre), at(Landmark::LateralElbow), at(Landmark::MedialElbow)) {
             (Some(centre), ..) => (centre, bending_axis(shoulder, centre, wrist).unwrap_or(across)),
             (None, Some(lateral), Some(medial)) => ((lateral + medial) * 0.5, direction(lateral - medial)? * out),
-            (None, Some(lateral), None) => {
-                let axis = bending_axis(shoulder, lateral, wrist).unwrap_or(across);
-                (lateral - axis * (out * self.half_elbow(side)), axis)
-            }
+            (None, Some(lateral), None) => self.elbow(shoulder, lateral, wrist, across, side, frame),
             _ => return None,
         };
         let humerus = from_y_z(shoulder - elbow, axis)?;
@@ -211,6 +249,32 @@ impl Finder<'_> {
             _ => from_y_z(elbow - wrist, axis)?,
         };
         Some([Pose { rotation: humerus, translation: shoulder }, Pose { rotation: forearm, translation: elbow }])
+    }
+
+    /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of shoulder, centre and
+    /// wrist where the elbow is bent; else that of a forearm halfway between pronation and supination.
+    fn elbow(
+        &self,
+        shoulder: Vec3,
+        lateral: Vec3,
+        wrist: Vec3,
+        across: Vec3,
+        side: Side,
+        frame: usize,
+    ) -> (Vec3, Vec3) {
+        const ROUNDS: usize = 4;
+        /// A normal further than 60° from the forearm's axis is a straight arm's.
+        const AGREEING: f64 = 0.5;
+        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let thumb = at(Landmark::RadialStyloid).zip(at(Landmark::UlnarStyloid)).map(|(radial, ulnar)| radial - ulnar);
+        let usual = thumb.and_then(|thumb| direction(thumb.cross(&(lateral - wrist)))).unwrap_or(across);
+        let reach = self.half_elbow(side) * if side == Side::Right { 1.0 } else { -1.0 };
+        let mut axis = usual;
+        for _ in 0..ROUNDS {
+            let normal = bending_axis(shoulder, lateral - axis * reach, wrist);
+            axis = normal.filter(|n| n.dot(&usual) > AGREEING).unwrap_or(usual);
+        }
+        (lateral - axis * reach, axis)
     }
 
     /// Lateral marker to elbow centre [m].

@@ -26,6 +26,10 @@ pub(super) struct Frames {
     pub(super) core: Vec<bool>,
     /// From the model's marker to the recorded one in body axes, at the posture of the frame [m].
     offsets: Vec<Vec3>,
+    /// The offsets at which the frame was fitted, if not to the model's own markers [m].
+    targets: Vec<Vec3>,
+    /// Fitted to the model's own markers, all that are believed.
+    plain: Vec<bool>,
 }
 
 impl Frames {
@@ -46,6 +50,8 @@ impl Frames {
             outcomes: vec![None; frames],
             core: vec![true; markers],
             offsets: vec![Vec3::repeat(f64::NAN); frames * markers],
+            targets: vec![Vec3::repeat(f64::NAN); frames * markers],
+            plain: vec![false; frames],
             seen,
         };
         all.choose_core();
@@ -137,8 +143,20 @@ impl Frames {
         problem.load(frame, |i| self.is_used(frame, i), |i| self.path(frame, i))
     }
 
+    /// The offsets at which a frame was fitted that lacks markers [m]; not a number for markers left out.
+    pub(super) fn targets(&self, frame: usize) -> &[Vec3] {
+        &self.targets[frame * self.markers..(frame + 1) * self.markers]
+    }
+
+    /// Notes the offsets at which a frame is fitted.
+    pub(super) fn aim(&mut self, frame: usize, offsets: &[Vec3]) {
+        self.targets[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(offsets);
+    }
+
     /// Keeps the posture of a frame, at which the problem stands.
-    pub(super) fn keep(&mut self, frame: usize, problem: &Problem<'_>, x: &[f64], outcome: Outcome) {
+    /// `plain` if it was fitted to the model's own markers.
+    pub(super) fn keep(&mut self, frame: usize, problem: &Problem<'_>, x: &[f64], outcome: Outcome, plain: bool) {
+        self.plain[frame] = plain;
         self.posture_mut(frame).copy_from_slice(x);
         self.outcomes[frame] = Some(outcome);
         for i in 0..self.markers {
@@ -146,6 +164,11 @@ impl Frames {
             self.offsets[frame * self.markers + i] =
                 if used { problem.offset(i, &problem.positions[i]) } else { Vec3::repeat(f64::NAN) };
         }
+    }
+
+    /// Whether the frame was fitted to the model's own markers.
+    pub(super) fn is_plain(&self, frame: usize) -> bool {
+        self.plain[frame]
     }
 
     /// Forgets the posture of a frame.

@@ -5,12 +5,20 @@
 //! method: mass, first moment and second moment of the weights add up from the leaves to the root, and the entry of two columns
 //! is one twist times the momentum of the other. J is never formed. A body without a weight costs nothing.
 //!
+//! Half the second derivative of the cost is JᵀWJ - Σ f·∂²p, with f = w (m - p). An axis a carries the axis b further out with it,
+//! ∂²p/∂a∂b = ω_a × (v_b + ω_b × x), so
+//!
+//!   Σ f·∂²p = F·(ω_a × v_b) + ω_aᵀ X ω_b - tr X ω_a·ω_b,      X = Σ x fᵀ
+//!
+//! Left out are the second derivatives of the joints' own curves: they slow the iteration, its end is the same.
+//!
 //! | code       | symbol                | unit |
 //! | `mass`     | Σ w                   | 1    |
 //! | `first`    | Σ w x                 | m    |
 //! | `second`   | Σ w (x² 1 - x xᵀ)     | m²   |
 //! | `force`    | Σ w (m - p)           | m    |
 //! | `moment`   | Σ x × w (m - p)       | m²   |
+//! | `spread`   | X = Σ x w (m - p)ᵀ    | m²   |
 //!
 //! x is the marker's place from the reference point.
 //!
@@ -43,6 +51,7 @@ struct Composite {
     second: Mat3,
     force: Vec3,
     moment: Vec3,
+    spread: Mat3,
 }
 
 const EMPTY: Composite = Composite {
@@ -51,6 +60,7 @@ const EMPTY: Composite = Composite {
     second: Mat3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.),
     force: Vec3::new(0., 0., 0.),
     moment: Vec3::new(0., 0., 0.),
+    spread: Mat3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.),
 };
 
 impl Composite {
@@ -60,6 +70,7 @@ impl Composite {
         self.second += other.second;
         self.force += other.force;
         self.moment += other.moment;
+        self.spread += other.spread;
     }
 }
 
@@ -68,6 +79,8 @@ impl Composite {
 pub(super) struct Normal {
     n: usize,
     pub(super) matrix: Vec<f64>,
+    /// Σ f·∂²p, lower half.
+    pub(super) curvature: Vec<f64>,
     pub(super) right: Vec<f64>,
     composites: Vec<Composite>,
 }
@@ -87,12 +100,19 @@ pub(super) fn cost(tree: &Tree, targets: &Targets<'_>) -> f64 {
 impl Normal {
     pub(super) fn new(tree: &Tree) -> Normal {
         let n = tree.unknowns();
-        Normal { n, matrix: vec![0.0; n * n], right: vec![0.0; n], composites: vec![EMPTY; tree.node_count()] }
+        Normal {
+            n,
+            matrix: vec![0.0; n * n],
+            curvature: vec![0.0; n * n],
+            right: vec![0.0; n],
+            composites: vec![EMPTY; tree.node_count()],
+        }
     }
 
     /// Gathers both at the posture of the tree.
     pub(super) fn gather(&mut self, tree: &Tree, targets: &Targets<'_>) {
         self.matrix.fill(0.0);
+        self.curvature.fill(0.0);
         self.right.fill(0.0);
         self.composites.fill(EMPTY);
         self.add_markers(tree, targets);
@@ -119,6 +139,7 @@ impl Normal {
                     second: (Mat3::from_diagonal_element(x.norm_squared()) - x * x.transpose()) * w,
                     force,
                     moment: x.cross(&force),
+                    spread: x * force.transpose(),
                 });
             }
         }
@@ -126,20 +147,25 @@ impl Normal {
 
     /// The rows of a node's own columns against themselves and all columns on the way to the root.
     fn project(&mut self, tree: &Tree, node: usize, c: &Composite) {
+        let trace = c.spread.trace();
         let own = tree.columns(node);
         for (k, column) in own.iter().enumerate() {
             self.right[column.unknown] += column.angular.dot(&c.moment) + column.linear.dot(&c.force);
             let linear = column.linear * c.mass + column.angular.cross(&c.first);
             let angular = c.second * column.angular + c.first.cross(&column.linear);
+            let bend = column.linear.cross(&c.force) + c.spread * column.angular - column.angular * trace;
             for other in &own[..k] {
-                self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear));
+                let bends = if other.turns && column.turns { other.angular.dot(&bend) } else { 0.0 };
+                self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear), bends);
             }
-            let itself = column.angular.dot(&angular) + column.linear.dot(&linear);
-            self.matrix[column.unknown * self.n + column.unknown] += itself;
+            let diagonal = column.unknown * self.n + column.unknown;
+            self.matrix[diagonal] += column.angular.dot(&angular) + column.linear.dot(&linear);
+            self.curvature[diagonal] += column.angular.dot(&bend);
             let mut next = tree.parent(node);
             while let Some(ancestor) = next {
                 for other in tree.columns(ancestor) {
-                    self.add(column.unknown, other.unknown, other.angular.dot(&angular) + other.linear.dot(&linear));
+                    let product = other.angular.dot(&angular) + other.linear.dot(&linear);
+                    self.add(column.unknown, other.unknown, product, other.angular.dot(&bend));
                 }
                 next = tree.parent(ancestor);
             }
@@ -147,8 +173,10 @@ impl Normal {
     }
 
     /// Two columns that are not the same one; one unknown may stand in both.
-    fn add(&mut self, a: usize, b: usize, value: f64) {
-        let value = if a == b { 2.0 * value } else { value };
-        self.matrix[a.max(b) * self.n + a.min(b)] += value;
+    fn add(&mut self, a: usize, b: usize, product: f64, bends: f64) {
+        let times = if a == b { 2.0 } else { 1.0 };
+        let entry = a.max(b) * self.n + a.min(b);
+        self.matrix[entry] += times * product;
+        self.curvature[entry] += times * bends;
     }
 }

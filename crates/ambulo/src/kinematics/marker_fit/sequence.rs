@@ -41,9 +41,11 @@ const FIRST_SWAP: f64 = 0.060;
 struct Memory {
     /// The last two fitted frames.
     last: [Option<usize>; 2],
-    /// Offsets of the last good frame in which each marker was believed, and the time of it [s].
+    /// Offsets of the last frame in which each marker was believed, and the time of it [s].
     offsets: Vec<Vec3>,
     times: Vec<f64>,
+    /// Offsets of markers that are not believed.
+    wild: Vec<Vec3>,
     /// Last time at which each marker was seen [s].
     seen: Vec<f64>,
     believed: Vec<bool>,
@@ -64,6 +66,7 @@ pub(super) fn run(problem: &mut Problem<'_>, frames: &mut Frames, guard: Guard, 
         last: [None; 2],
         offsets: vec![Vec3::repeat(f64::NAN); markers],
         times: vec![f64::NEG_INFINITY; markers],
+        wild: vec![Vec3::zeros(); markers],
         seen: vec![f64::NEG_INFINITY; markers],
         believed: vec![true; markers],
         paths: (0..markers).collect(),
@@ -108,8 +111,9 @@ fn fit_frame(
         && knows_offsets
         && let Some(outcome) = guarded(problem, frames, memory, frame, t)
     {
-        frames.keep(frame, problem, &memory.x, outcome);
-        remember(frames, memory, frame, t, frames.is_complete(frame));
+        let complete = frames.is_complete(frame);
+        frames.keep(frame, problem, &memory.x, outcome, complete);
+        remember(frames, memory, frame, t);
         return;
     }
     let mut x = std::mem::take(&mut memory.x);
@@ -121,9 +125,10 @@ fn fit_frame(
         drop_unknown(problem, memory);
         problem.fit_with_offsets(&memory.usable, &mut x)
     };
-    frames.keep(frame, problem, &x, outcome);
+    let plain = complete || !knows_offsets;
+    frames.keep(frame, problem, &x, outcome, plain);
     memory.x = x;
-    remember(frames, memory, frame, t, complete || !knows_offsets);
+    remember(frames, memory, frame, t);
 }
 
 /// Starts from where the last two frames lead, if they are recent.
@@ -146,13 +151,13 @@ fn foretell(problem: &Problem<'_>, frames: &Frames, memory: &mut Memory, frame: 
     true
 }
 
-fn remember(frames: &Frames, memory: &mut Memory, frame: usize, t: f64, good: bool) {
+fn remember(frames: &Frames, memory: &mut Memory, frame: usize, t: f64) {
     memory.last = [Some(frame), memory.last[0]];
     for i in 0..frames.markers() {
         if frames.is_seen(frame, frames.path(frame, i)) {
             memory.seen[i] = t;
         }
-        if good && frames.is_used(frame, i) {
+        if frames.is_used(frame, i) {
             memory.offsets[i] = frames.offsets(frame)[i];
             memory.times[i] = t;
         }
@@ -199,13 +204,21 @@ fn guarded(
     robust(problem, memory);
     exchange(problem, frames, memory, frame, t);
     for i in 0..frames.markers() {
-        let (r, limit) = (memory.distances[i], limit(memory, i, t));
-        if r.is_finite() {
-            memory.believed[i] = r <= if memory.believed[i] { limit } else { BACK * limit };
+        if memory.distances[i].is_finite() {
+            memory.believed[i] = is_believed(problem, memory, i, t);
         }
         frames.believe(frame, i, memory.believed[i]);
     }
     None
+}
+
+/// Whether a marker is near enough to where it is expected; one that was not believed must come nearer, or leap back.
+fn is_believed(problem: &Problem<'_>, memory: &mut Memory, i: usize, t: f64) -> bool {
+    let (r, limit) = (memory.distances[i], limit(memory, i, t));
+    let offset = problem.offset(i, &problem.positions[i]);
+    let leapt = (offset - memory.wild[i]).norm() > JUMP;
+    memory.wild[i] = offset;
+    if memory.believed[i] { r <= limit } else { r <= BACK * limit || (leapt && r <= JUMP + MOST_SLIDE_UNSEEN) }
 }
 
 /// The fit of this frame, unless an offset changed faster than skin slides.

@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 
+/// A wrist's only marker may be lost for a third of a second without the loss of the recording; over that time a parabola at its
+/// ends strays from a joint with a jerk of 600 rad/s³ by half a radian, and more than that is not worth a value [s].
+const LONGEST_GAP_S: f64 = 0.35;
+
 /// How markers are fitted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitSettings {
@@ -9,7 +13,8 @@ pub struct FitSettings {
     pub weights: BTreeMap<String, f64>,
     /// Which ranges of coordinates are obeyed.
     pub limits: Limits,
-    /// Coordinates that no seen marker determines are filled up to this long [s]; longer stretches stay gaps.
+    /// Coordinates that no seen marker determines are bridged up to this long [s], 0.35 by default; longer stretches, and
+    /// those at the ends of the recording, stay gaps.
     pub longest_gap_s: f64,
     /// Whether swapped labels and jumping markers are looked for.
     pub guard: Guard,
@@ -22,7 +27,7 @@ impl Default for FitSettings {
         FitSettings {
             weights: BTreeMap::new(),
             limits: Limits::Clamped,
-            longest_gap_s: 0.2,
+            longest_gap_s: LONGEST_GAP_S,
             guard: Guard::On,
             smoothing: None,
         }

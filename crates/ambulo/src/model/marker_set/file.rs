@@ -16,6 +16,7 @@
 //! weight = 0.5
 //! ```
 
+use super::landmark::LOOSE_WEIGHT;
 use super::{Landmark, MarkerDefinition, MarkerSet, Segment};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -129,7 +130,11 @@ fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
         }
     };
     let own = table.get("place").map(|value| value.vector()).transpose()?;
-    let usual = if landmark.is_some() { 1.0 } else { TECHNICAL_WEIGHT };
+    let usual = match (landmark, segment) {
+        (Some(landmark), _) => landmark.weight(),
+        (None, Segment::Humerus | Segment::Forearm) => LOOSE_WEIGHT,
+        (None, _) => TECHNICAL_WEIGHT,
+    };
     let weight = match table.get("weight") {
         Some(value) => {
             let weight = value.above_zero()?;

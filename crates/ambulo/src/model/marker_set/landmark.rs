@@ -73,7 +73,7 @@ const fn row(landmark: Landmark, word: &'static str, segment: Segment, place: [f
 }
 
 /// Places of markers on a body of mean build, standing. The pelvis follows from Harrington's regression for a pelvis 238 mm wide and
-/// 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths; breadths of knee, ankle and elbow from mean
+/// 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths and the heights of cervicale and acromion; breadths of knee, ankle and elbow from mean
 /// breadths between the condyles and malleoli with a marker's radius; the rest is where the markers of subject01 of OpenSim's
 /// Gait2392 and of the Rajagopal example stand, rounded. Where a marker is seen, its own place replaces this one.
 pub(super) const TABLE: [Row; 50] = {
@@ -126,27 +126,27 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::Navicular, "navicular", S::Foot, [0.13, -0.05, -0.13], "tuberosity of the navicular"),
         row(L::Hallux, "hallux", S::Toes, [0.2, 0.02, -0.1], "great toe"),
         row(L::SmallToe, "small_toe", S::Toes, [0.08, 0.0, 0.15], "small toe"),
-        row(L::C7, "c7", S::Torso, [-0.22, 1.18, 0.0], "spinous process of the seventh cervical vertebra"),
-        row(L::T2, "t2", S::Torso, [-0.27, 1.06, 0.0], "spinous process of the second thoracic vertebra"),
-        row(L::T8, "t8", S::Torso, [-0.32, 0.66, 0.0], "spinous process of the eighth thoracic vertebra"),
-        row(L::T10, "t10", S::Torso, [-0.3, 0.5, 0.0], "spinous process of the tenth thoracic vertebra"),
-        row(L::T12, "t12", S::Torso, [-0.27, 0.34, 0.0], "spinous process of the twelfth thoracic vertebra"),
-        row(L::Jugular, "jugular", S::Torso, [0.17, 1.04, 0.0], "jugular notch, where the clavicles meet the sternum"),
-        row(L::Xiphoid, "xiphoid", S::Torso, [0.3, 0.58, 0.0], "xiphoid process of the sternum"),
-        row(L::Acromion, "acromion", S::Torso, [-0.02, 1.15, 0.5], "acromion"),
+        row(L::C7, "c7", S::Torso, [-0.24, 1.36, 0.0], "spinous process of the seventh cervical vertebra"),
+        row(L::T2, "t2", S::Torso, [-0.33, 1.26, 0.0], "spinous process of the second thoracic vertebra"),
+        row(L::T8, "t8", S::Torso, [-0.43, 0.8, 0.0], "spinous process of the eighth thoracic vertebra"),
+        row(L::T10, "t10", S::Torso, [-0.43, 0.56, 0.0], "spinous process of the tenth thoracic vertebra"),
+        row(L::T12, "t12", S::Torso, [-0.38, 0.37, 0.0], "spinous process of the twelfth thoracic vertebra"),
+        row(L::Jugular, "jugular", S::Torso, [0.16, 1.08, 0.0], "jugular notch, where the clavicles meet the sternum"),
+        row(L::Xiphoid, "xiphoid", S::Torso, [0.3, 0.55, 0.0], "xiphoid process of the sternum"),
+        row(L::Acromion, "acromion", S::Torso, [-0.02, 1.15, 0.55], "acromion"),
         row(
             L::ShoulderCentre,
             "shoulder_centre",
             S::Torso,
-            [0.0, 1.0, 0.5],
+            [0.0, 1.0, 0.55],
             "centre of the shoulder, as a program found it",
         ),
-        row(L::Neck, "neck", S::Torso, [0.0, 1.15, 0.0], "midway between the shoulders, at the neck"),
-        row(L::FrontHead, "front_head", S::Torso, [0.25, 1.6, 0.19], "side of the forehead"),
-        row(L::BackHead, "back_head", S::Torso, [-0.22, 1.6, 0.19], "side of the back of the head"),
-        row(L::Ear, "ear", S::Torso, [0.03, 1.5, 0.2], "ear or temple"),
-        row(L::Nose, "nose", S::Torso, [0.33, 1.48, 0.0], "nose"),
-        row(L::Vertex, "vertex", S::Torso, [0.0, 1.8, 0.0], "top of the head"),
+        row(L::Neck, "neck", S::Torso, [0.0, 1.2, 0.0], "midway between the shoulders, at the neck"),
+        row(L::FrontHead, "front_head", S::Torso, [0.3, 1.75, 0.22], "side of the forehead"),
+        row(L::BackHead, "back_head", S::Torso, [-0.2, 1.78, 0.22], "side of the back of the head"),
+        row(L::Ear, "ear", S::Torso, [0.05, 1.62, 0.22], "ear or temple"),
+        row(L::Nose, "nose", S::Torso, [0.38, 1.55, 0.0], "nose"),
+        row(L::Vertex, "vertex", S::Torso, [0.0, 1.95, 0.0], "top of the head"),
         row(L::LateralElbow, "lateral_elbow", S::Humerus, [0.0, -1.0, 0.15], "lateral epicondyle of the humerus"),
         row(L::MedialElbow, "medial_elbow", S::Humerus, [0.0, -1.0, -0.15], "medial epicondyle of the humerus"),
         row(L::ElbowCentre, "elbow_centre", S::Humerus, [0.0, -1.0, 0.0], "centre of the elbow, as a program found it"),
@@ -156,6 +156,9 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::Knuckle, "knuckle", S::Forearm, [0.0, -1.3, 0.07], "head of the third metacarpal, back of the hand"),
     ]
 };
+
+/// Weight of markers that move on the body that carries them in the model.
+pub(super) const LOOSE_WEIGHT: f64 = 0.02;
 
 impl Landmark {
     /// All landmarks, from the pelvis down and then up.
@@ -183,6 +186,20 @@ impl Landmark {
     #[must_use]
     pub fn segment(self) -> Segment {
         self.row().segment
+    }
+
+    /// How much a marker on it counts where markers are fitted: little on arms and shoulders, whose girdle moves on the trunk by
+    /// centimetres, and on the head, which turns on it.
+    #[must_use]
+    pub fn weight(self) -> f64 {
+        use Landmark as L;
+        match (self, self.segment()) {
+            (_, Segment::Humerus | Segment::Forearm)
+            | (L::Acromion | L::ShoulderCentre | L::FrontHead | L::BackHead | L::Ear | L::Nose | L::Vertex, _) => {
+                LOOSE_WEIGHT
+            }
+            _ => 1.0,
+        }
     }
 
     /// Where a marker on it stands on a body of mean build, on the right side, in shares of the segment's length.

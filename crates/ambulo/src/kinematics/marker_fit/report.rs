@@ -1,0 +1,195 @@
+//! The fit as a recording of coordinates with the markers' distances, and what a person should know of it.
+
+use super::frames::Frames;
+use super::gaps::State;
+use super::problem::{Problem, listed};
+use super::result::{MarkerError, MarkerFit};
+use crate::findings::Findings;
+use crate::model::{Drive, Model};
+use crate::motion::Motion;
+
+/// Stretches of time listed in a message at most.
+const MOST_SPANS: usize = 6;
+
+/// The postures as a recording of coordinates, and the markers' distances.
+pub(super) fn fit(
+    model: &Model,
+    recording: &str,
+    problem: &mut Problem<'_>,
+    frames: &Frames,
+    states: &[State],
+) -> MarkerFit {
+    let count = frames.count();
+    let leaders = leaders(model, problem);
+    let mut columns: Vec<Option<Vec<f64>>> =
+        leaders.iter().map(|leader| (*leader != Leader::Nothing).then(|| vec![f64::NAN; count])).collect();
+    let mut distances = vec![Distances::default(); frames.markers()];
+    let mut rms_m = vec![f64::NAN; count];
+    for frame in (0..count).filter(|&frame| frames.outcomes[frame].is_some()) {
+        frames.load(frame, problem);
+        problem.pose_at(frames.posture(frame));
+        let states = &states[frame * problem.tree.unknowns()..(frame + 1) * problem.tree.unknowns()];
+        for ((column, value), leader) in columns.iter_mut().zip(problem.tree.values()).zip(&leaders) {
+            let is_gap = matches!(leader, Leader::Unknown(u) if states[*u] == State::Gap);
+            if let (Some(column), false) = (column, is_gap) {
+                column[frame] = *value;
+            }
+        }
+        rms_m[frame] = note_distances(problem, &mut distances);
+    }
+    let errors = distances.iter().enumerate().map(|(i, d)| d.error(i, problem, frames)).collect();
+    MarkerFit {
+        motion: Motion { origin: format!("markers of {recording}"), times: problem.times.to_vec(), columns },
+        errors,
+        rms_m,
+        iterations: frames.outcomes.iter().map(|o| o.map_or(0, |o| o.steps)).collect(),
+        converged: frames.outcomes.iter().map(|o| o.is_none_or(|o| o.converged)).collect(),
+    }
+}
+
+/// What decides a coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Leader {
+    /// No marker moves it.
+    Nothing,
+    /// The model itself: a lock, a function of time.
+    Model,
+    /// An unknown, its own or its coupler's.
+    Unknown(usize),
+}
+
+fn leaders(model: &Model, problem: &Problem<'_>) -> Vec<Leader> {
+    let own = |c: usize| (0..problem.tree.unknowns()).find(|&u| problem.tree.coordinate(u) == c);
+    let leader = |(i, drive): (usize, &Drive)| match drive {
+        Drive::Free => own(i).map_or(Leader::Nothing, Leader::Unknown),
+        Drive::Coupled(leader, _) => match &model.coordinates()[leader.index()].drive {
+            Drive::Free => own(leader.index()).map_or(Leader::Nothing, Leader::Unknown),
+            _ => Leader::Model,
+        },
+        Drive::Locked | Drive::Prescribed(_) => Leader::Model,
+    };
+    model.coordinates().iter().map(|c| &c.drive).enumerate().map(leader).collect()
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Distances {
+    square: f64,
+    most: f64,
+    used: usize,
+}
+
+/// Adds the distances of the markers that are loaded; their root mean square.
+fn note_distances(problem: &Problem<'_>, distances: &mut [Distances]) -> f64 {
+    let (mut sum, mut used) = (0.0, 0);
+    for (i, d) in distances.iter_mut().enumerate() {
+        if problem.frame_weights[i] > 0.0 {
+            let distance = problem.distance(i);
+            d.square += distance * distance;
+            d.most = d.most.max(distance);
+            d.used += 1;
+            sum += distance * distance;
+            used += 1;
+        }
+    }
+    (sum / f64::from(used)).sqrt()
+}
+
+impl Distances {
+    fn error(&self, i: usize, problem: &Problem<'_>, frames: &Frames) -> MarkerError {
+        let seen: Vec<usize> = (0..frames.count()).filter(|&f| frames.is_seen(f, i)).collect();
+        MarkerError {
+            name: problem.paths[i].name.clone(),
+            rms_m: (self.square / self.used as f64).sqrt(),
+            max_m: if self.used > 0 { self.most } else { f64::NAN },
+            seen: seen.len(),
+            down_weighted: seen.into_iter().filter(|&f| !frames.is_used(f, i)).count(),
+        }
+    }
+}
+
+/// Says which markers were missing, which were not believed and which had exchanged their labels.
+pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Findings) {
+    let name = |i: usize| problem.paths[i].name.as_str();
+    for i in 0..frames.markers() {
+        let missing = spans(frames.count(), |f| !frames.is_seen(f, i));
+        if !missing.is_empty() {
+            let message = format!("marker `{}` was not seen at {}", name(i), times(problem, &missing));
+            findings.note("markers.missing", message);
+        }
+        let wild = spans(frames.count(), |f| {
+            let path = frames.path(f, i);
+            frames.is_seen(f, path) && !frames.is_used(f, i)
+        });
+        if !wild.is_empty() {
+            let message = format!(
+                "marker `{}` left its place on the body at {}; it was left out there",
+                name(i),
+                times(problem, &wild)
+            );
+            findings.warn("markers.jump", message);
+        }
+        for j in i + 1..frames.markers() {
+            let swapped = spans(frames.count(), |f| frames.path(f, i) == j);
+            if !swapped.is_empty() {
+                let message = format!(
+                    "the markers `{}` and `{}` had exchanged labels at {}; they were exchanged back",
+                    name(i),
+                    name(j),
+                    times(problem, &swapped)
+                );
+                findings.warn("markers.swap", message);
+            }
+        }
+    }
+}
+
+/// Says which coordinates no marker determined.
+pub(super) fn coordinates(
+    model: &Model,
+    problem: &Problem<'_>,
+    frames: &Frames,
+    states: &[State],
+    longest_s: f64,
+    findings: &mut Findings,
+) {
+    let unknowns = problem.tree.unknowns();
+    for u in 0..unknowns {
+        let name = &model.coordinates()[problem.tree.coordinate(u)].name;
+        let bridged = spans(frames.count(), |f| states[f * unknowns + u] == State::Bridged);
+        if !bridged.is_empty() {
+            let message =
+                format!("too few markers determine `{name}` at {}; a curve leads across", times(problem, &bridged));
+            findings.note("markers.bridged", message);
+        }
+        let gaps = spans(frames.count(), |f| states[f * unknowns + u] == State::Gap);
+        if !gaps.is_empty() {
+            let message = format!(
+                "too few markers determine `{name}` at {}; it has no value there (stretches up to {longest_s} s inside the recording are bridged)",
+                times(problem, &gaps)
+            );
+            findings.warn("markers.gap", message);
+        }
+    }
+}
+
+/// Runs of frames, as first and last frame.
+fn spans(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
+    let mut list: Vec<[usize; 2]> = Vec::new();
+    for frame in (0..count).filter(|&frame| holds(frame)) {
+        match list.last_mut() {
+            Some([_, last]) if *last + 1 == frame => *last = frame,
+            _ => list.push([frame, frame]),
+        }
+    }
+    list
+}
+
+fn times(problem: &Problem<'_>, spans: &[[usize; 2]]) -> String {
+    let frames: usize = spans.iter().map(|[a, b]| b + 1 - a).sum();
+    let one = |[a, b]: &[usize; 2]| format!("{:.3}-{:.3} s", problem.times[*a], problem.times[*b]);
+    let shown: Vec<String> = spans.iter().take(MOST_SPANS).map(one).collect();
+    let rest = spans.len().saturating_sub(MOST_SPANS);
+    let more = if rest > 0 { format!(" and {rest} more stretches") } else { String::new() };
+    let plural = if frames == 1 { "" } else { "s" };
+    format!("{}{more} ({frames} frame{plural})", listed(shown.iter().map(String::as_str)))
+}

@@ -1,0 +1,183 @@
+//! Labels that are exchanged and markers that jump: found, said, and without effect on the angles.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+#[expect(unused, reason = "random numbers only")]
+mod common;
+mod marker_data;
+
+use ambulo::findings::Findings;
+use ambulo::kinematics::marker_fit::{FitSettings, Guard, MarkerFit, fit_markers};
+use ambulo::model::CoordinateKind;
+use ambulo::motion::MarkerRecording;
+use ambulo::spatial::Vec3;
+use common::random::Random;
+use marker_data::{Subject, gait2392, rajagopal};
+
+fn fitted(subject: &Subject, markers: &MarkerRecording, guard: Guard) -> (MarkerFit, Findings) {
+    let mut findings = Findings::default();
+    let settings = FitSettings { guard, ..FitSettings::default() };
+    let fit = fit_markers(&subject.model, markers, &settings, &mut findings).unwrap();
+    (fit, findings)
+}
+
+/// Largest root mean square difference of an angle [deg] over the whole recording.
+fn largest_difference(subject: &Subject, a: &MarkerFit, b: &MarkerFit) -> (f64, String) {
+    let mut largest = (0.0, String::new());
+    for id in subject.model.coordinate_ids() {
+        let coordinate = &subject.model.coordinates()[id.index()];
+        if let (Some(x), Some(y), CoordinateKind::Rotation) =
+            (a.motion.column(id), b.motion.column(id), coordinate.kind)
+        {
+            let rms = (x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum::<f64>() / x.len() as f64).sqrt().to_degrees();
+            if !(rms <= largest.0) {
+                largest = (rms, coordinate.name.clone());
+            }
+        }
+    }
+    largest
+}
+
+fn names(subject: &Subject) -> Vec<usize> {
+    let on_model = |name: &str| subject.model.markers().iter().any(|m| m.name == name && m.body.is_some());
+    (0..subject.markers.markers.len()).filter(|&i| on_model(&subject.markers.markers[i].name)).collect()
+}
+
+fn assert_clean(label: &str, subject: &Subject) {
+    let (_, findings) = fitted(subject, &subject.markers, Guard::On);
+    for finding in findings.as_slice() {
+        assert!(
+            !finding.code.starts_with("markers.jump") && !finding.code.starts_with("markers.swap"),
+            "{label}: {finding}"
+        );
+    }
+}
+
+fn assert_jumps_are_found(label: &str, subject: &Subject, seed: u64) {
+    let (clean, _) = fitted(subject, &subject.markers, Guard::On);
+    let mut r = Random::new(seed);
+    let used = names(subject);
+    let frames = subject.markers.frames();
+    let mut worst = (0.0, String::new());
+    for round in 0..40 {
+        let marker = used[r.below(used.len())];
+        let start = 3 + r.below(frames - 40);
+        let length = 1 + r.below(30);
+        let jump = r.unit() * r.between(0.05, 0.2);
+        let mut wild = subject.markers.clone();
+        for p in &mut wild.markers[marker].positions[start..start + length] {
+            *p += jump;
+        }
+        let name = &wild.markers[marker].name;
+        let (fit, findings) = fitted(subject, &wild, Guard::On);
+        let said = findings.as_slice().iter().any(|f| f.code == "markers.jump" && f.message.contains(name));
+        let (difference, angle) = largest_difference(subject, &clean, &fit);
+        let case = format!(
+            "{label} round {round}: {name} by {:.0} mm from frame {start} for {length} frames",
+            1000.0 * jump.norm()
+        );
+        let (off, _) = fitted(subject, &wild, Guard::Off);
+        println!(
+            "{case}: {difference:.3} deg at {angle}, unguarded {:.2}",
+            largest_difference(subject, &clean, &off).0
+        );
+        if !said || difference >= 1.0 {
+            findings.as_slice().iter().for_each(|f| println!("    {f}"));
+        }
+        assert!(said, "{case}: not said");
+        if !(difference <= worst.0) {
+            worst = (difference, case);
+        }
+    }
+    println!("{label}: worst {:.3} deg, {}", worst.0, worst.1);
+    assert!(worst.0 < 1.0, "{}: {} deg", worst.1, worst.0);
+}
+
+fn assert_swaps_are_undone(label: &str, subject: &Subject, seed: u64) {
+    let (clean, _) = fitted(subject, &subject.markers, Guard::On);
+    let mut r = Random::new(seed);
+    let used = names(subject);
+    let frames = subject.markers.frames();
+    let mut done = 0;
+    let mut worst = (0.0, String::new());
+    while done < 40 {
+        let (a, b) = (used[r.below(used.len())], used[r.below(used.len())]);
+        let start = 3 + r.below(frames - 40);
+        let length = 1 + r.below(30);
+        let apart = subject.markers.markers[a].positions[start] - subject.markers.markers[b].positions[start];
+        if !(0.05..0.6).contains(&apart.norm()) {
+            continue;
+        }
+        done += 1;
+        let mut wild = subject.markers.clone();
+        for frame in start..start + length {
+            let p = wild.markers[a].positions[frame];
+            wild.markers[a].positions[frame] = wild.markers[b].positions[frame];
+            wild.markers[b].positions[frame] = p;
+        }
+        let (fit, findings) = fitted(subject, &wild, Guard::On);
+        let [x, y] = [a, b].map(|i| wild.markers[i].name.clone());
+        let said = |f: &ambulo::findings::Finding| {
+            f.message.contains(&x) && f.message.contains(&y) && f.code == "markers.swap"
+        };
+        let swap = findings.as_slice().iter().any(said);
+        let jump = findings.as_slice().iter().any(|f| f.code == "markers.jump");
+        let (difference, angle) = largest_difference(subject, &clean, &fit);
+        let case =
+            format!("{label}: {x} and {y}, {:.0} mm apart, from frame {start} for {length}", 1000.0 * apart.norm());
+        println!("{case}: {difference:.4} deg at {angle}, swap {swap} jump {jump}");
+        if difference >= 1.0 {
+            findings.as_slice().iter().for_each(|f| println!("    {f}"));
+        }
+        assert!(swap || jump, "{case}: not said");
+        if !(difference <= worst.0) {
+            worst = (difference, case);
+        }
+    }
+    println!("{label}: worst {:.3} deg, {}", worst.0, worst.1);
+    assert!(worst.0 < 1.0, "{}: {} deg", worst.1, worst.0);
+}
+
+#[test]
+fn clean_recordings_have_neither_jumps_nor_swaps() {
+    if let (Some(a), Some(b)) = (rajagopal(), gait2392()) {
+        assert_clean("rajagopal", &a);
+        assert_clean("gait2392", &b);
+    }
+}
+
+#[test]
+fn jumps_are_found_and_change_no_angle() {
+    if let (Some(a), Some(b)) = (rajagopal(), gait2392()) {
+        assert_jumps_are_found("rajagopal", &a, 1);
+        assert_jumps_are_found("gait2392", &b, 2);
+    }
+}
+
+#[test]
+fn exchanged_labels_are_found_and_change_no_angle() {
+    if let (Some(a), Some(b)) = (rajagopal(), gait2392()) {
+        assert_swaps_are_undone("rajagopal", &a, 3);
+        assert_swaps_are_undone("gait2392", &b, 4);
+    }
+}
+
+#[test]
+fn labels_exchanged_from_the_first_frame_are_found() {
+    let Some(subject) = rajagopal() else { return };
+    let (clean, _) = fitted(&subject, &subject.markers, Guard::On);
+    for [a, b] in [["R.Heel", "R.Toe"], ["R.ASIS", "L.ASIS"], ["L.Knee", "L.SH1"]] {
+        let mut wild = subject.markers.clone();
+        let place = |name: &str| subject.markers.markers.iter().position(|m| m.name == name).unwrap();
+        let (i, j) = (place(a), place(b));
+        let kept: Vec<Vec3> = wild.markers[i].positions.clone();
+        wild.markers[i].positions = wild.markers[j].positions.clone();
+        wild.markers[j].positions = kept;
+        let (fit, findings) = fitted(&subject, &wild, Guard::On);
+        let (difference, angle) = largest_difference(&subject, &clean, &fit);
+        println!("{a} and {b} throughout: {difference:.3} deg at {angle}");
+        assert!(findings.has("markers.swap"), "{a} and {b}: {:?}", findings.as_slice());
+        assert!(difference < 1e-6, "{difference}");
+    }
+}
