@@ -162,5 +162,9 @@ fn coordinate(coordinate: &Coordinate) -> Result<OsimCoordinate, ExportError> {
 }
 
 fn marker(model: &Model, marker: &Marker) -> OsimMarker {
-    OsimMarker { name: component_name(&marker.name), body: name_of(model, marker.body), location_m: marker.location.into() }
+    OsimMarker {
+        name: component_name(&marker.name),
+        body: name_of(model, marker.body),
+        location_m: marker.location.into(),
+    }
 }
