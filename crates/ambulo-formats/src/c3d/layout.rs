@@ -5,6 +5,9 @@ use super::header::{BLOCK, Header};
 use super::parameters::Parameters;
 use crate::error::{Error, Remark};
 
+/// Largest number of 16 bits.
+const WORD: usize = 65535;
+
 /// Where the data are and how a frame is built.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Layout {
@@ -29,7 +32,7 @@ struct Claim {
 impl Layout {
     /// Words of four points and all samples of one frame.
     fn values_per_frame(&self) -> usize {
-        4 * self.points + self.channels * self.samples_per_frame
+        (4 * self.points).saturating_add(self.channels.saturating_mul(self.samples_per_frame))
     }
 
     /// Bytes of one value.
@@ -42,7 +45,7 @@ impl Layout {
 
     /// Bytes of one frame.
     pub(super) fn frame_bytes(&self) -> usize {
-        self.values_per_frame() * self.width()
+        self.values_per_frame().saturating_mul(self.width())
     }
 }
 
@@ -102,7 +105,7 @@ fn storage(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) 
 
 fn data_offset(header: &Header, parameters: &Parameters, size: usize, remarks: &mut Vec<Remark>) -> usize {
     let in_header = usize::from(header.data_block);
-    let stated = parameters.count("POINT", "DATA_START").filter(|&block| block > 0);
+    let stated = parameters.count("POINT", "DATA_START").filter(|block| (1..=WORD).contains(block));
     let inside = |block: usize| block >= 3 && (block - 1) * BLOCK <= size;
     let block = match stated {
         Some(block) if block != in_header => {
@@ -144,15 +147,16 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
 /// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
 fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
-    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start)).filter(|&frames| frames > 0);
+    let actual =
+        start.zip(end).and_then(|(start, end)| end.checked_add(1)?.checked_sub(start)).filter(|&frames| frames > 0);
     let frames = parameters.count("POINT", "FRAMES");
     let long = long_frames(parameters);
     let in_header = header.frames();
     let largest = [actual, frames, long].into_iter().flatten().max().unwrap_or(0);
     let first = start.unwrap_or(usize::from(header.first_frame));
-    let last = (first + largest).saturating_sub(1);
-    let header_full = last > 65535 && [65535, last & 0xffff].contains(&usize::from(header.last_frame));
-    let cut = |frames: &usize| largest > 65535 && *frames < largest && [65535, largest & 0xffff].contains(frames);
+    let last = first.saturating_add(largest).saturating_sub(1);
+    let header_full = last > WORD && [WORD, last & 0xffff].contains(&usize::from(header.last_frame));
+    let cut = |frames: &usize| largest > WORD && *frames < largest && [WORD, largest & 0xffff].contains(frames);
     let claims = [
         ("the header", in_header.filter(|_| !header_full)),
         ("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual),
@@ -165,20 +169,21 @@ fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
 /// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
 /// (The user guide multiplies the high word by 65535; two words are 65536.)
 fn field(parameters: &Parameters, name: &str) -> Option<usize> {
-    match parameters.get("TRIAL", name)?.counts()?.as_slice() {
-        [low, high, ..] => Some(low + (high << 16)),
-        [number] => Some(*number),
+    wide(&parameters.get("TRIAL", name)?.counts()?)
+}
+
+/// One number, or two words, the low one first.
+fn wide(words: &[usize]) -> Option<usize> {
+    match *words {
+        [low, high, ..] => (low <= WORD && high <= WORD).then_some((high << 16) | low),
+        [number] => Some(number),
         [] => None,
     }
 }
 
 /// POINT:LONG_FRAMES: a real, or two words as in TRIAL.
 fn long_frames(parameters: &Parameters) -> Option<usize> {
-    match parameters.get("POINT", "LONG_FRAMES")?.counts()?.as_slice() {
-        [low, high, ..] => Some(low + (high << 16)),
-        [number] => Some(*number),
-        [] => None,
-    }
+    wide(&parameters.get("POINT", "LONG_FRAMES")?.counts()?)
 }
 
 /// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
@@ -191,7 +196,7 @@ fn choose_frame(
     frames: &[Claim],
     remarks: &mut Vec<Remark>,
 ) {
-    let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
+    let points = distinct([Some(usize::from(header.points)), used(parameters, "POINT")]);
     let samples = sample_candidates(layout.point_rate_hz, header, parameters);
     let candidates: Vec<Layout> = points
         .iter()
@@ -215,11 +220,16 @@ fn choose_frame(
     }
 }
 
+/// `POINT:USED` or `ANALOG:USED`.
+fn used(parameters: &Parameters, group: &str) -> Option<usize> {
+    parameters.count(group, "USED").filter(|&used| used <= WORD)
+}
+
 /// Channels and samples a frame, most trusted first.
 fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameters) -> Vec<(usize, usize)> {
     let words = usize::from(header.analog_words);
     let per_frame = usize::from(header.samples_per_frame);
-    let used = parameters.count("ANALOG", "USED");
+    let used = used(parameters, "ANALOG");
     let rate = parameters.number("ANALOG", "RATE").map(|rate| (rate / point_rate_hz).round());
     let by_rate = rate.filter(|ratio| (1.0..=65535.0).contains(ratio)).map(|ratio| ratio as usize);
     let mut found: Vec<(usize, usize)> = Vec::new();
@@ -290,11 +300,11 @@ fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks:
     let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
         return i64::from(header.first_frame);
     };
-    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| (end + 1).checked_sub(actual));
+    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| end.checked_add(1)?.checked_sub(actual));
     let header_alone = header.frames() == Some(frames) && counted != Some(frames);
     let first = if header_alone { in_header } else { actual };
     // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
-    let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
+    let explained = actual > WORD && (actual & 0xffff == in_header || in_header == WORD);
     if !explained {
         let message =
             format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");
