@@ -16,7 +16,7 @@ use ambulo::motion::{MarkerRecording, interpolate, markers_from_trc};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use gait_files::{File, Subject, everyone, woman};
+use gait_files::{File, Subject, everyone, turning, woman};
 
 fn calibrated(subject: &Subject, markers: &MarkerRecording, trial: Trial) -> Calibrated {
     let known = MarkerSet::recognise(markers.markers.iter().map(|m| m.name.as_str())).unwrap();
@@ -164,6 +164,16 @@ fn a_walk_on_a_body_from_the_standing_trial_has_plug_in_gaits_angles() {
         show_posture(&body, &found);
         println!("  walking fit rms {:.1} mm", 1e3 * found.rms_m[found.rms_m.len() / 2]);
         show_errors(&found);
+        let worst = compare(&body, &found, &subject.walk);
+        assert!(worst >= 0.97, "{}: {worst}", subject.name);
+    }
+}
+
+#[test]
+fn a_turning_walk_has_plug_in_gaits_angles_too() {
+    for subject in turning() {
+        let body = calibrated(&subject, &subject.standing.markers, Trial::Standing);
+        let found = fit(&body, &subject.walk.markers);
         let worst = compare(&body, &found, &subject.walk);
         assert!(worst >= 0.97, "{}: {worst}", subject.name);
     }
