@@ -9,6 +9,7 @@ mod function;
 mod import;
 mod joint;
 mod knots;
+mod scaled;
 mod side;
 mod simm_spline;
 
@@ -17,6 +18,7 @@ pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
 pub use knots::Knots;
+pub use scaled::ScaleError;
 pub use side::Side;
 pub use simm_spline::SimmSpline;
 
