@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `hip_s` `knee_s` `ankle_s` `toe_s` | centres of the joints of side s, `toe` being the ball of the foot |
 //! | `toe_tip_s` | the end of the foot's last bone |
-//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm |
+//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm; the end of a forearm that carries no hand |
 //! | `pelvis_up` `pelvis_front` | [`REACH`] above and in front of mid-hip, fixed to the pelvis |
 //! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`REACH`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
 //! | `foot_front_s` | [`REACH`] in front of the ankle along a foot that stands flat, fixed to the foot |
@@ -21,12 +21,14 @@
 
 mod axes;
 mod error;
+mod joint_paths;
 mod landmarks;
 mod neutral;
 mod poses;
 mod unit;
 
 pub use error::SkeletonError;
+pub use joint_paths::joint_paths;
 
 use crate::findings::Findings;
 use crate::model::Side;
@@ -161,6 +163,11 @@ fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, rea
             if let Some(joint) = landmarks.get(landmark, side) {
                 points.push(Point { name: sided(landmark.name()), between: vec![joint], beside: None });
             }
+        }
+        // A forearm without a hand ends at the wrist.
+        let elbow = landmarks.get(Landmark::Elbow, side).filter(|_| landmarks.get(Landmark::Wrist, side).is_none());
+        if let Some((joint, offset)) = elbow.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
+            points.push(Point { name: sided("wrist"), between: vec![joint], beside: Some((joint, offset)) });
         }
         let last = landmarks.get(Landmark::Toe, side).or(landmarks.get(Landmark::Ankle, side));
         if let Some((joint, offset)) = last.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
