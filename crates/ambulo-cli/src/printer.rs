@@ -33,6 +33,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
   ambulo info FILE                                           what a file holds
+  ambulo convert A B                                         from one format to another: c3d, trc, mot, sto, csv, bvh
   ambulo compare A B --limit 0.1                             how far two tables agree
 
 `ambulo <verb> --help` shows every option with an example that runs.",
@@ -372,4 +373,17 @@ pub(crate) fn info(sheet: &Sheet, voice: Voice) -> Result<()> {
         return Ok(());
     }
     sheet.lines().iter().try_for_each(|line| say(line))
+}
+
+/// The outcome of `convert`.
+pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(findings.as_slice());
+    if voice.json {
+        let value = serde_json::json!({ "input": input, "written": written, "findings": findings.as_slice() });
+        return say(&serde_json::to_string_pretty(&value)?);
+    }
+    written.iter().try_for_each(|path| say(&format!("written: {path}")))
 }

@@ -1,10 +1,12 @@
 //! What the user may type, one file a verb where it is long.
 
+mod exchange;
 mod forces;
 mod tools;
 mod values;
 mod walk;
 
+pub(crate) use exchange::{ConvertArgs, What};
 pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns};
@@ -34,6 +36,8 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     /// What a file holds.
     Info(InfoArgs),
+    /// From one format to another: c3d, trc, mot, sto, csv, bvh.
+    Convert(ConvertArgs),
     /// How far two tables agree, column by column.
     Compare(CompareArgs),
 }

@@ -1,6 +1,7 @@
 //! One file a verb.
 
 pub(crate) mod compare;
+pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod forces;
 pub(crate) mod info;
