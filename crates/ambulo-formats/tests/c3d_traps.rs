@@ -108,6 +108,36 @@ fn a_first_frame_beyond_16_bits_is_believed_without_a_remark() {
 }
 
 #[test]
+fn a_first_frame_is_taken_from_whoever_counts_the_frames_right() {
+    // Two frames; the header says 5 to 6, the group TRIAL 7 to 8, or 7 to 90.
+    for (last, first, told) in [(8, 7, "7 counts"), (90, 5, "5 counts")] {
+        let mut file = File::new(1, 2, 0, 0, -1.0);
+        file.word(4, 5).word(5, 6).texts(1, "LABELS", &["HEEL"]).reals(&[0.0; 8]);
+        file.integer(3, "ACTUAL_START_FIELD", &[2], &[7, 0]).integer(3, "ACTUAL_END_FIELD", &[2], &[last, 0]);
+        let (record, remarks) = read(&file);
+        assert_eq!((record.first_frame, record.frames()), (first, 2));
+        assert!(remarks.iter().any(|remark| remark.ends_with(told)), "{remarks:?}");
+    }
+}
+
+#[test]
+fn a_general_scale_of_zero_is_not_believed() {
+    let mut file = File::new(0, 1, 1, 1, -1.0);
+    file.texts(2, "LABELS", &["A"]).float(2, "SCALE", &[1], &[2.0]).integer(2, "OFFSET", &[1], &[0]);
+    file.float(2, "GEN_SCALE", &[], &[0.0]).reals(&[3.0]);
+    let (record, remarks) = read(&file);
+    assert_close(&samples(&record), &[6.0]);
+    assert_eq!(remarks, ["ANALOG:GEN_SCALE is 0; 1 is taken"]);
+}
+
+#[test]
+fn names_may_be_filled_up_with_zeros() {
+    let mut file = File::with_words(&[0.0]);
+    file.record("UNITS\0\0", 1, &[0xFF, 1, 2, b'm', b'm', 0]);
+    assert_eq!(read(&file).0.point_unit, "mm");
+}
+
+#[test]
 fn frame_counts_in_conflict_are_decided_by_the_size_of_the_file() {
     // Header 300, POINT:FRAMES 200; the data fill 200 frames, or 300.
     for (frames, other) in [(200, 300), (300, 200)] {
@@ -133,6 +163,15 @@ fn truncated_data_are_told_and_the_frames_that_are_there_are_read() {
     assert_eq!(record.frames(), 6);
     assert_close(&record.points[1].positions[5], &[7.0; 3]);
     assert_eq!(remarks, ["10 frames are stated, but the file ends after 6; it is truncated; read 6"]);
+}
+
+#[test]
+fn without_a_frame_only_names_count() {
+    let mut file = File::new(60_000, 9, 60_000, 1, -1.0);
+    file.texts(1, "LABELS", &["HEEL", "TOE"]);
+    let (record, remarks) = read(&file);
+    assert_eq!((record.points.len(), record.channels.len(), record.frames()), (2, 0, 0));
+    assert_eq!(remarks[0], "9 frames are stated, but the file ends after 0; it is truncated; read 0");
 }
 
 #[test]

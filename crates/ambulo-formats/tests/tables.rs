@@ -144,7 +144,9 @@ fn storage_is_written_as_opensim_writes_it() {
 
 #[test]
 fn a_name_that_looks_like_a_key_survives_writing() {
-    for name in ["endheader", "nRows=7", "version 3", "a = b", "Range of motion", "inDegrees", ""] {
+    for name in
+        ["endheader", "nRows=7", "version 3", "a = b", "Range of motion", "inDegrees", "PathFileType 4", "<walk>", ""]
+    {
         let mut table = Table::new(name, vec![("time".into(), vec![0.0])]).unwrap();
         table.in_degrees = Some(false);
         let (read, remarks) = Table::read_storage(&table.write_storage()).unwrap();

@@ -85,6 +85,18 @@ fn raw(words: Words<'_>, at: usize, encoding: &Encoding) -> Option<f64> {
     })
 }
 
+/// ANALOG:GEN_SCALE; one where it is missing, or would make nothing of every sample.
+fn general_scale(parameters: &Parameters, remarks: &mut Vec<Remark>) -> f64 {
+    match parameters.number("ANALOG", "GEN_SCALE") {
+        Some(scale) if scale.is_finite() && scale.abs() > 0.0 => scale,
+        Some(scale) => {
+            remarks.push(Remark::of_file(format!("ANALOG:GEN_SCALE is {scale}; 1 is taken")));
+            1.0
+        }
+        None => 1.0,
+    }
+}
+
 /// The channels without their samples.
 fn named(layout: &Layout, encoding: &Encoding, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Channel> {
     let labels = parameters.texts("ANALOG", "LABELS");
@@ -92,7 +104,7 @@ fn named(layout: &Layout, encoding: &Encoding, parameters: &Parameters, remarks:
     let descriptions = parameters.texts("ANALOG", "DESCRIPTIONS");
     let scales = parameters.numbers("ANALOG", "SCALE");
     let offsets = parameters.numbers("ANALOG", "OFFSET");
-    let general = parameters.number("ANALOG", "GEN_SCALE").unwrap_or(1.0);
+    let general = general_scale(parameters, remarks);
     for (name, count) in [("LABELS", labels.len()), ("SCALE", scales.len()), ("OFFSET", offsets.len())] {
         if count < layout.channels {
             let taken = match name {

@@ -71,7 +71,10 @@ pub(super) fn decide(
     let room = size.saturating_sub(data_offset);
     choose_frame(&mut layout, header, parameters, room, &frame_claims, remarks);
     layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
-    layout.first_frame = first_frame(header, parameters, remarks);
+    if layout.frames == 0 {
+        keep_named(&mut layout, parameters);
+    }
+    layout.first_frame = first_frame(header, parameters, layout.frames, remarks);
     Ok(layout)
 }
 
@@ -247,6 +250,12 @@ fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
 }
 
+/// Without a frame nothing but the names says that there are points and channels: a count alone may be anything.
+fn keep_named(layout: &mut Layout, parameters: &Parameters) {
+    layout.points = layout.points.min(parameters.texts("POINT", "LABELS").len());
+    layout.channels = layout.channels.min(parameters.texts("ANALOG", "LABELS").len());
+}
+
 fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
     let available = room.checked_div(layout.frame_bytes()).unwrap_or(0);
     if layout.frame_bytes() == 0 {
@@ -275,24 +284,22 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut V
     frames
 }
 
-fn first_frame(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> i64 {
+/// The group TRIAL is believed where header and it differ, unless it counts other frames than were read.
+fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks: &mut Vec<Remark>) -> i64 {
     let in_header = usize::from(header.first_frame);
-    let first = match field(parameters, "ACTUAL_START_FIELD") {
-        Some(actual) if actual != in_header => {
-            // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
-            let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
-            if !explained {
-                remark(
-                    remarks,
-                    format!(
-                        "the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {actual} counts"
-                    ),
-                );
-            }
-            actual
-        }
-        _ => in_header,
+    let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
+        return i64::from(header.first_frame);
     };
+    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| (end + 1).checked_sub(actual));
+    let header_alone = header.frames() == Some(frames) && counted != Some(frames);
+    let first = if header_alone { in_header } else { actual };
+    // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
+    let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
+    if !explained {
+        let message =
+            format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");
+        remark(remarks, message);
+    }
     i64::try_from(first).unwrap_or(i64::from(u32::MAX))
 }
 

@@ -169,7 +169,9 @@ impl Reader<'_> {
         let Some(bytes) = self.words.bytes.get(self.at..self.at + length) else {
             return Err(self.cut(&format!("a name of {length} bytes")));
         };
-        if bytes.iter().any(u8::is_ascii_control) {
+        // Zeros at the end only fill up, as blanks do.
+        let filled = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+        if filled == 0 || bytes[..filled].iter().any(u8::is_ascii_control) {
             return Err(Error::Byte {
                 offset,
                 found: format!("a parameter's name with unprintable characters, `{}`", bytes.escape_ascii()),
