@@ -44,6 +44,10 @@ const SOLID_LOAD: f64 = 0.2;
 /// A reading is doubted if fewer of its centres of pressure lie on the plate, and another believed if more do.
 const DOUBTED_SHARE: f64 = 0.5;
 const BELIEVED_SHARE: f64 = 0.8;
+/// A centre of pressure that moves less than this does not tell of a person [m]: bodies sway by millimetres ...
+const STILL_M: f64 = 0.5e-3;
+/// ... and one that moves more than this may [m].
+const MOVES_M: f64 = 2e-3;
 
 /// How the numbers are read.
 #[derive(Clone, Copy)]
@@ -247,6 +251,8 @@ fn clipped(
 }
 
 /// The reading as the file states it, or the one that puts the centre of pressure on the plate.
+///
+/// Moments that are a thousand times too small put it on the plate as well: into its middle, where it does not move.
 fn believed(
     source: &PlateSource,
     surface: &Surface,
@@ -256,23 +262,32 @@ fn believed(
     findings: &mut Findings,
 ) -> Reading {
     let share = |reading: Reading| share_on_plate(&recording(source, surface, up, channels, reading));
-    let Some(found) = share(stated).filter(|&s| s < DOUBTED_SHARE) else { return stated };
+    // Without ORIGIN, or the shear force would move the centre.
+    let moves_m = |reading: Reading| {
+        spread_m(&recording(source, surface, up, channels, Reading { origin: Vec3::zeros(), ..reading }))
+    };
+    let Some(found) = share(stated) else { return stated };
+    if found >= DOUBTED_SHARE && (stated.kind.stands_on_sensors() || moves_m(stated) >= STILL_M) {
+        return stated;
+    }
     for (other, what) in alternatives(stated) {
-        if share(other).is_some_and(|s| s >= BELIEVED_SHARE) {
+        if share(other).is_some_and(|s| s >= BELIEVED_SHARE) && moves_m(other) >= MOVES_M {
             let message = format!(
-                "{} puts the centre of pressure beside the plate; with {what} it lies on it, so this was assumed",
+                "the centre of pressure of {} is not that of a foot as the file states its units; with {what} it is, so this was assumed",
                 source.name
             );
             findings.warn("plates.reading_changed", message);
             return other;
         }
     }
-    let message = format!(
-        "the centre of pressure of {} lies on the plate only {:.0} % of the time; its CORNERS, ORIGIN, CHANNEL or units may be wrong",
-        source.name,
-        100.0 * found
-    );
-    findings.warn("plates.center_outside", message);
+    if found < DOUBTED_SHARE {
+        let message = format!(
+            "the centre of pressure of {} lies on the plate only {:.0} % of the time; its CORNERS, ORIGIN, CHANNEL or units may be wrong",
+            source.name,
+            100.0 * found
+        );
+        findings.warn("plates.center_outside", message);
+    }
     stated
 }
 
@@ -303,16 +318,28 @@ fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
 
 /// Share of the solidly loaded samples whose centre of pressure lies on the plate; `None` without load.
 fn share_on_plate(recording: &PlateRecording) -> Option<f64> {
+    let centers = solid_centers(recording);
+    let inside = centers.iter().filter(|c| recording.depth_inside(**c) >= -EDGE_SLACK_M).count();
+    (!centers.is_empty()).then(|| inside as f64 / centers.len() as f64)
+}
+
+/// How far the centre of pressure moves [m]: the diagonal of the box that holds nine tenths of it along each axis.
+fn spread_m(recording: &PlateRecording) -> f64 {
+    let centers = solid_centers(recording);
+    let along = |axis: usize| {
+        let mut values: Vec<f64> = centers.iter().map(|c| c[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0);
+        at(0.95) - at(0.05)
+    };
+    Vec3::new(along(0), along(1), along(2)).norm()
+}
+
+/// Centres of pressure while the load is solid [m].
+fn solid_centers(recording: &PlateRecording) -> Vec<Vec3> {
     let solid = SOLID_LOAD * recording.peak_n();
     let loaded = (0..recording.times.len()).filter(|&i| recording.is_loaded(i) && recording.vertical(i) >= solid);
-    let (mut inside, mut all) = (0.0, 0.0);
-    for i in loaded {
-        all += 1.0;
-        if recording.depth_inside(recording.center_of_pressure(i)) >= -EDGE_SLACK_M {
-            inside += 1.0;
-        }
-    }
-    (all > 0.0).then(|| inside / all)
+    loaded.map(|i| recording.center_of_pressure(i)).collect()
 }
 
 fn recording(

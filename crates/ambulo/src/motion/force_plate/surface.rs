@@ -40,8 +40,9 @@ impl Surface {
         }
         let mismatch = |a: f64, b: f64| (a - b).abs() > EDGE_MISMATCH * a.max(b);
         let (x, y) = ((c1 + c4 - c2 - c3) * 0.5, (c1 + c2 - c3 - c4) * 0.5);
-        let skewed = || x.normalize().dot(&y.normalize()).abs() > SKEW;
-        if mismatch(edges[0], edges[1]) || mismatch(edges[2], edges[3]) || skewed() {
+        let cosine = x.normalize().dot(&y.normalize());
+        let skewed = cosine.is_nan() || cosine.abs() > SKEW;
+        if mismatch(edges[0], edges[1]) || mismatch(edges[2], edges[3]) || skewed {
             return Err(format!(
                 "its corners form no rectangle (edges {:.3}, {:.3}, {:.3}, {:.3} m)",
                 edges[0], edges[3], edges[1], edges[2]
