@@ -35,11 +35,13 @@ mod reference;
 mod report;
 mod sight;
 mod trunk;
+mod upright;
 
 pub use error::CalibrationError;
 pub use person::{Measures, Person};
 pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlace, SegmentScale};
+pub use upright::assume_upright_trunk;
 
 use crate::findings::Findings;
 use crate::model::anthropometry::{Build, Human};
