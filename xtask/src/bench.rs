@@ -10,6 +10,7 @@
 
 mod gait;
 mod human;
+pub(crate) mod markers;
 pub(crate) mod simulation;
 mod timing;
 mod walk;

@@ -21,6 +21,7 @@ usage: cargo xtask <command>
 
   check             what CI runs: format, lints, tests, documentation; stops at the first failure
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
+  bench-markers     time marker fitting and compare it, ours and OpenSim's  [--write: docs/BENCHMARKS_MARKERS.md]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         ("oracle-c3d", _) => oracle_c3d::run(rest),
         ("check", []) => check::run(),
         ("bench", []) => bench::run(),
+        ("bench-markers", _) => bench::markers::run(rest),
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),

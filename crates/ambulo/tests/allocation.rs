@@ -9,8 +9,10 @@ use ambulo::findings::Findings;
 use ambulo::gait::machine::WalkMachine;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::body_motion;
-use ambulo::model::Model;
+use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::model::{Marker, Model};
+use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::{Vec3, Wrench};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
@@ -152,4 +154,41 @@ fn judging_an_instant_allocates_nothing() {
     });
     assert_eq!(count, 0, "check_frame");
     assert!(measured > 30, "only {measured} measurements");
+}
+
+/// A recording of as many frames of a body that flies, with four markers on each of its three parts.
+fn marked(frames: usize) -> (Model, MarkerRecording) {
+    let mut r = Random::new(3);
+    let chain = random::chain_of(&mut r, &[random::Kind::Free, random::Kind::Pin, random::Kind::Ball], Curves::Smooth);
+    let places: Vec<_> = chain.body_ids().flat_map(|id| [id; 4]).map(|id| (id, r.vector(0.2))).collect();
+    let marker = |(k, (id, location)): (usize, &(_, Vec3))| Marker {
+        name: format!("m{k}"),
+        body: Some(*id),
+        location: *location,
+    };
+    let markers: Vec<Marker> = places.iter().enumerate().map(marker).collect();
+    let model = Model::new("marked", Vec3::zeros(), chain.bodies().to_vec(), chain.coordinates().to_vec(), markers);
+    let Ok(model) = model else { panic!("no model") };
+    let waves = random::Waves::new(&mut r, &model);
+    let times: Vec<f64> = (0..frames).map(|i| 0.01 * i as f64).collect();
+    let bodies: Vec<_> = times.iter().map(|t| body_motion(&model, waves.at(*t).posture())).collect();
+    let path = |m: &Marker| MarkerPath {
+        name: m.name.clone(),
+        positions: bodies.iter().filter_map(|b| Some(b[m.body?.index()].pose.place(m.location))).collect(),
+    };
+    let markers = model.markers().iter().map(path).collect();
+    (model, MarkerRecording { name: "marked".to_owned(), rate_hz: 100.0, times, markers })
+}
+
+#[test]
+fn fitting_markers_allocates_for_the_recording_and_not_for_its_frames() {
+    let count = |frames: usize| {
+        let (model, markers) = marked(frames);
+        let mut findings = Findings::default();
+        allocations(|| {
+            black_box(fit_markers(&model, &markers, &FitSettings::default(), &mut findings).is_ok());
+        })
+    };
+    let (few, many) = (count(20), count(400));
+    assert_eq!(few, many, "allocations in 20 and in 400 frames");
 }

@@ -45,7 +45,7 @@ impl Frames {
             markers,
             unknowns,
             used: seen.clone(),
-            path: (0..frames).flat_map(|_| 0..markers).collect(),
+            path: (0..frames * markers).map(|i| i % markers).collect(),
             postures: vec![f64::NAN; frames * unknowns],
             outcomes: vec![None; frames],
             core: vec![true; markers],

@@ -96,13 +96,13 @@ fn note_distances(problem: &Problem<'_>, distances: &mut [Distances]) -> f64 {
 
 impl Distances {
     fn error(&self, i: usize, problem: &Problem<'_>, frames: &Frames) -> MarkerError {
-        let seen: Vec<usize> = (0..frames.count()).filter(|&f| frames.is_seen(f, i)).collect();
+        let seen = || (0..frames.count()).filter(|&f| frames.is_seen(f, i));
         MarkerError {
             name: problem.paths[i].name.clone(),
             rms_m: (self.square / self.used as f64).sqrt(),
             max_m: if self.used > 0 { self.most } else { f64::NAN },
-            seen: seen.len(),
-            down_weighted: seen.into_iter().filter(|&f| !frames.is_used(f, i)).count(),
+            seen: seen().count(),
+            down_weighted: seen().filter(|&f| !frames.is_used(f, i)).count(),
         }
     }
 }
