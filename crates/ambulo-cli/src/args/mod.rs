@@ -9,7 +9,7 @@ mod walk;
 pub(crate) use exchange::{ConvertArgs, What};
 pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
-pub(crate) use values::{AddedMass, FootColumns};
+pub(crate) use values::{AddedMass, FootColumns, PlateFoot};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};

@@ -5,12 +5,14 @@
 
 use super::feasibility::Person;
 use crate::findings::Findings;
+use crate::ground::foot_motion::{FootMotion, foot_motion};
+use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
 use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
-use crate::model::Model;
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
-use crate::motion::MarkerRecording;
+use crate::model::{Model, Side};
 use crate::motion::force_plate::PlateRecording;
+use crate::motion::{ForceRecording, MarkerRecording};
 use crate::motion::{Laboratory, laboratory};
 use std::collections::BTreeMap;
 
@@ -46,12 +48,14 @@ pub struct BodyInMotion {
     pub subject: Subject,
     /// The walk's axes.
     pub laboratory: Laboratory,
-    /// Markers in world axes.
-    pub markers: MarkerRecording,
     /// Plates in world axes.
     pub plates: Vec<PlateRecording>,
     /// Its coordinates, and how well the markers were followed.
     pub fit: MarkerFit,
+    /// When the feet met and left the ground, by the markers.
+    pub feet: FootMotion,
+    /// Which foot stood on which plate.
+    pub on_plates: FeetOnPlates,
 }
 
 /// A body that has markers.
@@ -84,7 +88,8 @@ pub enum MarkerTrialError {
     Fit(#[from] FitError),
 }
 
-/// Fits a body to a recording. `still` is the same person standing. `stage` is called with a name as each stage ends.
+/// Fits a body to a recording. `still` is the same person standing; `told` names the foot of plates (by index) where a person has
+/// decided. `stage` is called with a name as each stage ends.
 ///
 /// # Errors
 /// Markers that no set knows, that make no body, or that the body does not have: see [`MarkerTrialError`].
@@ -93,12 +98,13 @@ pub fn body_in_motion(
     still: Option<&LaboratoryRecording>,
     body: &Body<'_>,
     settings: &FitSettings,
+    told: &[(usize, Side)],
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let axes = laboratory(&walk.markers, &walk.plates, &walk.unit, findings);
     let markers = axes.markers(&walk.markers);
-    let plates = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
+    let plates: Vec<PlateRecording> = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
     stage("axes");
     let subject = match body {
         Body::Model(model) => Subject::of_model(model),
@@ -112,7 +118,18 @@ pub fn body_in_motion(
     let settings = FitSettings { weights: subject.weights.clone(), ..settings.clone() };
     let fit = fit_markers(&subject.model, &markers, &settings, findings)?;
     stage("markers");
-    Ok(BodyInMotion { subject, laboratory: axes, markers, plates, fit })
+    let feet = foot_motion(&markers, findings);
+    let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
+    stage("feet");
+    Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+}
+
+impl BodyInMotion {
+    /// What the plates did to the feet; nothing if the body has no feet.
+    #[must_use]
+    pub fn plate_forces(&self) -> Vec<ForceRecording> {
+        foot_bodies(&self.subject.model).map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
+    }
 }
 
 impl Subject {

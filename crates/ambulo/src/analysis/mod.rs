@@ -6,6 +6,7 @@ mod event_agreement;
 mod events;
 pub mod feasibility;
 mod marker_trial;
+mod measured_cycles;
 mod peaks;
 mod plausibility;
 mod recording;

@@ -27,7 +27,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("read_forces");
     let input = input(args, ground.as_ref());
     let person = Person::of_model(&model);
-    Ok(Recorded { model, motion, plates, person, input, subject: None, files: Vec::new() })
+    Ok(Recorded { model, motion, plates, person, input, subject: None, files: Vec::new(), events: Vec::new() })
 }
 
 /// What went in, for the summary.
@@ -51,7 +51,8 @@ fn read_motion(model: &Model, path: &Path, findings: &mut Findings) -> Result<Mo
     coordinates_from_table(model, &table, &shown, findings).context(shown)
 }
 
-fn read_ground(
+/// What plates measured, from a table, with the table.
+pub(super) fn read_ground(
     args: &ForcesArgs,
     model: &Model,
     reading: &mut Reading,

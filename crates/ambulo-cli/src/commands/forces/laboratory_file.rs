@@ -4,7 +4,7 @@ use super::Reading;
 use crate::files;
 use ambulo::analysis::LaboratoryRecording;
 use ambulo::motion::force_plate::{PlateSettings, plates_from_c3d};
-use ambulo::motion::{SubjectParameters, markers_from_c3d, markers_from_trc, subject_from_c3d};
+use ambulo::motion::{Event, SubjectParameters, events_from_c3d, markers_from_c3d, markers_from_trc, subject_from_c3d};
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::trc::Trc;
 use anyhow::{Context, Result, bail};
@@ -14,6 +14,8 @@ use std::path::Path;
 pub(super) struct LaboratoryFile {
     /// Markers and force plates; a TRC has none of these.
     pub(super) recording: LaboratoryRecording,
+    /// Foot strikes and toe-offs that it lists.
+    pub(super) events: Vec<Event>,
     /// What it states of the person.
     pub(super) subject: SubjectParameters,
 }
@@ -44,6 +46,7 @@ fn from_c3d(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<Laborato
             plates: plates_from_c3d(&c3d, PlateSettings::default(), findings)?,
             unit: c3d.point_unit.clone(),
         },
+        events: events_from_c3d(&c3d, findings),
         subject: subject_from_c3d(&c3d),
     })
 }
@@ -57,6 +60,7 @@ fn from_trc(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<Laborato
             plates: Vec::new(),
             unit: trc.unit.symbol().to_owned(),
         },
+        events: Vec::new(),
         subject: SubjectParameters::default(),
     })
 }

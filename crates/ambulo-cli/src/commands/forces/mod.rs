@@ -11,7 +11,7 @@ use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{AnalysisError, Settings, analyse};
+use ambulo::analysis::{AnalysisError, Event, Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -80,6 +80,8 @@ struct Recorded {
     input: Input,
     /// How markers became a body in motion.
     subject: Option<SubjectSummary>,
+    /// Foot strikes and toe-offs that are known besides what forces show.
+    events: Vec<Event>,
     /// Files of its own.
     files: Vec<OutputFile>,
 }
@@ -92,10 +94,13 @@ fn compute(
     reading: Reading,
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
-    let Recorded { model, motion, plates, person, input, subject, files } = recorded;
+    let Recorded { model, motion, plates, person, input, subject, events, files } = recorded;
     let settings = settings(args);
-    let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
+    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, &input))?;
+    if !events.is_empty() {
+        analysis.complete_events(&events);
+    }
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }

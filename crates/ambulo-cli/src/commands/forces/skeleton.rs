@@ -33,6 +33,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     Ok(Recorded {
         subject: Some(SubjectSummary::new(&skeleton.statement, &[], &body.fit, &[])),
         files: Vec::new(),
+        events: Vec::new(),
         plates: Vec::new(),
         input: Input { ground_source: GroundSource::None, ..coordinates::input(args, None) },
         person: Person::of_human(&body.human),
