@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Convert(args)) => commands::convert::run(&args),
+        Some(Command::Events(args)) => commands::events::run(&args),
         Some(Command::Compare(args)) => commands::compare::run(&args),
     };
     match done {

@@ -45,3 +45,20 @@ pub(crate) enum What {
     /// Ground forces by foot, in world axes.
     Forces,
 }
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Example (after `ambulo demo -o demo`):
+  ambulo events demo/input/walk_grf.mot
+
+Foot strikes and toe-offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from the
+file's own list, and how far they agree. Reads .c3d (all three), .trc and .bvh (motion), .mot and .sto (ground forces). Events of feet that
+left a plate before the ground, or shared one, are left out.")]
+pub(crate) struct EventsArgs {
+    /// The recording.
+    pub(crate) input: PathBuf,
+    /// Also write them: .csv with side, event, time and source.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
+}

@@ -6,7 +6,7 @@ mod tools;
 mod values;
 mod walk;
 
-pub(crate) use exchange::{ConvertArgs, What};
+pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
 pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns, PlateFoot};
@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// From one format to another: c3d, trc, mot, sto, csv, bvh.
     Convert(ConvertArgs),
+    /// When feet meet and leave the ground: from plates, from the motion, from the file.
+    Events(EventsArgs),
     /// How far two tables agree, column by column.
     Compare(CompareArgs),
 }

@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod demo;
+pub(crate) mod events;
 pub(crate) mod forces;
 pub(crate) mod info;
 mod outcome;
