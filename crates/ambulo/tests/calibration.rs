@@ -12,7 +12,7 @@ use ambulo::kinematics::calibration::{
 };
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
-use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
 use ambulo::model::full_body::{FootPrint, STANDING_TILT, SegmentShape, SubjectShape, full_body, reshaped};
 use ambulo::model::marker_set::{MarkerSet, Recognised};
 use ambulo::model::{Marker, Model, Side};
@@ -154,6 +154,16 @@ fn standing(human: &Human, hidden: &[&str]) -> MarkerRecording {
 
 /// A walk of the built-in gait, with some bending to the sides, its feet never below the ground.
 fn walking(human: &Human, hidden: &[&str]) -> MarkerRecording {
+    recorded(human, &walk(human), hidden)
+}
+
+/// A coordinate of that walk.
+fn walking_angles(human: &Human, name: &str) -> Vec<f64> {
+    let index = human.model.coordinate(name).unwrap().index();
+    walk(human).iter().map(|q| q[index]).collect()
+}
+
+fn walk(human: &Human) -> Vec<Vec<f64>> {
     let model = &human.model;
     let walk = Walk::new(&Gait::named("free").unwrap(), human.dimensions.leg_length, &mut Findings::default()).unwrap();
     let coordinates = WalkCoordinates::of(model);
@@ -167,18 +177,13 @@ fn walking(human: &Human, hidden: &[&str]) -> MarkerRecording {
         q[at("hip_adduction_l")] = -5.0 * DEGREE * phase.sin();
         q[at("pelvis_list")] = 3.0 * DEGREE * phase.sin();
         q[at("pelvis_rotation")] = 4.0 * DEGREE * phase.cos();
-        let lowest = {
-            let poses = bodies(model, &q);
-            let bottom = |s: &ambulo::model::anthropometry::ContactSphere| {
-                poses[s.body.index()].pose.place(s.center).y - s.radius
-            };
-            human.soles.iter().map(bottom).fold(f64::INFINITY, f64::min)
-        };
-        q[at("pelvis_ty")] -= lowest;
+        let poses = bodies(model, &q);
+        let bottom = |s: &ContactSphere| poses[s.body.index()].pose.place(s.center).y - s.radius;
+        q[at("pelvis_ty")] -= human.soles.iter().map(bottom).fold(f64::INFINITY, f64::min);
         q[at("pelvis_tx")] = 1.2 * t;
         q
     };
-    recorded(human, &(0..240).map(posture).collect::<Vec<_>>(), hidden)
+    (0..240).map(posture).collect()
 }
 
 fn recognised(recording: &MarkerRecording) -> Recognised {
@@ -403,4 +408,79 @@ fn a_trunk_without_markers_is_set_upright_over_any_pelvis() {
     let before = motion.clone();
     assume_upright_trunk(model, &mut motion, &mut Findings::default());
     assert_eq!(format!("{before:?}"), format!("{motion:?}"), "a trunk with columns stays as it is");
+}
+
+/// The subject with the key points of video: joint centres, heels, toes.
+fn seen_by_video() -> Human {
+    let human = subject();
+    let model = human.model.clone();
+    let d = human.dimensions;
+    let mut markers = Vec::new();
+    let mut put = |name: &str, body: &str, location: Vec3| {
+        markers.push(Marker { name: name.to_owned(), body: Some(model.body(body).unwrap()), location });
+    };
+    put("Hip", "pelvis", Vec3::zeros());
+    let place = |body: &str| model.bodies()[model.body(body).unwrap().index()].joint.parent_from_joint.translation;
+    put("Neck", "torso", Vec3::y() * (place("humerus_r").y + 0.03));
+    for side in Side::BOTH {
+        let letter = side.letter();
+        let at = |stem: &str| format!("{stem}_{letter}");
+        let name = |stem: &str| format!("{}{stem}", letter.to_uppercase());
+        put(&name("Hip"), "pelvis", place(&at("femur")));
+        put(&name("Knee"), &at("femur"), place(&at("tibia")));
+        put(&name("Ankle"), &at("tibia"), place(&at("calcn")));
+        put(&name("Shoulder"), "torso", place(&at("humerus")));
+        put(&name("Elbow"), &at("humerus"), place(&at("forearm")));
+        put(&name("Wrist"), &at("forearm"), Vec3::y() * -d.forearm);
+        put(&name("Heel"), &at("calcn"), Vec3::new(-d.heel_to_ankle, 0.03 - ANKLE_HEIGHT, 0.0));
+        let (out, length) = (sign(side), d.foot_length);
+        put(&name("BigToe"), &at("toes"), Vec3::new(0.2 * length, 0.0, -0.1 * length * out));
+        put(&name("SmallToe"), &at("toes"), Vec3::new(0.08 * length, 0.0, 0.15 * length * out));
+    }
+    let segments = SegmentShape::of(&human);
+    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    reshaped(&human, &SubjectShape { segments, markers, feet: [print; 2], dimensions: d, locked: Vec::new() }).unwrap()
+}
+
+#[test]
+fn key_points_of_video_give_lengths_and_postures() {
+    let human = seen_by_video();
+    let recording = walking(&human, &[]);
+    assert_eq!(recognised(&recording).sets, ["keypoints"]);
+    let body = measured(&recording, Trial::Moving, &person()).unwrap();
+    assert!(body.report.assumptions.iter().any(|a| a.contains("tilt")), "{:?}", body.report.assumptions);
+    for (found, expected) in lengths(&body).into_iter().zip(TRUE_LENGTHS).take(3) {
+        assert_near(found, expected, 1e-9, "length");
+    }
+    let fit = fitted(&body, &recording);
+    let worst = fit.rms_m.iter().copied().fold(0.0, f64::max);
+    println!("worst frame of key points {:.1} mm", 1e3 * worst);
+    // Trunk and pelvis are one: they cannot follow the degree or two by which the trunk leans on the pelvis.
+    assert!(worst < 0.003, "{worst}");
+    let truth = walking_angles(&human, "knee_angle_r");
+    let ours = fit.motion.column(body.human.model.coordinate("knee_angle_r").unwrap()).unwrap();
+    for (a, b) in ours.iter().zip(truth) {
+        assert_near(*a, b, 3.0 * DEGREE, "knee");
+    }
+}
+
+#[test]
+fn odd_numbers_are_refused_or_passed_over_and_never_hang() {
+    let human = subject();
+    for odd in [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0] {
+        for frames in [1, 2, 30] {
+            let mut recording = recorded(&human, &vec![default_posture(&human.model); frames], &[]);
+            for marker in recording.markers.iter_mut().step_by(3) {
+                marker.positions.iter_mut().step_by(2).for_each(|p| *p = Vec3::new(odd, 1.0, odd));
+            }
+            for trial in [Trial::Standing, Trial::Moving] {
+                if let Ok(body) = measured(&recording, trial, &person()) {
+                    assert!(body.human.model.markers().iter().all(|m| m.location.iter().all(|x| x.is_finite())));
+                }
+            }
+            recording.rate_hz = odd;
+            recording.times.iter_mut().for_each(|t| *t = odd);
+            let _ = measured(&recording, Trial::Standing, &person());
+        }
+    }
 }

@@ -4,6 +4,9 @@ use crate::findings::Findings;
 use crate::model::Side;
 use ambulo_formats::c3d::C3d;
 
+/// Events of one kind and side closer than this are one [s].
+const REPEATED_S: f64 = 0.005;
+
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventKind {
@@ -55,7 +58,19 @@ pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
         }
     }
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
-    found
+    without_repetitions(found)
+}
+
+/// Old programs write every event twice, into the header as well.
+fn without_repetitions(events: Vec<Event>) -> Vec<Event> {
+    let mut kept: Vec<Event> = Vec::new();
+    for event in events {
+        let same = |e: &Event| e.side == event.side && e.kind == event.kind && event.time_s - e.time_s < REPEATED_S;
+        if !kept.iter().any(same) {
+            kept.push(event);
+        }
+    }
+    kept
 }
 
 /// `Foot Strike`, `Heel Strike`, `RHS`, `RON`; `Foot Off`, `Toe Off`, `RTO`, `ROFF`.

@@ -1,6 +1,6 @@
 //! One contact: whose foot, and how much of its load the plate saw.
 
-use super::feet::{Feet, other};
+use super::feet::Feet;
 use super::{ContactQuality, PlateContact};
 use crate::ground::phases::{Contact, contacts};
 use crate::model::Side;
@@ -43,16 +43,17 @@ pub(super) fn judge(
     let distances = Side::BOTH.map(|side| (side, mean_distance(feet, plate, span, side)));
     let nearest = distances.iter().filter(|(_, d)| *d <= FARTHEST_M).min_by(|a, b| a.1.total_cmp(&b.1));
     let by_stance = || {
-        // Without a view of the feet: the one foot that stood on the ground meanwhile.
-        let unseen = distances.iter().all(|(_, d)| d.is_nan());
-        let standing: Vec<Side> =
-            Side::BOTH.into_iter().filter(|s| unseen && feet.stance_of(*s, span).is_some()).collect();
+        // A foot that was not seen, if it alone stood on the ground meanwhile.
+        let unseen = distances.iter().filter(|(side, d)| d.is_nan() && feet.stance_of(*side, span).is_some());
+        let standing: Vec<Side> = unseen.map(|(side, _)| *side).collect();
         if let [only] = standing[..] { Some(only) } else { None }
     };
     let side = told.or(nearest.map(|n| n.0)).or_else(by_stance);
+    let together = both_feet(feet, plate, span);
     let (quality, reason) = match side {
+        _ if told.is_none() && together.is_some() => (ContactQuality::TwoFeet, together.unwrap_or_default()),
         None => (ContactQuality::Unassigned, unassigned_reason(&distances)),
-        Some(side) => quality(feet, plate, span, side, told.is_some()),
+        Some(side) => quality(feet, plate, span, side),
     };
     PlateContact {
         plate: index,
@@ -90,17 +91,7 @@ fn unassigned_reason(distances: &[(Side, f64); 2]) -> String {
     }
 }
 
-fn quality(
-    feet: &Feet<'_>,
-    plate: &PlateRecording,
-    span: [f64; 2],
-    side: Side,
-    told: bool,
-) -> (ContactQuality, String) {
-    let second = if told { 0.0 } else { second_foot(feet, plate, span, other(side)) };
-    if second >= SECOND_FOOT_S {
-        return (ContactQuality::TwoFeet, format!("the {} foot stood on it too, for {second:.2} s", other(side)));
-    }
+fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> (ContactQuality, String) {
     if let Some(stance) = feet.stance_of(side, span) {
         if span[0] - stance[0] > SAME_EVENT_S {
             return (
@@ -121,8 +112,15 @@ fn quality(
     }
 }
 
+/// What to say if both feet stood on this plate during the span.
+fn both_feet(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<String> {
+    let [right, left] = Side::BOTH.map(|side| time_on_plate(feet, plate, span, side));
+    (right.min(left) >= SECOND_FOOT_S)
+        .then(|| format!("the right foot stood on it for {right:.2} s, the left foot for {left:.2} s"))
+}
+
 /// How long the foot stood on this plate during the span [s].
-fn second_foot(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
+fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
     let on_plate = |t: f64| {
         let line = feet.line(side, t);
         feet.stands(side, t) && line.is_some_and(|l| l.iter().any(|p| plate.depth_inside(*p) > OVER_EDGE_M))

@@ -65,10 +65,3 @@ impl Feet<'_> {
         stances.max_by(|a, b| overlap(a).total_cmp(&overlap(b)))
     }
 }
-
-pub(super) fn other(side: Side) -> Side {
-    match side {
-        Side::Right => Side::Left,
-        Side::Left => Side::Right,
-    }
-}

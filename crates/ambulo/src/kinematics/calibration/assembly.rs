@@ -19,6 +19,11 @@ use std::collections::BTreeMap;
 /// Markers of the trunk beside the head's that make the head's superfluous.
 const ENOUGH_ON_TRUNK: usize = 3;
 
+/// Markers of less weight than this do not show how the trunk moves.
+const FIRM: f64 = 0.4;
+/// Weight of shoulders that must.
+const SHOULDER_WEIGHT: f64 = 0.1;
+
 /// What was found of the body.
 pub(super) struct Parts<'a> {
     pub(super) pelvis: &'a Pelvis,
@@ -46,6 +51,7 @@ pub(super) fn assemble(
             None => unused.push(named.name.as_str()),
         }
     }
+    lean_on_shoulders(sight, &mut weights);
     if !unused.is_empty() {
         assumptions.push(format!(
             "{} markers are not used (head beside trunk, or a segment that was not found): {}",
@@ -66,6 +72,21 @@ pub(super) fn assemble(
         frames: frames.len(),
     };
     Ok(Calibrated { human, weights, report })
+}
+
+/// Shoulders show how a trunk moves if too little else does.
+fn lean_on_shoulders(sight: &Sight<'_>, weights: &mut BTreeMap<String, f64>) {
+    let trunk = || sight.markers.iter().map(|(m, _)| m).filter(|m| m.definition.segment == Segment::Torso);
+    let is_shoulder = |l: Option<Landmark>| matches!(l, Some(Landmark::Acromion | Landmark::ShoulderCentre));
+    let firm = trunk().filter(|m| m.definition.weight >= FIRM && weights.contains_key(&m.name)).count();
+    if firm >= ENOUGH_ON_TRUNK {
+        return;
+    }
+    for marker in trunk().filter(|m| is_shoulder(m.definition.landmark)) {
+        if let Some(weight) = weights.get_mut(&marker.name) {
+            *weight = weight.max(SHOULDER_WEIGHT);
+        }
+    }
 }
 
 /// The markers that are used: those of the head only where the trunk has few others.

@@ -5,6 +5,9 @@ use crate::spatial::{Mat3, Pose, Vec3};
 /// Shorter than this, two points give no direction [m].
 const SHORTEST: f64 = 1e-3;
 
+/// Rounds after which a decomposition of three by three numbers is given up; a dozen are usual.
+const SVD_ROUNDS: usize = 200;
+
 /// The direction of a vector, if it has one.
 pub(super) fn direction(v: Vec3) -> Option<Vec3> {
     let length = v.norm();
@@ -103,7 +106,10 @@ pub(super) fn fitted(places: &[Vec3], points: &[Vec3]) -> Option<Pose> {
     let mean = |list: &[Vec3]| list.iter().sum::<Vec3>() / count as f64;
     let (from, to) = (mean(places), mean(points));
     let spread: Mat3 = places.iter().zip(points).map(|(a, b)| (b - to) * (a - from).transpose()).sum();
-    let svd = spread.svd(true, true);
+    if !spread.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let svd = spread.try_svd(true, true, f64::EPSILON, SVD_ROUNDS)?;
     let (u, v_t) = (svd.u?, svd.v_t?);
     let mut singular: Vec<f64> = svd.singular_values.iter().copied().collect();
     singular.sort_by(f64::total_cmp);

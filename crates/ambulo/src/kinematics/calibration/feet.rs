@@ -19,6 +19,8 @@ const NEARLY_FLAT: f64 = 0.02;
 const LEAST_FRAMES: usize = 3;
 /// The ground is y = 0 if the lowest foot marker of a flat foot stands between these heights above it [m].
 const MARKER_HEIGHTS: [f64; 2] = [0.0, 0.1];
+/// Heights of ankles, against the table's for a foot of that size, that need no remark.
+const ANKLE_HEIGHTS: [f64; 2] = [0.6, 1.4];
 /// Sizes of feet against the table's that walkers have.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
@@ -158,6 +160,14 @@ impl Finder<'_> {
             assumptions.push(format!("the {side} foot was never seen flat; it keeps the table's shape"));
             return Foot { factor, ..self.unmeasured(leg, count) };
         };
+        let usual = self.dimensions.ankle_height * factor;
+        if !(ANKLE_HEIGHTS[0]..=ANKLE_HEIGHTS[1]).contains(&(ankle_height / usual)) {
+            assumptions.push(format!(
+                "the {side} ankle stands {:.0} mm above y = 0, where a foot of this length has {:.0}: shoes, or the ground is elsewhere",
+                1e3 * ankle_height,
+                1e3 * usual
+            ));
+        }
         let rear = |(pose, ends): (&Option<Pose>, &Option<Ends>)| Some(inside(pose.as_ref()?, ends.as_ref()?.rear));
         let rear = median_point(&poses.iter().zip(&ends).filter_map(rear).collect::<Vec<_>>()).unwrap_or_default();
         let table_rear = ends.iter().flatten().map(|e| e.table_rear).next().unwrap_or_default();

@@ -183,7 +183,8 @@ impl Finder<'_> {
                 .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.at(landmark, None, frame)?).y));
             median(heights).map(|found| found / landmark.place().y)
         });
-        let shoulders = median(neck.into_iter().flatten()).unwrap_or(height) * Landmark::ShoulderCentre.place().y;
+        let shoulders =
+            median(neck.into_iter().flatten()).unwrap_or(self.length()) * Landmark::ShoulderCentre.place().y;
         (height - shoulders).max(0.0)
     }
 
