@@ -5,11 +5,12 @@
 
 use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::Findings;
+use ambulo::ground::foot_motion::foot_motion;
 use ambulo::kinematics::retarget::{Retargeted, retarget};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::skeleton::{SkeletonRecording, skeleton_from_bvh};
-use ambulo::motion::{Smoother, Window};
+use ambulo::motion::{Event, EventKind, Smoother, Window, straightened};
 use ambulo_formats::bvh::Bvh;
 use std::path::Path;
 
@@ -94,6 +95,41 @@ fn the_walk_in_a_figure_of_eight_runs_through_inverse_dynamics() {
     // A walk neither rises nor sinks: 1 BW on average; the floor takes all of it, there being no plates.
     assert!((mean - 1.0).abs() < 0.05, "{mean}");
     assert!(range(&support)[0] > 0.1 && range(&support)[1] < 1.8);
+}
+
+#[test]
+fn the_feet_of_the_walk_in_a_figure_of_eight_meet_the_ground_in_turn() {
+    let Some(bvh) = real("AV_8Walk_Meredith_HVHA_Rep1.bvh") else { return };
+    let mut findings = Findings::default();
+    let skeleton = skeleton_from_bvh(&bvh, "walk", None, &mut findings).unwrap();
+    let straight = straightened(&skeleton.markers).unwrap();
+    let motion = foot_motion(&straight, &mut findings);
+    // The first second begins from a stand.
+    let strikes: Vec<&Event> = motion.events.iter().filter(|e| e.kind == EventKind::Strike && e.time_s > 1.0).collect();
+    let steps: Vec<f64> = strikes.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
+    let step = steps.iter().sum::<f64>() / steps.len() as f64;
+    let cadence = 60.0 / step;
+    let is_later =
+        |from: &&&Event, off: &&Event| off.kind == EventKind::Off && off.side == from.side && off.time_s > from.time_s;
+    let stance = |strike: &&Event| {
+        let off = motion.events.iter().find(|off| is_later(&strike, off))?;
+        Some(off.time_s - strike.time_s)
+    };
+    let stances: Vec<f64> = strikes[1..strikes.len() - 2].iter().filter_map(stance).collect();
+    let share = stances.iter().sum::<f64>() / stances.len() as f64 / (2.0 * step);
+    let speed = motion.walking_speed_m_s;
+    println!(
+        "{} strikes, {cadence:.1} steps/min, stance {:.1} % of a cycle, {speed:.3} m/s",
+        strikes.len(),
+        100.0 * share
+    );
+    println!("steps {steps:.3?} s");
+    assert!(strikes.windows(2).all(|pair| pair[0].side != pair[1].side));
+    assert!(steps.iter().all(|step| (0.35..0.65).contains(step)));
+    // Walkers of any speed: 90 to 140 steps a minute, 55 to 68 % stance.
+    assert!((90.0..140.0).contains(&cadence) && (0.55..0.68).contains(&share) && (1.0..1.9).contains(&speed));
+    // In the file's own axes the walk leads nowhere, and methods that look along x find nothing.
+    assert!(foot_motion(&skeleton.markers, &mut findings).events.is_empty());
 }
 
 /// Upward force at the root, which without plates is all that the ground gives, over the body's weight.

@@ -1,10 +1,12 @@
 //! What the user may type, one file a verb where it is long.
 
+mod exchange;
 mod forces;
 mod tools;
 mod values;
 mod walk;
 
+pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
 pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns, PlateFoot};
@@ -34,6 +36,10 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     /// What a file holds.
     Info(InfoArgs),
+    /// From one format to another: c3d, trc, mot, sto, csv, bvh.
+    Convert(ConvertArgs),
+    /// When feet meet and leave the ground: from plates, from the motion, from the file.
+    Events(EventsArgs),
     /// How far two tables agree, column by column.
     Compare(CompareArgs),
 }

@@ -1,7 +1,9 @@
 //! One file a verb.
 
 pub(crate) mod compare;
+pub(crate) mod convert;
 pub(crate) mod demo;
+pub(crate) mod events;
 pub(crate) mod forces;
 pub(crate) mod info;
 mod outcome;

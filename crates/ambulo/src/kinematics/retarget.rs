@@ -309,6 +309,9 @@ impl Fitting<'_> {
         let [calcn, toes] = ["calcn", "toes"].map(|name| sided(name, side));
         self.marker(sided("foot_front", side), &calcn, Vec3::x() * REACH);
         self.marker(sided("foot_side", side), &calcn, Vec3::z() * REACH);
+        if let Some(heel) = measured.in_foot("heel", side) {
+            self.marker(sided("heel", side), &calcn, heel);
+        }
         let tip = measured.in_foot("toe_tip", side);
         let Some(toe) = measured.in_foot("toe", side).filter(|toe| toe.x > 0.0) else {
             if let Some(tip) = tip {

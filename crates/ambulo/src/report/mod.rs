@@ -1,6 +1,7 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
 mod cycle_table;
+mod exchange;
 mod figure;
 mod files;
 mod gait_figure;
@@ -16,6 +17,7 @@ mod tables;
 mod walk_summary;
 
 pub use cycle_table::{CycleRow, cycle_rows};
+pub use exchange::{GroundReactions, c3d_of_markers, ground_reactions, skeleton_of, table_of_markers, trc_of_markers};
 pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;

@@ -9,7 +9,8 @@
 //! |---|---|
 //! | `hip_s` `knee_s` `ankle_s` `toe_s` | centres of the joints of side s, `toe` being the ball of the foot |
 //! | `toe_tip_s` | the end of the foot's last bone |
-//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm |
+//! | `heel_s` | a third of the way from ankle to tip of the foot behind the ankle, as low as the toe: no skeleton has a heel |
+//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm; the end of a forearm that carries no hand |
 //! | `pelvis_up` `pelvis_front` | [`REACH`] above and in front of mid-hip, fixed to the pelvis |
 //! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`REACH`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
 //! | `foot_front_s` | [`REACH`] in front of the ankle along a foot that stands flat, fixed to the foot |
@@ -21,12 +22,14 @@
 
 mod axes;
 mod error;
+mod joint_paths;
 mod landmarks;
 mod neutral;
 mod poses;
 mod unit;
 
 pub use error::SkeletonError;
+pub use joint_paths::joint_paths;
 
 use crate::findings::Findings;
 use crate::model::Side;
@@ -42,6 +45,8 @@ use unit::Unit;
 /// How far the points that show turning stand from their joint [m].
 pub const REACH: f64 = 0.1;
 
+/// Heel to ankle over ankle to tip of the toes: 25 % and 75 % of the foot, as in [`crate::model::anthropometry`].
+const HEEL_SHARE: f64 = 1.0 / 3.0;
 /// Faster than this no joint moves [m/s]: hands of athletes who throw reach about 20 m/s (unverified).
 const LEAP: f64 = 30.0;
 
@@ -162,6 +167,11 @@ fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, rea
                 points.push(Point { name: sided(landmark.name()), between: vec![joint], beside: None });
             }
         }
+        // A forearm without a hand ends at the wrist.
+        let elbow = landmarks.get(Landmark::Elbow, side).filter(|_| landmarks.get(Landmark::Wrist, side).is_none());
+        if let Some((joint, offset)) = elbow.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
+            points.push(Point { name: sided("wrist"), between: vec![joint], beside: Some((joint, offset)) });
+        }
         let last = landmarks.get(Landmark::Toe, side).or(landmarks.get(Landmark::Ankle, side));
         if let Some((joint, offset)) = last.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
             points.push(Point { name: sided("toe_tip"), between: vec![joint], beside: Some((joint, offset)) });
@@ -173,6 +183,10 @@ fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, rea
             _ => skeleton.tip(ankle).unwrap_or_default(),
         });
         let [front, right] = neutral.along_foot(ankle, bone);
+        let tip = bone + last.filter(|last| *last != ankle).and_then(|last| skeleton.tip(last)).unwrap_or_default();
+        let up = neutral.up(ankle);
+        let heel = up * bone.dot(&up) - front * (HEEL_SHARE * tip.dot(&front));
+        points.push(Point { name: sided("heel"), between: vec![ankle], beside: Some((ankle, heel)) });
         for (name, carrier, base, direction) in [
             ("thigh_side", hip, knee, neutral.right_beside(hip, skeleton.way(hip, knee))),
             ("shank_side", knee, ankle, neutral.right_beside(knee, skeleton.way(knee, ankle))),
