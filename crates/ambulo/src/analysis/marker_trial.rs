@@ -7,7 +7,7 @@ use super::feasibility::Person;
 use crate::findings::Findings;
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
-use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
+use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
 use crate::model::{Model, Side};
@@ -116,7 +116,10 @@ pub fn body_in_motion(
     };
     stage("body");
     let settings = FitSettings { weights: subject.weights.clone(), ..settings.clone() };
-    let fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    if subject.calibration.is_some() {
+        assume_upright_trunk(&subject.model, &mut fit.motion, findings);
+    }
     stage("markers");
     let feet = foot_motion(&markers, findings);
     let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
