@@ -8,6 +8,7 @@ mod body_motion;
 pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;
+pub mod scaling;
 mod sin_cos;
 pub(crate) mod sweep;
 mod trajectory;
