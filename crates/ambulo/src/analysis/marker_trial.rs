@@ -7,7 +7,9 @@ use super::feasibility::Person;
 use crate::findings::Findings;
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
-use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate};
+use crate::kinematics::calibration::{
+    self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
+};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
 use crate::model::{Model, Side};

@@ -287,7 +287,7 @@ impl Model {
     }
 
     /// All bodies, by id.
-    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + use<> {
+    pub fn body_ids(&self) -> impl DoubleEndedIterator<Item = BodyId> + use<> {
         (0..self.bodies.len()).map(BodyId)
     }
 

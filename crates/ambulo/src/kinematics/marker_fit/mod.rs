@@ -28,6 +28,7 @@ mod normal;
 mod problem;
 mod report;
 mod result;
+pub(crate) mod rows;
 mod sequence;
 mod settings;
 mod solve;
