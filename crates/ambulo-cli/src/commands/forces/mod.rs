@@ -116,12 +116,33 @@ impl Origin {
         }
     }
 
-    /// Files of its own: the body that was fitted, for OpenSim and for later runs.
-    fn files(&self, model: &Model) -> Result<Vec<OutputFile>> {
-        Ok(match self {
-            Origin::Coordinates => Vec::new(),
-            _ => vec![OutputFile { name: "subject.osim".to_owned(), bytes: to_osim(model)?.write()? }],
-        })
+    /// The longest time during which plates measured all that the ground did.
+    fn instrumented(&self) -> Option<Window> {
+        let Origin::Markers(followed) = self else { return None };
+        let [from, to] = *followed.body.on_plates.windows.first()?;
+        Some(Window { from_s: Some(from), to_s: Some(to) })
+    }
+
+    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. A given model whose joints follow
+    /// curves is not written.
+    fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
+        let is_made = match self {
+            Origin::Coordinates => false,
+            Origin::Skeleton(_) => true,
+            Origin::Markers(followed) => {
+                followed.body.subject.calibration.is_some() || !followed.body.subject.scaled.is_empty()
+            }
+        };
+        if !is_made {
+            return Vec::new();
+        }
+        match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
+            Ok(bytes) => vec![OutputFile { name: "subject.osim".to_owned(), bytes }],
+            Err(reason) => {
+                findings.note("subject.not_written", format!("subject.osim was not written: {reason:#}"));
+                Vec::new()
+            }
+        }
     }
 }
 
@@ -134,7 +155,7 @@ fn compute(
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
     let Recorded { model, motion, plates, person, input, origin } = recorded;
-    let settings = settings(args);
+    let settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
     let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, &input))?;
     let subject = origin.complete(&mut analysis);
@@ -152,7 +173,7 @@ fn compute(
         read: &read,
         walk: None,
         subject,
-        files: origin.files(&model)?,
+        files: origin.files(&model, &mut findings),
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
 }
@@ -201,5 +222,11 @@ fn settings(args: &ForcesArgs) -> Settings {
         (Filter::Butterworth, None) => Smoother::Off,
     };
     let force_filter = low_pass(args.force_cutoff.unwrap_or(args.cutoff).0);
-    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to }, rate_hz: args.rate }
+    Settings {
+        smoother,
+        force_filter,
+        window: Window { from_s: args.from, to_s: args.to },
+        rate_hz: args.rate,
+        instrumented: None,
+    }
 }
