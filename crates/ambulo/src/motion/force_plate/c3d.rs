@@ -66,6 +66,9 @@ fn source(
     if samples == 0 {
         return Err("it has no samples".to_owned());
     }
+    if let Some(odd) = channels.iter().find(|c| c.samples.len() != file.analog_times().len()) {
+        return Err(format!("its channel `{}` has {} samples, others {samples}", odd.name, odd.samples.len()));
+    }
     if !(file.analog_rate_hz.is_finite() && file.analog_rate_hz > 0.0) {
         return Err(format!("its rate is {} Hz; expected a number above zero", file.analog_rate_hz));
     }
