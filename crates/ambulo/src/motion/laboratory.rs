@@ -66,13 +66,10 @@ impl Laboratory {
         recording.turned(&(self.world_from_lab * self.metres_per_stated_metre))
     }
 
-    /// A plate in the world's axes, in metres; its moments are in the same unit as its lengths.
+    /// A plate in the world's axes. Its lengths were put right when it was read.
     #[must_use]
     pub fn plate(&self, plate: &PlateRecording) -> PlateRecording {
-        let mut plate = plate.turned(&self.world_from_lab);
-        plate.corners = plate.corners.map(|c| c * self.metres_per_stated_metre);
-        plate.moment.iter_mut().for_each(|m| *m *= self.metres_per_stated_metre);
-        plate
+        plate.turned(&self.world_from_lab)
     }
 }
 
