@@ -1,8 +1,10 @@
 //! Our C3D reader beside ezc3d, file by file: `cargo xtask oracle-c3d [FOLDER] [--env DIR]`.
 //!
 //! Reads every C3D file below the folder (without one: the recordings) with both and prints the largest differences of
-//! coordinates and samples. ezc3d is a Python package; SGI files it refuses. Fails if numbers of points, frames or
+//! coordinates and samples, and of the forces of plates. ezc3d is a Python package; SGI files it refuses. Fails if numbers of points, frames or
 //! channels differ, if a number that both have differs, or if we refuse what ezc3d reads.
+
+mod plates;
 
 use crate::workspace;
 use ambulo_formats::c3d::C3d;
@@ -57,8 +59,8 @@ pub(crate) fn run(args: &[String]) -> Result<(), String> {
     let (version, oracles) = ask(&settings, &files)?;
     println!("ambulo-formats beside ezc3d {version}: largest differences\n");
     println!(
-        "{:<28} {:>6} {:>7} {:>8} {:>12} {:>12}  notes",
-        "file", "points", "frames", "channels", "positions", "samples"
+        "{:<28} {:>6} {:>7} {:>8} {:>12} {:>12} {:>10} {:>10}  notes",
+        "file", "points", "frames", "channels", "positions", "samples", "force [N]", "CoP [mm]"
     );
     let mut wrong = 0;
     for (path, oracle) in files.iter().zip(&oracles) {
@@ -184,6 +186,21 @@ fn compare(name: &str, record: &C3d, blocks: &BTreeMap<String, (usize, Vec<f64>)
                 let _ = write!(notes, "{block}: {reason}; ");
                 fine = false;
             }
+        }
+    }
+    match plates::compare(record, blocks) {
+        Ok(None) => {
+            let _ = write!(row, " {:>10} {:>10}", "-", "-");
+        }
+        Ok(Some(found)) => {
+            let _ = write!(row, " {:>10.3} {:>10.3}", found.force_n, 1000.0 * found.center_m);
+            notes.push_str(&found.note);
+            fine &= found.is_fine();
+        }
+        Err(reason) => {
+            let _ = write!(row, " {:>10} {:>10}", "-", "-");
+            let _ = write!(notes, "plates: {reason}");
+            fine = false;
         }
     }
     (format!("{row}  {}", notes.trim_end_matches("; ")), fine)

@@ -150,8 +150,9 @@ fn events_become_contacts_and_doubled_ones_are_ignored() {
     let contact = |strike_s, off_s| Contact { strike_s, off_s };
     let expected = [contact(None, Some(0.2)), contact(Some(0.6), Some(1.2)), contact(Some(1.6), None)];
     assert_eq!(contacts_of_events(&list, Side::Right), expected);
-    assert_eq!(expected[0].span(0.0, 9.0), [0.0, 0.2]);
-    assert_eq!(expected[2].span(0.0, 9.0), [1.6, 9.0]);
+    // What the recording cuts ends with it.
+    let is = |found: [f64; 2], expected: [f64; 2]| (0..2).all(|i| (found[i] - expected[i]).abs() < 1e-12);
+    assert!(is(expected[0].span(0.0, 9.0), [0.0, 0.2]) && is(expected[2].span(0.0, 9.0), [1.6, 9.0]));
 }
 
 #[test]
