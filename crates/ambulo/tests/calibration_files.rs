@@ -251,3 +251,30 @@ fn compare_with_opensim(body: &Calibrated, fit: &MarkerFit, reference: &Table, k
         }
     }
 }
+
+#[test]
+fn a_runner_on_a_treadmill_is_followed() {
+    let Some(folder) = gait_files::folder() else { return };
+    let folder = folder.join("opensim-rajagopal-run");
+    let [standing, run] = ["static_run.trc", "motion_capture_run.trc"].map(|file| trc(&folder, file));
+    let table = SegmentTable::DeLevaMale;
+    let person = Person { table, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let known = MarkerSet::recognise(standing.markers.iter().map(|m| m.name.as_str())).unwrap();
+    let body = calibrate(&standing, Trial::Standing, &known, &person, &mut Findings::default()).unwrap();
+    show(&body);
+    let found = fit(&body, &run);
+    show_errors(&found);
+    // The other leg's swing: a runner's knee bends by 80 to 110 degrees, and is never bent backwards by more than a few.
+    for side in ["r", "l"] {
+        let id = body.human.model.coordinate(&format!("knee_angle_{side}")).unwrap();
+        let column = found.motion.column(id).unwrap();
+        let (low, high) =
+            column.iter().filter(|v| v.is_finite()).fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        println!("  knee {side} {:.1} to {:.1} deg", low.to_degrees(), high.to_degrees());
+        assert!((-120.0..-70.0).contains(&low.to_degrees()) && (-25.0..8.0).contains(&high.to_degrees()));
+    }
+    let legs = ["RLFC", "RTB1", "RTB2", "RCAL", "RTOE", "RTH2", "LTB1", "LCAL"];
+    for error in found.errors.iter().filter(|e| legs.contains(&e.name.as_str())) {
+        assert!(error.rms_m < 0.025, "{} {}", error.name, error.rms_m);
+    }
+}
