@@ -7,6 +7,7 @@ mod fit_gait;
 mod harmonics;
 mod normative;
 mod npz;
+mod oracle_c3d;
 mod peers;
 mod simulators;
 mod table;
@@ -24,6 +25,7 @@ usage: cargo xtask <command>
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
+  oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
     let done = match (command, rest) {
         ("peers", _) => peers::run(rest),
         ("simulators", _) => simulators::command(rest),
+        ("oracle-c3d", _) => oracle_c3d::run(rest),
         ("check", []) => check::run(),
         ("bench", []) => bench::run(),
         ("bench-markers", _) => bench::markers::run(rest),

@@ -48,6 +48,34 @@ pub enum Error {
         /// What the format allows there.
         expected: String,
     },
+    /// A binary file holds something at a place that the format does not allow there.
+    #[error("byte {offset}: found {found}; expected {expected}")]
+    Byte {
+        /// Place in the file, counted from 0.
+        offset: usize,
+        /// What stands there.
+        found: String,
+        /// What the format allows there.
+        expected: String,
+    },
+    /// A binary file ends before the format says it may.
+    #[error("the file ends after {offset} bytes; expected {expected}. Is it truncated?")]
+    CutOff {
+        /// Bytes of the file.
+        offset: usize,
+        /// What was still to come.
+        expected: String,
+    },
+    /// A parameter of a C3D file does not fit what it is needed for.
+    #[error("parameter {parameter}: found {found}; expected {expected}")]
+    Parameter {
+        /// Group and name: `FORCE_PLATFORM:TYPE`.
+        parameter: String,
+        /// What stands there.
+        found: String,
+        /// What is needed.
+        expected: String,
+    },
     /// A record made in memory could not be written so that it reads back the same.
     #[error("not a valid record: found {found}; expected {expected}")]
     Record {
@@ -65,6 +93,13 @@ pub struct Remark {
     pub line: Option<usize>,
     /// What was found and what was made of it.
     pub message: String,
+}
+
+impl Remark {
+    /// A remark on the file as a whole, or on a place that has no line.
+    pub(crate) fn of_file(message: impl Into<String>) -> Remark {
+        Remark { line: None, message: message.into() }
+    }
 }
 
 impl fmt::Display for Remark {

@@ -8,9 +8,13 @@
 //! |---|---|---|---|
 //! | [`table`] | OpenSim `.mot` / `.sto` (versions 1-3), numeric CSV | yes | yes |
 //! | [`trc`] | marker trajectories `.trc` | yes | yes |
+//! | [`c3d`] | recordings `.c3d`: points, analog channels, force plates, events, all parameters | yes | yes |
+//! | [`bvh`] | skeletons in motion `.bvh` | yes | yes |
 //! | [`external_loads`] | OpenSim `ExternalLoads` XML | yes | yes |
-//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | - |
+//! | [`osim`] | OpenSim model `.osim`, document versions 20303-40600 | yes | yes |
 
+pub mod bvh;
+pub mod c3d;
 pub mod error;
 pub mod external_loads;
 pub mod osim;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Trc};
@@ -168,11 +169,26 @@ fn csv_with_words_in_its_cells_is_refused_by_line() {
 #[test]
 fn real_files_cut_anywhere_do_not_panic() {
     let Some(folder) = data() else { return };
-    for path in files(&folder, &[".mot", ".sto", ".trc", "grf.xml", "grf_run.xml", "grf_walk.xml", ".csv"]) {
+    for path in files(&folder, &[".mot", ".sto", ".trc", ".bvh", "grf.xml", "grf_run.xml", "grf_walk.xml", ".csv"]) {
         let bytes = std::fs::read(&path).unwrap();
         for end in (0..bytes.len()).step_by(if bytes.len() < 20_000 { 100 } else { 4001 }) {
             let cut = &bytes[..end];
             let _ = (Table::read_storage(cut), Table::read_csv(cut), Trc::read(cut), ExternalLoads::read(cut));
+            let _ = Bvh::read(cut);
         }
+    }
+}
+
+#[test]
+fn skeletons_have_the_stated_size_and_are_written_back_to_the_same_bits() {
+    let Some(folder) = data() else { return };
+    for (file, joints, channels, frames, rate_hz) in
+        [("AV_8Walk_Meredith_HVHA_Rep1.bvh", 23, 72, 1064, 120.0), ("01_01.bvh", 31, 96, 2752, 120.0)]
+    {
+        let bvh = read(&folder.join("bvh").join(file), Bvh::read);
+        assert_eq!((bvh.joints().len(), bvh.channels(), bvh.frames()), (joints, channels, frames), "{file}");
+        assert!((1.0 / bvh.frame_time_s() - rate_hz).abs() < 0.01, "{file}");
+        let (again, remarks) = Bvh::read(&bvh.write()).unwrap();
+        assert_eq!((&again, remarks), (&bvh, vec![]));
     }
 }

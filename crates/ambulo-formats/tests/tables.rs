@@ -144,7 +144,9 @@ fn storage_is_written_as_opensim_writes_it() {
 
 #[test]
 fn a_name_that_looks_like_a_key_survives_writing() {
-    for name in ["endheader", "nRows=7", "version 3", "a = b", "Range of motion", "inDegrees", ""] {
+    for name in
+        ["endheader", "nRows=7", "version 3", "a = b", "Range of motion", "inDegrees", "PathFileType 4", "<walk>", ""]
+    {
         let mut table = Table::new(name, vec![("time".into(), vec![0.0])]).unwrap();
         table.in_degrees = Some(false);
         let (read, remarks) = Table::read_storage(&table.write_storage()).unwrap();
@@ -166,6 +168,13 @@ fn csv_is_read_with_commas_semicolons_or_tabs() {
         );
         assert_eq!((table.line_of_row(0), table.line_of_row(1)), (Some(2), Some(4)));
     }
+}
+
+#[test]
+fn control_characters_in_names_of_a_csv_are_blanks_and_do_not_separate_when_written() {
+    let (table, _) = Table::read_csv("a\tb;\u{19}c\u{feff};d\n1;2;3\n".as_bytes()).unwrap();
+    assert_eq!(table.names(), ["a b", "c", "d"]);
+    assert_eq!(Table::read_csv(&table.write_csv()).unwrap().0.names(), table.names());
 }
 
 #[test]

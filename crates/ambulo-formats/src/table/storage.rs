@@ -264,7 +264,8 @@ fn name_line(name: &str) -> String {
     let name = name.trim().trim_start_matches(|c: char| c.is_whitespace() || c == '=');
     let (key, _) = split_key(name);
     let line = Line { number: 1, text: key.into() };
-    let is_key = name.contains('=') || !matches!(Header::default().take(&line, &mut Vec::new()), Ok(false));
+    let is_other = refuse_other_formats(name.as_bytes()).is_err();
+    let is_key = is_other || name.contains('=') || !matches!(Header::default().take(&line, &mut Vec::new()), Ok(false));
     match name {
         "" => String::new(),
         _ if is_key || name.eq_ignore_ascii_case(ENDHEADER) => format!("name={name}\n"),

@@ -2,16 +2,23 @@
 
 mod comparison;
 mod cycles;
+mod event_agreement;
 mod events;
 pub mod feasibility;
+mod marker_trial;
+mod measured_cycles;
 mod peaks;
 mod plausibility;
 mod recording;
 mod residual;
+mod standing_mass;
 
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
+pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
+pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual};
+pub use standing_mass::standing_mass;

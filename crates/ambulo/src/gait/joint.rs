@@ -1,5 +1,10 @@
 //! The joints of a leg, as far as gait moves them.
 
+pub use crate::model::full_body::STANDING_TILT;
+
+/// One degree [rad].
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
 /// A joint of the leg in the sagittal plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Joint {
@@ -10,12 +15,6 @@ pub enum Joint {
     /// Ankle; dorsiflexion +.
     Ankle,
 }
-
-/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
-/// Trost 2008 (10.97° to 13.13°). Hip angles are measured against the tilted pelvis, so a standing hip is flexed by as much.
-pub const STANDING_TILT: f64 = 11.7 * DEGREE;
-/// One degree [rad].
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Joint {
     /// All joints, from the pelvis down.

@@ -27,7 +27,7 @@ use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
 
 /// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
-pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
+pub const CENTER_OF_PRESSURE_LOAD_N: f64 = crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
 
 /// The ground's action on one body over a trajectory.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,9 @@
 //! Wrenches between feet and ground.
 
+pub mod foot_motion;
 mod measured;
+pub mod phases;
+pub mod plates;
 
 pub(crate) use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, MeasuredGround, feet, measured};

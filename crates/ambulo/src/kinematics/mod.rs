@@ -5,9 +5,11 @@
 //! [`crate::dynamics`].
 
 mod body_motion;
+pub mod calibration;
 pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;
+pub mod retarget;
 pub mod scaling;
 mod sin_cos;
 pub(crate) mod sweep;

@@ -5,10 +5,12 @@
 
 pub mod anthropometry;
 mod export;
+pub mod full_body;
 mod function;
 mod import;
 mod joint;
 mod knots;
+pub mod marker_set;
 mod scaled;
 mod side;
 mod simm_spline;

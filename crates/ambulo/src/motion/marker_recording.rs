@@ -1,7 +1,9 @@
 //! What cameras saw: the paths of markers, in metres, gaps as not-a-number.
 
+use super::real_points::{one_of_each_name, real_points, shared_prefix};
 use crate::findings::Findings;
 use crate::spatial::{Mat3, Vec3};
+use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
 
 /// Paths of markers over time. From a file they stand in the laboratory's axes; [`MarkerRecording::turned`] brings them
@@ -42,6 +44,14 @@ pub enum MarkerError {
         frames: usize,
         /// The first names that it lists.
         listed: String,
+    },
+    /// Lengths without a unit.
+    #[error(
+        "the markers have the unit `{found}` (POINT:UNITS); expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+    )]
+    Unit {
+        /// What the file says.
+        found: String,
     },
     /// Time that runs backwards or stands still.
     #[error(
@@ -112,6 +122,34 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
         rate_hz: trc.rate_hz,
         times: trc.times().to_vec(),
         markers: paths.collect(),
+    };
+    checked(recording, findings)
+}
+
+/// The markers of a C3D file, in the laboratory's axes.
+///
+/// Points that hold angles, forces, moments, powers or scalars, points that programs computed (axes and joint centres of
+/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A subject's prefix that all labels share is cut off:
+/// `Anna:LASI` becomes `LASI`. Of two points with one name the one that was seen longer is kept.
+///
+/// # Errors
+/// No unit of length, times that do not rise, no marker that was ever seen.
+pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
+    let Some(unit_m) = file.metres_per_unit() else {
+        return Err(MarkerError::Unit { found: file.point_unit.clone() });
+    };
+    let points = real_points(file);
+    let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
+    let prefix = shared_prefix(&names);
+    let path = |point: &&Point| MarkerPath {
+        name: point.name[prefix..].to_owned(),
+        positions: point.positions.iter().map(|p| Vec3::from(*p) * unit_m).collect(),
+    };
+    let recording = MarkerRecording {
+        name: String::new(),
+        rate_hz: file.point_rate_hz,
+        times: file.times(),
+        markers: one_of_each_name(points.iter().map(path).collect(), findings),
     };
     checked(recording, findings)
 }

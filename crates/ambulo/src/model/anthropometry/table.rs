@@ -42,6 +42,12 @@ impl SegmentTable {
         }
     }
 
+    /// Whether the trunk is one piece, without a pelvis of its own.
+    #[must_use]
+    pub fn is_undivided(self) -> bool {
+        self.proportions().lengths.lumbar.is_none()
+    }
+
     pub(super) fn proportions(self) -> Proportions {
         match self {
             SegmentTable::Faure1997 => faure::proportions(),

@@ -1,0 +1,329 @@
+//! How many points, samples and frames the data hold, where header, parameters and size of the file may disagree.
+
+use super::Storage;
+use super::header::{BLOCK, Header};
+use super::parameters::Parameters;
+use crate::error::{Error, Remark};
+
+/// Largest number of 16 bits.
+const WORD: usize = 65535;
+
+/// Where the data are and how a frame is built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Layout {
+    pub(super) storage: Storage,
+    pub(super) point_scale: f64,
+    pub(super) data_offset: usize,
+    pub(super) points: usize,
+    pub(super) channels: usize,
+    pub(super) samples_per_frame: usize,
+    pub(super) frames: usize,
+    pub(super) first_frame: i64,
+    pub(super) point_rate_hz: f64,
+}
+
+/// A number of frames and who says it.
+#[derive(Debug, Clone, Copy)]
+struct Claim {
+    who: &'static str,
+    value: usize,
+}
+
+impl Layout {
+    /// Words of four points and all samples of one frame.
+    fn values_per_frame(&self) -> usize {
+        (4 * self.points).saturating_add(self.channels.saturating_mul(self.samples_per_frame))
+    }
+
+    /// Bytes of one value.
+    pub(super) fn width(&self) -> usize {
+        match self.storage {
+            Storage::Integer => 2,
+            Storage::Real => 4,
+        }
+    }
+
+    /// Bytes of one frame.
+    pub(super) fn frame_bytes(&self) -> usize {
+        self.values_per_frame().saturating_mul(self.width())
+    }
+}
+
+/// Settles what the file holds. `size` is its number of bytes.
+pub(super) fn decide(
+    header: &Header,
+    parameters: &Parameters,
+    size: usize,
+    remarks: &mut Vec<Remark>,
+) -> Result<Layout, Error> {
+    let (storage, point_scale) = storage(header, parameters, remarks);
+    let data_offset = data_offset(header, parameters, size, remarks);
+    let point_rate_hz = point_rate(header, parameters, remarks)?;
+    let frame_claims = frame_claims(header, parameters);
+    let mut layout = Layout {
+        storage,
+        point_scale,
+        data_offset,
+        points: 0,
+        channels: 0,
+        samples_per_frame: 1,
+        frames: 0,
+        first_frame: 1,
+        point_rate_hz,
+    };
+    let room = size.saturating_sub(data_offset);
+    choose_frame(&mut layout, header, parameters, room, &frame_claims, remarks);
+    layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
+    if layout.frames == 0 {
+        keep_named(&mut layout, parameters);
+    }
+    layout.first_frame = first_frame(header, parameters, layout.frames, remarks);
+    Ok(layout)
+}
+
+/// The sign of the scale says integers (positive) or reals; the parameter is preferred to the header.
+fn storage(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> (Storage, f64) {
+    let usable = |scale: &f64| scale.is_finite() && scale.abs() > 0.0;
+    let parameter = parameters.number("POINT", "SCALE").filter(usable);
+    let in_header = Some(f64::from(header.scale)).filter(usable);
+    if let (Some(a), Some(b)) = (parameter, in_header)
+        && a.is_sign_negative() != b.is_sign_negative()
+    {
+        remark(
+            remarks,
+            format!(
+                "POINT:SCALE is {a}, the header's scale {b}: one says integers, the other reals; POINT:SCALE counts"
+            ),
+        );
+    }
+    let Some(scale) = parameter.or(in_header) else {
+        remark(remarks, "neither POINT:SCALE nor the header has a scale; read as reals".into());
+        return (Storage::Real, 1.0);
+    };
+    (if scale < 0.0 { Storage::Real } else { Storage::Integer }, scale.abs())
+}
+
+fn data_offset(header: &Header, parameters: &Parameters, size: usize, remarks: &mut Vec<Remark>) -> usize {
+    let in_header = usize::from(header.data_block);
+    let stated = parameters.count("POINT", "DATA_START").filter(|block| (1..=WORD).contains(block));
+    let inside = |block: usize| block >= 3 && (block - 1) * BLOCK <= size;
+    let block = match stated {
+        Some(block) if block != in_header => {
+            let chosen = if inside(in_header) { in_header } else { block };
+            let message = format!(
+                "the data begin in block {in_header} (header) or {block} (POINT:DATA_START); read from {chosen}"
+            );
+            remark(remarks, message);
+            chosen
+        }
+        _ => in_header,
+    };
+    block.saturating_sub(1) * BLOCK
+}
+
+fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Result<f64, Error> {
+    let usable = |rate: &f64| rate.is_finite() && *rate > 0.0;
+    let parameter = parameters.number("POINT", "RATE");
+    let in_header = f64::from(header.rate_hz);
+    if let Some(rate) = parameter.filter(usable) {
+        // Half a hundredth: both are reals of 24 bits, and headers are often rounded to two digits.
+        if usable(&in_header) && (rate - in_header).abs() > 0.005 {
+            remark(remarks, format!("POINT:RATE is {rate} Hz, the header's rate {in_header} Hz; POINT:RATE counts"));
+        }
+        return Ok(rate);
+    }
+    if usable(&in_header) {
+        if let Some(rate) = parameter {
+            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz counts"));
+        }
+        return Ok(in_header);
+    }
+    let found =
+        format!("{} and {in_header} in the header", parameter.map_or("nothing".into(), |rate| rate.to_string()));
+    Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "frames a second above zero".into() })
+}
+
+/// What header and parameters say about the number of frames. Numbers of 16 bits that only lack the higher bits of a
+/// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
+fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
+    let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
+    let actual =
+        start.zip(end).and_then(|(start, end)| end.checked_add(1)?.checked_sub(start)).filter(|&frames| frames > 0);
+    let frames = parameters.count("POINT", "FRAMES");
+    let long = long_frames(parameters);
+    let in_header = header.frames();
+    let largest = [actual, frames, long].into_iter().flatten().max().unwrap_or(0);
+    let first = start.unwrap_or(usize::from(header.first_frame));
+    let last = first.saturating_add(largest).saturating_sub(1);
+    let header_full = last > WORD && [WORD, last & 0xffff].contains(&usize::from(header.last_frame));
+    let cut = |frames: &usize| largest > WORD && *frames < largest && [WORD, largest & 0xffff].contains(frames);
+    let claims = [
+        ("the header", in_header.filter(|_| !header_full)),
+        ("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual),
+        ("POINT:FRAMES", frames.filter(|frames| !cut(frames))),
+        ("POINT:LONG_FRAMES", long),
+    ];
+    claims.into_iter().filter_map(|(who, value)| value.map(|value| Claim { who, value })).collect()
+}
+
+/// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
+/// (The user guide multiplies the high word by 65535; two words are 65536.)
+fn field(parameters: &Parameters, name: &str) -> Option<usize> {
+    wide(&parameters.get("TRIAL", name)?.counts()?)
+}
+
+/// One number, or two words, the low one first.
+fn wide(words: &[usize]) -> Option<usize> {
+    match *words {
+        [low, high, ..] => (low <= WORD && high <= WORD).then_some((high << 16) | low),
+        [number] => Some(number),
+        [] => None,
+    }
+}
+
+/// POINT:LONG_FRAMES: a real, or two words as in TRIAL.
+fn long_frames(parameters: &Parameters) -> Option<usize> {
+    wide(&parameters.get("POINT", "LONG_FRAMES")?.counts()?)
+}
+
+/// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
+/// what the header says.
+fn choose_frame(
+    layout: &mut Layout,
+    header: &Header,
+    parameters: &Parameters,
+    room: usize,
+    frames: &[Claim],
+    remarks: &mut Vec<Remark>,
+) {
+    let points = distinct([Some(usize::from(header.points)), used(parameters, "POINT")]);
+    let samples = sample_candidates(layout.point_rate_hz, header, parameters);
+    let candidates: Vec<Layout> = points
+        .iter()
+        .flat_map(|&points| samples.iter().map(move |&(channels, samples)| (points, channels, samples)))
+        .map(|(points, channels, samples_per_frame)| Layout { points, channels, samples_per_frame, ..*layout })
+        .collect();
+    let fits = |candidate: &&Layout| frames.iter().any(|claim| fills(candidate, claim.value, room));
+    if let Some(best) = candidates.iter().find(fits).or(candidates.first()) {
+        *layout = *best;
+    }
+    if let [in_header, used] = points[..] {
+        remark(remarks, format!("the header has {in_header} points, POINT:USED {used}; read {}", layout.points));
+    }
+    if samples.len() > 1 {
+        let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
+        let message = format!(
+            "the header has {} analog values a frame, {} a channel; ANALOG:USED is {used}; read {} channels with {} a frame",
+            header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
+        );
+        remark(remarks, message);
+    }
+}
+
+/// `POINT:USED` or `ANALOG:USED`.
+fn used(parameters: &Parameters, group: &str) -> Option<usize> {
+    parameters.count(group, "USED").filter(|&used| used <= WORD)
+}
+
+/// Channels and samples a frame, most trusted first.
+fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameters) -> Vec<(usize, usize)> {
+    let words = usize::from(header.analog_words);
+    let per_frame = usize::from(header.samples_per_frame);
+    let used = used(parameters, "ANALOG");
+    let rate = parameters.number("ANALOG", "RATE").map(|rate| (rate / point_rate_hz).round());
+    let by_rate = rate.filter(|ratio| (1.0..=65535.0).contains(ratio)).map(|ratio| ratio as usize);
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    let mut add = |channels: usize, samples: usize| {
+        let candidate = if channels == 0 || samples == 0 { (0, 1) } else { (channels, samples) };
+        if !found.contains(&candidate) {
+            found.push(candidate);
+        }
+    };
+    match used {
+        Some(used) if used > 0 && words.is_multiple_of(used) && words > 0 => add(used, words / used),
+        Some(0) | None if words == 0 => add(0, 1),
+        _ if per_frame > 0 && words.is_multiple_of(per_frame) => add(words / per_frame, per_frame),
+        _ => add(words, 1),
+    }
+    if let Some(used) = used.filter(|&used| used * per_frame.max(1) != words) {
+        add(used, per_frame.max(1));
+        if let Some(by_rate) = by_rate {
+            add(used, by_rate);
+        }
+    }
+    found
+}
+
+/// Whether so many frames end within the last block of the file.
+fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
+    let bytes = layout.frame_bytes().checked_mul(frames);
+    bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
+}
+
+/// Without a frame nothing but the names says that there are points and channels: a count alone may be anything.
+fn keep_named(layout: &mut Layout, parameters: &Parameters) {
+    layout.points = layout.points.min(parameters.texts("POINT", "LABELS").len());
+    layout.channels = layout.channels.min(parameters.texts("ANALOG", "LABELS").len());
+}
+
+fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut Vec<Remark>) -> usize {
+    let available = room.checked_div(layout.frame_bytes()).unwrap_or(0);
+    if layout.frame_bytes() == 0 {
+        return 0;
+    }
+    let stated = distinct(claims.iter().map(|claim| Some(claim.value)));
+    let fitting = stated.iter().copied().find(|&frames| fills(layout, frames, room));
+    let within = stated.iter().copied().filter(|&frames| frames <= available).max();
+    let frames = fitting.or(within).unwrap_or(available);
+    if stated.len() > 1 {
+        let words: Vec<String> = claims.iter().map(|claim| format!("{} by {}", claim.value, claim.who)).collect();
+        remark(
+            remarks,
+            format!("number of frames: {}; the file has room for {available}; read {frames}", words.join(", ")),
+        );
+    } else if let Some(&one) = stated.first().filter(|&&one| one > available) {
+        remark(
+            remarks,
+            format!("{one} frames are stated, but the file ends after {available}; it is truncated; read {available}"),
+        );
+    }
+    let rest = room - frames * layout.frame_bytes();
+    if frames < available && rest >= BLOCK {
+        remark(remarks, format!("{rest} bytes follow the last frame; they are not read"));
+    }
+    frames
+}
+
+/// The group TRIAL is believed where header and it differ, unless it counts other frames than were read.
+fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks: &mut Vec<Remark>) -> i64 {
+    let in_header = usize::from(header.first_frame);
+    let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
+        return i64::from(header.first_frame);
+    };
+    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| end.checked_add(1)?.checked_sub(actual));
+    let header_alone = header.frames() == Some(frames) && counted != Some(frames);
+    let first = if header_alone { in_header } else { actual };
+    // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
+    let explained = actual > WORD && (actual & 0xffff == in_header || in_header == WORD);
+    if !explained {
+        let message =
+            format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");
+        remark(remarks, message);
+    }
+    i64::try_from(first).unwrap_or(i64::from(u32::MAX))
+}
+
+/// The values that are there, each once, in order.
+fn distinct(values: impl IntoIterator<Item = Option<usize>>) -> Vec<usize> {
+    let mut found = Vec::new();
+    for value in values.into_iter().flatten() {
+        if !found.contains(&value) {
+            found.push(value);
+        }
+    }
+    found
+}
+
+fn remark(remarks: &mut Vec<Remark>, message: String) {
+    remarks.push(Remark::of_file(message));
+}

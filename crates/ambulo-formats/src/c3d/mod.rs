@@ -1,0 +1,207 @@
+//! Recordings of movement in C3D files: points, analog channels, force platforms, events and all named parameters.
+//!
+//! ```text
+//! block 1        header: counts, frames, rate, where the rest is
+//! block 2 ..     parameters: groups of named values
+//! block n ..     frames: for each frame all points (x, y, z, residual and cameras), then all analog samples
+//! ```
+//!
+//! A block has 512 bytes. Numbers are Intel's, DEC's or SGI's ([`Processor`]), integers with a scale or reals
+//! ([`Storage`]). Where header, parameters and size of the file contradict each other, the size decides and a
+//! [`Remark`] tells both numbers. Data that are cut off are a remark too; the frames that are there are read.
+//!
+//! Positions stay in the file's unit and axes. A point that was not seen is three times not-a-number.
+//!
+//! ```
+//! use ambulo_formats::c3d::{C3d, Event, Point};
+//!
+//! let mut record = C3d::new(100.0, "mm");
+//! record.points.push(Point::new("HEEL", vec![[12.0, 30.5, 4.0], [f64::NAN; 3]])); // not seen in the second frame
+//! record.events.push(Event::new("Foot Strike", "Left", 0.01));
+//! let bytes = record.write()?;
+//!
+//! let (read, remarks) = C3d::read(&bytes)?;
+//! assert!(remarks.is_empty());
+//! assert_eq!(read.frames(), 2);
+//! assert_eq!(read.point("HEEL").unwrap().positions[0], [12.0, 30.5, 4.0]);
+//! assert_eq!(read.parameters.text("POINT", "UNITS"), Some("mm"));
+//! # Ok::<(), ambulo_formats::Error>(())
+//! ```
+//!
+//! Source: C3D user guide, c3d.org.
+//! Pinned by: tests/c3d_recordings.rs, tests/c3d_traps.rs, tests/c3d_damage.rs, tests/c3d_write.rs
+
+mod analog;
+mod events;
+mod header;
+mod layout;
+mod parameters;
+mod platform;
+mod points;
+mod read;
+mod section;
+mod section_write;
+mod stated;
+mod words;
+mod write;
+
+pub use analog::Channel;
+pub use events::{Event, EventPlace};
+pub use parameters::{Group, Parameter, Parameters, Values};
+pub use platform::Platform;
+pub use points::Point;
+pub use words::Processor;
+
+use crate::error::{Error, Remark};
+
+/// One recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct C3d {
+    /// How the file holds its numbers.
+    pub encoding: Encoding,
+    /// Frames a second \[Hz\].
+    pub point_rate_hz: f64,
+    /// Unit of positions as the file has it, mostly `mm`; empty if it has none.
+    pub point_unit: String,
+    /// Number of the first frame; the recording from which this file was cut began with frame 1, at time zero.
+    pub first_frame: i64,
+    /// Longest gap that was filled before the file was written, in frames, as the header has it.
+    pub longest_gap: u16,
+    /// Points, in the order of the file: markers, and what programs store as points (angles, forces, moments, powers).
+    pub points: Vec<Point>,
+    /// Analog samples a second \[Hz\]; zero if there are no channels. A whole multiple of [`C3d::point_rate_hz`].
+    pub analog_rate_hz: f64,
+    /// Analog channels, in the order of the file; channel number 1 of the parameters is the first.
+    pub channels: Vec<Channel>,
+    /// Events, in the order of the file: those of the parameters, then those of the header.
+    pub events: Vec<Event>,
+    /// All parameters.
+    pub parameters: Parameters,
+}
+
+/// How a file holds its numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encoding {
+    /// Whose numbers they are.
+    pub processor: Processor,
+    /// Integers or reals.
+    pub storage: Storage,
+    /// Size of one step of integer positions, and of one step of residuals, in the unit of the points; above zero.
+    pub point_scale: f64,
+    /// Integer samples and offsets of channels are without sign (`ANALOG:FORMAT` is `UNSIGNED`).
+    pub unsigned_analog: bool,
+}
+
+/// How positions and samples are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// 16-bit integers, with a scale.
+    Integer,
+    /// 32-bit reals.
+    Real,
+}
+
+impl Default for Encoding {
+    /// Intel reals, residuals in hundredths: what programs of today write.
+    fn default() -> Self {
+        let (processor, storage) = (Processor::Intel, Storage::Real);
+        Encoding { processor, storage, point_scale: f64::from(0.01f32), unsigned_analog: false }
+    }
+}
+
+impl C3d {
+    /// Reads a C3D file.
+    pub fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
+        read::read(bytes)
+    }
+
+    /// Writes a C3D file as [`C3d::encoding`] says. What was read reads back the same.
+    ///
+    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are made
+    /// anew. Refused is what the format cannot hold: records of different lengths, integers beyond 16 bits.
+    pub fn write(&self) -> Result<Vec<u8>, Error> {
+        write::write(self)
+    }
+
+    /// An empty recording, to be filled: Intel reals, frame 1 first, no analog channels.
+    pub fn new(point_rate_hz: f64, point_unit: &str) -> C3d {
+        C3d {
+            encoding: Encoding::default(),
+            point_rate_hz,
+            point_unit: point_unit.into(),
+            first_frame: 1,
+            longest_gap: 0,
+            points: vec![],
+            analog_rate_hz: 0.0,
+            channels: vec![],
+            events: vec![],
+            parameters: Parameters::default(),
+        }
+    }
+
+    /// Number of frames.
+    pub fn frames(&self) -> usize {
+        let of_channels = || self.channels.first().map_or(0, |c| c.samples.len() / self.samples_per_frame());
+        self.points.first().map_or_else(of_channels, |point| point.positions.len())
+    }
+
+    /// Analog samples of a channel in one frame; 1 if there are no channels.
+    pub fn samples_per_frame(&self) -> usize {
+        let ratio = self.analog_rate_hz / self.point_rate_hz;
+        if ratio.is_finite() && ratio >= 1.0 { ratio.round() as usize } else { 1 }
+    }
+
+    /// Time of each frame \[s\]; frame 1 is at zero.
+    pub fn times(&self) -> Vec<f64> {
+        let first = self.first_frame - 1;
+        (first..).take(self.frames()).map(|frame| frame as f64 / self.point_rate_hz).collect()
+    }
+
+    /// Time of each analog sample \[s\].
+    pub fn analog_times(&self) -> Vec<f64> {
+        let samples = self.channels.first().map_or(0, |channel| channel.samples.len());
+        let first = (self.first_frame - 1) as f64 * self.samples_per_frame() as f64;
+        (0..samples).map(|sample| (first + sample as f64) / self.analog_rate_hz).collect()
+    }
+
+    /// The first point with exactly this name.
+    pub fn point(&self, name: &str) -> Option<&Point> {
+        self.points.iter().find(|point| point.name == name)
+    }
+
+    /// The first channel with exactly this name.
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|channel| channel.name == name)
+    }
+
+    /// Metres in one unit of the positions; `None` if the file states no unit, or one that is no length.
+    pub fn metres_per_unit(&self) -> Option<f64> {
+        metres_per(&self.point_unit)
+    }
+
+    /// The force platforms, with their places and calibrations; none if the file has none.
+    pub fn platforms(&self) -> Result<Vec<Platform>, Error> {
+        platform::platforms(&self.parameters, self.channels.len())
+    }
+
+    /// Describes these platforms in the parameters, in place of those that are there.
+    pub fn set_platforms(&mut self, platforms: &[Platform]) {
+        self.parameters.set_group(platform::group(platforms));
+    }
+}
+
+/// Metres in one unit of length. Some files cut the word: `mete`.
+fn metres_per(unit: &str) -> Option<f64> {
+    const INCH: f64 = 0.0254; // international inch, exact
+    const FOOT: f64 = 0.3048; // international foot, exact
+    let unit = unit.trim().to_ascii_lowercase();
+    Some(match unit.as_str() {
+        "mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres" => 1e-3,
+        "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => 1e-2,
+        "dm" => 1e-1,
+        "m" | "mete" | "meter" | "meters" | "metre" | "metres" => 1.0,
+        "in" | "inch" | "inches" => INCH,
+        "ft" | "foot" | "feet" => FOOT,
+        _ => return None,
+    })
+}

@@ -1,0 +1,154 @@
+//! Points: the first part of every frame.
+//!
+//! Four values a point: x, y, z and a word. Integer files: 16-bit integers, positions times the scale; the word negative:
+//! not seen. Real files: reals, and the word is a real that has to be turned into an integer. High byte of the word: a bit
+//! for each camera; low byte: the residual divided by the scale.
+//!
+//! What real files hold in the word, beside what they should: -1.0 (not seen), 65535.0 (all bits, not seen: such points
+//! lie at the origin), 32768.0 to 65534.0 (an eighth camera), reals beyond 16 bits (the word stands in the upper half of
+//! the real's bits: 1.7e38 has 0x7F00 there), reals below 1 (nothing). Infinite and not-a-number: not seen.
+//!
+//! Source: C3D user guide (c3d.org), "3D data - floating-point format"; the words, from files of c3d.org's samples.
+
+use super::layout::Layout;
+use super::parameters::Parameters;
+use super::words::Words;
+use super::{Encoding, Storage};
+use crate::error::Remark;
+
+/// The path of one point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Name as it stands in `POINT:LABELS`, `LABELS2` ...; `*3` for the third point if it has none.
+    pub name: String,
+    /// What `POINT:DESCRIPTIONS` says about it.
+    pub description: String,
+    /// Position in the file's unit and axes, one a frame; three times not-a-number where it was not seen.
+    pub positions: Vec<[f64; 3]>,
+    /// Mean distance from the rays of the cameras, in the file's unit, one a frame; zero: filtered or filled;
+    /// not-a-number where it was not seen.
+    pub residuals: Vec<f64>,
+    /// Bit n: camera n + 1 saw it; one a frame; zero where it was not seen or nobody says.
+    pub cameras: Vec<u8>,
+}
+
+impl Point {
+    /// A point with these positions, residual zero and no cameras.
+    pub fn new(name: &str, positions: Vec<[f64; 3]>) -> Point {
+        let seen = |position: &[f64; 3]| position.iter().all(|value| value.is_finite());
+        let residuals = positions.iter().map(|position| if seen(position) { 0.0 } else { f64::NAN }).collect();
+        let cameras = vec![0; positions.len()];
+        Point { name: name.into(), description: String::new(), positions, residuals, cameras }
+    }
+}
+
+/// A point in one frame.
+struct Sighting {
+    position: [f64; 3],
+    residual: f64,
+    cameras: u8,
+}
+
+const UNSEEN: Sighting = Sighting { position: [f64::NAN; 3], residual: f64::NAN, cameras: 0 };
+/// All sixteen bits: not seen.
+const ALL_BITS: u16 = 0xffff;
+
+/// All points of the data. A point that is seen at exactly 0 0 0 is kept there.
+pub(super) fn read(
+    words: Words<'_>,
+    layout: &Layout,
+    encoding: &Encoding,
+    parameters: &Parameters,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Point> {
+    let mut points = named(layout, parameters, remarks);
+    let value_bytes = 4 * layout.width();
+    for frame in 0..layout.frames {
+        let start = layout.data_offset + frame * layout.frame_bytes();
+        for (i, point) in points.iter_mut().enumerate() {
+            let at = start + i * value_bytes;
+            let sighting = match layout.storage {
+                Storage::Integer => integers(words, at, encoding.point_scale),
+                Storage::Real => reals(words, at, encoding.point_scale),
+            };
+            let Sighting { position, residual, cameras } = sighting.unwrap_or(UNSEEN);
+            point.positions.push(position);
+            point.residuals.push(residual);
+            point.cameras.push(cameras);
+        }
+    }
+    points
+}
+
+/// The points without their frames.
+fn named(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Point> {
+    let labels = parameters.texts("POINT", "LABELS");
+    let descriptions = parameters.texts("POINT", "DESCRIPTIONS");
+    if labels.len() < layout.points {
+        let message = format!(
+            "{} of {} points have no name in POINT:LABELS; they are called *n",
+            layout.points - labels.len(),
+            layout.points
+        );
+        remarks.push(Remark::of_file(message));
+    }
+    let named = |i: usize| Point {
+        name: labels.get(i).filter(|name| !name.is_empty()).map_or_else(|| format!("*{}", i + 1), |&name| name.into()),
+        description: descriptions.get(i).copied().unwrap_or_default().into(),
+        positions: Vec::with_capacity(layout.frames),
+        residuals: Vec::with_capacity(layout.frames),
+        cameras: Vec::with_capacity(layout.frames),
+    };
+    (0..layout.points).map(named).collect()
+}
+
+fn integers(words: Words<'_>, at: usize, scale: f64) -> Option<Sighting> {
+    let word = words.i16(at + 6)?;
+    if word < 0 {
+        return None;
+    }
+    let mut position = [0.0; 3];
+    for (axis, value) in position.iter_mut().enumerate() {
+        *value = f64::from(words.i16(at + 2 * axis)?) * scale;
+    }
+    Some(sighting(position, word.cast_unsigned(), scale))
+}
+
+fn reals(words: Words<'_>, at: usize, scale: f64) -> Option<Sighting> {
+    let word = word_of_real(words.f32(at + 12)?)?;
+    let mut position = [0.0; 3];
+    for (axis, value) in position.iter_mut().enumerate() {
+        *value = f64::from(words.f32(at + 4 * axis)?);
+        if !value.is_finite() {
+            return None;
+        }
+    }
+    Some(sighting(position, word, scale))
+}
+
+/// The fourth value of a real file as 16 bits; `None` if it says that the point was not seen.
+fn word_of_real(value: f32) -> Option<u16> {
+    if !value.is_finite() || value < 0.0 {
+        return None;
+    }
+    let word = if value <= f32::from(u16::MAX) { value as u16 } else { (value.to_bits() >> 16) as u16 };
+    (word != ALL_BITS).then_some(word)
+}
+
+/// The word of a point that was seen; `None` if residual and cameras do not fit into it.
+pub(super) fn word_of_sighting(residual: f64, cameras: u8, scale: f64, storage: Storage) -> Option<u16> {
+    let steps = if residual.is_nan() { 0.0 } else { (residual / scale).round() };
+    if !(0.0..=255.0).contains(&steps) {
+        return None;
+    }
+    let word = u16::from_be_bytes([cameras, steps as u8]);
+    match storage {
+        Storage::Integer => (cameras < 128).then_some(word),
+        Storage::Real => (word != ALL_BITS).then_some(word),
+    }
+}
+
+fn sighting(position: [f64; 3], word: u16, scale: f64) -> Sighting {
+    let [cameras, residual] = word.to_be_bytes();
+    Sighting { position, residual: f64::from(residual) * scale, cameras }
+}

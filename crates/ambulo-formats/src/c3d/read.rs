@@ -1,0 +1,54 @@
+//! Reading from the first byte to the last.
+
+use super::header::{Header, parameter_offset};
+use super::layout::{self, Layout};
+use super::parameters::Parameters;
+use super::words::Words;
+use super::{C3d, Encoding, analog, events, points, section};
+use crate::error::{Error, Remark};
+
+pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
+    let mut remarks = Vec::new();
+    let start = parameter_offset(bytes)?;
+    let processor = section::processor(bytes, start, &mut remarks)?;
+    let words = Words { bytes, processor };
+    let header = Header::read(words)?;
+    let parameters = section::read(words, start, header.data_block, &mut remarks)?;
+    let layout = layout::decide(&header, &parameters, bytes.len(), &mut remarks)?;
+    let Layout { storage, point_scale, .. } = layout;
+    let unsigned_analog = analog::unsigned(&parameters, &mut remarks);
+    let encoding = Encoding { processor, storage, point_scale, unsigned_analog };
+    let points = points::read(words, &layout, &encoding, &parameters, &mut remarks);
+    let channels = analog::read(words, &layout, &encoding, &parameters, &mut remarks);
+    check_analog_rate(&layout, &parameters, &mut remarks);
+    let start_s = (layout.first_frame - 1) as f64 / layout.point_rate_hz;
+    let events = events::read(words, &parameters, start_s, &mut remarks);
+    let recording = C3d {
+        encoding,
+        point_rate_hz: layout.point_rate_hz,
+        point_unit: parameters.text("POINT", "UNITS").unwrap_or_default().to_owned(),
+        first_frame: layout.first_frame,
+        longest_gap: header.longest_gap,
+        points,
+        analog_rate_hz: analog_rate(&layout),
+        channels,
+        events,
+        parameters,
+    };
+    Ok((recording, remarks))
+}
+
+fn analog_rate(layout: &Layout) -> f64 {
+    if layout.channels == 0 { 0.0 } else { layout.point_rate_hz * layout.samples_per_frame as f64 }
+}
+
+fn check_analog_rate(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) {
+    let rate = analog_rate(layout);
+    let stated = parameters.number("ANALOG", "RATE").unwrap_or(rate);
+    // A part in a thousand: rates are rounded, but no device is off by more.
+    if layout.channels > 0 && (stated - rate).abs() > 1e-3 * rate {
+        let samples = layout.samples_per_frame;
+        let message = format!("ANALOG:RATE is {stated} Hz, but a frame holds {samples} samples: {rate} Hz counts");
+        remarks.push(Remark::of_file(message));
+    }
+}

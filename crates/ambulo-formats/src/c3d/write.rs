@@ -1,0 +1,209 @@
+//! Writing from the first byte to the last.
+
+use super::header::{BLOCK, Header};
+use super::points::word_of_sighting;
+use super::words::Processor;
+use super::{C3d, Channel, Point, Storage, events, section_write, stated};
+use crate::error::{Error, quoted};
+use std::ops::RangeInclusive;
+
+/// Block of the parameter section.
+const PARAMETER_BLOCK: u8 = 2;
+/// Range of 16-bit integers with sign.
+const SIGNED: RangeInclusive<f64> = -32768.0..=32767.0;
+/// Range of 16-bit integers without sign.
+const UNSIGNED: RangeInclusive<f64> = 0.0..=65535.0;
+/// Counts of the header are words of 16 bits.
+const WORD: usize = 65535;
+
+pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
+    check(record)?;
+    let processor = record.encoding.processor;
+    // The length of the section does not depend on the number of the data's block.
+    let length = section_write::write(&stated::parameters(record, 0), processor)?.len();
+    let data_block = u16::from(PARAMETER_BLOCK) + (length / BLOCK) as u16;
+    let section = section_write::write(&stated::parameters(record, data_block), processor)?;
+    let mut bytes = header(record, data_block)?;
+    bytes.extend(section);
+    write_frames(record, &mut bytes)?;
+    // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file holds, so nothing may follow them.
+    if record.frames() <= WORD {
+        bytes.resize(bytes.len().next_multiple_of(BLOCK), 0);
+    }
+    Ok(bytes)
+}
+
+fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
+    let samples = if record.channels.is_empty() { 0 } else { record.samples_per_frame() };
+    let last = record.first_frame + record.frames() as i64 - 1;
+    // 65535 stands for all frames beyond; the group TRIAL has the number.
+    let word = |frame: i64| u16::try_from(frame).unwrap_or(u16::MAX);
+    let header = Header {
+        points: record.points.len() as u16,
+        analog_words: (record.channels.len() * samples) as u16,
+        first_frame: word(record.first_frame),
+        last_frame: word(last),
+        longest_gap: record.longest_gap,
+        scale: stated::point_scale(record),
+        data_block,
+        samples_per_frame: samples as u16,
+        rate_hz: record.point_rate_hz as f32,
+    };
+    let mut bytes = header
+        .write(PARAMETER_BLOCK, record.encoding.processor)
+        .ok_or_else(|| invalid("a rate or scale beyond the range of VAX reals", "below 1.7e38"))?;
+    let start_s = (record.first_frame - 1) as f64 / record.point_rate_hz;
+    events::write_header(&record.events, start_s, &mut bytes, record.encoding.processor)?;
+    Ok(bytes)
+}
+
+/// What the format cannot hold is refused before a byte is written.
+fn check(record: &C3d) -> Result<(), Error> {
+    let positive = |what: &str, value: f64| {
+        // As it will be read: VAX reals have nothing below 2^-128.
+        let bytes = record.encoding.processor.f32_bytes(value as f32);
+        let written = bytes.map_or(f32::NAN, |bytes| record.encoding.processor.f32(bytes));
+        let fine = written.is_finite() && written > 0.0;
+        if fine { Ok(()) } else { Err(invalid(format!("{what} of {value}"), "a finite number above zero")) }
+    };
+    positive("a rate of points", record.point_rate_hz)?;
+    positive("a scale of points", record.encoding.point_scale)?;
+    if !(0..=i64::from(u32::MAX) - record.frames() as i64).contains(&record.first_frame) {
+        return Err(invalid(format!("first frame {}", record.first_frame), "a number of 32 bits without sign"));
+    }
+    check_channels(record)?;
+    for (what, count) in
+        [("points", record.points.len()), ("analog values a frame", record.channels.len() * record.samples_per_frame())]
+    {
+        if count > WORD {
+            return Err(invalid(format!("{count} {what}"), format!("at most {WORD}")));
+        }
+    }
+    record.points.iter().try_for_each(|point| check_point(point, record.frames()))
+}
+
+fn check_point(point: &Point, frames: usize) -> Result<(), Error> {
+    let counts = [point.positions.len(), point.residuals.len(), point.cameras.len()];
+    if counts == [frames; 3] {
+        return Ok(());
+    }
+    let found = format!("{counts:?} positions, residuals and cameras of point {}", quoted(&point.name));
+    Err(invalid(found, format!("{frames} of each, as of the first point")))
+}
+
+fn check_channels(record: &C3d) -> Result<(), Error> {
+    if record.channels.is_empty() {
+        return Ok(());
+    }
+    let samples = record.samples_per_frame();
+    let ratio = record.analog_rate_hz / record.point_rate_hz;
+    // Rates come from reals of 24 bits; a part in a million lies above their rounding.
+    if !((ratio - samples as f64).abs() <= 1e-6 * ratio && samples <= WORD) {
+        let found = format!("{} analog samples and {} frames a second", record.analog_rate_hz, record.point_rate_hz);
+        return Err(invalid(found, format!("a whole number of samples a frame, at most {WORD}")));
+    }
+    for channel in &record.channels {
+        if channel.samples.len() != record.frames() * samples {
+            let found = format!("{} samples of channel {}", channel.samples.len(), quoted(&channel.name));
+            return Err(invalid(found, format!("{}, {samples} for each frame", record.frames() * samples)));
+        }
+    }
+    Ok(())
+}
+
+fn write_frames(record: &C3d, bytes: &mut Vec<u8>) -> Result<(), Error> {
+    let general = stated::general_scale(&record.parameters);
+    let scales: Vec<f64> = record
+        .channels
+        .iter()
+        .map(|channel| f64::from(stated::channel_scale(channel, general)) * f64::from(general))
+        .collect();
+    let samples = record.samples_per_frame();
+    for frame in 0..record.frames() {
+        for point in &record.points {
+            write_point(record, point, frame, bytes)?;
+        }
+        for sample in frame * samples..(frame + 1) * samples {
+            for (channel, &scale) in record.channels.iter().zip(&scales) {
+                write_sample(record, channel, sample, scale, bytes)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn write_point(record: &C3d, point: &Point, frame: usize, bytes: &mut Vec<u8>) -> Result<(), Error> {
+    let encoding = &record.encoding;
+    let scale = f64::from(encoding.point_scale as f32);
+    let position = point.positions[frame];
+    let seen = position.iter().all(|value| value.is_finite());
+    let word = if seen {
+        let found = || {
+            let (residual, cameras) = (point.residuals[frame], point.cameras[frame]);
+            format!("residual {residual} and cameras {cameras:#b} of point {} in frame {frame}", quoted(&point.name))
+        };
+        let word = word_of_sighting(point.residuals[frame], point.cameras[frame], scale, encoding.storage);
+        Some(word.ok_or_else(|| invalid(found(), "a residual of at most 255 scales; seven cameras in integer files"))?)
+    } else {
+        None
+    };
+    for value in position {
+        let value = if seen { value } else { 0.0 };
+        let written = match encoding.storage {
+            Storage::Integer => integer(value / scale, encoding.processor, SIGNED, bytes),
+            Storage::Real => real(value, encoding.processor, bytes),
+        };
+        written.ok_or_else(|| {
+            let found = format!("{value} as a position of point {} in frame {frame}", quoted(&point.name));
+            invalid(found, format!("positions that {:?} numbers can hold with scale {scale}", encoding.storage))
+        })?;
+    }
+    let written = match encoding.storage {
+        Storage::Integer => integer(word.map_or(-1.0, f64::from), encoding.processor, SIGNED, bytes),
+        Storage::Real => real(word.map_or(-1.0, f64::from), encoding.processor, bytes),
+    };
+    written.ok_or_else(|| invalid("a word beyond 16 bits", "cameras and residual"))
+}
+
+fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, bytes: &mut Vec<u8>) -> Result<(), Error> {
+    let encoding = &record.encoding;
+    let value = channel.samples[sample];
+    // A scale of zero makes every sample zero, whatever the raw number. A sum with zero would lose the sign of -0.
+    let steps = if scale.abs() > 0.0 { value / scale } else { 0.0 };
+    let raw = if channel.offset.abs() > 0.0 { steps + channel.offset } else { steps };
+    let written = match encoding.storage {
+        Storage::Integer if encoding.unsigned_analog => integer(raw, encoding.processor, UNSIGNED, bytes),
+        Storage::Integer => integer(raw, encoding.processor, SIGNED, bytes),
+        Storage::Real => real(raw, encoding.processor, bytes),
+    };
+    written.ok_or_else(|| {
+        let found = format!("{value} as sample {sample} of channel {}", quoted(&channel.name));
+        let numbers = encoding.storage;
+        invalid(
+            found,
+            format!("samples that {numbers:?} numbers can hold with scale {scale} and offset {}", channel.offset),
+        )
+    })
+}
+
+/// Appends the nearest 16-bit integer; `None` if there is none.
+fn integer(value: f64, processor: Processor, range: RangeInclusive<f64>, bytes: &mut Vec<u8>) -> Option<()> {
+    let nearest = value.round();
+    let word = range.contains(&nearest).then_some((nearest as i32) as u16)?;
+    bytes.extend(processor.u16_bytes(word));
+    Some(())
+}
+
+/// Appends the nearest 32-bit real; not-a-number stays, except for VAX, which has none. `None` if it is too large.
+fn real(value: f64, processor: Processor, bytes: &mut Vec<u8>) -> Option<()> {
+    let nearest = value as f32;
+    if nearest.is_infinite() {
+        return None;
+    }
+    bytes.extend(processor.f32_bytes(nearest)?);
+    Some(())
+}
+
+fn invalid(found: impl Into<String>, expected: impl Into<String>) -> Error {
+    Error::Record { found: found.into(), expected: expected.into() }
+}

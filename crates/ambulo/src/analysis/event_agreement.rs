@@ -1,0 +1,71 @@
+//! How well two lists of events agree: from plates, from motion, from the file.
+//!
+//! Events of one side and kind are paired from the closest pair on, up to 0.15 s apart.
+//! Pinned by: tests/foot_motion.rs
+
+use super::events::{Event, EventKind};
+use serde::Serialize;
+
+/// Events further apart than this are not the same [s]: a third of a fast step.
+const FARTHEST_S: f64 = 0.15;
+
+/// Agreement of the events of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EventAgreement {
+    /// `strike` or `off`.
+    pub kind: &'static str,
+    /// Pairs.
+    pub pairs: usize,
+    /// Events of the reference without a partner.
+    pub missed: usize,
+    /// Events found without a partner, among those inside the span that the reference covers.
+    pub extra: usize,
+    /// Mean of |found - reference| over the pairs [ms]; not a number without pairs.
+    pub mean_absolute_ms: f64,
+    /// Mean of found - reference [ms]: positive if found late.
+    pub bias_ms: f64,
+}
+
+/// Strikes, then offs. Events beyond the first and last of the reference by more than 0.15 s are not counted:
+/// nobody knows whether they are right.
+#[must_use]
+pub fn event_agreement(reference: &[Event], found: &[Event]) -> [EventAgreement; 2] {
+    [EventKind::Strike, EventKind::Off].map(|kind| of_kind(reference, found, kind))
+}
+
+fn of_kind(reference: &[Event], found: &[Event], kind: EventKind) -> EventAgreement {
+    let of_kind = |list: &[Event]| list.iter().filter(|e| e.kind == kind).copied().collect::<Vec<_>>();
+    let (reference, found) = (of_kind(reference), of_kind(found));
+    let differences = pairs(&reference, &found);
+    let times = || reference.iter().map(|e| e.time_s);
+    let (first, last) = (times().fold(f64::INFINITY, f64::min), times().fold(f64::NEG_INFINITY, f64::max));
+    let covered = found.iter().filter(|e| (first - FARTHEST_S..=last + FARTHEST_S).contains(&e.time_s)).count();
+    let mean_ms = |sum: f64| 1000.0 * sum / differences.len() as f64;
+    EventAgreement {
+        kind: kind.word(),
+        pairs: differences.len(),
+        missed: reference.len() - differences.len(),
+        extra: covered.saturating_sub(differences.len()),
+        mean_absolute_ms: mean_ms(differences.iter().map(|d| d.abs()).sum()),
+        bias_ms: mean_ms(differences.iter().sum()),
+    }
+}
+
+/// found - reference of each pair [s], the closest pairs first.
+fn pairs(reference: &[Event], found: &[Event]) -> Vec<f64> {
+    let mut candidates: Vec<(usize, usize, f64)> = Vec::new();
+    for (i, a) in reference.iter().enumerate() {
+        let same = found.iter().enumerate().filter(|(_, b)| b.side == a.side);
+        candidates.extend(same.map(|(j, b)| (i, j, b.time_s - a.time_s)).filter(|(_, _, d)| d.abs() <= FARTHEST_S));
+    }
+    candidates.sort_by(|a, b| a.2.abs().total_cmp(&b.2.abs()).then((a.0, a.1).cmp(&(b.0, b.1))));
+    let (mut used, mut taken) = (vec![false; reference.len()], vec![false; found.len()]);
+    let mut differences = Vec::new();
+    for (i, j, difference) in candidates {
+        if !used[i] && !taken[j] {
+            (used[i], taken[j]) = (true, true);
+            differences.push(difference);
+        }
+    }
+    differences
+}

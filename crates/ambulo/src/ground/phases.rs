@@ -1,0 +1,98 @@
+//! When a foot stands on the ground: from the vertical force that it carries, or from a list of events.
+//!
+//! A foot is loaded while the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`]; the instant of crossing is found on the
+//! straight line between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks are
+//! closed first, then contacts that remain too short are dropped.
+
+use super::CENTER_OF_PRESSURE_LOAD_N;
+use crate::model::Side;
+use crate::motion::{Event, EventKind};
+
+/// A contact or a break shorter than this is noise [s]. Sprinters' contacts last about 0.08 s (unverified).
+pub const SHORTEST_CONTACT_S: f64 = 0.05;
+
+/// A time during which a foot was loaded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Foot strike [s]; `None` if the foot was loaded when the recording began.
+    pub strike_s: Option<f64>,
+    /// Toe-off [s]; `None` if the foot was still loaded when it ended.
+    pub off_s: Option<f64>,
+}
+
+impl Contact {
+    /// From strike to off [s]; where the recording cuts it, to the bound that is given.
+    #[must_use]
+    pub fn span(&self, from_s: f64, to_s: f64) -> [f64; 2] {
+        [self.strike_s.unwrap_or(from_s), self.off_s.unwrap_or(to_s)]
+    }
+}
+
+/// Contacts from a foot's vertical force [N] at rising instants [s].
+#[must_use]
+pub fn contacts(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
+    let mut found: Vec<Contact> = Vec::new();
+    let mut loaded = false;
+    for i in 0..times.len().min(vertical.len()) {
+        let now = vertical[i] > CENTER_OF_PRESSURE_LOAD_N;
+        if now == loaded {
+            continue;
+        }
+        loaded = now;
+        let crossing = (i > 0).then(|| crossing(times, vertical, i));
+        match (now, found.last_mut()) {
+            (true, _) => found.push(Contact { strike_s: crossing, off_s: None }),
+            (false, Some(contact)) => contact.off_s = crossing,
+            (false, None) => {}
+        }
+    }
+    close_breaks(found).into_iter().filter(is_long_enough).collect()
+}
+
+/// Instant between samples i - 1 and i at which the threshold is crossed [s].
+fn crossing(times: &[f64], vertical: &[f64], i: usize) -> f64 {
+    let (before, after) = (vertical[i - 1], vertical[i]);
+    let share = (CENTER_OF_PRESSURE_LOAD_N - before) / (after - before);
+    times[i - 1] + share * (times[i] - times[i - 1])
+}
+
+fn close_breaks(found: Vec<Contact>) -> Vec<Contact> {
+    let mut out: Vec<Contact> = Vec::new();
+    for contact in found {
+        match (out.last_mut(), contact.strike_s) {
+            (Some(last), Some(strike)) if last.off_s.is_some_and(|off| strike - off < SHORTEST_CONTACT_S) => {
+                last.off_s = contact.off_s;
+            }
+            _ => out.push(contact),
+        }
+    }
+    out
+}
+
+fn is_long_enough(contact: &Contact) -> bool {
+    match (contact.strike_s, contact.off_s) {
+        (Some(strike), Some(off)) => off - strike >= SHORTEST_CONTACT_S,
+        // Cut by the end of the recording: its length is not known.
+        _ => true,
+    }
+}
+
+/// Contacts of one side from strikes and offs in order of time. An off before the first strike belongs to a contact that was under way; of
+/// several strikes without an off between them the first counts, of several offs the first.
+#[must_use]
+pub fn contacts_of_events(events: &[Event], side: Side) -> Vec<Contact> {
+    let mut found: Vec<Contact> = Vec::new();
+    for event in events.iter().filter(|e| e.side == side) {
+        let first = found.is_empty();
+        let open = found.last_mut().filter(|c| c.off_s.is_none());
+        match (event.kind, open) {
+            (EventKind::Off, Some(contact)) => contact.off_s = Some(event.time_s),
+            (EventKind::Off, None) if first => {
+                found.push(Contact { strike_s: None, off_s: Some(event.time_s) });
+            }
+            (EventKind::Strike, None) => found.push(Contact { strike_s: Some(event.time_s), off_s: None }),
+            (EventKind::Off, None) | (EventKind::Strike, Some(_)) => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,175 @@
+//! One contact: whose foot, and how much of its load the plate saw.
+
+use super::feet::Feet;
+use super::{ContactQuality, PlateContact};
+use crate::ground::phases::{Contact, contacts};
+use crate::model::Side;
+use crate::motion::PlateRecording;
+
+/// A foot further than this from the centre of pressure does not carry it [m].
+const FARTHEST_M: f64 = 0.2;
+/// Force and motion tell of one strike or off if they differ by less than this [s]: methods by motion err by up to 0.06.
+const SAME_EVENT_S: f64 = 0.1;
+/// Shorter than this, a second foot on a plate is an error of its events [s].
+const SECOND_FOOT_S: f64 = 0.08;
+/// A marker further than this beyond an edge stands beside the plate [m]: heel markers stand behind the heel.
+const OVER_EDGE_M: f64 = 0.02;
+
+/// The times during which a plate is loaded.
+pub(super) fn loaded_spans(plate: &PlateRecording) -> Vec<[f64; 2]> {
+    let vertical: Vec<f64> = (0..plate.times.len()).map(|i| plate.vertical(i)).collect();
+    let (Some(&first), Some(&last)) = (plate.times.first(), plate.times.last()) else { return Vec::new() };
+    contacts(&plate.times, &vertical).iter().map(|c: &Contact| c.span(first, last)).collect()
+}
+
+fn samples(plate: &PlateRecording, span: [f64; 2]) -> impl Iterator<Item = usize> + '_ {
+    let from = plate.times.partition_point(|&t| t < span[0]);
+    let to = plate.times.partition_point(|&t| t <= span[1]);
+    from..to
+}
+
+pub(super) fn peak(plate: &PlateRecording, span: [f64; 2]) -> f64 {
+    samples(plate, span).map(|i| plate.vertical(i)).fold(0.0, f64::max)
+}
+
+/// Judges one contact by its own plate.
+pub(super) fn judge(
+    feet: &Feet<'_>,
+    index: usize,
+    plate: &PlateRecording,
+    span: [f64; 2],
+    told: Option<Side>,
+) -> PlateContact {
+    let distances = Side::BOTH.map(|side| (side, mean_distance(feet, plate, span, side)));
+    let nearest = distances.iter().filter(|(_, d)| *d <= FARTHEST_M).min_by(|a, b| a.1.total_cmp(&b.1));
+    let by_stance = || {
+        // A foot that was not seen, if it alone stood on the ground meanwhile.
+        let unseen = distances.iter().filter(|(side, d)| d.is_nan() && feet.stance_of(*side, span).is_some());
+        let standing: Vec<Side> = unseen.map(|(side, _)| *side).collect();
+        if let [only] = standing[..] { Some(only) } else { None }
+    };
+    let side = told.or(nearest.map(|n| n.0)).or_else(by_stance);
+    let together = both_feet(feet, plate, span);
+    let (quality, reason) = match side {
+        _ if told.is_none() && together.is_some() => (ContactQuality::TwoFeet, together.unwrap_or_default()),
+        None => (ContactQuality::Unassigned, unassigned_reason(&distances)),
+        Some(side) => quality(feet, plate, span, side),
+    };
+    PlateContact {
+        plate: index,
+        side,
+        start_s: span[0],
+        end_s: span[1],
+        peak_n: peak(plate, span),
+        distance_m: side.map_or(f64::NAN, |s| distances[usize::from(s == Side::Left)].1),
+        quality,
+        reason,
+    }
+}
+
+/// Mean distance of the foot from the centre of pressure, weighted by the load [m].
+fn mean_distance(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for i in samples(plate, span) {
+        let load = plate.vertical(i);
+        if let Some(distance) =
+            feet.distance(side, plate.center_of_pressure(i), plate.up, plate.times[i]).filter(|d| d.is_finite())
+        {
+            sum += load * distance;
+            weight += load;
+        }
+    }
+    if weight > 0.0 { sum / weight } else { f64::NAN }
+}
+
+fn unassigned_reason(distances: &[(Side, f64); 2]) -> String {
+    match distances {
+        [(_, r), (_, l)] if r.is_nan() && l.is_nan() => "no marker of a foot was seen".to_owned(),
+        [(_, r), (_, l)] => {
+            format!("no foot is near its centre of pressure (right {:.0} mm, left {:.0} mm)", 1000.0 * r, 1000.0 * l)
+        }
+    }
+}
+
+fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> (ContactQuality, String) {
+    if let Some(stance) = feet.stance_of(side, span) {
+        if span[0] - stance[0] > SAME_EVENT_S {
+            return (
+                ContactQuality::Partial,
+                format!("the foot met the floor {:.2} s before the force", span[0] - stance[0]),
+            );
+        }
+        if stance[1] - span[1] > SAME_EVENT_S {
+            return (
+                ContactQuality::Partial,
+                format!("the force ended {:.2} s before the foot left the floor", stance[1] - span[1]),
+            );
+        }
+    }
+    match over_edge(feet, plate, span, side) {
+        Some(reason) => (ContactQuality::Partial, reason),
+        None => (ContactQuality::Clean, String::new()),
+    }
+}
+
+/// What to say if both feet stood on this plate during the span.
+fn both_feet(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<String> {
+    let [right, left] = Side::BOTH.map(|side| time_on_plate(feet, plate, span, side));
+    (right.min(left) >= SECOND_FOOT_S)
+        .then(|| format!("the right foot stood on it for {right:.2} s, the left foot for {left:.2} s"))
+}
+
+/// How long the foot stood on this plate during the span [s].
+fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
+    let on_plate = |t: f64| {
+        let line = feet.line(side, t);
+        feet.stands(side, t) && line.is_some_and(|l| l.iter().any(|p| plate.depth_inside(*p) > OVER_EDGE_M))
+    };
+    let frames = feet.markers.times.iter().filter(|t| (span[0]..=span[1]).contains(*t) && on_plate(**t)).count();
+    frames as f64 / feet.markers.rate_hz
+}
+
+/// Whether heel or toe stood beside the plate in the middle of the contact, when the foot is flat.
+fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> Option<String> {
+    let length = span[1] - span[0];
+    let middle = [span[0] + 0.3 * length, span[0] + 0.6 * length];
+    let times = || feet.markers.times.iter().filter(|t| (middle[0]..=middle[1]).contains(*t));
+    for (k, part) in ["heel", "toe"].into_iter().enumerate() {
+        let mut depths: Vec<f64> =
+            times().filter_map(|&t| feet.line(side, t)).map(|l| plate.depth_inside(l[k])).collect();
+        depths.sort_by(f64::total_cmp);
+        let depth = depths.get(depths.len() / 2).copied().unwrap_or(0.0);
+        if depth < -OVER_EDGE_M {
+            return Some(format!("the {part} stood {:.0} mm beyond the edge", -1000.0 * depth));
+        }
+    }
+    None
+}
+
+/// A partial contact becomes shared if together with other plates it covers the whole stance of its foot.
+pub(super) fn completed(feet: &Feet<'_>, all: &[PlateContact], index: usize) -> PlateContact {
+    let contact = &all[index];
+    let Some(side) = contact.side.filter(|_| contact.quality == ContactQuality::Partial) else {
+        return contact.clone();
+    };
+    let Some(stance) = feet.stance_of(side, [contact.start_s, contact.end_s]) else { return contact.clone() };
+    let overlaps = |c: &&PlateContact| {
+        c.plate != contact.plate && c.side == Some(side) && c.start_s < stance[1] && c.end_s > stance[0]
+    };
+    let whole = |c: &PlateContact| !matches!(c.quality, ContactQuality::TwoFeet | ContactQuality::Unassigned);
+    let partners: Vec<&PlateContact> = all.iter().filter(|c| whole(c)).filter(overlaps).collect();
+    let mut spans: Vec<[f64; 2]> = partners.iter().map(|c| [c.start_s, c.end_s]).collect();
+    spans.push([contact.start_s, contact.end_s]);
+    let (start, end) =
+        (spans.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min), spans.iter().map(|s| s[1]).fold(0.0, f64::max));
+    let covered = start - stance[0] <= SAME_EVENT_S && stance[1] - end <= SAME_EVENT_S && !partners.is_empty();
+    if !covered {
+        return contact.clone();
+    }
+    let plates: Vec<String> = partners.iter().map(|c| (c.plate + 1).to_string()).collect();
+    PlateContact {
+        quality: ContactQuality::Shared,
+        reason: format!("the foot stood on plate {} as well", plates.join(" and ")),
+        ..contact.clone()
+    }
+}

@@ -1,0 +1,192 @@
+//! Which foot stands on which plate, when, and whether the plate saw all of it.
+//!
+//! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
+//! toe is nearest to the centre of pressure, on average over the load and no further than 0.2 m (the limit that
+//! Visual3D's documentation names). It is
+//! - of **two feet** if the other foot stood on the same plate as well,
+//! - **partial** if the foot stood on the floor clearly before or after the force, or over the edge of the plate,
+//! - **shared** if it is partial alone and complete with another plate under the same foot,
+//! - **clean** otherwise.
+//!
+//! The **instrumented windows** are the times during which no foot stands on the floor unmeasured.
+//! Pinned by: tests/feet_on_plates.rs, tests/laboratory_files.rs
+
+mod contact;
+mod feet;
+mod windows;
+
+use super::foot_motion::FootMotion;
+use crate::findings::Findings;
+use crate::model::{BodyId, Model, Side};
+use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
+use crate::spatial::Vec3;
+
+/// Contacts whose peak is below this share of the largest of all plates are vibration.
+const VIBRATION: f64 = 0.05;
+
+/// How much of a foot's load a plate saw.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactQuality {
+    /// All of it, and nothing else.
+    Clean,
+    /// Part of it; another plate saw the rest.
+    Shared,
+    /// Part of it, in time or in place.
+    Partial,
+    /// The load of both feet.
+    TwoFeet,
+    /// Nobody knows whose load.
+    Unassigned,
+}
+
+impl ContactQuality {
+    /// One word for tables.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            ContactQuality::Clean => "clean",
+            ContactQuality::Shared => "shared",
+            ContactQuality::Partial => "partial",
+            ContactQuality::TwoFeet => "two feet",
+            ContactQuality::Unassigned => "unassigned",
+        }
+    }
+}
+
+/// A time during which a plate was loaded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlateContact {
+    /// Index of the plate.
+    pub plate: usize,
+    /// Whose foot.
+    pub side: Option<Side>,
+    /// First loaded instant [s].
+    pub start_s: f64,
+    /// Last loaded instant [s].
+    pub end_s: f64,
+    /// Largest vertical force [N].
+    pub peak_n: f64,
+    /// Mean distance of the centre of pressure from the foot's line [m]; not a number where the foot was not seen.
+    pub distance_m: f64,
+    /// How much of the foot's load the plate saw.
+    pub quality: ContactQuality,
+    /// Why it is not clean; empty if it is.
+    pub reason: String,
+}
+
+/// All contacts of a trial.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeetOnPlates {
+    /// Contacts, by plate and time.
+    pub contacts: Vec<PlateContact>,
+    /// Times during which every foot on the ground stood on a plate that saw all of it [s], the longest first.
+    pub windows: Vec<[f64; 2]>,
+}
+
+/// Finds whose foot each contact belongs to. Markers and plates stand in the world's axes. `told` names the foot of a
+/// plate (by index) where a person has decided.
+#[must_use]
+pub fn feet_on_plates(
+    markers: &MarkerRecording,
+    plates: &[PlateRecording],
+    motion: &FootMotion,
+    told: &[(usize, Side)],
+    findings: &mut Findings,
+) -> FeetOnPlates {
+    let feet = feet::Feet { markers, landmarks: Landmarks::find(markers), motion };
+    let highest = plates.iter().map(PlateRecording::peak_n).fold(0.0, f64::max);
+    let mut found: Vec<PlateContact> = Vec::new();
+    for (i, plate) in plates.iter().enumerate() {
+        let told = told.iter().find(|(index, _)| *index == i).map(|(_, side)| *side);
+        let spans =
+            contact::loaded_spans(plate).into_iter().filter(|s| contact::peak(plate, *s) >= VIBRATION * highest);
+        found.extend(spans.map(|span| contact::judge(&feet, i, plate, span, told)));
+    }
+    for i in 0..found.len() {
+        found[i] = contact::completed(&feet, &found, i);
+    }
+    let windows = windows::windows(&feet, &found);
+    report(plates, &found, findings);
+    if windows.is_empty() && !found.is_empty() {
+        findings.warn("plates.no_window", "at no time did every foot on the ground stand cleanly on a plate: totals and the forces on the pelvis cannot be judged");
+    }
+    FeetOnPlates { contacts: found, windows }
+}
+
+fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Findings) {
+    for contact in found {
+        let name = &plates[contact.plate].name;
+        let times = format!("{:.3}-{:.3} s", contact.start_s, contact.end_s);
+        let reason = &contact.reason;
+        match (contact.quality, contact.side) {
+            (ContactQuality::Partial, Some(side)) => findings.warn(
+                "plates.partial",
+                format!("{name}, {times}: not all of the {side} foot's load was measured: {reason}"),
+            ),
+            (ContactQuality::TwoFeet, _) => findings.warn(
+                "plates.two_feet",
+                format!("{name}, {times}: two feet on one plate: {reason}; this load was given to neither foot. hint: name the foot of the plate yourself to give it all to one"),
+            ),
+            (ContactQuality::Unassigned, _) => findings.warn(
+                "plates.unassigned",
+                format!("{name}, {times}: its load was given to no foot: {reason}. hint: name the foot of the plate yourself"),
+            ),
+            (ContactQuality::Shared, Some(side)) => {
+                findings.note("plates.shared", format!("{name}, {times}, {side}: {reason}; both forces were added"));
+            }
+            _ => {}
+        }
+    }
+}
+
+impl FeetOnPlates {
+    /// What each foot felt, one recording for each plate and foot, for [`super::measured`], which adds what acts on one
+    /// body. `feet` are the bodies of the right and the left foot. Loads of two feet and of nobody are left out.
+    #[must_use]
+    pub fn recordings(&self, plates: &[PlateRecording], feet: [BodyId; 2]) -> Vec<ForceRecording> {
+        let mut out = Vec::new();
+        for (i, plate) in plates.iter().enumerate() {
+            let on_plate: Vec<&PlateContact> = self.contacts.iter().filter(|c| c.plate == i).collect();
+            for (side, body) in Side::BOTH.into_iter().zip(feet) {
+                let is_own = |c: &&PlateContact| c.side == Some(side) && c.quality != ContactQuality::TwoFeet;
+                if on_plate.iter().any(is_own) {
+                    let own = |t: f64| nearest(&on_plate, t).is_some_and(|c| is_own(&c));
+                    out.push(recording(plate, side, body, own));
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The contact next to an instant: what a plate shows between two contacts belongs to the nearer one.
+fn nearest<'a>(contacts: &[&'a PlateContact], t: f64) -> Option<&'a PlateContact> {
+    let apart = |c: &PlateContact| (c.start_s - t).max(t - c.end_s).max(0.0);
+    contacts.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)))
+}
+
+fn recording(plate: &PlateRecording, side: Side, body: BodyId, own: impl Fn(f64) -> bool) -> ForceRecording {
+    let masked = |value: &dyn Fn(usize) -> Vec3| -> Vec<Vec3> {
+        let at = |i: usize| if own(plate.times[i]) { value(i) } else { Vec3::zeros() };
+        (0..plate.times.len()).map(at).collect()
+    };
+    ForceRecording {
+        name: format!("{}, {side}", plate.name),
+        body,
+        force_frame: None,
+        point_frame: None,
+        times: plate.times.clone(),
+        force: masked(&|i| plate.force[i]),
+        point: vec![plate.center(); plate.times.len()],
+        moment: masked(&|i| plate.moment_about_center(i)),
+    }
+}
+
+/// The bodies that ground forces act on, right and left: `calcn`, else `foot`, else `talus`.
+#[must_use]
+pub fn foot_bodies(model: &Model) -> Option<[BodyId; 2]> {
+    ["calcn", "foot", "talus"].into_iter().find_map(|stem| {
+        let body = |side: Side| model.body(&format!("{stem}_{}", side.letter()));
+        Some([body(Side::Right)?, body(Side::Left)?])
+    })
+}

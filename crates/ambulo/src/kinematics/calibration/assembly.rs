@@ -1,0 +1,256 @@
+//! From the parts of a body to the body.
+
+use super::axes::{about_x, inside, median_point};
+use super::feet::Feet;
+use super::legs::Legs;
+use super::pelvis::Pelvis;
+use super::person::index;
+use super::report::{CalibrationReport, MarkerPlace, SegmentScale};
+use super::sight::Sight;
+use super::trunk::{Trunk, is_head};
+use super::{Calibrated, CalibrationError};
+use crate::model::anthropometry::{Dimensions, Human};
+use crate::model::full_body::{SegmentShape, SubjectShape, reshaped};
+use crate::model::marker_set::{Landmark, NamedMarker, Segment};
+use crate::model::{Marker, Side};
+use crate::spatial::{Pose, Vec3};
+use std::collections::BTreeMap;
+
+/// Markers of the trunk beside the head's that make the head's superfluous.
+const ENOUGH_ON_TRUNK: usize = 3;
+
+/// Markers of less weight than this do not show how the trunk moves.
+const FIRM: f64 = 0.4;
+/// Weight of shoulders that must.
+const SHOULDER_WEIGHT: f64 = 0.1;
+
+/// What was found of the body.
+pub(super) struct Parts<'a> {
+    pub(super) pelvis: &'a Pelvis,
+    pub(super) legs: &'a Legs,
+    pub(super) feet: &'a Feet,
+    pub(super) trunk: &'a Trunk,
+}
+
+pub(super) fn assemble(
+    sight: &Sight<'_>,
+    frames: &[usize],
+    generic: &Human,
+    parts: &Parts<'_>,
+    mut assumptions: Vec<String>,
+) -> Result<Calibrated, CalibrationError> {
+    let (mut markers, mut weights, mut places) = (Vec::new(), BTreeMap::new(), Vec::new());
+    let mut unused = Vec::new();
+    for (named, number) in chosen(sight, parts, &mut unused) {
+        match placed(sight, frames, generic, parts, named, number) {
+            Some((marker, place)) => {
+                markers.push(marker);
+                weights.insert(named.name.clone(), named.definition.weight);
+                places.push(place);
+            }
+            None => unused.push(named.name.as_str()),
+        }
+    }
+    lean_on_shoulders(sight, &mut weights);
+    if !unused.is_empty() {
+        assumptions.push(format!(
+            "{} markers are not used (head beside trunk, or a segment that was not found): {}",
+            unused.len(),
+            unused.join(", ")
+        ));
+    }
+    let shape = shape(generic, parts, markers, &mut assumptions);
+    let scales = scales(generic, parts, &shape);
+    let human = reshaped(generic, &shape)?;
+    let report = CalibrationReport {
+        sets: sight.sets.to_vec(),
+        height_m: generic.dimensions.height,
+        hip_width_m: parts.pelvis.hip_width,
+        segments: scales,
+        markers: places,
+        assumptions,
+        frames: frames.len(),
+    };
+    Ok(Calibrated { human, weights, report })
+}
+
+/// Shoulders show how a trunk moves if too little else does.
+fn lean_on_shoulders(sight: &Sight<'_>, weights: &mut BTreeMap<String, f64>) {
+    let trunk = || sight.markers.iter().map(|(m, _)| m).filter(|m| m.definition.segment == Segment::Torso);
+    let is_shoulder = |l: Option<Landmark>| matches!(l, Some(Landmark::Acromion | Landmark::ShoulderCentre));
+    let firm = trunk().filter(|m| m.definition.weight >= FIRM && weights.contains_key(&m.name)).count();
+    if firm >= ENOUGH_ON_TRUNK {
+        return;
+    }
+    for marker in trunk().filter(|m| is_shoulder(m.definition.landmark)) {
+        if let Some(weight) = weights.get_mut(&marker.name) {
+            *weight = weight.max(SHOULDER_WEIGHT);
+        }
+    }
+}
+
+/// The markers that are used: those of the head only where the trunk has few others.
+fn chosen<'a>(sight: &Sight<'a>, parts: &Parts<'_>, unused: &mut Vec<&'a str>) -> Vec<(&'a NamedMarker, usize)> {
+    let is_trunk = |m: &NamedMarker| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark);
+    let on_trunk = sight.markers.iter().filter(|(m, _)| is_trunk(m)).count();
+    let drops_head = on_trunk >= ENOUGH_ON_TRUNK && parts.trunk.poses.iter().any(Option::is_some);
+    let mut list = Vec::new();
+    for &(marker, number) in &sight.markers {
+        if drops_head && is_head(marker.definition.landmark) {
+            unused.push(marker.name.as_str());
+        } else {
+            list.push((marker, number));
+        }
+    }
+    list
+}
+
+/// Pose of the segment that carries a marker, in a measured frame.
+fn pose(parts: &Parts<'_>, segment: Segment, side: Option<Side>, ball: Vec3, measured: usize) -> Option<Pose> {
+    let leg = || parts.legs[index(side?)].as_ref()?.frames[measured];
+    let arm = || parts.trunk.arms[index(side?)].as_ref()?.frames[measured];
+    let foot = || parts.feet[index(side?)].poses[measured];
+    match segment {
+        Segment::Pelvis => parts.pelvis.poses[measured],
+        Segment::Torso => parts.trunk.poses[measured],
+        Segment::Femur => leg().map(|f| f.femur),
+        Segment::Tibia => leg().map(|f| f.tibia),
+        Segment::Foot => foot(),
+        Segment::Toes => foot().map(|foot| foot * Pose::at(ball)),
+        Segment::Humerus => arm().map(|[humerus, _]| humerus),
+        Segment::Forearm => arm().map(|[_, forearm]| forearm),
+    }
+}
+
+/// A marker where it stands, and how well.
+fn placed(
+    sight: &Sight<'_>,
+    frames: &[usize],
+    generic: &Human,
+    parts: &Parts<'_>,
+    named: &NamedMarker,
+    number: usize,
+) -> Option<(Marker, MarkerPlace)> {
+    let (segment, side) = (named.definition.segment, named.definition.side);
+    let body = segment.body(&generic.model, side)?;
+    let ball = side.map_or(Vec3::zeros(), |side| ball(&generic.dimensions, parts.feet, side));
+    let seen = |(measured, &frame): (usize, &usize)| {
+        Some(inside(&pose(parts, segment, side, ball, measured)?, sight.place(number, frame)?))
+    };
+    let points: Vec<Vec3> = frames.iter().enumerate().filter_map(seen).collect();
+    let mut location = median_point(&points)?;
+    let rms_m = (points.iter().map(|p| (p - location).norm_squared()).sum::<f64>() / points.len() as f64).sqrt();
+    if named.definition.landmark == Some(Landmark::Acromion) {
+        location.y -= parts.trunk.lift;
+    }
+    let body_name = generic.model.bodies()[body.index()].name.clone();
+    let place = MarkerPlace { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
+    Some((Marker { name: named.name.clone(), body: Some(body), location }, place))
+}
+
+/// The ball of a foot, from its ankle [m].
+fn ball(d: &Dimensions, feet: &Feet, side: Side) -> Vec3 {
+    let foot = &feet[index(side)];
+    foot.print.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
+}
+
+fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: &mut Vec<String>) -> SubjectShape {
+    let d = &generic.dimensions;
+    let mut segments = SegmentShape::of(generic);
+    let mut set = |segment: Segment, side: Option<Side>, shape: SegmentShape| {
+        if let Some(body) = segment.body(&generic.model, side) {
+            segments[body.index()] = shape;
+        }
+    };
+    let plain = |factor: f64, place: Vec3| SegmentShape {
+        factor,
+        parent_from_joint: Pose::at(place),
+        child_from_joint: Pose::IDENTITY,
+    };
+    let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
+    set(Segment::Torso, None, plain(parts.trunk.factor, lumbar));
+    for side in Side::BOTH {
+        let (i, out) = (index(side), if side == Side::Right { 0.5 } else { -0.5 });
+        let hip = Vec3::z() * (out * parts.pelvis.hip_width);
+        let (thigh, shank, varus) =
+            parts.legs[i].as_ref().map_or((d.thigh, d.shank, 0.0), |l| (l.thigh, l.shank, l.varus));
+        let foot = &parts.feet[i];
+        set(Segment::Femur, Some(side), plain(thigh / d.thigh, hip));
+        let knee = plain(shank / d.shank, Vec3::y() * -thigh);
+        let varus = Pose { rotation: about_x(varus).transpose(), translation: Vec3::zeros() };
+        set(Segment::Tibia, Some(side), SegmentShape { child_from_joint: varus, ..knee });
+        let ankle = Pose { rotation: foot.tibia_from_joint, translation: Vec3::y() * -shank };
+        let offset = Pose { rotation: foot.joint_from_foot.transpose(), translation: Vec3::zeros() };
+        set(
+            Segment::Foot,
+            Some(side),
+            SegmentShape { factor: foot.factor, parent_from_joint: ankle, child_from_joint: offset },
+        );
+        set(Segment::Toes, Some(side), plain(foot.factor, ball(d, parts.feet, side)));
+        let (upper, lower) =
+            parts.trunk.arms[i].as_ref().map_or((d.upper_arm, d.forearm), |arm| (arm.upper, arm.lower));
+        set(Segment::Humerus, Some(side), plain(upper / d.upper_arm, parts.trunk.shoulders[i]));
+        set(Segment::Forearm, Some(side), plain(lower / d.forearm, Vec3::y() * -upper));
+    }
+    let mut locked = Vec::new();
+    if parts.pelvis.is_line {
+        assumptions.push(
+            "the pelvis is known by its hip centres alone, which do not show its tilt; trunk and pelvis move as one"
+                .to_owned(),
+        );
+        locked = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"].map(str::to_owned).to_vec();
+    }
+    let feet = [parts.feet[0].print, parts.feet[1].print];
+    SubjectShape { segments, markers, feet, dimensions: dimensions(d, parts), locked }
+}
+
+/// Lengths of the subject, both sides' mean.
+fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
+    let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(0) + of(1));
+    let foot = mean(&|i| parts.feet[i].factor);
+    let thigh = mean(&|i| parts.legs[i].as_ref().map_or(generic.thigh, |leg| leg.thigh));
+    let shank = mean(&|i| parts.legs[i].as_ref().map_or(generic.shank, |leg| leg.shank));
+    let ankle_height = mean(&|i| parts.feet[i].print.ankle_height);
+    let arm = |i: usize| parts.trunk.arms[i].as_ref();
+    let [right, left] = parts.trunk.shoulders;
+    Dimensions {
+        leg_length: thigh + shank + ankle_height,
+        thigh,
+        shank,
+        ankle_height,
+        foot_length: generic.foot_length * foot,
+        foot_width: generic.foot_width * foot,
+        heel_to_ankle: generic.heel_to_ankle * foot,
+        ankle_to_ball: generic.ankle_to_ball * foot,
+        ball_to_toe: generic.ball_to_toe * foot,
+        heel_radius: generic.heel_radius * foot,
+        ball_radius: generic.ball_radius * foot,
+        toe_radius: generic.toe_radius * foot,
+        hip_width: parts.pelvis.hip_width,
+        shoulder_width: right.z - left.z,
+        shoulder_height: generic.lumbar_height.unwrap_or(0.0) + 0.5 * (right.y + left.y),
+        upper_arm: mean(&|i| arm(i).map_or(generic.upper_arm, |arm| arm.upper)),
+        forearm: mean(&|i| arm(i).map_or(generic.forearm, |arm| arm.lower)),
+        ..*generic
+    }
+}
+
+fn scales(generic: &Human, parts: &Parts<'_>, shape: &SubjectShape) -> Vec<SegmentScale> {
+    let is_measured = |name: &str| {
+        let side = Side::of_name(name).map(index);
+        let leg = || side.is_some_and(|i| parts.legs[i].is_some());
+        match name.split('_').next().unwrap_or_default() {
+            "pelvis" => false,
+            "torso" => parts.trunk.poses.iter().any(Option::is_some),
+            "femur" | "tibia" => leg(),
+            "calcn" | "toes" => side.is_some_and(|i| parts.feet[i].poses.iter().any(Option::is_some)),
+            _ => side.is_some_and(|i| parts.trunk.arms[i].is_some()),
+        }
+    };
+    let scale = |(body, segment): (&crate::model::Body, &SegmentShape)| SegmentScale {
+        body: body.name.clone(),
+        factor: segment.factor,
+        is_measured: is_measured(&body.name),
+    };
+    generic.model.bodies().iter().zip(&shape.segments).map(scale).collect()
+}

@@ -1,0 +1,312 @@
+//! Thighs and shanks: joint centres, lengths, axes.
+
+use super::CalibrationError;
+use super::axes::{angles_zxy, beside, direction, from_y_z, median};
+use super::pelvis::Pelvis;
+use super::person::{Person, of};
+use super::sight::Sight;
+use crate::model::Side;
+use crate::model::anthropometry::{Build, BuildError, SegmentTable};
+use crate::model::marker_set::Landmark;
+use crate::spatial::{Pose, Vec3};
+
+/// Breadths as shares of stature, where nobody measured: those of the adult of BTKData's Plug-in-Gait sample (102 and 70 mm at
+/// 1.76 m); a child of 1.45 m has 0.057 and 0.043.
+const KNEE_BREADTH: f64 = 0.058;
+const ANKLE_BREADTH: f64 = 0.040;
+/// Lengths that thighs and shanks of walkers have [m].
+const LENGTHS: [f64; 2] = [0.08, 0.75];
+/// A knee flexed more than this [rad] shows in which plane it bends.
+const BENT: f64 = 0.35;
+/// Varus is measured where the knee is flexed less than this [rad]: further on, an error of the axis shows as varus.
+const NEARLY_STRAIGHT: f64 = 0.5;
+/// Frames in which a leg must be seen, at least.
+const LEAST_FRAMES: usize = 3;
+
+/// Both legs, right first; `None` where the recording has none.
+pub(super) type Legs = [Option<Leg>; 2];
+
+/// A leg down to the ankle.
+#[derive(Debug)]
+pub(super) struct Leg {
+    /// One a measured frame.
+    pub(super) frames: Vec<Option<LegFrame>>,
+    /// Hip to knee [m].
+    pub(super) thigh: f64,
+    /// Knee to ankle [m].
+    pub(super) shank: f64,
+    /// Angle about x by which the shank deviates from the plane of the knee's hinge [rad].
+    pub(super) varus: f64,
+}
+
+/// A leg in one frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LegFrame {
+    /// Origin at the hip, y from knee to hip, z along the knee axis.
+    pub(super) femur: Pose,
+    /// Origin at the knee, y from ankle to knee, z along the knee axis.
+    pub(super) tibia: Pose,
+    pub(super) ankle: Vec3,
+    /// Direction of the ankle axis, to the right.
+    pub(super) ankle_axis: Vec3,
+}
+
+/// How the centre of a knee or an ankle is found.
+#[derive(Debug, Clone, Copy)]
+enum Method {
+    /// It was recorded.
+    Centre(Landmark),
+    /// Midway between the lateral and the medial marker.
+    Middle(Landmark, Landmark),
+    /// Half the breadth [m] inside the lateral marker, in the plane of a wand.
+    Wand(Landmark, Landmark, f64),
+    /// Half the breadth [m] inside the lateral marker, in the plane of an axis that is given.
+    Plane(Landmark, f64),
+}
+
+/// What stands where on a joint of the leg.
+struct Spot {
+    name: &'static str,
+    centre: Landmark,
+    lateral: Landmark,
+    medial: Landmark,
+    wand: Landmark,
+}
+
+const KNEE: Spot = Spot {
+    name: "knee",
+    centre: Landmark::KneeCentre,
+    lateral: Landmark::LateralEpicondyle,
+    medial: Landmark::MedialEpicondyle,
+    wand: Landmark::ThighWand,
+};
+const ANKLE: Spot = Spot {
+    name: "ankle",
+    centre: Landmark::AnkleCentre,
+    lateral: Landmark::LateralMalleolus,
+    medial: Landmark::MedialMalleolus,
+    wand: Landmark::ShankWand,
+};
+
+pub(super) fn find(
+    sight: &Sight<'_>,
+    frames: &[usize],
+    pelvis: &Pelvis,
+    person: &Person,
+    assumptions: &mut Vec<String>,
+) -> Result<Legs, CalibrationError> {
+    let mut legs = [None, None];
+    for (slot, side) in legs.iter_mut().zip(Side::BOTH) {
+        let breadths = breadths(sight, frames, pelvis, person, side);
+        let finder = Finder { sight, frames, side };
+        let (Some(knee), Some(ankle)) = (
+            finder.method(&KNEE, breadths[0], person.measures.radius(), assumptions),
+            finder.method(&ANKLE, breadths[1], person.measures.radius(), assumptions),
+        ) else {
+            assumptions.push(format!("the {side} leg has no markers of knee and ankle; it keeps the table's lengths"));
+            continue;
+        };
+        *slot = Some(leg(&finder, pelvis, knee, ankle)?);
+    }
+    if legs.iter().all(Option::is_none) {
+        return Err(CalibrationError::Markers {
+            part: "legs".to_owned(),
+            needed: "on one side at least lateral_epicondyle or knee_centre, and lateral_malleolus or ankle_centre,"
+                .to_owned(),
+            found: sight.words(),
+        });
+    }
+    Ok(legs)
+}
+
+/// Breadths of knee and ankle [m] with whether they were measured.
+fn breadths(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, person: &Person, side: Side) -> [(f64, bool); 2] {
+    let measured = [of(&person.measures.knee_width, side), of(&person.measures.ankle_width, side)];
+    let stature = person.height.or_else(|| rough_stature(sight, frames, pelvis, side)).unwrap_or(f64::NAN);
+    let usual = [KNEE_BREADTH * stature, ANKLE_BREADTH * stature];
+    [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
+}
+
+/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it.
+fn rough_stature(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, side: Side) -> Option<f64> {
+    const LEG_SHARE: f64 = 0.49;
+    let length = |measured: usize, frame: usize| {
+        let knee = sight.of(Landmark::LateralEpicondyle, side, frame)?;
+        let ankle = sight.of(Landmark::LateralMalleolus, side, frame)?;
+        Some(((pelvis.hip(measured, side)? - knee).norm() + (knee - ankle).norm()) / LEG_SHARE)
+    };
+    median(frames.iter().enumerate().filter_map(|(measured, &frame)| length(measured, frame)))
+}
+
+/// Finds one leg's joints.
+struct Finder<'a> {
+    sight: &'a Sight<'a>,
+    frames: &'a [usize],
+    side: Side,
+}
+
+impl Finder<'_> {
+    /// The best way that the markers seen allow; what it takes for granted is noted.
+    fn method(
+        &self,
+        spot: &Spot,
+        (breadth, is_measured): (f64, bool),
+        radius: f64,
+        assumptions: &mut Vec<String>,
+    ) -> Option<Method> {
+        if self.together(&[spot.centre]) {
+            return Some(Method::Centre(spot.centre));
+        }
+        if self.together(&[spot.lateral, spot.medial]) {
+            return Some(Method::Middle(spot.lateral, spot.medial));
+        }
+        if !self.together(&[spot.lateral]) {
+            return None;
+        }
+        let (side, name) = (self.side, spot.name);
+        if !is_measured {
+            assumptions.push(format!(
+                "the {side} {name} is taken as {:.0} mm wide, a share of stature: no medial marker and no measured width",
+                1e3 * breadth
+            ));
+        }
+        let half = 0.5 * breadth + radius;
+        if self.together(&[spot.lateral, spot.wand]) {
+            return Some(Method::Wand(spot.lateral, spot.wand, half));
+        }
+        let plane = if spot.name == KNEE.name { "across the pelvis" } else { "along the knee axis" };
+        assumptions.push(format!("the {side} {name} axis is taken {plane}: no medial marker and no wand"));
+        Some(Method::Plane(spot.lateral, half))
+    }
+
+    /// Whether landmarks were seen together often enough.
+    fn together(&self, landmarks: &[Landmark]) -> bool {
+        let is_seen = |&&frame: &&usize| landmarks.iter().all(|&l| self.sight.of(l, self.side, frame).is_some());
+        let needed = LEAST_FRAMES.min(self.frames.len()).max(1);
+        self.frames.iter().filter(is_seen).count() >= needed
+    }
+
+    /// Centre and axis (to the right) of a joint below `upper`, `given` being the axis when nothing better is known.
+    fn joint(&self, method: Method, upper: Vec3, given: Vec3, frame: usize) -> Option<(Vec3, Vec3)> {
+        let at = |landmark: Landmark| self.sight.of(landmark, self.side, frame);
+        let out = if self.side == Side::Right { 1.0 } else { -1.0 };
+        match method {
+            Method::Centre(centre) => Some((at(centre)?, given)),
+            Method::Middle(lateral, medial) => {
+                let (lateral, medial) = (at(lateral)?, at(medial)?);
+                Some(((lateral + medial) * 0.5, direction(lateral - medial)? * out))
+            }
+            Method::Wand(lateral, wand, half) => {
+                let lateral = at(lateral)?;
+                let centre = chord(upper, lateral, at(wand)?, half)?;
+                Some((centre, direction(lateral - centre)? * out))
+            }
+            Method::Plane(lateral, half) => {
+                let lateral = at(lateral)?;
+                let centre = chord(upper, lateral, lateral + given * out, half)?;
+                Some((centre, direction(lateral - centre)? * out))
+            }
+        }
+    }
+
+    fn frame(&self, pelvis: &Pelvis, methods: [Method; 2], measured: usize) -> Option<LegFrame> {
+        let frame = self.frames[measured];
+        let (hip, across) = (pelvis.hip(measured, self.side)?, pelvis.right(measured)?);
+        let (knee, mut axis) = self.joint(methods[0], hip, across, frame)?;
+        let (ankle, mut ankle_axis) = self.joint(methods[1], knee, axis, frame)?;
+        if matches!(methods[0], Method::Centre(_)) {
+            axis = bending_axis(hip, knee, ankle).unwrap_or(across);
+        }
+        let femur = Pose { rotation: from_y_z(hip - knee, axis)?, translation: hip };
+        let tibia = Pose { rotation: from_y_z(knee - ankle, femur.rotation.column(2).into())?, translation: knee };
+        if matches!(methods[1], Method::Centre(_) | Method::Plane(..)) {
+            ankle_axis = tibia.rotation.column(2).into();
+        }
+        Some(LegFrame { femur, tibia, ankle, ankle_axis })
+    }
+}
+
+/// The centre of a hinge half a breadth beside a lateral marker: at right angles to the line to the upper joint, in the plane of upper
+/// joint, marker and wand, on the other side of the line from joint to marker than the wand (Plug-in-Gait's chord).
+fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
+    let length = (upper - lateral).norm();
+    let along = direction(upper - lateral)?;
+    let aside = -beside(wand - lateral, along)?;
+    let cosine = half / length;
+    if !(0.0..1.0).contains(&cosine) {
+        return None;
+    }
+    Some(lateral + (along * cosine + aside * (1.0 - cosine * cosine).sqrt()) * half)
+}
+
+/// The normal of the plane in which a knee bends, to the right, if it is bent.
+fn bending_axis(hip: Vec3, knee: Vec3, ankle: Vec3) -> Option<Vec3> {
+    let (thigh, shank) = (direction(knee - hip)?, direction(ankle - knee)?);
+    let normal = shank.cross(&thigh);
+    (normal.norm() > BENT.sin()).then(|| normal.normalize())
+}
+
+fn leg(finder: &Finder<'_>, pelvis: &Pelvis, knee: Method, ankle: Method) -> Result<Leg, CalibrationError> {
+    let count = finder.frames.len();
+    let frames: Vec<Option<LegFrame>> =
+        (0..count).map(|measured| finder.frame(pelvis, [knee, ankle], measured)).collect();
+    let known: Vec<&LegFrame> = frames.iter().flatten().collect();
+    let expected = LEAST_FRAMES.min(count).max(1);
+    let part = |name: &str| format!("{} {name}", finder.side);
+    if known.len() < expected {
+        return Err(CalibrationError::Unseen { part: part("leg"), seen: known.len(), frames: count, expected });
+    }
+    let thigh = length(part("thigh"), known.iter().map(|f| (f.femur.translation - f.tibia.translation).norm()))?;
+    let shank = length(part("shank"), known.iter().map(|f| (f.tibia.translation - f.ankle).norm()))?;
+    let angles: Vec<[f64; 3]> =
+        known.iter().map(|f| angles_zxy(&(f.femur.rotation.transpose() * f.tibia.rotation))).collect();
+    let straight = median(angles.iter().filter(|a| a[0].abs() < NEARLY_STRAIGHT).map(|a| a[1]));
+    let varus = straight.or_else(|| median(angles.iter().map(|a| a[1]))).unwrap_or(0.0);
+    drop(known);
+    Ok(Leg { frames, thigh, shank, varus })
+}
+
+fn length(part: String, lengths: impl Iterator<Item = f64>) -> Result<f64, CalibrationError> {
+    let found_m = median(lengths).unwrap_or(f64::NAN);
+    let [least_m, most_m] = LENGTHS;
+    if (least_m..=most_m).contains(&found_m) {
+        return Ok(found_m);
+    }
+    let hint = "is the unit right, and are left and right markers not exchanged?";
+    Err(CalibrationError::Length { part, found_m, least_m, most_m, hint })
+}
+
+/// Stature [m] by thighs and shanks, which are the table's share of it.
+pub(super) fn stature(legs: &Legs, table: SegmentTable, assumptions: &mut Vec<String>) -> Result<f64, BuildError> {
+    let (mass, height) = (70.0, 1.75);
+    let d = Build { table, mass, height, toe_joint: true }.human()?.dimensions;
+    let lengths = legs.iter().flatten().map(|leg| leg.thigh + leg.shank);
+    let found = height * median(lengths).unwrap_or(f64::NAN) / (d.thigh + d.shank);
+    assumptions
+        .push(format!("the stature is taken as {found:.2} m, from thighs and shanks as shares of it: none was given"));
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chord_stands_at_right_angles_to_the_thigh_half_a_breadth_away() {
+        let (hip, lateral, wand) = (Vec3::new(0.0, 0.4, 0.0), Vec3::new(0.0, 0.0, 0.06), Vec3::new(0.02, 0.2, 0.13));
+        let centre = chord(hip, lateral, wand, 0.055).unwrap_or_default();
+        assert!(((centre - lateral).norm() - 0.055).abs() < 1e-15);
+        assert!((centre - lateral).dot(&(centre - hip)).abs() < 1e-15);
+        assert!((hip - lateral).cross(&(wand - lateral)).dot(&(centre - lateral)).abs() < 1e-15);
+        assert!(centre.z < lateral.z, "{centre}");
+        assert!(chord(hip, lateral, wand, 0.5).is_none(), "a knee wider than the thigh is long");
+    }
+
+    #[test]
+    fn a_bent_knee_shows_its_axis_and_a_straight_one_does_not() {
+        let (hip, knee) = (Vec3::new(0.0, 0.8, 0.0), Vec3::new(0.0, 0.4, 0.0));
+        let axis = bending_axis(hip, knee, Vec3::new(-0.3, 0.1, 0.0)).unwrap_or_default();
+        assert!((axis - Vec3::z()).norm() < 1e-15, "to the right");
+        assert!(bending_axis(hip, knee, Vec3::new(-0.01, 0.0, 0.0)).is_none());
+    }
+}

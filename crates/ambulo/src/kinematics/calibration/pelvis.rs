@@ -1,0 +1,117 @@
+//! The pelvis, and the hip centres in it.
+
+use super::CalibrationError;
+use super::axes::{about_z, direction, from_z_x, from_z_y, median};
+use super::sight::Sight;
+use crate::model::Side;
+use crate::model::full_body::STANDING_TILT;
+use crate::model::marker_set::Landmark;
+use crate::spatial::{Pose, Vec3};
+
+/// Frames in which the pelvis must be seen, at least.
+const LEAST_FRAMES: usize = 3;
+/// Distances of hip centres that walkers have [m].
+const HIP_WIDTHS: [f64; 2] = [0.05, 0.35];
+
+/// The pelvis in the frames that are measured.
+#[derive(Debug)]
+pub(super) struct Pelvis {
+    /// Pose of the body frame, one a measured frame: origin midway between the hips, upright in standing.
+    pub(super) poses: Vec<Option<Pose>>,
+    /// Distance of the hip centres [m].
+    pub(super) hip_width: f64,
+    /// Whether only the hip centres are known, so that the tilt is not.
+    pub(super) is_line: bool,
+}
+
+impl Pelvis {
+    /// A hip centre in a measured frame [m].
+    pub(super) fn hip(&self, measured: usize, side: Side) -> Option<Vec3> {
+        let out = if side == Side::Right { 0.5 } else { -0.5 };
+        Some(self.poses.get(measured)?.as_ref()?.place(Vec3::z() * (out * self.hip_width)))
+    }
+
+    /// To the right, in a measured frame.
+    pub(super) fn right(&self, measured: usize) -> Option<Vec3> {
+        Some(self.poses.get(measured)?.as_ref()?.rotation.column(2).into())
+    }
+}
+
+pub(super) fn find(sight: &Sight<'_>, frames: &[usize]) -> Result<Pelvis, CalibrationError> {
+    let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| sight.has(landmark, Some(side)));
+    let has_back = both(Landmark::Psis) || sight.has(Landmark::Sacrum, None);
+    let pelvis = if both(Landmark::Asis) && has_back {
+        from_spines(sight, frames)
+    } else if both(Landmark::HipCentre) {
+        from_hips(sight, frames)
+    } else {
+        return Err(CalibrationError::Markers {
+            part: "pelvis".to_owned(),
+            needed: "asis r, asis l and (psis r, psis l or sacrum), or hip_centre r and l,".to_owned(),
+            found: sight.words(),
+        });
+    };
+    let seen = pelvis.poses.iter().flatten().count();
+    let expected = LEAST_FRAMES.min(frames.len()).max(1);
+    if seen < expected {
+        return Err(CalibrationError::Unseen { part: "pelvis".to_owned(), seen, frames: frames.len(), expected });
+    }
+    let [least_m, most_m] = HIP_WIDTHS;
+    if !(least_m..=most_m).contains(&pelvis.hip_width) {
+        return Err(CalibrationError::Length {
+            part: "line between the hip centres".to_owned(),
+            found_m: pelvis.hip_width,
+            least_m,
+            most_m,
+            hint: "is the unit right, and are left and right markers not exchanged?",
+        });
+    }
+    Ok(pelvis)
+}
+
+/// Midway between the iliac spines in front, behind, and to the right, in a frame.
+fn spines(sight: &Sight<'_>, frame: usize) -> Option<(Vec3, Vec3, Vec3)> {
+    let (right, left) = (sight.of(Landmark::Asis, Side::Right, frame)?, sight.of(Landmark::Asis, Side::Left, frame)?);
+    let posterior = || {
+        let pair = Side::BOTH.map(|side| sight.of(Landmark::Psis, side, frame));
+        Some((pair[0]? + pair[1]?) * 0.5)
+    };
+    let back = posterior().or_else(|| sight.at(Landmark::Sacrum, None, frame))?;
+    Some(((right + left) * 0.5, back, right - left))
+}
+
+/// Hip centres by Harrington 2007: from midway between the front spines, in axes through the spines, by width PW and depth PD of the
+/// pelvis between the markers [m].
+fn regression(width: f64, depth: f64) -> Vec3 {
+    Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
+}
+
+fn from_spines(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
+    let seen: Vec<_> = frames.iter().map(|&frame| spines(sight, frame)).collect();
+    let known = || seen.iter().flatten();
+    let width = median(known().map(|(_, _, across)| across.norm())).unwrap_or(f64::NAN);
+    let depth = median(known().map(|(front, back, _)| (front - back).norm())).unwrap_or(f64::NAN);
+    let hip = regression(width, depth);
+    let origin = Vec3::new(hip.x, hip.y, 0.0);
+    let pose = |(front, back, across): &(Vec3, Vec3, Vec3)| {
+        let rotation = from_z_x(*across, front - back)?;
+        Some(Pose { rotation: rotation * about_z(STANDING_TILT), translation: front + rotation * origin })
+    };
+    let poses = seen.iter().map(|spines| spines.as_ref().and_then(pose)).collect();
+    Pelvis { poses, hip_width: 2.0 * hip.z, is_line: false }
+}
+
+/// Key points: the line between the hips alone, upright.
+fn from_hips(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
+    let hips = |frame: usize| {
+        Some((sight.of(Landmark::HipCentre, Side::Right, frame)?, sight.of(Landmark::HipCentre, Side::Left, frame)?))
+    };
+    let seen: Vec<_> = frames.iter().map(|&frame| hips(frame)).collect();
+    let hip_width = median(seen.iter().flatten().map(|(right, left)| (right - left).norm())).unwrap_or(f64::NAN);
+    let pose = |(right, left): &(Vec3, Vec3)| {
+        let rotation = from_z_y(direction(right - left)?, Vec3::y())?;
+        Some(Pose { rotation, translation: (right + left) * 0.5 })
+    };
+    let poses = seen.iter().map(|hips| hips.as_ref().and_then(pose)).collect();
+    Pelvis { poses, hip_width, is_line: true }
+}

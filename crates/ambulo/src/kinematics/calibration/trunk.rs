@@ -1,0 +1,292 @@
+//! Trunk and arms.
+
+use super::axes::{about_z, direction, fitted, from_y_x, from_y_z, inside, median, median_point};
+use super::pelvis::Pelvis;
+use super::person::{Person, of};
+use super::sight::Sight;
+use crate::model::Side;
+use crate::model::anthropometry::Dimensions;
+use crate::model::marker_set::{Landmark, Segment};
+use crate::spatial::{Pose, Vec3};
+
+/// Breadth of the elbow as a share of stature where nobody measured: 67 mm at 1.45 m in biomechzoo's HC002D.
+const ELBOW_BREADTH: f64 = 0.046;
+/// An elbow flexed less than this [rad] does not show in which plane it bends.
+const BENT: f64 = 0.17;
+/// Upper arms further from the trunk than this are raised [rad].
+const RAISED: f64 = 0.6;
+/// Sizes against the table's that walkers have.
+const FACTORS: [f64; 2] = [0.6, 1.6];
+/// Landmarks of the head, which turns on the trunk.
+const HEAD: [Landmark; 5] = [Landmark::FrontHead, Landmark::BackHead, Landmark::Ear, Landmark::Nose, Landmark::Vertex];
+/// Landmarks of the trunk that must be there.
+const LEAST_LANDMARKS: usize = 2;
+/// Frames in which a part must be seen, at least.
+const LEAST_FRAMES: usize = 3;
+
+/// Whether a landmark is on the head.
+pub(super) fn is_head(landmark: Option<Landmark>) -> bool {
+    landmark.is_some_and(|l| HEAD.contains(&l))
+}
+
+/// Trunk and arms in the measured frames.
+#[derive(Debug)]
+pub(super) struct Trunk {
+    /// Pose of the body frame, origin at the lumbar joint, one a measured frame.
+    pub(super) poses: Vec<Option<Pose>>,
+    /// Size against the table's.
+    pub(super) factor: f64,
+    /// Shoulder centres in the body frame [m], right first.
+    pub(super) shoulders: [Vec3; 2],
+    /// How much higher they stood in the frames measured, arms raised [m].
+    pub(super) lift: f64,
+    /// Right first; `None` where the recording has none.
+    pub(super) arms: [Option<Arm>; 2],
+}
+
+/// An arm down to the wrist.
+#[derive(Debug)]
+pub(super) struct Arm {
+    /// Upper arm (origin at the shoulder) and forearm (origin at the elbow), one a measured frame.
+    pub(super) frames: Vec<Option<[Pose; 2]>>,
+    /// Shoulder to elbow [m].
+    pub(super) upper: f64,
+    /// Elbow to wrist [m].
+    pub(super) lower: f64,
+}
+
+pub(super) fn find(
+    sight: &Sight<'_>,
+    frames: &[usize],
+    pelvis: &Pelvis,
+    dimensions: &Dimensions,
+    person: &Person,
+    assumptions: &mut Vec<String>,
+) -> Trunk {
+    let finder = Finder { sight, frames, dimensions, person };
+    let fitted = finder.fit(pelvis);
+    if fitted.iter().flatten().count() < LEAST_FRAMES.min(frames.len()) {
+        assumptions.push(
+            "trunk and arms have too few markers; they keep the table's size and are not measured: upright, arms hanging"
+                .to_owned(),
+        );
+        return finder.unmeasured();
+    }
+    let mut trunk = finder.trunk(fitted);
+    if trunk.lift > 0.0 {
+        assumptions.push(format!(
+            "the arms are raised, which lifts the shoulders; for hanging arms their centres are taken {:.0} mm lower, by neck and table",
+            1e3 * trunk.lift
+        ));
+    }
+    for (slot, side) in trunk.arms.iter_mut().zip(Side::BOTH) {
+        let raised = trunk.shoulders[super::person::index(side)] + Vec3::y() * trunk.lift;
+        *slot = finder.arm(&trunk.poses, raised, side);
+        if slot.is_none() {
+            assumptions.push(format!(
+                "the {side} arm has too few markers; it keeps the table's size and is not measured: hanging"
+            ));
+        }
+    }
+    trunk
+}
+
+struct Finder<'a> {
+    sight: &'a Sight<'a>,
+    frames: &'a [usize],
+    dimensions: &'a Dimensions,
+    person: &'a Person,
+}
+
+impl Finder<'_> {
+    /// Lumbar joint to the height of the shoulders on the table's body [m].
+    fn length(&self) -> f64 {
+        Segment::Torso.length(self.dimensions)
+    }
+
+    /// The lumbar joint in the pelvis [m].
+    fn lumbar(&self) -> Vec3 {
+        Vec3::y() * self.dimensions.lumbar_height.unwrap_or(0.0)
+    }
+
+    fn unmeasured(&self) -> Trunk {
+        let d = self.dimensions;
+        let shoulder = |out: f64| Vec3::new(0.0, self.length(), out * 0.5 * d.shoulder_width);
+        let poses = vec![None; self.frames.len()];
+        Trunk { poses, factor: 1.0, shoulders: [shoulder(1.0), shoulder(-1.0)], lift: 0.0, arms: [None, None] }
+    }
+
+    /// The landmarks' usual places fitted to those seen and to the lumbar joint.
+    fn fit(&self, pelvis: &Pelvis) -> Vec<Option<Pose>> {
+        let landmarks: Vec<(Landmark, Option<Side>, Vec3)> = self
+            .sight
+            .markers
+            .iter()
+            .filter(|(m, _)| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark))
+            .filter_map(|(m, _)| Some((m.definition.landmark?, m.definition.side, m.definition.place? * self.length())))
+            .collect();
+        let pose = |(measured, &frame): (usize, &usize)| {
+            let (mut places, mut points) = (vec![Vec3::zeros()], vec![pelvis.poses[measured]?.place(self.lumbar())]);
+            for (landmark, side, place) in &landmarks {
+                if let Some(point) = self.sight.at(*landmark, *side, frame) {
+                    places.push(*place);
+                    points.push(point);
+                }
+            }
+            if places.len() > LEAST_LANDMARKS { fitted(&places, &points) } else { None }
+        };
+        let first: Vec<Option<Pose>> = self.frames.iter().enumerate().map(pose).collect();
+        // The lumbar joint is where the pelvis has it.
+        let joints = first
+            .iter()
+            .zip(&pelvis.poses)
+            .filter_map(|(torso, pelvis)| Some(inside(torso.as_ref()?, pelvis.as_ref()?.place(self.lumbar()))));
+        let origin = median_point(&joints.collect::<Vec<_>>()).unwrap_or_default();
+        first.into_iter().map(|pose| pose.map(|pose| pose * Pose::at(origin))).collect()
+    }
+
+    /// The trunk with y from the lumbar joint to midway between the shoulders.
+    fn trunk(&self, poses: Vec<Option<Pose>>) -> Trunk {
+        let shoulders = Side::BOTH.map(|side| self.shoulder(&poses, side));
+        let [Some(right), Some(left)] = shoulders else {
+            return Trunk { poses, ..self.unmeasured() };
+        };
+        let lift = if self.are_arms_raised(&poses) { self.lift(&poses, 0.5 * (right.y + left.y)) } else { 0.0 };
+        let [right, left] = [right, left].map(|s| s - Vec3::y() * lift);
+        let middle = (right + left) * 0.5;
+        let turn = about_z((-middle.x).atan2(middle.y));
+        let poses = poses.into_iter().map(|pose| pose.map(|p| Pose { rotation: p.rotation * turn, ..p })).collect();
+        let factor = (middle.x.hypot(middle.y) / self.length()).clamp(FACTORS[0], FACTORS[1]);
+        let shoulders = [right, left].map(|s| turn.transpose() * s);
+        Trunk { poses, factor, shoulders, lift, arms: [None, None] }
+    }
+
+    /// Whether the upper arms stand off the trunk.
+    fn are_arms_raised(&self, poses: &[Option<Pose>]) -> bool {
+        let cosine = |side: Side| {
+            move |(pose, &frame): (&Option<Pose>, &usize)| {
+                let arm = self.sight.of(Landmark::LateralElbow, side, frame)?
+                    - self.sight.of(Landmark::Acromion, side, frame)?;
+                Some(-direction(arm)?.dot(&pose.as_ref()?.rotation.column(1)))
+            }
+        };
+        let all = Side::BOTH.into_iter().flat_map(|side| poses.iter().zip(self.frames).filter_map(cosine(side)));
+        median(all).is_some_and(|cosine| cosine < RAISED.cos())
+    }
+
+    /// How much higher the shoulders stand at `height` than neck and table say they do with hanging arms [m].
+    fn lift(&self, poses: &[Option<Pose>], height: f64) -> f64 {
+        let neck = [Landmark::C7, Landmark::Jugular].map(|landmark| {
+            let heights = poses
+                .iter()
+                .zip(self.frames)
+                .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.at(landmark, None, frame)?).y));
+            median(heights).map(|found| found / landmark.place().y)
+        });
+        let shoulders =
+            median(neck.into_iter().flatten()).unwrap_or(self.length()) * Landmark::ShoulderCentre.place().y;
+        (height - shoulders).max(0.0)
+    }
+
+    /// Where a shoulder centre stands in the trunk [m].
+    fn shoulder(&self, poses: &[Option<Pose>], side: Side) -> Option<Vec3> {
+        let middle = |landmark: Landmark| {
+            let points = poses
+                .iter()
+                .zip(self.frames)
+                .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.of(landmark, side, frame)?)));
+            median_point(&points.collect::<Vec<_>>())
+        };
+        let usual = (Landmark::Acromion.place() - Landmark::ShoulderCentre.place()).y * self.length();
+        let measured = of(&self.person.measures.shoulder_offset, side).map(|v| v + self.person.measures.radius());
+        let below = Vec3::y() * measured.unwrap_or(usual);
+        middle(Landmark::ShoulderCentre).or_else(|| Some(middle(Landmark::Acromion)? - below))
+    }
+
+    fn arm(&self, trunk: &[Option<Pose>], shoulder: Vec3, side: Side) -> Option<Arm> {
+        let frames: Vec<Option<[Pose; 2]>> = trunk
+            .iter()
+            .zip(self.frames)
+            .map(|(trunk, &frame)| self.arm_frame(trunk.as_ref()?, shoulder, side, frame))
+            .collect();
+        let known: Vec<&[Pose; 2]> = frames.iter().flatten().collect();
+        if known.len() < LEAST_FRAMES.min(self.frames.len()).max(1) {
+            return None;
+        }
+        let upper = median(known.iter().map(|[h, f]| (h.translation - f.translation).norm()))?;
+        let wrists = trunk.iter().zip(self.frames).zip(&frames).filter_map(|((_, &frame), poses)| {
+            Some((self.wrist(side, frame)? - poses.as_ref()?[1].translation).norm())
+        });
+        let lower = median(wrists)?;
+        let is_usual = |found: f64, usual: f64| (FACTORS[0]..=FACTORS[1]).contains(&(found / usual));
+        let d = self.dimensions;
+        (is_usual(upper, d.upper_arm) && is_usual(lower, d.forearm)).then_some(Arm { frames, upper, lower })
+    }
+
+    /// The wrist's centre, or the one marker that it has [m].
+    fn wrist(&self, side: Side, frame: usize) -> Option<Vec3> {
+        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        match (at(Landmark::RadialStyloid), at(Landmark::UlnarStyloid)) {
+            (Some(radial), Some(ulnar)) => Some((radial + ulnar) * 0.5),
+            (radial, ulnar) => at(Landmark::WristCentre).or(radial).or(ulnar),
+        }
+    }
+
+    fn arm_frame(&self, trunk: &Pose, shoulder: Vec3, side: Side, frame: usize) -> Option<[Pose; 2]> {
+        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let out = if side == Side::Right { 1.0 } else { -1.0 };
+        let (shoulder, wrist) = (trunk.place(shoulder), self.wrist(side, frame)?);
+        let across: Vec3 = trunk.rotation.column(2).into();
+        let (elbow, axis) = match (at(Landmark::ElbowCentre), at(Landmark::LateralElbow), at(Landmark::MedialElbow)) {
+            (Some(centre), ..) => (centre, bending_axis(shoulder, centre, wrist).unwrap_or(across)),
+            (None, Some(lateral), Some(medial)) => ((lateral + medial) * 0.5, direction(lateral - medial)? * out),
+            (None, Some(lateral), None) => self.elbow(shoulder, lateral, wrist, across, side, frame),
+            _ => return None,
+        };
+        let humerus = from_y_z(shoulder - elbow, axis)?;
+        let forearm = match (at(Landmark::RadialStyloid), at(Landmark::UlnarStyloid)) {
+            (Some(radial), Some(ulnar)) => from_y_x(elbow - wrist, radial - ulnar)?,
+            _ => from_y_z(elbow - wrist, axis)?,
+        };
+        Some([Pose { rotation: humerus, translation: shoulder }, Pose { rotation: forearm, translation: elbow }])
+    }
+
+    /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of shoulder, centre and
+    /// wrist where the elbow is bent; else that of a forearm halfway between pronation and supination.
+    fn elbow(
+        &self,
+        shoulder: Vec3,
+        lateral: Vec3,
+        wrist: Vec3,
+        across: Vec3,
+        side: Side,
+        frame: usize,
+    ) -> (Vec3, Vec3) {
+        const ROUNDS: usize = 4;
+        /// A normal further than 60° from the forearm's axis is a straight arm's.
+        const AGREEING: f64 = 0.5;
+        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let thumb = at(Landmark::RadialStyloid).zip(at(Landmark::UlnarStyloid)).map(|(radial, ulnar)| radial - ulnar);
+        let usual = thumb.and_then(|thumb| direction(thumb.cross(&(lateral - wrist)))).unwrap_or(across);
+        let reach = self.half_elbow(side) * if side == Side::Right { 1.0 } else { -1.0 };
+        let mut axis = usual;
+        for _ in 0..ROUNDS {
+            let normal = bending_axis(shoulder, lateral - axis * reach, wrist);
+            axis = normal.filter(|n| n.dot(&usual) > AGREEING).unwrap_or(usual);
+        }
+        (lateral - axis * reach, axis)
+    }
+
+    /// Lateral marker to elbow centre [m].
+    fn half_elbow(&self, side: Side) -> f64 {
+        let width = of(&self.person.measures.elbow_width, side).unwrap_or(ELBOW_BREADTH * self.dimensions.height);
+        0.5 * width + self.person.measures.radius()
+    }
+}
+
+/// The normal of the plane in which an elbow bends, to the right, if it is bent.
+fn bending_axis(shoulder: Vec3, elbow: Vec3, wrist: Vec3) -> Option<Vec3> {
+    let (upper, lower) = (direction(elbow - shoulder)?, direction(wrist - elbow)?);
+    let normal = upper.cross(&lower);
+    (normal.norm() > BENT.sin()).then(|| normal.normalize())
+}

@@ -1,0 +1,61 @@
+//! What is taken of parts that no marker shows.
+
+use super::axes::{about_x, about_y, about_z, angles_zxy, from_y_x};
+use crate::findings::Findings;
+use crate::model::{Body, CoordinateId, Displacement, Drive, Model};
+use crate::motion::Motion;
+use crate::spatial::{Mat3, Vec3};
+
+const LUMBAR: [&str; 3] = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"];
+const PELVIS: [&str; 3] = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"];
+
+/// Fills the coordinates of a trunk that no marker showed: upright above the pelvis, looking where the pelvis looks. A trunk that was
+/// seen, or that the model holds fast, stays as it is. Other joints without a column, such as those of arms, are left to their
+/// default values: hanging.
+pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut Findings) {
+    let Some(lumbar) = ids(model, LUMBAR) else { return };
+    let Some(pelvis) = ids(model, PELVIS) else { return };
+    let is_open = |id: &CoordinateId| {
+        motion.column(*id).is_none() && matches!(model.coordinates()[id.index()].drive, Drive::Free)
+    };
+    if !lumbar.iter().all(is_open) || !has_plain_trunk(model, lumbar) {
+        return;
+    }
+    let columns = pelvis.map(|id| motion.column(id));
+    let [Some(tilt), Some(list), Some(rotation)] = columns else { return };
+    let angles: Vec<[f64; 3]> = (0..motion.times.len()).map(|i| upright([tilt[i], list[i], rotation[i]])).collect();
+    for (k, id) in lumbar.into_iter().enumerate() {
+        motion.columns[id.index()] = Some(angles.iter().map(|a| a[k]).collect());
+    }
+    findings.note(
+        "calibration.trunk_upright",
+        "no marker shows the trunk: it is taken as upright above the pelvis, its mass moving with the pelvis",
+    );
+}
+
+fn ids(model: &Model, names: [&str; 3]) -> Option<[CoordinateId; 3]> {
+    let [a, b, c] = names.map(|name| model.coordinate(name));
+    Some([a?, b?, c?])
+}
+
+/// Whether the trunk turns about z, x, y in axes of the pelvis, as the built-in body's does.
+fn has_plain_trunk(model: &Model, lumbar: [CoordinateId; 3]) -> bool {
+    let carries = |body: &&Body| body.joint.coordinates() == lumbar;
+    model.bodies().iter().find(carries).is_some_and(|body| {
+        let joint = &body.joint;
+        let along = [Vec3::z(), Vec3::x(), Vec3::y()];
+        let plain = joint.rotations.iter().zip(along).all(|(axis, direction)| {
+            (axis.direction - direction).norm() < 1e-9 && matches!(axis.displacement, Displacement::Follows(..))
+        });
+        let straight = |rotation: &Mat3| (rotation - Mat3::identity()).norm() < 1e-9;
+        plain && straight(&joint.parent_from_joint.rotation) && straight(&joint.child_from_joint.rotation)
+    })
+}
+
+/// Lumbar angles [rad] that set the trunk upright on a pelvis of these angles.
+fn upright([tilt, list, rotation]: [f64; 3]) -> [f64; 3] {
+    let pelvis = about_z(tilt) * about_x(list) * about_y(rotation);
+    let forward: Vec3 = pelvis.column(0).into();
+    let Some(trunk) = from_y_x(Vec3::y(), forward) else { return [f64::NAN; 3] };
+    angles_zxy(&(pelvis.transpose() * trunk))
+}

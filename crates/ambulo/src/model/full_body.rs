@@ -1,0 +1,269 @@
+//! The full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with joints that turn in space.
+//!
+//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint of the same [`Build`]; only the
+//! joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are those of Gait2392 and
+//! docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides count alike.
+//!
+//! | body              | coordinates, in the order of the rotations                                     | axes (right side) |
+//! |-------------------|--------------------------------------------------------------------------------|-------------------|
+//! | `pelvis`          | `pelvis_tilt`, `pelvis_list`, `pelvis_rotation`, `pelvis_tx`, `_ty`, `_tz`       | z, x, y; x, y, z  |
+//! | `torso` (+ head)  | `lumbar_extension`, `lumbar_bending`, `lumbar_rotation`                         | z, x, y           |
+//! | `femur_s`         | `hip_flexion_s`, `hip_adduction_s`, `hip_rotation_s`                            | z, x, y           |
+//! | `tibia_s`         | `knee_angle_s` (+ extension)                                                   | z                 |
+//! | `calcn_s`         | `ankle_angle_s` (+ dorsiflexion), `subtalar_angle_s` (+ inversion)               | z, then oblique   |
+//! | `toes_s`          | `mtp_angle_s` (+ toes up)                                                      | z                 |
+//! | `humerus_s`       | `arm_flex_s`, `arm_add_s`, `arm_rot_s` (+ inwards)                               | z, x, y           |
+//! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
+//!
+//! There is no talus: ankle and subtalar axes cross in the ankle centre, and the calcaneus turns about both. The subtalar axis is
+//! that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are rigid with the forearm.
+//! Tables that do not split the trunk have no lumbar joint; their root is `torso`.
+//!
+//! A subject's body is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
+
+use super::anthropometry::{Build, BuildError, ContactSphere, Dimensions, Human};
+use super::{
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
+    Measure, Model, Side,
+};
+use crate::spatial::{Inertia, Pose, Vec3};
+
+/// Axis of `subtalar_r` in Gait2392 (`subject01_simbody.osim`), in the foot.
+const SUBTALAR: [f64; 3] = [0.787_179_61, 0.604_747_46, -0.120_949_49];
+
+/// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
+/// Trost 2008 (10.97° to 13.13°). Hip angles are measured against the tilted pelvis, so a standing hip is flexed by as much.
+pub const STANDING_TILT: f64 = 11.7 * std::f64::consts::PI / 180.0;
+
+/// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35, rotation of the
+/// trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90 both ways; pronation and
+/// supination 90: tables of normal ranges of motion such as the Merck manual's; the wider number is taken (unverified).
+/// Rotations of the trunk count both ways.
+const RANGES: [(&str, [f64; 2]); 8] = [
+    ("hip_adduction", [-50.0, 30.0]),
+    ("hip_rotation", [-60.0, 45.0]),
+    ("lumbar_bending", [-35.0, 35.0]),
+    ("lumbar_rotation", [-45.0, 45.0]),
+    ("subtalar_angle", [-20.0, 35.0]),
+    ("arm_add", [-180.0, 50.0]),
+    ("arm_rot", [-90.0, 90.0]),
+    ("pro_sup", [-90.0, 90.0]),
+];
+
+/// The full body of a mass and a stature, all joints turning in space. The toes have a joint whatever `build` says.
+///
+/// # Errors
+/// A mass or a height outside of what walkers have, each alone or together.
+pub fn full_body(build: &Build) -> Result<Human, BuildError> {
+    let planar = Build { toe_joint: true, ..*build }.human()?;
+    let mut making = Making { planar: &planar.model, bodies: Vec::new(), coordinates: Vec::new() };
+    for body in planar.model.bodies() {
+        making.take(body);
+    }
+    let Making { bodies, coordinates, .. } = making;
+    let mut markers = planar.model.markers().to_vec();
+    markers.extend(Side::BOTH.map(|side| hip_side(&planar, side)));
+    let model = Model::new(planar.model.name(), planar.model.gravity(), bodies, coordinates, markers)?;
+    Ok(Human { model, ..planar })
+}
+
+/// The point of the pelvis beside the hip, named as in docs/CONVENTIONS.md.
+fn hip_side(human: &Human, side: Side) -> Marker {
+    let location = Vec3::new(0.0, 0.0, mirrored(side) * human.dimensions.hip_width);
+    Marker { name: format!("hip_{}_side", side.letter()), body: Some(BodyId(0)), location }
+}
+
+/// Plus one on the right.
+fn mirrored(side: Side) -> f64 {
+    match side {
+        Side::Right => 1.0,
+        Side::Left => -1.0,
+    }
+}
+
+/// A model under construction.
+struct Making<'a> {
+    planar: &'a Model,
+    bodies: Vec<Body>,
+    coordinates: Vec<Coordinate>,
+}
+
+impl Making<'_> {
+    /// Takes a body of the planar figure over, with the joint that it has in space.
+    fn take(&mut self, body: &Body) {
+        let (side, stem) = match Side::split_name(&body.name) {
+            Some((side, stem)) => (Some(side), stem),
+            None => (None, body.name.clone()),
+        };
+        let sign = side.map_or(1.0, mirrored);
+        let [x, y, z] = [Vec3::x() * sign, Vec3::y() * sign, Vec3::z()];
+        let subtalar = Vec3::new(SUBTALAR[0] * sign, SUBTALAR[1] * sign, SUBTALAR[2]).normalize();
+        let rotations: Vec<(&str, Vec3)> = match stem.as_str() {
+            _ if body.joint.parent.is_none() => vec![("pelvis_tilt", z), ("pelvis_list", x), ("pelvis_rotation", y)],
+            "torso" => vec![("lumbar_extension", z), ("lumbar_bending", x), ("lumbar_rotation", y)],
+            "femur" => vec![("hip_flexion", z), ("hip_adduction", x), ("hip_rotation", y)],
+            "calcn" => vec![("ankle_angle", z), ("subtalar_angle", subtalar)],
+            "humerus" => vec![("arm_flex", z), ("arm_add", x), ("arm_rot", y)],
+            "forearm" => vec![("elbow_flex", z), ("pro_sup", y)],
+            "toes" => vec![("mtp_angle", z)],
+            _ => vec![("knee_angle", z)],
+        };
+        let rotations = rotations.into_iter().map(|(name, axis)| self.rotation(name, side, axis)).collect();
+        let translations = match body.joint.parent {
+            None => [("pelvis_tx", Vec3::x()), ("pelvis_ty", Vec3::y()), ("pelvis_tz", Vec3::z())]
+                .map(|(name, axis)| self.translation(name, axis))
+                .to_vec(),
+            Some(_) => Vec::new(),
+        };
+        let joint = Joint { rotations, translations, measure: Measure::Rates, ..body.joint.clone() };
+        self.bodies.push(Body { name: body.name.clone(), inertia: body.inertia, joint });
+    }
+
+    fn rotation(&mut self, stem: &str, side: Option<Side>, direction: Vec3) -> JointAxis {
+        let name = side.map_or(stem.to_owned(), |side| format!("{stem}_{}", side.letter()));
+        let own = RANGES.iter().find(|(known, _)| *known == stem).map(|(_, range)| range.map(f64::to_radians));
+        let range = own.or_else(|| self.in_plane(&name).and_then(|c| c.range));
+        self.axis(
+            Coordinate {
+                name,
+                kind: CoordinateKind::Rotation,
+                default_value: 0.0,
+                range,
+                clamped: false,
+                drive: Drive::Free,
+            },
+            direction,
+        )
+    }
+
+    fn translation(&mut self, name: &str, direction: Vec3) -> JointAxis {
+        let default_value = self.in_plane(name).map_or(0.0, |c| c.default_value);
+        let (kind, drive) = (CoordinateKind::Translation, Drive::Free);
+        self.axis(
+            Coordinate { name: name.to_owned(), kind, default_value, range: None, clamped: false, drive },
+            direction,
+        )
+    }
+
+    /// The planar figure's coordinate of this name.
+    fn in_plane(&self, name: &str) -> Option<&Coordinate> {
+        self.planar.coordinates().iter().find(|c| c.name == name)
+    }
+
+    fn axis(&mut self, coordinate: Coordinate, direction: Vec3) -> JointAxis {
+        self.coordinates.push(coordinate);
+        let id = CoordinateId(self.coordinates.len() - 1);
+        let follows = Displacement::Follows(id, Function::Linear { slope: 1.0, intercept: 0.0 });
+        JointAxis { direction, displacement: follows }
+    }
+}
+
+/// How a segment of one subject differs from the table's: its size, and how its joint stands in its parent and in itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SegmentShape {
+    /// Length over the table's length; mass centre and radii of gyration go with it, the mass does not change.
+    pub factor: f64,
+    /// The joint frame on the parent.
+    pub parent_from_joint: Pose,
+    /// The joint frame on the segment itself.
+    pub child_from_joint: Pose,
+}
+
+impl SegmentShape {
+    /// Every segment as it stands.
+    #[must_use]
+    pub fn of(human: &Human) -> Vec<SegmentShape> {
+        let as_it_stands = |body: &Body| SegmentShape {
+            factor: 1.0,
+            parent_from_joint: body.joint.parent_from_joint,
+            child_from_joint: body.joint.child_from_joint,
+        };
+        human.model.bodies().iter().map(as_it_stands).collect()
+    }
+}
+
+/// Where a subject's sole lies: the point under the ankle centre and the rear of the heel, seen from the ankle centre of a foot that
+/// stands flat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootPrint {
+    /// Ankle centre above the ground [m].
+    pub ankle_height: f64,
+    /// How much further forward the foot lies than the table's foot of its size [m].
+    pub forward: f64,
+    /// How far to the right of the ankle centre its middle lies [m].
+    pub right: f64,
+}
+
+impl FootPrint {
+    /// The table's foot.
+    #[must_use]
+    pub fn of(dimensions: &Dimensions) -> FootPrint {
+        FootPrint { ankle_height: dimensions.ankle_height, forward: 0.0, right: 0.0 }
+    }
+
+    /// Where a point of the table's foot, grown by a factor, lies in this one: `above` the ground, `forward` of the ankle [m].
+    #[must_use]
+    pub fn place(&self, forward: f64, above: f64) -> Vec3 {
+        Vec3::new(forward + self.forward, above - self.ankle_height, self.right)
+    }
+}
+
+/// The body of one subject.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SubjectShape {
+    /// One a body, in the model's order.
+    pub segments: Vec<SegmentShape>,
+    /// Markers instead of the figure's own.
+    pub markers: Vec<Marker>,
+    /// Right and left foot.
+    pub feet: [FootPrint; 2],
+    /// Lengths; the leg's is the height at which the pelvis stands.
+    pub dimensions: Dimensions,
+    /// Coordinates that are held at zero.
+    pub locked: Vec<String>,
+}
+
+/// The body with the shape of one subject; the masses stay.
+///
+/// # Errors
+/// A factor that is no number above zero, markers or joints that make no model.
+pub fn reshaped(human: &Human, shape: &SubjectShape) -> Result<Human, BuildError> {
+    let model = &human.model;
+    let mut bodies = model.bodies().to_vec();
+    for (body, segment) in bodies.iter_mut().zip(&shape.segments) {
+        let old = body.inertia;
+        let about_center = old.about_center() * segment.factor.powi(2);
+        body.inertia = Inertia::new(old.mass(), old.center() * segment.factor, about_center)?;
+        body.joint.parent_from_joint = segment.parent_from_joint;
+        body.joint.child_from_joint = segment.child_from_joint;
+    }
+    let mut coordinates = model.coordinates().to_vec();
+    for coordinate in &mut coordinates {
+        if coordinate.name == "pelvis_ty" {
+            coordinate.default_value = shape.dimensions.leg_length;
+        }
+        if shape.locked.contains(&coordinate.name) {
+            coordinate.drive = Drive::Locked;
+        }
+    }
+    let model = Model::new(model.name(), model.gravity(), bodies, coordinates, shape.markers.clone())?;
+    let soles = human.soles.iter().map(|sphere| resoled(&model, shape, sphere)).collect();
+    Ok(Human { model, soles, dimensions: shape.dimensions, build: human.build })
+}
+
+/// A sphere scaled with its foot, and set so that it touches the ground under a foot that stands flat.
+fn resoled(model: &Model, shape: &SubjectShape, sphere: &ContactSphere) -> ContactSphere {
+    let foot = shape.feet[usize::from(sphere.side == Side::Left)];
+    let index = sphere.body.index();
+    let factor = shape.segments.get(index).map_or(1.0, |segment| segment.factor);
+    let radius = sphere.radius * factor;
+    let body = &model.bodies()[index];
+    let center = if body.name.starts_with("toes") {
+        // From the ball of the foot, which stands a ball's radius above the ground.
+        let above = body.joint.parent_from_joint.translation.y + foot.ankle_height;
+        Vec3::new(sphere.center.x * factor, radius - above, 0.0)
+    } else {
+        foot.place(sphere.center.x * factor, radius)
+    };
+    ContactSphere { center, radius, ..sphere.clone() }
+}

@@ -1,0 +1,78 @@
+//! Segments that markers stand on.
+
+use crate::model::anthropometry::Dimensions;
+use crate::model::{BodyId, Model, Side};
+
+/// A segment of the full body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Segment {
+    /// The pelvis.
+    Pelvis,
+    /// Thorax and head.
+    Torso,
+    /// The thigh.
+    Femur,
+    /// The shank.
+    Tibia,
+    /// The foot behind the toes.
+    Foot,
+    /// The toes.
+    Toes,
+    /// The upper arm.
+    Humerus,
+    /// Forearm and hand.
+    Forearm,
+}
+
+impl Segment {
+    /// All segments with their words in files.
+    pub const WORDS: [(&'static str, Segment); 8] = [
+        ("pelvis", Segment::Pelvis),
+        ("torso", Segment::Torso),
+        ("femur", Segment::Femur),
+        ("tibia", Segment::Tibia),
+        ("foot", Segment::Foot),
+        ("toes", Segment::Toes),
+        ("humerus", Segment::Humerus),
+        ("forearm", Segment::Forearm),
+    ];
+
+    /// The word in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Segment::WORDS[self as usize].0
+    }
+
+    /// Whether there is one on each side.
+    #[must_use]
+    pub fn is_paired(self) -> bool {
+        !matches!(self, Segment::Pelvis | Segment::Torso)
+    }
+
+    /// The body of the full body's model; sides count for paired segments only.
+    #[must_use]
+    pub fn body(self, model: &Model, side: Option<Side>) -> Option<BodyId> {
+        let stem = match self {
+            Segment::Pelvis => return model.body("pelvis").or_else(|| model.body("torso")),
+            Segment::Torso => return model.body("torso"),
+            Segment::Foot => "calcn",
+            other => other.word(),
+        };
+        model.body(&format!("{stem}_{}", side?.letter()))
+    }
+
+    /// The length that places on the segment are shares of [m]: distance of the hip centres, lumbar joint to shoulders, hip to knee,
+    /// knee to ankle, heel to tip of the toes, shoulder to elbow, elbow to wrist.
+    #[must_use]
+    pub fn length(self, d: &Dimensions) -> f64 {
+        match self {
+            Segment::Pelvis => d.hip_width,
+            Segment::Torso => d.shoulder_height - d.lumbar_height.unwrap_or(0.0),
+            Segment::Femur => d.thigh,
+            Segment::Tibia => d.shank,
+            Segment::Foot | Segment::Toes => d.foot_length,
+            Segment::Humerus => d.upper_arm,
+            Segment::Forearm => d.forearm,
+        }
+    }
+}

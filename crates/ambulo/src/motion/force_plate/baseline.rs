@@ -1,0 +1,117 @@
+//! What a plate shows while nobody stands on it.
+//!
+//! The vertical force is cut into blocks of [`BLOCK_S`]. Those that are as quiet as the quietest are candidates; the
+//! unloaded plate is the lowest of them, since no foot can pull a plate up. That level is taken as the offset if it is
+//! below zero, or below [`LARGEST_UNSURE_N`]; a higher one could be a person who stands still, and is believed only if the file's
+//! own FORCE_PLATFORM:ZERO frames show the same level and the load is several times as large.
+//! Pinned by: tests/force_plate.rs
+
+use std::ops::Range;
+
+/// Length of a block [s].
+const BLOCK_S: f64 = 0.05;
+/// Fewest samples of a block.
+const BLOCK_SAMPLES: usize = 3;
+/// The unloaded level must be seen for this long [s].
+const SHORTEST_QUIET_S: f64 = 0.1;
+/// A block is quiet if its standard deviation is at most this many times that of the quietest twentieth ...
+const QUIET_FACTOR: f64 = 3.0;
+/// ... or at most this [N].
+const QUIET_N: f64 = 1.0;
+/// Blocks within this of the lowest level belong to it [N]; wider where the blocks themselves are noisier.
+const LEVEL_WIDTH_N: f64 = 4.0;
+/// A plate that rings after a step may dip below its level for this share of the samples; one that does so for longer was
+/// pressed on at its quietest.
+const RINGING_SHARE: f64 = 0.02;
+/// An upward offset above this needs a witness [N].
+const LARGEST_UNSURE_N: f64 = 50.0;
+/// With the witness of the ZERO frames, an offset may be this share of the load above it.
+const WITNESSED_SHARE: f64 = 0.35;
+
+/// The unloaded level of every channel.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Baseline {
+    /// Level of each channel, in the file's unit.
+    pub(super) levels: Vec<f64>,
+    /// Vertical force of the unloaded plate [N], before it was removed.
+    pub(super) vertical_n: f64,
+    /// Whether the file's own ZERO frames were used.
+    pub(super) from_zero_frames: bool,
+}
+
+struct Block {
+    samples: Range<usize>,
+    mean: f64,
+    deviation: f64,
+}
+
+/// The baseline, if the plate was seen without load. `vertical` is the upward force on the foot [N] with its offset.
+pub(super) fn find(
+    channels: &[Vec<f64>],
+    vertical: &[f64],
+    rate_hz: f64,
+    zero: Option<Range<usize>>,
+) -> Option<Baseline> {
+    let length = ((BLOCK_S * rate_hz).round() as usize).max(BLOCK_SAMPLES);
+    let blocks = blocks(vertical, length);
+    let quiet = unloaded(&blocks)?;
+    if (quiet.len() * length) as f64 / rate_hz < SHORTEST_QUIET_S {
+        return None;
+    }
+    let level = mean(quiet.iter().map(|b| b.mean));
+    let noise = quiet.iter().map(|b| b.deviation).fold(0.0, f64::max);
+    if level > 0.0 && share_below(vertical, level - LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)) > RINGING_SHARE {
+        return None;
+    }
+    let peak = vertical.iter().copied().filter(|x| x.is_finite()).fold(f64::NEG_INFINITY, f64::max);
+    let zero = zero.filter(|span| span.len() >= 2 && span.end <= vertical.len());
+    let witness = zero.filter(|span| {
+        let there = mean(vertical[span.clone()].iter().copied());
+        (there - level).abs() <= LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)
+    });
+    let sure = level <= LARGEST_UNSURE_N || (witness.is_some() && level <= WITNESSED_SHARE * (peak - level));
+    sure.then(|| {
+        let spans: Vec<Range<usize>> = match &witness {
+            Some(span) => vec![span.clone()],
+            None => quiet.iter().map(|b| b.samples.clone()).collect(),
+        };
+        let over = |values: &[f64]| mean(spans.iter().flat_map(|s| values[s.clone()].iter().copied()));
+        Baseline {
+            levels: channels.iter().map(|c| over(c)).collect(),
+            vertical_n: over(vertical),
+            from_zero_frames: witness.is_some(),
+        }
+    })
+}
+
+fn blocks(vertical: &[f64], length: usize) -> Vec<Block> {
+    let block = |(i, part): (usize, &[f64])| {
+        let mean = mean(part.iter().copied());
+        let variance = part.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / part.len() as f64;
+        Block { samples: i * length..i * length + part.len(), mean, deviation: variance.sqrt() }
+    };
+    vertical.chunks_exact(length).enumerate().map(block).filter(|b| b.deviation.is_finite()).collect()
+}
+
+/// The quiet blocks at the lowest level.
+fn unloaded(blocks: &[Block]) -> Option<Vec<&Block>> {
+    let mut deviations: Vec<f64> = blocks.iter().map(|b| b.deviation).collect();
+    deviations.sort_by(f64::total_cmp);
+    let quietest = *deviations.get(deviations.len() / 20)?;
+    let limit = QUIET_N.max(QUIET_FACTOR * quietest);
+    let quiet: Vec<&Block> = blocks.iter().filter(|b| b.deviation <= limit).collect();
+    let mut means: Vec<f64> = quiet.iter().map(|b| b.mean).collect();
+    means.sort_by(f64::total_cmp);
+    let lowest = *means.get(means.len() / 20)?;
+    let width = LEVEL_WIDTH_N.max(QUIET_FACTOR * quietest);
+    Some(quiet.into_iter().filter(|b| (b.mean - lowest).abs() <= width).collect())
+}
+
+fn share_below(values: &[f64], limit: f64) -> f64 {
+    values.iter().filter(|x| **x < limit).count() as f64 / values.len().max(1) as f64
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.filter(|x| x.is_finite()).fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}

@@ -1,0 +1,120 @@
+//! The force plates of a C3D file.
+
+use super::decode::{PlateSource, decode};
+use super::kind::Units;
+use super::{PlateRecording, PlateSettings, units};
+use crate::findings::Findings;
+use crate::spatial::Vec3;
+use ambulo_formats::c3d::{C3d, Channel, Platform};
+use std::ops::Range;
+
+/// Why plates cannot be read at all.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlateError {
+    /// The parameters of the plates make no sense.
+    #[error("the force plates cannot be read")]
+    Parameters(#[from] ambulo_formats::Error),
+    /// Lengths without a unit.
+    #[error(
+        "the force plates stand in a file whose POINT:UNITS is `{found}`; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+    )]
+    Unit {
+        /// What the file says.
+        found: String,
+    },
+}
+
+/// The force plates of a C3D file, in the laboratory's axes; none if the file has none. A plate that cannot be read is left
+/// out, with a warning.
+///
+/// # Errors
+/// Parameters of the plates that make no sense, a file without unit of length.
+pub fn plates_from_c3d(
+    file: &C3d,
+    settings: PlateSettings,
+    findings: &mut Findings,
+) -> Result<Vec<PlateRecording>, PlateError> {
+    let platforms = file.platforms()?;
+    if platforms.is_empty() {
+        return Ok(Vec::new());
+    }
+    let unit_m = file.metres_per_unit().ok_or_else(|| PlateError::Unit { found: file.point_unit.clone() })?;
+    let body = mean_marker(file).map(|p| p * unit_m);
+    let mut plates = Vec::new();
+    for (i, platform) in platforms.iter().enumerate() {
+        let name = format!("plate {}", i + 1);
+        let plate =
+            source(file, platform, unit_m, body, name.clone()).and_then(|source| decode(&source, settings, findings));
+        match plate {
+            Ok(plate) => plates.push(plate),
+            Err(reason) => findings.warn("plates.unusable", format!("{name} was left out: {reason}")),
+        }
+    }
+    Ok(plates)
+}
+
+fn source(
+    file: &C3d,
+    platform: &Platform,
+    unit_m: f64,
+    body: Option<Vec3>,
+    name: String,
+) -> Result<PlateSource, String> {
+    let channels = channels(file, platform)?;
+    let samples = channels.first().map_or(0, |c| c.samples.len());
+    if samples == 0 {
+        return Err("it has no samples".to_owned());
+    }
+    if !(file.analog_rate_hz.is_finite() && file.analog_rate_hz > 0.0) {
+        return Err(format!("its rate is {} Hz; expected a number above zero", file.analog_rate_hz));
+    }
+    Ok(PlateSource {
+        name,
+        number: platform.kind,
+        corners: platform.corners.map(|c| Vec3::from(c) * unit_m),
+        origin: Vec3::from(platform.origin) * unit_m,
+        units: units_of(platform, &channels, unit_m),
+        channels: channels.iter().map(|c| c.samples.clone()).collect(),
+        calibration: platform.calibration.clone(),
+        zero: platform.zero_frames.map(|frames| zero_samples(file, frames)),
+        times: file.analog_times(),
+        rate_hz: file.analog_rate_hz,
+        body,
+    })
+}
+
+/// The plate's channels up to the first that it does not have.
+fn channels<'a>(file: &'a C3d, platform: &Platform) -> Result<Vec<&'a Channel>, String> {
+    let indices = platform.channels.iter().map_while(|i| *i);
+    let find = |i: usize| file.channels.get(i).ok_or_else(|| format!("the file has no channel {}", i + 1));
+    indices.map(find).collect()
+}
+
+/// The ZERO frames as samples. They are counted from the first frame of the file (unverified: the format's guide says
+/// `frames`, and files that were cut do not agree); a range that shows a loaded plate is not used anyway.
+fn zero_samples(file: &C3d, [first, last]: [i64; 2]) -> Range<usize> {
+    let frame = |n: i64| usize::try_from(n).unwrap_or(0) * file.samples_per_frame();
+    frame(first - 1)..frame(last)
+}
+
+/// Units by the words beside the channels; the moment's by the unit of the points where they say nothing.
+///
+/// A calibration matrix turns volts into the file's own units, so there the words beside the channels do not count for
+/// the moment.
+fn units_of(platform: &Platform, channels: &[&Channel], unit_m: f64) -> Units {
+    let word = |i: usize| channels.get(i).map_or("", |c| c.unit.as_str());
+    let force_n = units::force_n(word(0)).unwrap_or(1.0);
+    let moment_channel = if platform.kind == 1 { 5 } else { 3 };
+    let moment_nm = units::moment_nm(word(moment_channel)).unwrap_or(force_n * unit_m);
+    let length_m = units::length_m(word(3)).unwrap_or(unit_m);
+    Units { force_n, moment_nm, length_m }
+}
+
+/// Mean place of everything that was seen and is a marker; markers are above the floor.
+fn mean_marker(file: &C3d) -> Option<Vec3> {
+    let markers = crate::motion::real_points::real_points(file);
+    let seen = markers.iter().flat_map(|p| &p.positions).filter(|p| p.iter().all(|x| x.is_finite()));
+    let (sum, count) = seen.fold((Vec3::zeros(), 0.0), |(s, n), p| (s + Vec3::from(*p), n + 1.0));
+    (count > 0.0).then(|| sum / count)
+}

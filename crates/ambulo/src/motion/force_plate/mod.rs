@@ -1,0 +1,145 @@
+//! Force plates: the force on the foot, from the channels of a plate to the laboratory's axes.
+//!
+//! With R the plate's axes in the laboratory, C the centre of its surface, n the upward normal, and F, M the force and
+//! its moment about C in the plate's axes ([`kind`]):
+//!
+//!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
+//!
+//! | code                   | symbol | unit | meaning                                     |
+//! | `force`                | F_lab  | N    | of the plate on the foot                    |
+//! | `moment`               | M₀     | N.m  | about the origin of the axes                |
+//! | `center_of_pressure`   | p      | m    | on the surface                              |
+//! | `free_moment`          | T      | N.m  | about the normal through p                  |
+//!
+//! Derived from R M = (p - C) × R F + T n with (p - C) · n = 0.
+//! A person can push a plate and not pull it, so the load acts along n: a plate whose load acts the other way round
+//! records the force of the foot on it, and all its signs are turned.
+//! Pinned by: tests/force_plate.rs, tests/laboratory_files.rs
+
+mod baseline;
+mod c3d;
+mod clipping;
+mod decode;
+mod kind;
+mod standing;
+mod surface;
+mod units;
+
+pub use c3d::{PlateError, plates_from_c3d};
+pub use standing::standing_weight_n;
+
+use crate::spatial::{Mat3, Vec3};
+
+/// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
+pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
+
+/// What one force plate measured. From a file it stands in the laboratory's axes; [`PlateRecording::turned`] brings it to
+/// the world's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlateRecording {
+    /// Name: `plate 1`, counted from 1 in the order of the file.
+    pub name: String,
+    /// FORCE_PLATFORM:TYPE of the file.
+    pub kind: u8,
+    /// Instants [s], strictly rising.
+    pub times: Vec<f64>,
+    /// Force of the plate on the foot [N], one entry an instant.
+    pub force: Vec<Vec3>,
+    /// Its moment about the origin of the axes [N.m].
+    pub moment: Vec<Vec3>,
+    /// Corners of the surface, in the order of the file [m].
+    pub corners: [Vec3; 4],
+    /// Unit normal of the surface, upward.
+    pub up: Vec3,
+    /// Vertical force that the unloaded plate showed and that was removed [N]; `None` if nothing was removed.
+    pub baseline_n: Option<f64>,
+    /// Times during which a channel was at the end of its range: first and last instant [s].
+    pub clipped: Vec<[f64; 2]>,
+}
+
+/// How plates are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlateSettings {
+    /// Whether what a plate shows without load is removed.
+    pub remove_baseline: bool,
+}
+
+impl Default for PlateSettings {
+    fn default() -> PlateSettings {
+        PlateSettings { remove_baseline: true }
+    }
+}
+
+impl PlateRecording {
+    /// Centre of the surface: the mean of its corners [m].
+    #[must_use]
+    pub fn center(&self) -> Vec3 {
+        self.corners.iter().sum::<Vec3>() * 0.25
+    }
+
+    /// Force along the upward normal [N].
+    #[must_use]
+    pub fn vertical(&self, sample: usize) -> f64 {
+        self.force[sample].dot(&self.up)
+    }
+
+    /// Whether the plate carries more than [`CENTER_OF_PRESSURE_LOAD_N`].
+    #[must_use]
+    pub fn is_loaded(&self, sample: usize) -> bool {
+        self.vertical(sample) > CENTER_OF_PRESSURE_LOAD_N
+    }
+
+    /// Largest vertical force [N]; zero without samples.
+    #[must_use]
+    pub fn peak_n(&self) -> f64 {
+        (0..self.times.len()).map(|i| self.vertical(i)).fold(0.0, f64::max)
+    }
+
+    /// Moment of the force about the centre of the surface [N.m].
+    #[must_use]
+    pub fn moment_about_center(&self, sample: usize) -> Vec3 {
+        self.moment[sample] - self.center().cross(&self.force[sample])
+    }
+
+    /// Centre of pressure [m]; not a number while the plate is unloaded.
+    #[must_use]
+    pub fn center_of_pressure(&self, sample: usize) -> Vec3 {
+        if !self.is_loaded(sample) {
+            return Vec3::repeat(f64::NAN);
+        }
+        self.center() + self.up.cross(&self.moment_about_center(sample)) / self.vertical(sample)
+    }
+
+    /// Moment about the normal through the centre of pressure [N.m]; not a number while the plate is unloaded.
+    #[must_use]
+    pub fn free_moment(&self, sample: usize) -> f64 {
+        let arm = self.center_of_pressure(sample) - self.center();
+        self.up.dot(&(self.moment_about_center(sample) - arm.cross(&self.force[sample])))
+    }
+
+    /// How far a point lies inside the edges, measured along the surface [m]; negative outside.
+    #[must_use]
+    pub fn depth_inside(&self, point: Vec3) -> f64 {
+        let center = self.center();
+        let edge = |i: usize| {
+            let (a, b) = (self.corners[i], self.corners[(i + 1) % 4]);
+            let outward = (b - a).cross(&self.up).normalize();
+            let outward = if outward.dot(&(a - center)) < 0.0 { -outward } else { outward };
+            outward.dot(&(a - point))
+        };
+        (0..4).map(edge).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The same measurements seen from axes that are turned: `world_from_lab * v`.
+    #[must_use]
+    pub fn turned(&self, world_from_lab: &Mat3) -> PlateRecording {
+        let turn = |vectors: &[Vec3]| vectors.iter().map(|v| world_from_lab * v).collect();
+        PlateRecording {
+            force: turn(&self.force),
+            moment: turn(&self.moment),
+            corners: self.corners.map(|c| world_from_lab * c),
+            up: world_from_lab * self.up,
+            ..self.clone()
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The weight of somebody who stands.
+
+use super::PlateRecording;
+
+/// Plates carry a person if together they carry more than this [N].
+const PERSON_N: f64 = 50.0;
+/// Somebody stands if nine tenths of the loaded samples keep within this share of their median.
+const STILL_SHARE: f64 = 0.1;
+
+/// The median of what all plates carry together [N], if that is a person who stands still; `None` otherwise. Divided by g it is a
+/// mass, if both feet stand on plates.
+#[must_use]
+pub fn standing_weight_n(plates: &[PlateRecording]) -> Option<f64> {
+    let samples = plates.iter().map(|p| p.times.len()).min()?;
+    let total = |i: usize| plates.iter().map(|p| p.vertical(i)).sum::<f64>();
+    let mut loaded: Vec<f64> = (0..samples).map(total).filter(|x| *x > PERSON_N).collect();
+    loaded.sort_by(f64::total_cmp);
+    let at = |share: f64| loaded.get((share * loaded.len() as f64) as usize).copied();
+    let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
+    let still = middle - low <= STILL_SHARE * middle && high - middle <= STILL_SHARE * middle;
+    (still && 2 * loaded.len() > samples).then_some(middle)
+}

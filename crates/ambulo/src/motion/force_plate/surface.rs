@@ -1,0 +1,61 @@
+//! Where a plate lies: its corners, centre, axes and normal.
+
+use crate::spatial::{Mat3, Vec3};
+
+/// Opposite edges may differ by this share of the longer one; measured corners of flat plates differ by less than 1 %.
+const EDGE_MISMATCH: f64 = 0.2;
+/// Neighbouring edges meet at right angles to within this cosine (14 degrees).
+const SKEW: f64 = 0.25;
+/// Shortest edge of a plate that a foot can stand on [m].
+const SHORTEST_EDGE_M: f64 = 0.05;
+
+/// The surface of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Surface {
+    /// Mean of the four corners [m].
+    pub(super) center: Vec3,
+    /// Columns are the plate's x, y, z in the laboratory.
+    pub(super) lab_from_plate: Mat3,
+    /// Edges along the plate's x and y [m].
+    pub(super) size: [f64; 2],
+}
+
+impl Surface {
+    /// From the corners in the order of FORCE_PLATFORM:CORNERS: (+x +y), (-x +y), (-x -y), (+x -y) of the plate's axes.
+    ///
+    /// The centre is the mean of all four (BTK takes the middle of the diagonal from the first to the third, ezc3d the mean of four:
+    /// opensim-org/opensim-core#2860; the mean has the smaller error if each corner was measured alone).
+    ///
+    /// # Errors
+    /// What is wrong with the corners, for people.
+    pub(super) fn through(corners: &[Vec3; 4]) -> Result<Surface, String> {
+        let [c1, c2, c3, c4] = corners;
+        if !corners.iter().all(|c| c.iter().all(|x| x.is_finite())) {
+            return Err("a corner is not a number".to_owned());
+        }
+        let edges = [(c1 - c2).norm(), (c4 - c3).norm(), (c1 - c4).norm(), (c2 - c3).norm()];
+        let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
+        if shortest < SHORTEST_EDGE_M {
+            return Err(format!("its shortest edge is {shortest:.4} m"));
+        }
+        let mismatch = |a: f64, b: f64| (a - b).abs() > EDGE_MISMATCH * a.max(b);
+        let (x, y) = ((c1 + c4 - c2 - c3) * 0.5, (c1 + c2 - c3 - c4) * 0.5);
+        let cosine = x.normalize().dot(&y.normalize());
+        let skewed = cosine.is_nan() || cosine.abs() > SKEW;
+        if mismatch(edges[0], edges[1]) || mismatch(edges[2], edges[3]) || skewed {
+            return Err(format!(
+                "its corners form no rectangle (edges {:.3}, {:.3}, {:.3}, {:.3} m)",
+                edges[0], edges[3], edges[1], edges[2]
+            ));
+        }
+        let z = x.cross(&y).normalize();
+        let across = x.normalize();
+        let lab_from_plate = Mat3::from_columns(&[across, z.cross(&across), z]);
+        Ok(Surface { center: (c1 + c2 + c3 + c4) * 0.25, lab_from_plate, size: [x.norm(), y.norm()] })
+    }
+
+    /// The plate's z in the laboratory: down, if the plate lies in the floor and its corners stand in the agreed order.
+    pub(super) fn normal(&self) -> Vec3 {
+        self.lab_from_plate.column(2).into()
+    }
+}

@@ -1,0 +1,389 @@
+//! How a laboratory's axes lie in the world: x forward, y up, z right.
+//!
+//! **Up** is the way in which feet are pushed by plates, and the way from the feet to the pelvis and the head; it is
+//! taken as one of the laboratory's axes. **Forward** is the way that the pelvis goes; if it goes nowhere (a treadmill,
+//! standing) the way that feet and pelvis look to. Within [`SNAP_DEG`] of an axis it is that axis, otherwise the measured
+//! heading. The rows of `world_from_lab` are forward, up and right = forward × up.
+//!
+//! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is not that of a person, the power
+//! of ten that makes it so is taken.
+//! Pinned by: tests/laboratory.rs, tests/laboratory_files.rs
+
+use super::force_plate::PlateRecording;
+use super::landmarks::Landmarks;
+use super::marker_recording::{MarkerPath, MarkerRecording};
+use crate::findings::Findings;
+use crate::model::Side;
+use crate::spatial::{Mat3, Vec3};
+
+/// A heading within this of an axis of the laboratory is that axis [deg].
+const SNAP_DEG: f64 = 10.0;
+/// A direction must lie within this of an axis to be called up [deg]; bodies lean and plates are flat.
+const UPRIGHT_DEG: f64 = 30.0;
+/// A pelvis that ends further away than this went somewhere [m] ...
+const WALKED_M: f64 = 0.4;
+/// ... if it was also faster than this [m/s].
+const WALKED_M_S: f64 = 0.15;
+/// Headings of first and second half of a path that differ by more than this are a turn [deg].
+const TURN_DEG: f64 = 20.0;
+/// Who goes this far from where they look goes sideways [deg], and beyond 180° less this, backwards.
+const SIDEWAYS_DEG: f64 = 60.0;
+/// Heights of the markers of a person, from a set for the legs of a child to a tall adult with raised arms [m].
+const HEIGHT_M: [f64; 2] = [0.35, 3.0];
+/// Factors that slips of unit bring.
+const SLIPS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+/// Directions are only averaged if they agree: length of the mean of the unit vectors.
+const AGREEING: f64 = 0.7;
+
+/// Axes of a laboratory, and what one of its metres is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Laboratory {
+    /// Rotation from the laboratory's axes to the world's.
+    pub world_from_lab: Mat3,
+    /// 1, or the factor that puts a wrong unit right.
+    pub metres_per_stated_metre: f64,
+    /// How forward was found.
+    pub heading: Heading,
+    /// One line for people: `lab z up, mm, walking +y -> world x forward, y up, z right, m`.
+    pub statement: String,
+}
+
+/// How forward was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Heading {
+    /// The pelvis went that way.
+    Walking,
+    /// The body stays where it is and looks that way.
+    Facing,
+    /// Neither was found; an axis was taken.
+    Unknown,
+}
+
+impl Laboratory {
+    /// Markers in the world's axes, in metres.
+    #[must_use]
+    pub fn markers(&self, recording: &MarkerRecording) -> MarkerRecording {
+        recording.turned(&(self.world_from_lab * self.metres_per_stated_metre))
+    }
+
+    /// A plate in the world's axes, in metres; its moments are in the same unit as its lengths.
+    #[must_use]
+    pub fn plate(&self, plate: &PlateRecording) -> PlateRecording {
+        let mut plate = plate.turned(&self.world_from_lab);
+        plate.corners = plate.corners.map(|c| c * self.metres_per_stated_metre);
+        plate.moment.iter_mut().for_each(|m| *m *= self.metres_per_stated_metre);
+        plate
+    }
+}
+
+/// The laboratory of a recording: its markers in metres and its plates, both in the laboratory's axes. `unit` is what
+/// the file says, for the statement.
+///
+/// What could not be found is a warning.
+#[must_use]
+pub fn laboratory(
+    markers: &MarkerRecording,
+    plates: &[PlateRecording],
+    unit: &str,
+    findings: &mut Findings,
+) -> Laboratory {
+    let landmarks = Landmarks::find(markers);
+    let up = upward(markers, &landmarks, plates, findings);
+    let scale = scale(markers, up, findings);
+    let (forward, heading) = forward(markers, &landmarks, plates, up, scale, findings);
+    let right = forward.cross(&up);
+    let way = match heading {
+        Heading::Walking => "walking",
+        Heading::Facing => "facing",
+        Heading::Unknown => "forward taken as",
+    };
+    let unit = if (scale - 1.0).abs() > 0.0 { format!("{unit} x {scale}") } else { unit.to_owned() };
+    Laboratory {
+        world_from_lab: Mat3::from_rows(&[forward.transpose(), up.transpose(), right.transpose()]),
+        metres_per_stated_metre: scale,
+        heading,
+        statement: format!(
+            "lab {} up, {unit}, {way} {} -> world x forward, y up, z right, m",
+            up_name(up),
+            direction_name(forward, up)
+        ),
+    }
+}
+
+// ---- up ----
+
+fn upward(
+    markers: &MarkerRecording,
+    landmarks: &Landmarks,
+    plates: &[PlateRecording],
+    findings: &mut Findings,
+) -> Vec3 {
+    let of_body = body_axis(markers, landmarks);
+    let pushed: Vec3 =
+        plates.iter().flat_map(|p| (0..p.times.len()).filter(|&i| p.is_loaded(i)).map(|i| p.force[i])).sum();
+    let of_plates = pushed.try_normalize(1.0).map(nearest_axis).filter(|(_, deg)| *deg <= UPRIGHT_DEG);
+    let of_body = of_body.map(nearest_axis);
+    match (of_body, of_plates) {
+        (Some((body, deg)), Some((plate, _))) if deg <= UPRIGHT_DEG && body != plate => {
+            let message = format!(
+                "the bodies' markers say that {} is up, the force plates {}; the markers were believed",
+                up_name(body),
+                up_name(plate)
+            );
+            findings.warn("laboratory.up_contradicted", message);
+            body
+        }
+        (_, Some((plate, _))) => plate,
+        (Some((body, deg)), None) if deg <= UPRIGHT_DEG => body,
+        (body, None) => {
+            let up = body.map_or_else(|| longest_axis(markers), |(axis, _)| axis);
+            let message = format!(
+                "no plate and no posture says which axis is up; {} was taken. hint: name heel, toe and pelvis markers as in the list of marker sets",
+                up_name(up)
+            );
+            findings.warn("laboratory.up_unclear", message);
+            up
+        }
+    }
+}
+
+/// Mean direction from the feet to pelvis and head, where the names of the markers are known.
+fn body_axis(markers: &MarkerRecording, landmarks: &Landmarks) -> Option<Vec3> {
+    let low: Vec<usize> = landmarks.right.all().chain(landmarks.left.all()).collect();
+    let high: Vec<usize> = landmarks.pelvis().into_iter().chain(landmarks.head.iter().copied()).collect();
+    let directions = (0..markers.frames()).filter_map(|i| {
+        let (low, high) = (mean_of_seen(markers, &low, i)?, mean_of_seen(markers, &high, i)?);
+        (high - low).try_normalize(f64::MIN_POSITIVE)
+    });
+    agreeing(directions)
+}
+
+/// The axis along which the markers of one frame are spread most.
+fn longest_axis(markers: &MarkerRecording) -> Vec3 {
+    let spread = |axis: &Vec3| median((0..markers.frames()).filter_map(|i| extent(markers, i, *axis)).collect());
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let spreads = axes.each_ref().map(|a| spread(a).unwrap_or(0.0));
+    let longest = (0..3).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b])).unwrap_or(2);
+    axes[longest]
+}
+
+// ---- unit ----
+
+fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
+    let Some(height) = median((0..markers.frames()).filter_map(|i| extent(markers, i, up)).collect()) else {
+        return 1.0;
+    };
+    let fits = |factor: f64| (HEIGHT_M[0]..=HEIGHT_M[1]).contains(&(height * factor));
+    if fits(1.0) || height <= 0.0 {
+        return 1.0;
+    }
+    let Some(factor) = SLIPS.into_iter().find(|&f| fits(f)) else {
+        let message = format!(
+            "the markers span {height:.3} m from lowest to highest, which is no standing person and no slip of unit; lengths were left as they are"
+        );
+        findings.warn("laboratory.size_odd", message);
+        return 1.0;
+    };
+    let message = format!(
+        "the markers span {height:.4} m from lowest to highest by the file's unit; lengths were multiplied by {factor}, which gives {:.3} m",
+        height * factor
+    );
+    findings.warn("laboratory.unit_changed", message);
+    factor
+}
+
+/// From the lowest to the highest marker of a frame; `None` with fewer than three.
+fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
+    let seen = markers.markers.iter().filter(|m| m.is_seen(frame)).map(|m| m.positions[frame].dot(&axis));
+    let (low, high, count) =
+        seen.fold((f64::INFINITY, f64::NEG_INFINITY, 0), |(l, h, n), x| (l.min(x), h.max(x), n + 1));
+    (count >= 3).then_some(high - low)
+}
+
+// ---- forward ----
+
+fn forward(
+    markers: &MarkerRecording,
+    landmarks: &Landmarks,
+    plates: &[PlateRecording],
+    up: Vec3,
+    scale: f64,
+    findings: &mut Findings,
+) -> (Vec3, Heading) {
+    let facing = facing(markers, landmarks, up);
+    match (travel(markers, landmarks, plates, up, scale, findings), facing) {
+        (Some(travel), None) => (snapped(travel, up), Heading::Walking),
+        (Some(travel), Some(facing)) => {
+            let apart = angle_deg(travel, facing);
+            if apart <= SIDEWAYS_DEG {
+                return (snapped(travel, up), Heading::Walking);
+            }
+            if apart >= 180.0 - SIDEWAYS_DEG {
+                let message = "the body goes backwards: forward is where it looks to, against its way";
+                findings.warn("laboratory.backwards", message);
+                return (snapped(-travel, up), Heading::Walking);
+            }
+            let message = format!(
+                "the body goes {apart:.0} degrees beside where it looks to; forward is where it looks to. hint: swapped left and right markers look like this too"
+            );
+            findings.warn("laboratory.sideways", message);
+            (snapped(facing, up), Heading::Facing)
+        }
+        (None, Some(facing)) => (snapped(facing, up), Heading::Facing),
+        (None, None) => {
+            let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
+            let message = format!(
+                "nothing says which way is forward (the body stays where it is, and no heel, toe or pelvis marker is known); {} was taken",
+                direction_name(forward, up)
+            );
+            findings.warn("laboratory.forward_unclear", message);
+            (forward, Heading::Unknown)
+        }
+    }
+}
+
+/// Where the pelvis goes, if it goes anywhere.
+fn travel(
+    markers: &MarkerRecording,
+    landmarks: &Landmarks,
+    plates: &[PlateRecording],
+    up: Vec3,
+    scale: f64,
+    findings: &mut Findings,
+) -> Option<Vec3> {
+    let path = body_path(markers, landmarks, up);
+    let (first, last) = (path.first()?, path.last()?);
+    let way = last.1 - first.1;
+    let duration = last.0 - first.0;
+    if way.norm() * scale < WALKED_M || way.norm() * scale < WALKED_M_S * duration {
+        return None;
+    }
+    let middle = path[path.len() / 2].1;
+    let turn = angle_deg(middle - first.1, last.1 - middle);
+    if turn <= TURN_DEG {
+        return Some(way.normalize());
+    }
+    let on_plates = loaded_span(plates).and_then(|[from, to]| {
+        let inside: Vec<&(f64, Vec3)> = path.iter().filter(|(t, _)| (from..=to).contains(t)).collect();
+        let way = inside.last()?.1 - inside.first()?.1;
+        (way.norm() * scale >= WALKED_M).then(|| way.normalize())
+    });
+    let chosen = if on_plates.is_some() { "its way over the loaded plates" } else { "its way from beginning to end" };
+    let message = format!(
+        "the body turns by about {turn:.0} degrees on its way; forward is {chosen}, and angles of the pelvis and fore-aft forces mean less than on a straight way"
+    );
+    findings.warn("laboratory.turning", message);
+    on_plates.or(Some(way.normalize()))
+}
+
+/// Instants and horizontal places of the pelvis, or of the middle of all markers that are always seen.
+fn body_path(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<(f64, Vec3)> {
+    let of = |chosen: &[usize]| -> Vec<(f64, Vec3)> {
+        let place = |i: usize| mean_of(markers, chosen, i).map(|p| (markers.times[i], p - up * p.dot(&up)));
+        (0..markers.frames()).filter_map(place).collect()
+    };
+    let seen = |m: &MarkerPath| (0..m.positions.len()).filter(|&i| m.is_seen(i)).count();
+    let mut pelvis = landmarks.pelvis();
+    pelvis.retain(|&m| 2 * seen(&markers.markers[m]) > markers.frames());
+    let path = of(&pelvis);
+    if path.len() >= 2 {
+        return path;
+    }
+    let most = markers.markers.iter().map(seen).max().unwrap_or(0);
+    let steady: Vec<usize> = (0..markers.markers.len()).filter(|&i| seen(&markers.markers[i]) == most).collect();
+    of(&steady)
+}
+
+/// First and last instant at which a plate was loaded [s].
+fn loaded_span(plates: &[PlateRecording]) -> Option<[f64; 2]> {
+    let loaded = || plates.iter().flat_map(|p| (0..p.times.len()).filter(|&i| p.is_loaded(i)).map(|i| p.times[i]));
+    let (from, to) = (loaded().reduce(f64::min)?, loaded().reduce(f64::max)?);
+    (to > from).then_some([from, to])
+}
+
+/// Where pelvis and feet look to, on average.
+fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<Vec3> {
+    let level = |v: Vec3| (v - up * v.dot(&up)).try_normalize(f64::MIN_POSITIVE);
+    let at = |marker: Option<usize>, i: usize| {
+        marker.filter(|&m| markers.markers[m].is_seen(i)).map(|m| markers.markers[m].positions[i])
+    };
+    let pelvis = (0..markers.frames()).filter_map(|i| {
+        let right = at(landmarks.asis_r, i)? - at(landmarks.asis_l, i)?;
+        level(up.cross(&right))
+    });
+    let foot = |side: Side| {
+        let foot = *landmarks.foot(side);
+        (0..markers.frames()).filter_map(move |i| level(at(foot.toe, i)? - at(foot.heel, i)?)).collect::<Vec<_>>()
+    };
+    let feet = Side::BOTH.into_iter().flat_map(foot);
+    agreeing(pelvis.chain(feet))
+}
+
+// ---- directions ----
+
+fn snapped(direction: Vec3, up: Vec3) -> Vec3 {
+    let level = direction - up * direction.dot(&up);
+    let (axis, deg) = nearest_axis(level.try_normalize(f64::MIN_POSITIVE).unwrap_or(direction));
+    if deg <= SNAP_DEG { axis } else { level.normalize() }
+}
+
+/// The axis of the laboratory next to a unit vector, and the angle to it [deg].
+fn nearest_axis(direction: Vec3) -> (Vec3, f64) {
+    let i = direction.iamax();
+    let mut axis = Vec3::zeros();
+    axis[i] = direction[i].signum();
+    (axis, angle_deg(axis, direction))
+}
+
+fn angle_deg(a: Vec3, b: Vec3) -> f64 {
+    a.cross(&b).norm().atan2(a.dot(&b)).to_degrees()
+}
+
+/// The mean direction, if the directions agree.
+fn agreeing(directions: impl Iterator<Item = Vec3>) -> Option<Vec3> {
+    let (sum, count) = directions.fold((Vec3::zeros(), 0.0), |(s, n), d| (s + d, n + 1.0));
+    (count > 0.0 && sum.norm() / count >= AGREEING).then(|| sum.normalize())
+}
+
+/// `+y`, or the angle of a direction that is no axis.
+fn direction_name(direction: Vec3, up: Vec3) -> String {
+    let (axis, deg) = nearest_axis(direction);
+    if deg < 1e-6 {
+        return axis_name(axis);
+    }
+    let second = direction - axis * direction.dot(&axis);
+    let (towards, _) = nearest_axis(second.try_normalize(f64::MIN_POSITIVE).unwrap_or(up));
+    format!("{deg:.0} degrees from {} towards {}", axis_name(axis), axis_name(towards))
+}
+
+fn axis_name(axis: Vec3) -> String {
+    let i = axis.iamax();
+    let sign = if axis[i] < 0.0 { '-' } else { '+' };
+    format!("{sign}{}", ["x", "y", "z"][i])
+}
+
+/// `z`, or `-z` where the axis points down.
+fn up_name(up: Vec3) -> String {
+    axis_name(up).trim_start_matches('+').to_owned()
+}
+
+// ---- markers ----
+
+/// Mean of those markers that were seen in a frame.
+fn mean_of_seen(markers: &MarkerRecording, chosen: &[usize], frame: usize) -> Option<Vec3> {
+    let seen: Vec<usize> = chosen.iter().copied().filter(|&m| markers.markers[m].is_seen(frame)).collect();
+    mean_of(markers, &seen, frame)
+}
+
+/// Mean of some markers in a frame; `None` unless all of them were seen, so that the mean does not jump.
+fn mean_of(markers: &MarkerRecording, chosen: &[usize], frame: usize) -> Option<Vec3> {
+    if chosen.is_empty() || !chosen.iter().all(|&m| markers.markers[m].is_seen(frame)) {
+        return None;
+    }
+    Some(chosen.iter().map(|&m| markers.markers[m].positions[frame]).sum::<Vec3>() / chosen.len() as f64)
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

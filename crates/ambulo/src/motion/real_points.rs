@@ -1,0 +1,58 @@
+//! Which points of a C3D file are markers that cameras saw.
+
+use super::marker_recording::MarkerPath;
+use crate::findings::Findings;
+use ambulo_formats::c3d::{C3d, Point};
+
+/// Parameters of POINT that list points which are no places (Vicon's type groups), or were computed.
+const TYPE_GROUPS: [&str; 7] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "MODELED_MARKERS", "REACTIONS"];
+
+/// Segments whose axes Plug-in Gait and the Oxford foot model write as four points: origin O, anterior A, lateral L,
+/// proximal P, as in `LFEO`, `LFEA`, `LFEL`, `LFEP`.
+const AXES: [&str; 11] = ["PEL", "HED", "TRX", "FE", "TI", "FO", "TO", "CL", "HU", "RA", "HN"];
+
+/// The points that are markers: with a name, listed in no type group, none of the computed axes.
+pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
+    let listed: Vec<&str> = TYPE_GROUPS.iter().flat_map(|group| file.parameters.texts("POINT", group)).collect();
+    let names: Vec<&str> = file.points.iter().map(|p| p.name.as_str()).collect();
+    let is_real = |point: &&Point| {
+        let name = point.name.trim();
+        !name.is_empty() && !name.starts_with('*') && !listed.contains(&point.name.as_str()) && !is_axis(name, &names)
+    };
+    file.points.iter().filter(is_real).collect()
+}
+
+/// Whether a name is one of four that make the axes of a segment.
+fn is_axis(name: &str, all: &[&str]) -> bool {
+    let plain = name.rsplit(':').next().unwrap_or(name);
+    let Some(stem) = plain.strip_suffix(['O', 'A', 'L', 'P']) else { return false };
+    let segment = AXES.iter().any(|s| stem == *s || stem.strip_prefix(['L', 'R']) == Some(s));
+    let head = &name[..name.len() - plain.len()];
+    segment && ["O", "A", "L", "P"].iter().all(|end| all.iter().any(|n| n.trim() == format!("{head}{stem}{end}")))
+}
+
+/// Length of the prefix up to a colon that all names share, zero if they share none.
+pub(super) fn shared_prefix(names: &[&str]) -> usize {
+    let Some(end) = names.first().and_then(|n| n.find(':')).map(|i| i + 1) else { return 0 };
+    let prefix = &names[0][..end];
+    if names.iter().all(|n| n.len() > end && n.starts_with(prefix)) { end } else { 0 }
+}
+
+/// Of paths with one name the one that was seen longest, at the place of the first.
+pub(super) fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<MarkerPath> {
+    let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
+    let mut kept: Vec<MarkerPath> = Vec::new();
+    for path in paths {
+        match kept.iter_mut().find(|k| k.name == path.name) {
+            None => kept.push(path),
+            Some(before) => {
+                let message = format!("two points are called {}; the one that was seen longer was kept", path.name);
+                findings.warn("markers.name_twice", message);
+                if seen(&path) > seen(before) {
+                    *before = path;
+                }
+            }
+        }
+    }
+    kept
+}

@@ -1,0 +1,175 @@
+//! Which foot is on which plate, on a walk whose steps are known.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod free_bodies;
+mod marker_walk;
+
+use ambulo::findings::Findings;
+use ambulo::ground::foot_motion::foot_motion;
+use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates, foot_bodies};
+use ambulo::model::Side;
+use ambulo::motion::{MarkerRecording, PlateRecording};
+use ambulo::spatial::Vec3;
+use free_bodies::{DOWN_Y, free_bodies};
+use marker_walk::{Load, place, plate, plate_under, stances, walk};
+
+const R: Side = Side::Right;
+const L: Side = Side::Left;
+
+fn judge(markers: &MarkerRecording, plates: &[PlateRecording], told: &[(usize, Side)]) -> (FeetOnPlates, Findings) {
+    let mut findings = Findings::default();
+    let motion = foot_motion(markers, &mut findings);
+    let feet = feet_on_plates(markers, plates, &motion, told, &mut findings);
+    (feet, findings)
+}
+
+/// Two plates, under the right foot's second stance and the left foot's that follows.
+fn two_plates() -> Vec<PlateRecording> {
+    vec![plate_under(R, 1, &[Load::whole(R, 1)]), plate_under(L, 1, &[Load::whole(L, 1)])]
+}
+
+#[test]
+fn a_foot_on_a_plate_of_its_own_is_clean() {
+    let (feet, findings) = judge(&walk(), &two_plates(), &[]);
+    let told: Vec<_> = feet.contacts.iter().map(|c| (c.plate, c.side, c.quality)).collect();
+    assert_eq!(told, [(0, Some(R), ContactQuality::Clean), (1, Some(L), ContactQuality::Clean)], "{feet:?}");
+    assert!(findings.as_slice().is_empty(), "{findings:?}");
+    let (_, strike, off) = stances(R)[2];
+    let contact = &feet.contacts[0];
+    assert!((contact.start_s - strike).abs() < 0.003 && (contact.end_s - off).abs() < 0.003, "{contact:?}");
+    assert!((contact.peak_n - 700.0).abs() < 1.0 && contact.distance_m < 0.02, "{contact:?}");
+}
+
+#[test]
+fn the_window_is_the_time_without_a_foot_on_unmeasured_floor() {
+    let (feet, _) = judge(&walk(), &two_plates(), &[]);
+    // From the off of the left foot before its plate to the strike of the right foot after its plate.
+    let (from, to) = (stances(L)[1].2, stances(R)[3].1);
+    assert_eq!(feet.windows.len(), 1, "{:?}", feet.windows);
+    // Both ends are events by motion, of a foot that stops 0.05 s before it stands.
+    assert!((feet.windows[0][0] - from).abs() < 0.06 && (feet.windows[0][1] - to).abs() < 0.06, "{:?}", feet.windows);
+    // One plate alone: until the other foot's strike.
+    let (one, _) = judge(&walk(), &two_plates()[..1], &[]);
+    assert!((one.windows[0][1] - stances(L)[2].1).abs() < 0.06, "{:?}", one.windows);
+}
+
+#[test]
+fn two_feet_on_one_plate_are_seen_and_given_to_neither() {
+    let (a, b) = (place(R, 1), place(L, 1));
+    let big = plate([a.x - 0.3, -0.4], [b.x + 0.4, 0.4], 0.0, &[Load::whole(R, 1), Load::whole(L, 1)]);
+    let (feet, findings) = judge(&walk(), std::slice::from_ref(&big), &[]);
+    assert_eq!(feet.contacts.len(), 1);
+    assert_eq!(feet.contacts[0].quality, ContactQuality::TwoFeet, "{feet:?}");
+    assert!(findings.has("plates.two_feet") && findings.has("plates.no_window"));
+    let bodies = foot_bodies(&free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)])).unwrap();
+    assert!(feet.recordings(std::slice::from_ref(&big), bodies).is_empty());
+    // A person may decide otherwise.
+    let (told, _) = judge(&walk(), std::slice::from_ref(&big), &[(0, L)]);
+    assert_eq!(told.contacts[0].side, Some(L));
+    assert_eq!(told.recordings(&[big], bodies)[0].body, bodies[1]);
+}
+
+#[test]
+fn a_force_that_ends_while_the_foot_stands_is_partial() {
+    let early = Load { to: 0.55, ..Load::whole(L, 1) };
+    let plates = [two_plates()[0].clone(), plate_under(L, 1, &[early])];
+    let (feet, findings) = judge(&walk(), &plates, &[]);
+    let left = &feet.contacts[1];
+    assert_eq!((left.side, left.quality), (Some(L), ContactQuality::Partial), "{left:?}");
+    assert!(left.reason.contains("before the foot left the floor"), "{}", left.reason);
+    assert!(findings.has("plates.partial"));
+    assert!(feet.windows.iter().all(|w| w[1] <= stances(L)[2].1 + 0.06), "{:?}", feet.windows);
+    let late = Load { from: 0.4, ..Load::whole(L, 1) };
+    let (feet, _) = judge(&walk(), &[plate_under(L, 1, &[late])], &[]);
+    assert!(feet.contacts[0].reason.contains("before the force"), "{:?}", feet.contacts);
+}
+
+#[test]
+fn a_foot_over_the_edge_is_partial_and_with_the_next_plate_shared() {
+    let p = place(R, 1);
+    // An edge in the middle of the foot, half of the load on either side.
+    let half = Load { share: 0.5, ..Load::whole(R, 1) };
+    let (behind, ahead) = (
+        plate([p.x - 0.4, -0.1], [p.x + 0.04, 0.3], 0.0, &[half]),
+        plate([p.x + 0.04, -0.1], [p.x + 0.5, 0.3], 0.0, &[half]),
+    );
+    let (alone, findings) = judge(&walk(), std::slice::from_ref(&behind), &[]);
+    assert_eq!(alone.contacts[0].quality, ContactQuality::Partial);
+    assert!(alone.contacts[0].reason.contains("toe stood 100 mm beyond the edge"), "{:?}", alone.contacts);
+    assert!(findings.has("plates.partial"));
+    let (both, findings) = judge(&walk(), &[behind, ahead], &[]);
+    assert!(both.contacts.iter().all(|c| c.quality == ContactQuality::Shared && c.side == Some(R)), "{both:?}");
+    assert!(findings.has("plates.shared") && !findings.has("plates.partial"));
+    assert!(!both.windows.is_empty());
+}
+
+#[test]
+fn a_load_that_no_foot_is_near_is_given_to_nobody() {
+    // The load of the right foot, two metres beside the walk.
+    let mut plate = plate_under(R, 1, &[Load::whole(R, 1)]);
+    let aside = Vec3::new(0.0, 0.0, 2.0);
+    plate.corners = plate.corners.map(|c| c + aside);
+    for (moment, force) in plate.moment.iter_mut().zip(&plate.force) {
+        *moment += aside.cross(force);
+    }
+    let (feet, findings) = judge(&walk(), &[plate], &[]);
+    assert_eq!((feet.contacts[0].side, feet.contacts[0].quality), (None, ContactQuality::Unassigned));
+    assert!(findings.has("plates.unassigned") && feet.contacts[0].reason.contains("no foot is near"));
+}
+
+#[test]
+fn a_foot_that_is_hidden_meanwhile_is_known_by_its_stance() {
+    let mut markers = walk();
+    let (_, strike, off) = stances(R)[2];
+    let times = markers.times.clone();
+    for marker in markers.markers.iter_mut().filter(|m| m.name == "RTOE") {
+        for (position, t) in marker.positions.iter_mut().zip(&times) {
+            if (strike - 0.02..off - 0.2).contains(t) {
+                *position = Vec3::repeat(f64::NAN);
+            }
+        }
+    }
+    let (feet, _) = judge(&markers, &two_plates(), &[]);
+    assert_eq!(feet.contacts[0].side, Some(R), "{:?}", feet.contacts);
+}
+
+#[test]
+fn recordings_hold_all_that_each_plate_measured() {
+    // One plate that both feet use, one after the other, and one for the left foot alone at another height.
+    let a = place(R, 0);
+    let shared = plate([a.x - 0.5, -0.4], [a.x + 3.0, 0.4], 0.0, &[Load::whole(R, 0), Load::whole(L, 2)]);
+    let alone = plate([place(L, 1).x - 0.2, -0.3], [place(L, 1).x + 0.3, 0.1], 0.1, &[Load::whole(L, 1)]);
+    let plates = [shared, alone];
+    let (feet, _) = judge(&walk(), &plates, &[(1, L)]);
+    let bodies = foot_bodies(&free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)])).unwrap();
+    let forced: Vec<_> = feet.contacts.iter().map(|c| (c.plate, c.side, c.quality)).collect();
+    assert_eq!(forced.len(), 3, "{forced:?}");
+    let recordings = feet.recordings(&plates, bodies);
+    for (i, &t) in plates[0].times.iter().enumerate() {
+        let expected: Vec3 = plates.iter().map(|p| p.force[i]).sum();
+        let given: Vec3 = recordings.iter().map(|r| r.force[i]).sum();
+        let moment: Vec3 = recordings.iter().map(|r| r.point[i].cross(&r.force[i]) + r.moment[i]).sum();
+        let measured: Vec3 = plates.iter().map(|p| p.moment[i]).sum();
+        let whose = feet.contacts.iter().filter(|c| c.quality != ContactQuality::TwoFeet);
+        if whose.clone().any(|c| c.start_s < t && t < c.end_s) || expected.norm() < 1.0 {
+            assert!((expected - given).norm() < 1e-9 && (moment - measured).norm() < 1e-9, "{t}");
+        }
+    }
+}
+
+#[test]
+fn light_touches_beside_a_real_step_are_vibration() {
+    let touch = Load { share: 0.04, ..Load::whole(L, 1) };
+    let plates = [two_plates()[0].clone(), plate_under(L, 1, &[touch])];
+    let (feet, _) = judge(&walk(), &plates, &[]);
+    assert_eq!(feet.contacts.len(), 1, "{:?}", feet.contacts);
+}
+
+#[test]
+fn feet_are_found_by_the_names_of_their_bodies() {
+    let model = free_bodies(DOWN_Y, &[("pelvis", 1.0), ("foot_l", 1.0), ("foot_r", 1.0)]);
+    let bodies = foot_bodies(&model).unwrap();
+    assert_eq!(bodies.map(|b| model.bodies()[b.index()].name.clone()), ["foot_r", "foot_l"]);
+    assert_eq!(foot_bodies(&free_bodies(DOWN_Y, &[("pelvis", 1.0)])), None);
+}

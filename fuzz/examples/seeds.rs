@@ -1,0 +1,121 @@
+//! Writes the small files from which the fuzzer starts, `corpus/<target>/`: made by our own writers, or ours anyway.
+//!
+//! `cargo run --manifest-path fuzz/Cargo.toml --example seeds`
+
+use ambulo_formats::bvh::{Bvh, Channel as BvhChannel, Joint};
+use ambulo_formats::c3d::{C3d, Channel, Encoding, Event, EventPlace, Platform, Point, Processor, Storage};
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::osim::OsimModel;
+use ambulo_formats::table::Table;
+use ambulo_formats::trc::{Marker, Trc};
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for processor in Processor::ALL {
+        for storage in [Storage::Integer, Storage::Real] {
+            let name = format!("{processor:?}-{storage:?}.c3d").to_lowercase();
+            save("c3d", &name, &c3d(processor, storage).write()?)?;
+        }
+    }
+    save("c3d", "empty.c3d", &C3d::new(100.0, "mm").write()?)?;
+    save("trc", "two.trc", &trc()?.write())?;
+    let columns = vec![("time".into(), vec![0.0, 0.01]), ("knee_angle_r".into(), vec![-12.5, f64::NAN])];
+    let mut table = Table::new("Coordinates", columns)?;
+    table.in_degrees = Some(true);
+    save("storage", "two.mot", &table.write_storage())?;
+    save("csv", "two.csv", &table.write_csv())?;
+    let (loads, _) = ExternalLoads::read(LOADS.as_bytes())?;
+    save("external_loads", "one.xml", &loads.write())?;
+    save("osim", "two.osim", &OsimModel::read(OSIM.as_bytes())?.write()?)?;
+    save("bvh", "leg.bvh", &bvh()?.write())?;
+    save("gait", "slow.toml", b"speed = 0.9\nheight = 1.7\nstyle = \"1997\"\n[pelvis]\nrotation = 1.5\n")?;
+    for name in ["pendulum", "four-bar", "carry", "top"] {
+        copy("scene", &format!("examples/{name}.toml"))?;
+    }
+    for name in ["keypoints", "oxford-foot"] {
+        copy("marker_set", &format!("crates/ambulo/data/markers/{name}.toml"))?;
+    }
+    Ok(())
+}
+
+fn here() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+fn save(target: &str, name: &str, bytes: &[u8]) -> Result<(), Box<dyn Error>> {
+    let folder = here().join("corpus").join(target);
+    fs::create_dir_all(&folder)?;
+    Ok(fs::write(folder.join(name), bytes)?)
+}
+
+fn copy(target: &str, path: &str) -> Result<(), Box<dyn Error>> {
+    let path = here().join("..").join(path);
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("file").to_owned();
+    save(target, &name, &fs::read(path)?)
+}
+
+/// Two points, one of them lost for a frame, a platform, events in both places.
+fn c3d(processor: Processor, storage: Storage) -> C3d {
+    let mut record = C3d::new(50.0, "mm");
+    record.encoding = Encoding { processor, storage, point_scale: 0.5, unsigned_analog: false };
+    record.first_frame = 3;
+    record.points = vec![
+        Point::new("HEEL", vec![[1.0, 2.0, 3.0], [f64::NAN; 3]]),
+        Point::new("TOE", vec![[0.5, 0.0, -3.0], [4.0, 5.0, 6.0]]),
+    ];
+    record.analog_rate_hz = 100.0;
+    record.channels = vec![
+        Channel { scale: -0.5, offset: 2048.0, ..Channel::new("FX", "N", vec![0.5, 1.0, 1.5, 2.0]) },
+        Channel::new("FZ", "N", vec![-1.0, -2.0, -3.0, -4.0]),
+    ];
+    record.events = vec![
+        Event::new("Foot Strike", "Left", 62.5),
+        Event { place: EventPlace::Header, ..Event::new("RHS", "", 0.25) },
+    ];
+    record.set_platforms(&[Platform {
+        kind: 4,
+        corners: [[400.0, 600.0, 0.0], [0.0, 600.0, 0.0], [0.0; 3], [400.0, 0.0, 0.0]],
+        origin: [0.0, 0.0, -40.0],
+        channels: vec![Some(0), None, Some(1), None, None, None],
+        calibration: vec![vec![1.0; 6]; 6],
+        zero_frames: Some([1, 10]),
+    }]);
+    record
+}
+
+fn trc() -> Result<Trc, ambulo_formats::Error> {
+    let marker = |name: &str, x: f64| Marker { name: name.into(), positions_m: vec![[x, 0.5, 0.25], [f64::NAN; 3]] };
+    Trc::new(100.0, vec![0.0, 0.01], vec![marker("HEEL", 1.0), marker("TOE", 2.0)])
+}
+
+fn bvh() -> Result<Bvh, ambulo_formats::Error> {
+    let joint = |name: &str, parent, channels: &[BvhChannel], ends: &[[f64; 3]]| Joint {
+        name: name.into(),
+        parent,
+        offset: [0.0, -10.5, 0.0],
+        channels: channels.to_vec(),
+        end_sites: ends.to_vec(),
+    };
+    let joints = vec![
+        joint("Hips", None, &BvhChannel::ALL, &[]),
+        joint("Knee", Some(0), &BvhChannel::ALL[3..], &[[0.0, -9.0, 1.0]]),
+    ];
+    Bvh::new(joints, 0.01, &[vec![0.5; 9], vec![-1.5; 9]])
+}
+
+const LOADS: &str = "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"walk\"><objects>\
+    <ExternalForce name=\"right\"><applied_to_body>calcn_r</applied_to_body><force_identifier>f</force_identifier>\
+    <point_identifier>p</point_identifier></ExternalForce></objects><datafile>a.mot</datafile></ExternalLoads>\
+    </OpenSimDocument>";
+
+const OSIM: &str = "<OpenSimDocument Version=\"40000\"><Model name=\"two\"><gravity>0 -9.81 0</gravity><BodySet><objects>\
+    <Body name=\"a\"><mass>2</mass><mass_center>0 -0.2 0</mass_center><inertia>0.1 0.1 0.1 0 0 0</inertia></Body>\
+    </objects></BodySet><JointSet><objects><PinJoint name=\"j\"><socket_parent_frame>p</socket_parent_frame>\
+    <socket_child_frame>c</socket_child_frame><coordinates><Coordinate name=\"q\"><default_value>0.5</default_value>\
+    <range>-1 1</range></Coordinate></coordinates><frames><PhysicalOffsetFrame name=\"p\"><socket_parent>/ground\
+    </socket_parent><translation>0 1 0</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\
+    <PhysicalOffsetFrame name=\"c\"><socket_parent>/bodyset/a</socket_parent><translation>0 0 0</translation>\
+    <orientation>0 0 0</orientation></PhysicalOffsetFrame></frames></PinJoint></objects></JointSet></Model>\
+    </OpenSimDocument>";
