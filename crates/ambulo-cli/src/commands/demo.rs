@@ -7,7 +7,10 @@ use crate::{Verdict, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::simulation::synthetic::{Mode, WalkOrder, synthesise};
+use ambulo::motion::markers_from_c3d;
+use ambulo::report::{laboratory_recording, skeleton_of, standing_recording, trc_of_markers};
+use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::ExternalLoads;
 use anyhow::Result;
 use std::path::Path;
@@ -22,6 +25,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let made = Made { walk: &walk, order: &order, thresholds: &Thresholds::default(), read: &[] };
     let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
     write_input(&args.output)?;
+    write_recording(&walk, &args.output)?;
     Ok(verdict)
 }
 
@@ -34,4 +38,23 @@ fn write_input(output: &Path) -> Result<()> {
     let (mut loads, _) = ExternalLoads::read(&files::read(&output.join("external_loads.xml"))?)?;
     loads.datafile = Some("walk_grf.mot".to_owned());
     files::write(&output.join("input/walk_grf.xml"), &loads.write())
+}
+
+/// The walk as a laboratory would have recorded it: with markers and plates, with markers alone, and the figure standing.
+fn write_recording(walk: &SyntheticWalk, output: &Path) -> Result<()> {
+    let recording = laboratory_recording(&walk.human, &walk.trajectory, &walk.loads)?;
+    let standing = standing_recording(&walk.human, recording.point_rate_hz)?;
+    let markers = markers_from_c3d(&recording, &mut Findings::default())?;
+    // OpenSim's axes, as models have them.
+    let world = Mat3::from_rows(&[Vec3::y().transpose(), Vec3::z().transpose(), Vec3::x().transpose()]);
+    let skeleton = skeleton_of(&walk.human.model, &walk.trajectory)?;
+    for (name, bytes) in [
+        ("walk.c3d", recording.write()?),
+        ("standing.c3d", standing.write()?),
+        ("walk.trc", trc_of_markers(&markers.turned(&world))?.write()),
+        ("walk.bvh", skeleton.write()),
+    ] {
+        files::write(&output.join("input").join(name), &bytes)?;
+    }
+    Ok(())
 }
