@@ -50,9 +50,11 @@ pub fn laboratory_recording(
     let mut c3d = recording(human, trajectory)?;
     let times = analog_times(trajectory.grid());
     let mut platforms = Vec::new();
-    for load in loads {
-        let side = Side::of_name(&human.model.bodies()[load.body.index()].name);
-        let load = Load::on(load, &times);
+    for side in Side::BOTH {
+        let is_own =
+            |load: &&ForceRecording| Side::of_name(&human.model.bodies()[load.body.index()].name) == Some(side);
+        // Rear foot and toes stand on one plate.
+        let load = Load::sum(loads.iter().filter(is_own).map(|load| Load::on(load, &times)), times.len());
         for [from, to] in load.contacts(&times) {
             let middle = load.mean_place(from, to);
             platforms.push(plate(&mut c3d, &load, middle, from, to));
@@ -152,6 +154,15 @@ impl Load {
         Load { force: series(&recording.force), moment: series(&about_origin) }
     }
 
+    fn sum(parts: impl Iterator<Item = Load>, samples: usize) -> Load {
+        let mut whole = Load { force: vec![Vec3::zeros(); samples], moment: vec![Vec3::zeros(); samples] };
+        for part in parts {
+            whole.force.iter_mut().zip(&part.force).for_each(|(sum, force)| *sum += force);
+            whole.moment.iter_mut().zip(&part.moment).for_each(|(sum, moment)| *sum += moment);
+        }
+        whole
+    }
+
     /// Half-open ranges of samples in which the foot is on the ground.
     fn contacts(&self, times: &[f64]) -> Vec<[usize; 2]> {
         let mut contacts: Vec<[usize; 2]> = Vec::new();
@@ -221,11 +232,10 @@ fn plate(c3d: &mut C3d, load: &Load, middle: Vec3, from: usize, to: usize) -> Pl
     }
 }
 
-fn add_events(c3d: &mut C3d, side: Option<Side>, times: &[f64], from: usize, to: usize) {
+fn add_events(c3d: &mut C3d, side: Side, times: &[f64], from: usize, to: usize) {
     let context = match side {
-        Some(Side::Right) => "Right",
-        Some(Side::Left) => "Left",
-        None => return,
+        Side::Right => "Right",
+        Side::Left => "Left",
     };
     // What was on the ground at an end of the recording neither met nor left it there.
     if from > 0 {
