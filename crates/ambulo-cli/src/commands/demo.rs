@@ -7,10 +7,8 @@ use crate::{Verdict, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::motion::markers_from_c3d;
-use ambulo::report::{laboratory_recording, skeleton_of, standing_recording, trc_of_markers};
+use ambulo::report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
 use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
-use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::ExternalLoads;
 use anyhow::Result;
 use std::path::Path;
@@ -40,19 +38,17 @@ fn write_input(output: &Path) -> Result<()> {
     files::write(&output.join("input/walk_grf.xml"), &loads.write())
 }
 
-/// The walk as a laboratory would have recorded it: with markers and plates, with markers alone, and the figure standing.
+/// The walk as a laboratory would have recorded it, with markers and plates; the figure standing; its own markers; its skeleton.
 fn write_recording(walk: &SyntheticWalk, output: &Path) -> Result<()> {
-    let recording = laboratory_recording(&walk.human, &walk.trajectory, &walk.loads)?;
-    let standing = standing_recording(&walk.human, recording.point_rate_hz)?;
-    let markers = markers_from_c3d(&recording, &mut Findings::default())?;
-    // OpenSim's axes, as models have them.
-    let world = Mat3::from_rows(&[Vec3::y().transpose(), Vec3::z().transpose(), Vec3::x().transpose()]);
-    let skeleton = skeleton_of(&walk.human.model, &walk.trajectory)?;
+    let SyntheticWalk { human, trajectory, loads, .. } = walk;
+    let recording = laboratory_recording(human, trajectory, loads)?;
+    let standing = standing_recording(human, recording.point_rate_hz)?;
+    let markers = marker_paths(&human.model, trajectory, human.model.markers());
     for (name, bytes) in [
         ("walk.c3d", recording.write()?),
         ("standing.c3d", standing.write()?),
-        ("walk.trc", trc_of_markers(&markers.turned(&world))?.write()),
-        ("walk.bvh", skeleton.write()),
+        ("walk.trc", trc_of_markers(&markers)?.write()),
+        ("walk.bvh", skeleton_of(&human.model, trajectory)?.write()),
     ] {
         files::write(&output.join("input").join(name), &bytes)?;
     }

@@ -9,8 +9,8 @@
 use crate::kinematics::{Trajectory, TrajectoryError, each_body_motion};
 use crate::model::anthropometry::Human;
 use crate::model::marker_set::{MarkerSet, MarkerSetError};
-use crate::model::{Marker, Side};
-use crate::motion::{ForceRecording, TimeGrid, interpolate};
+use crate::model::{Marker, Model, Side};
+use crate::motion::{ForceRecording, MarkerPath, MarkerRecording, TimeGrid, interpolate};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Channel, Event, Parameter, Platform, Point, Values};
 
@@ -109,15 +109,26 @@ fn recording(human: &Human, trajectory: &Trajectory) -> Result<C3d, LaboratoryEr
 }
 
 fn points(human: &Human, trajectory: &Trajectory, markers: &[Marker]) -> Vec<Point> {
-    let mut paths = vec![Vec::with_capacity(trajectory.grid().frames); markers.len()];
-    each_body_motion(&human.model, trajectory, |_, bodies| {
+    let turn = in_laboratory() * MILLIMETRES;
+    let paths = marker_paths(&human.model, trajectory, markers).turned(&turn).markers;
+    let point = |path: MarkerPath| Point::new(&path.name, path.positions.into_iter().map(Into::into).collect());
+    paths.into_iter().map(point).collect()
+}
+
+/// The paths of markers on a model that moves, in world axes.
+#[must_use]
+pub fn marker_paths(model: &Model, trajectory: &Trajectory, markers: &[Marker]) -> MarkerRecording {
+    let grid = trajectory.grid();
+    let empty = |marker: &Marker| MarkerPath { name: marker.name.clone(), positions: Vec::with_capacity(grid.frames) };
+    let mut paths: Vec<MarkerPath> = markers.iter().map(empty).collect();
+    each_body_motion(model, trajectory, |_, bodies| {
         for (marker, path) in markers.iter().zip(&mut paths) {
             let pose = marker.body.map(|body| bodies[body.index()].pose);
-            let place = pose.map_or(marker.location, |pose| pose.place(marker.location));
-            path.push((in_laboratory() * place * MILLIMETRES).into());
+            path.positions.push(pose.map_or(marker.location, |pose| pose.place(marker.location)));
         }
     });
-    markers.iter().zip(paths).map(|(marker, path)| Point::new(&marker.name, path)).collect()
+    let name = model.name().to_owned();
+    MarkerRecording { name, rate_hz: 1.0 / grid.step_s, times: grid.times(), markers: paths }
 }
 
 /// x to the right, y forward, z up.

@@ -6,7 +6,7 @@ mod markers;
 mod plates;
 mod skeleton;
 
-pub use laboratory::{LaboratoryError, laboratory_recording, standing_recording};
+pub use laboratory::{LaboratoryError, laboratory_recording, marker_paths, standing_recording};
 pub use markers::{c3d_of_markers, table_of_markers, trc_of_markers};
 pub use plates::{GroundReactions, ground_reactions};
 pub use skeleton::skeleton_of;
