@@ -7,7 +7,8 @@ use crate::{Verdict, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::simulation::synthetic::{Mode, WalkOrder, synthesise};
+use ambulo::report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
+use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use anyhow::Result;
 use std::path::Path;
@@ -22,6 +23,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let made = Made { walk: &walk, order: &order, thresholds: &Thresholds::default(), read: &[] };
     let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
     write_input(&args.output)?;
+    write_recording(&walk, &args.output)?;
     Ok(verdict)
 }
 
@@ -34,4 +36,21 @@ fn write_input(output: &Path) -> Result<()> {
     let (mut loads, _) = ExternalLoads::read(&files::read(&output.join("external_loads.xml"))?)?;
     loads.datafile = Some("walk_grf.mot".to_owned());
     files::write(&output.join("input/walk_grf.xml"), &loads.write())
+}
+
+/// The walk as a laboratory would have recorded it, with markers and plates; the figure standing; its own markers; its skeleton.
+fn write_recording(walk: &SyntheticWalk, output: &Path) -> Result<()> {
+    let SyntheticWalk { human, trajectory, loads, .. } = walk;
+    let recording = laboratory_recording(human, trajectory, loads)?;
+    let standing = standing_recording(human, recording.point_rate_hz)?;
+    let markers = marker_paths(&human.model, trajectory, human.model.markers());
+    for (name, bytes) in [
+        ("walk.c3d", recording.write()?),
+        ("standing.c3d", standing.write()?),
+        ("walk.trc", trc_of_markers(&markers)?.write()),
+        ("walk.bvh", skeleton_of(&human.model, trajectory)?.write()),
+    ] {
+        files::write(&output.join("input").join(name), &bytes)?;
+    }
+    Ok(())
 }

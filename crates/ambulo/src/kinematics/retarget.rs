@@ -328,9 +328,7 @@ impl Fitting<'_> {
         self.marker(sided("toe", side), &calcn, toe);
         let length = measured.distance(&sided("toe", side), &sided("toe_tip", side)).unwrap_or(0.0);
         self.shape(&toes, if length > 0.0 { length / d.ball_to_toe } else { factor }, joint);
-        if tip.is_some() {
-            self.marker(sided("toe_tip", side), &toes, toe - joint + Vec3::x() * length);
-        }
+        self.marker(sided("toe_front", side), &toes, toe - joint + Vec3::x() * REACH);
     }
 
     fn arm(&mut self, lengths: &Lengths, side: Side, k: usize) {

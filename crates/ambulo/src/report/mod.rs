@@ -17,7 +17,10 @@ mod tables;
 mod walk_summary;
 
 pub use cycle_table::{CycleRow, cycle_rows};
-pub use exchange::{GroundReactions, c3d_of_markers, ground_reactions, skeleton_of, table_of_markers, trc_of_markers};
+pub use exchange::{
+    GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
+    skeleton_of, standing_recording, table_of_markers, trc_of_markers,
+};
 pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;

@@ -13,7 +13,7 @@
 //! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm; the end of a forearm that carries no hand |
 //! | `pelvis_up` `pelvis_front` | [`REACH`] above and in front of mid-hip, fixed to the pelvis |
 //! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`REACH`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
-//! | `foot_front_s` | [`REACH`] in front of the ankle along a foot that stands flat, fixed to the foot |
+//! | `foot_front_s` `toe_front_s` | [`REACH`] in front of ankle and ball along a foot that stands flat, fixed to foot and toes |
 //!
 //! Above, in front and to the right are meant of a person who stands upright: as in the file's own resting pose where that is
 //! one, else as on average over the recording.
@@ -187,6 +187,10 @@ fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, rea
         let up = neutral.up(ankle);
         let heel = up * bone.dot(&up) - front * (HEEL_SHARE * tip.dot(&front));
         points.push(Point { name: sided("heel"), between: vec![ankle], beside: Some((ankle, heel)) });
+        if let Some(toe) = landmarks.get(Landmark::Toe, side) {
+            let [front, _] = neutral.along_foot(toe, skeleton.tip(toe).unwrap_or_default());
+            points.push(Point { name: sided("toe_front"), between: vec![toe], beside: Some((toe, front * reach)) });
+        }
         for (name, carrier, base, direction) in [
             ("thigh_side", hip, knee, neutral.right_beside(hip, skeleton.way(hip, knee))),
             ("shank_side", knee, ankle, neutral.right_beside(knee, skeleton.way(knee, ankle))),
