@@ -38,6 +38,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The ending of a file's name, in lower case, without its point; empty if there is none.
+pub(crate) fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
 /// A table, as CSV or as OpenSim storage, by the ending of its name.
 pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
     let bytes = read(path)?;

@@ -3,6 +3,8 @@
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 use crate::args::Voice;
+use crate::commands::events::{Agreed, Source};
+use crate::commands::info::Sheet;
 use ambulo::analysis::Agreement;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::{Finding, Findings};
@@ -10,7 +12,6 @@ use ambulo::report::{FilterSummary, Ground, SceneSummary, Summary, WalkSummary};
 use ambulo::reproduction::{Claim, Sensitivity};
 use anyhow::Result;
 use serde::Serialize;
-use serde_json::Value;
 use std::io::{ErrorKind, Write, stdout};
 use std::path::Path;
 
@@ -33,6 +34,8 @@ pub(crate) fn guide() -> Result<()> {
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
   ambulo info FILE                                           what a file holds
+  ambulo convert A B                                         from one format to another: c3d, trc, mot, sto, csv, bvh
+  ambulo events FILE                                         when feet meet and leave the ground
   ambulo compare A B --limit 0.1                             how far two tables agree
 
 `ambulo <verb> --help` shows every option with an example that runs.",
@@ -364,32 +367,74 @@ pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice)
 }
 
 /// The outcome of `info`.
-pub(crate) fn info(info: &Value, voice: Voice) -> Result<()> {
+pub(crate) fn info(sheet: &Sheet, voice: Voice) -> Result<()> {
     if voice.json {
-        say(&serde_json::to_string_pretty(info)?)?;
+        say(&serde_json::to_string_pretty(&sheet.json())?)?;
     }
     if voice.json || voice.quiet {
         return Ok(());
     }
-    let Some(keys) = info.as_object() else { return Ok(()) };
-    for (key, value) in keys {
-        let label = key.replace('_', " ");
-        match value {
-            Value::Number(number) if number.is_f64() => {
-                // Six digits for the eye; --json has them all.
-                let rounded = format!("{:.6}", number.as_f64().unwrap_or_default());
-                say(&format!("{label}: {}", rounded.trim_end_matches('0').trim_end_matches('.')))?;
-            }
-            Value::Null => {}
-            Value::Array(items) if items.iter().all(Value::is_string) => {
-                say(&format!("{label}: {}", items.len()))?;
-                for item in items {
-                    say(&format!("  {}", item.as_str().unwrap_or_default()))?;
-                }
-            }
-            Value::String(text) => say(&format!("{label}: {text}"))?,
-            other => say(&format!("{label}: {other}"))?,
+    sheet.lines().iter().try_for_each(|line| say(line))
+}
+
+/// The outcome of `convert`.
+pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(findings.as_slice());
+    if voice.json {
+        let value = serde_json::json!({ "input": input, "written": written, "findings": findings.as_slice() });
+        return say(&serde_json::to_string_pretty(&value)?);
+    }
+    written.iter().try_for_each(|path| say(&format!("written: {path}")))
+}
+
+/// The outcome of `events`.
+pub(crate) fn events(sources: &[Source], agreements: &[Agreed], findings: &Findings, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(findings.as_slice());
+    if voice.json {
+        return say(&serde_json::to_string_pretty(&events_json(sources, agreements, findings))?);
+    }
+    for source in sources {
+        say(&format!("{}: {}", source.title, source.events.len()))?;
+        for event in &source.events {
+            say(&format!("  {:8.3} s  {:5}  {}", event.time_s, event.side.to_string(), event.kind.word()))?;
+        }
+    }
+    for Agreed { found, reference, kinds } in agreements {
+        for kind in kinds.iter().filter(|kind| kind.pairs > 0) {
+            say(&format!(
+                "{found} against {reference}, {}: {} pairs, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} more",
+                kind.kind,
+                kind.pairs,
+                kind.mean_absolute_ms,
+                kind.bias_ms.abs(),
+                if kind.bias_ms < 0.0 { "early" } else { "late" },
+                kind.missed,
+                kind.extra
+            ))?;
         }
     }
     Ok(())
+}
+
+fn events_json(sources: &[Source], agreements: &[Agreed], findings: &Findings) -> serde_json::Value {
+    let events = sources.iter().flat_map(|source| {
+        source.events.iter().map(|event| {
+            let (side, kind) = (event.side.letter(), event.kind.word());
+            serde_json::json!({ "side": side, "event": kind, "time_s": event.time_s, "source": source.word })
+        })
+    });
+    let agreement = agreements.iter().map(
+        |agreed| serde_json::json!({ "found": agreed.found, "reference": agreed.reference, "kinds": agreed.kinds }),
+    );
+    serde_json::json!({
+        "events": events.collect::<Vec<_>>(),
+        "agreement": agreement.collect::<Vec<_>>(),
+        "findings": findings.as_slice(),
+    })
 }

@@ -123,7 +123,7 @@ fn absurd_skeletons_are_refused() {
     let mut deep = String::from("HIERARCHY\n");
     for k in 0..100_000 {
         let keyword = if k == 0 { "ROOT" } else { "JOINT" };
-        write!(deep, "{keyword} a{{OFFSET 0 0 0\n").unwrap();
+        writeln!(deep, "{keyword} a{{OFFSET 0 0 0").unwrap();
     }
     let line = MAX_DEPTH + 2;
     assert_eq!(

@@ -34,7 +34,7 @@ fn every_built_in_set_is_read_and_has_each_name_once() {
         for marker in &set.markers {
             assert!(marker.landmark.is_none_or(|l| l.segment() == marker.segment && marker.place.is_some()));
             let loose = matches!(marker.segment, Segment::Humerus | Segment::Forearm);
-            let expected = marker.landmark.map_or(if loose { 0.02 } else { 0.5 }, Landmark::weight);
+            let expected = marker.landmark.map_or(if loose { 0.02 } else { 0.1 }, Landmark::weight);
             assert!((marker.weight - expected).abs() < 1e-15 || marker.names == ["RBAK"], "{:?}", marker.names);
             assert!(!loose || marker.weight < 0.2, "{:?}", marker.names);
         }

@@ -1,9 +1,10 @@
 //! One file a verb.
 
 pub(crate) mod compare;
+pub(crate) mod convert;
 pub(crate) mod demo;
+pub(crate) mod events;
 pub(crate) mod forces;
-mod ground_input;
 pub(crate) mod info;
 mod outcome;
 pub(crate) mod reproduce;

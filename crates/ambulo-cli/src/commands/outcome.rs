@@ -7,7 +7,7 @@ use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
 use ambulo::analysis::{Analysis, Settings};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
-use ambulo::report::{Input, OutputFile, Summary, WalkSummary, output_files, summary};
+use ambulo::report::{Input, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -22,8 +22,12 @@ pub(super) struct Outcome<'a> {
     pub(super) device: Option<&'a [Vec<f64>]>,
     /// Every file that was read; none of them is written over.
     pub(super) read: &'a [PathBuf],
-    /// How a synthetic walk was made, and the files that only walks have.
-    pub(super) walk: Option<(WalkSummary, Vec<OutputFile>)>,
+    /// How a synthetic walk was made.
+    pub(super) walk: Option<WalkSummary>,
+    /// How markers became a body in motion.
+    pub(super) subject: Option<SubjectSummary>,
+    /// Files that only this kind of run has.
+    pub(super) files: Vec<OutputFile>,
 }
 
 impl Outcome<'_> {
@@ -43,13 +47,13 @@ impl Outcome<'_> {
         let feasible = self.judge(&mut analysis, &mut findings);
         clock.lap("feasibility");
         let mut written = output_files(self.model, &analysis, self.device)?;
-        let (walk, own_files) = self.walk.unzip();
-        written.extend(own_files.unwrap_or_default());
+        written.extend(self.files);
         files::replace_results(output, &written, self.read)?;
         clock.lap("write");
         let mut summary = summary(self.model, &analysis, self.settings, self.input.clone(), &findings);
-        summary.height_m = walk.is_some().then_some(self.person.height_m);
-        summary.walk = walk;
+        summary.height_m = (!self.person.estimated).then_some(self.person.height_m);
+        summary.walk = self.walk;
+        summary.subject = self.subject;
         summary.timing_ms = clock.into_laps();
         write_summary(output, &summary)?;
         printer::forces(&summary, output, voice)?;

@@ -81,7 +81,9 @@ impl Made<'_> {
             person: Person::of_human(human),
             device: None,
             read: self.read,
-            walk: Some((WalkSummary::new(model, report), self.files()?)),
+            walk: Some(WalkSummary::new(model, report)),
+            subject: None,
+            files: self.files()?,
         };
         outcome.write(analysis, findings, clock, output, voice)
     }
@@ -106,6 +108,7 @@ fn input(order: &WalkOrder<'_>) -> Input {
     Input {
         motion: format!("gait {}", order.gait.name),
         model: format!("figure {}", order.build.table),
+        standing: None,
         ground: None,
         loads: None,
         device: None,

@@ -64,6 +64,8 @@ pub struct Mass {
 pub enum MassSource {
     /// Mean vertical force over whole gait cycles.
     Plates,
+    /// What plates carried while the person stood still.
+    Standing,
     /// The model's own mass.
     Model,
 }
@@ -84,7 +86,7 @@ pub enum AnalysisError {
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
-const WHOLE_BODY_SHARE: f64 = 0.05;
+pub(super) const WHOLE_BODY_SHARE: f64 = 0.05;
 /// Above this difference between plates and model the reader is told (issue of scaling or of plates).
 const MASS_MISMATCH: f64 = 0.03;
 

@@ -4,7 +4,7 @@ use super::import::rows_with_rising_time;
 use super::recording::MotionError;
 use crate::findings::Findings;
 use crate::model::{BodyId, Model};
-use crate::spatial::Vec3;
+use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 
@@ -27,6 +27,18 @@ pub struct ForceRecording {
     pub point: Vec<Vec3>,
     /// Moment about the point [N.m].
     pub moment: Vec<Vec3>,
+}
+
+impl ForceRecording {
+    /// The same load seen from world axes that are turned, `rotation * v`; what is given in a body's axes stays.
+    pub fn turn(&mut self, rotation: &Mat3) {
+        if self.force_frame.is_none() {
+            self.force.iter_mut().chain(&mut self.moment).for_each(|v| *v = rotation * *v);
+        }
+        if self.point_frame.is_none() {
+            self.point.iter_mut().for_each(|p| *p = rotation * *p);
+        }
+    }
 }
 
 /// A loaded point further from the origin than this [m] is probably in millimetres.

@@ -16,7 +16,10 @@ pub mod landmarks;
 mod marker_recording;
 mod real_points;
 mod recording;
+pub mod skeleton;
 mod smooth;
+mod straightened;
+mod subject_parameters;
 mod time_grid;
 
 pub use curves::{CoordinateCurves, CurveError, RecordedTable};
@@ -30,4 +33,6 @@ pub use landmarks::Landmarks;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use recording::{Motion, MotionError};
 pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
+pub use straightened::straightened;
+pub use subject_parameters::{SubjectParameters, subject_from_c3d};
 pub use time_grid::{TimeGrid, Window, interpolate};

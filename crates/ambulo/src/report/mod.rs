@@ -1,6 +1,7 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
 mod cycle_table;
+mod exchange;
 mod figure;
 mod files;
 mod gait_figure;
@@ -10,11 +11,13 @@ mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod subject_summary;
 mod summary;
 mod tables;
 mod walk_summary;
 
 pub use cycle_table::{CycleRow, cycle_rows};
+pub use exchange::{GroundReactions, c3d_of_markers, ground_reactions, skeleton_of, table_of_markers, trc_of_markers};
 pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
@@ -26,6 +29,9 @@ pub use scene_summary::{
 };
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
+pub use subject_summary::{
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+};
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };

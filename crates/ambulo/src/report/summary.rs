@@ -1,5 +1,6 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
+use super::subject_summary::SubjectSummary;
 use super::tables::UNLOADED_N;
 use super::walk_summary::WalkSummary;
 use crate::analysis::feasibility::Verdict;
@@ -24,7 +25,7 @@ pub struct Summary {
     pub mass_kg: f64,
     /// The model's mass, which the dynamics use [kg].
     pub mass_model_kg: f64,
-    /// `plates` or `model`.
+    /// `plates` (whole gait cycles), `standing` (plates in the standing trial) or `model`.
     pub mass_source: &'static str,
     /// Stature [m], where it was given.
     pub height_m: Option<f64>,
@@ -54,6 +55,8 @@ pub struct Summary {
     pub verdict: Option<Verdict>,
     /// Prediction against plates; filled when forces are predicted.
     pub comparison: Option<()>,
+    /// How markers became a body in motion; `null` where coordinates were given.
+    pub subject: Option<SubjectSummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
     /// Time that each stage took [ms].
@@ -65,8 +68,11 @@ pub struct Summary {
 pub struct Input {
     /// The recorded motion.
     pub motion: String,
-    /// The model.
+    /// The model; `built-in` for Ambulo's own body.
     pub model: String,
+    /// The standing trial.
+    #[serde(rename = "static")]
+    pub standing: Option<String>,
     /// The ground forces.
     pub ground: Option<String>,
     /// The description of the loads.
@@ -174,6 +180,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         mass_model_kg: model.mass(),
         mass_source: match analysis.mass.source {
             MassSource::Plates => "plates",
+            MassSource::Standing => "standing",
             MassSource::Model => "model",
         },
         height_m: None,
@@ -190,6 +197,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         findings: findings.as_slice().to_vec(),
         verdict: analysis.verdict.clone(),
         comparison: None,
+        subject: None,
         walk: None,
         timing_ms: BTreeMap::new(),
     }

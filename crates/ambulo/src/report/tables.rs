@@ -8,7 +8,7 @@ use ambulo_formats::Error;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 
-type Column = (String, Vec<f64>);
+pub(super) type Column = (String, Vec<f64>);
 
 fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Result<Table, Error> {
     let time = ("time".to_owned(), analysis.trajectory.grid().times());
@@ -73,8 +73,12 @@ fn body_name(model: &Model, id: BodyId) -> &str {
 
 /// `grf.mot`: forces, centres of pressure and free moments of both feet; an unloaded foot has zeros.
 pub(super) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
-    let frames = analysis.trajectory.grid().frames;
-    let feet = feet(model, &analysis.ground);
+    let columns = ground_columns(&feet(model, &analysis.ground), analysis.trajectory.grid().frames);
+    table("Ground Reactions", analysis, columns)
+}
+
+/// `ground_force_{s}_v`, `ground_force_{s}_p` and `ground_torque_{s}_` with x, y, z, for both sides; an unloaded foot has zeros.
+pub(super) fn ground_columns(feet: &[(Side, BodyForces)], frames: usize) -> Vec<Column> {
     let mut columns = Vec::new();
     for side in Side::BOTH {
         let letter = side.letter();
@@ -88,7 +92,7 @@ pub(super) fn ground(model: &Model, analysis: &Analysis) -> Result<Table, Error>
         push_vector(&mut columns, &format!("ground_force_{letter}_p"), series(&|f, i| f.center_of_pressure[i]));
         push_vector(&mut columns, &format!("ground_torque_{letter}_"), series(&|f, i| f.free_moment[i]));
     }
-    table("Ground Reactions", analysis, columns)
+    columns
 }
 
 /// `external_loads.xml`: how OpenSim's tools apply `grf.mot`.

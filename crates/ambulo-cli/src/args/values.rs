@@ -1,0 +1,145 @@
+//! Numbers and names as they are typed.
+
+use ambulo::model::Side;
+use ambulo::spatial::Vec3;
+use std::fmt;
+use std::str::FromStr;
+
+pub(super) fn order(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(order @ 1..=8) => Ok(order),
+        _ => Err("expected a whole number from 1 to 8".into()),
+    }
+}
+
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() => Ok(seconds),
+        _ => Err("expected a number of seconds".into()),
+    }
+}
+
+pub(super) fn zero_or_more_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("expected a number of seconds, zero or more".into()),
+    }
+}
+
+pub(super) fn above_zero(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
+        _ => Err("expected a number of seconds above 0".into()),
+    }
+}
+
+pub(super) fn limit(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(limit) if limit.is_finite() && limit >= 0.0 => Ok(limit),
+        _ => Err("expected a number, zero or more".into()),
+    }
+}
+
+/// A cut-off frequency, or none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cutoff(pub(crate) Option<f64>);
+
+impl FromStr for Cutoff {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Cutoff, String> {
+        if text.eq_ignore_ascii_case("off") {
+            return Ok(Cutoff(None));
+        }
+        match text.parse::<f64>() {
+            Ok(hz) if hz.is_finite() && hz > 0.0 => Ok(Cutoff(Some(hz))),
+            _ => Err("expected a frequency above 0 in Hz, or `off`".into()),
+        }
+    }
+}
+
+/// A body and the prefix of the columns that act on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct FootColumns {
+    pub(crate) body: String,
+    pub(crate) prefix: String,
+}
+
+impl FromStr for FootColumns {
+    type Err = String;
+    fn from_str(text: &str) -> Result<FootColumns, String> {
+        match text.split_once(':') {
+            Some((body, prefix)) if !body.is_empty() && prefix.contains("force") => {
+                Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
+            }
+            _ => Err(
+                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
+                      PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
+                    .into(),
+            ),
+        }
+    }
+}
+
+/// Which foot stands on a force plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PlateFoot {
+    /// The plate, counted from 1.
+    pub(crate) plate: usize,
+    /// The foot; `None` leaves the plate out.
+    pub(crate) side: Option<Side>,
+}
+
+impl FromStr for PlateFoot {
+    type Err = String;
+    fn from_str(text: &str) -> Result<PlateFoot, String> {
+        let expected = "expected PLATE=FOOT, plates counted from 1, the foot r, l or off, such as 1=r";
+        let (plate, foot) = text.split_once('=').ok_or(expected)?;
+        let side = match foot.trim().to_ascii_lowercase().as_str() {
+            "r" | "right" => Some(Side::Right),
+            "l" | "left" => Some(Side::Left),
+            "off" => None,
+            _ => return Err(expected.into()),
+        };
+        match plate.trim().parse() {
+            Ok(plate @ 1..) => Ok(PlateFoot { plate, side }),
+            _ => Err(expected.into()),
+        }
+    }
+}
+
+/// A mass that the subject carries.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AddedMass {
+    pub(crate) body: String,
+    pub(crate) mass_kg: f64,
+    pub(crate) place_m: Vec3,
+}
+
+impl fmt::Display for AddedMass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z]: [f64; 3] = self.place_m.into();
+        write!(f, "{}:{}:{x},{y},{z}", self.body, self.mass_kg)
+    }
+}
+
+impl FromStr for AddedMass {
+    type Err = String;
+    fn from_str(text: &str) -> Result<AddedMass, String> {
+        let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
+        let mut parts = text.split(':');
+        let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
+        let mass_kg = mass.trim().parse().map_err(|_| expected())?;
+        let place: Vec<f64> = match parts.next() {
+            None => vec![0.0; 3],
+            Some(place) => {
+                place.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?
+            }
+        };
+        match (place[..].try_into(), parts.next()) {
+            (Ok::<[f64; 3], _>(place), None) if !body.is_empty() => {
+                Ok(AddedMass { body: body.to_owned(), mass_kg, place_m: Vec3::from(place) })
+            }
+            _ => Err(expected()),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! `ambulo convert`: from one format to another.
+
+mod recording;
+mod skeleton;
+mod table;
+
+use crate::args::ConvertArgs;
+use crate::{Verdict, files, printer};
+use ambulo::findings::Findings;
+use anyhow::{Result, bail};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What can be made of what.
+const PAIRS: [(&str, &[&str]); 6] = [
+    ("c3d", &["trc", "csv", "mot", "sto"]),
+    ("trc", &["c3d", "csv"]),
+    ("mot", &["sto", "csv", "bvh"]),
+    ("sto", &["mot", "csv", "bvh"]),
+    ("csv", &["mot", "sto"]),
+    ("bvh", &["trc", "csv"]),
+];
+
+/// The files that a conversion makes, and what was said on the way.
+struct Converted {
+    files: Vec<(PathBuf, Vec<u8>)>,
+    findings: Findings,
+}
+
+pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
+    let (from, to) = (files::ending(&args.input), files::ending(&args.output));
+    check_pair(&from, &to)?;
+    check_options(args, &from, &to)?;
+    let bytes = files::read(&args.input)?;
+    let converted = match from.as_str() {
+        "c3d" | "trc" => recording::convert(args, &bytes, &from, &to),
+        "bvh" => skeleton::convert(args, &bytes, &to),
+        _ if to == "bvh" => skeleton::make(args, &bytes),
+        _ => table::convert(args, &bytes, &from, &to),
+    }?;
+    for (path, _) in &converted.files {
+        check_target(path, args)?;
+    }
+    for (path, bytes) in &converted.files {
+        files::write(path, bytes)?;
+    }
+    let written: Vec<String> = converted.files.iter().map(|(path, _)| path.display().to_string()).collect();
+    printer::convert(&args.input.display().to_string(), &written, &converted.findings, args.voice)?;
+    Ok(Verdict::Accepted)
+}
+
+fn check_pair(from: &str, to: &str) -> Result<()> {
+    let listed = |endings: &[&str]| endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ");
+    match PAIRS.iter().find(|(known, _)| *known == from) {
+        Some((_, targets)) if targets.contains(&to) => Ok(()),
+        Some((_, targets)) => bail!("there is no way from .{from} to .{to}; expected one of {}", listed(targets)),
+        None => {
+            let known: Vec<&str> = PAIRS.iter().map(|(known, _)| *known).collect();
+            bail!("`.{from}` is not converted; expected an input that ends with one of {}", listed(&known))
+        }
+    }
+}
+
+/// Options that say nothing for this pair are mistakes.
+fn check_options(args: &ConvertArgs, from: &str, to: &str) -> Result<()> {
+    if args.what.is_some() && !(from == "c3d" && to == "csv") {
+        bail!("--what is for .c3d to .csv only; a .{to} has one content");
+    }
+    if args.world && !(["c3d", "trc", "bvh"].contains(&from) && ["trc", "c3d", "csv"].contains(&to)) {
+        bail!("--world is for markers and joint centres only, which .{from} to .{to} has none of");
+    }
+    if args.model.is_some() && to != "bvh" {
+        bail!("--model is for .bvh only");
+    }
+    if to == "bvh" && args.model.is_none() {
+        bail!("a skeleton needs the body whose coordinates these are; expected --model FILE.osim");
+    }
+    Ok(())
+}
+
+/// Refuses to write over what was read, and over anything else without --force.
+fn check_target(path: &Path, args: &ConvertArgs) -> Result<()> {
+    let inputs = [Some(&args.input), args.model.as_ref()].into_iter().flatten();
+    let inputs: Vec<PathBuf> = inputs.filter_map(|path| fs::canonicalize(path).ok()).collect();
+    let shown = path.display();
+    if fs::canonicalize(path).is_ok_and(|path| inputs.contains(&path)) {
+        bail!("{shown}: this file was read and would be written over. hint: choose another name");
+    }
+    if path.exists() && !args.force {
+        bail!("{shown}: this file is there already. hint: --force writes over it");
+    }
+    Ok(())
+}
+
+/// Says what the new format cannot hold.
+fn lost(findings: &mut Findings, what: &[String]) {
+    if !what.is_empty() {
+        findings.note("convert.lost", format!("not carried over: {}", what.join(", ")));
+    }
+}
+
+/// `3 channels`, `1 event`; nothing for none.
+fn counted(count: usize, one: &str) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        _ => Some(format!("{count} {one}s")),
+    }
+}

@@ -1,0 +1,184 @@
+//! `ambulo events`: foot strikes and toe-offs, from every source that a recording has.
+
+use crate::args::EventsArgs;
+use crate::{Verdict, files, printer};
+use ambulo::analysis::{EventAgreement, event_agreement};
+use ambulo::findings::Findings;
+use ambulo::ground::foot_motion::{FootMotion, foot_motion};
+use ambulo::ground::phases::contacts;
+use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
+use ambulo::model::Side;
+use ambulo::motion::skeleton::skeleton_from_bvh;
+use ambulo::motion::{
+    Event, EventKind, MarkerRecording, PlateRecording, PlateSettings, events_from_c3d, laboratory, markers_from_c3d,
+    markers_from_trc, plates_from_c3d, straightened,
+};
+use ambulo_formats::bvh::Bvh;
+use ambulo_formats::c3d::C3d;
+use ambulo_formats::table::Table;
+use ambulo_formats::trc::Trc;
+use anyhow::{Context, Result, bail};
+use std::fmt::Write;
+use std::fs;
+
+/// Events from one source, in order of time.
+pub(crate) struct Source {
+    /// One word, for tables.
+    pub(crate) word: &'static str,
+    /// For people.
+    pub(crate) title: String,
+    pub(crate) events: Vec<Event>,
+}
+
+/// How well one source agrees with another.
+pub(crate) struct Agreed {
+    pub(crate) found: &'static str,
+    pub(crate) reference: &'static str,
+    pub(crate) kinds: [EventAgreement; 2],
+}
+
+pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
+    let bytes = files::read(&args.input)?;
+    let shown = args.input.display().to_string();
+    let mut findings = Findings::default();
+    let read = match files::ending(&args.input).as_str() {
+        "c3d" => from_c3d(&bytes, &shown, &mut findings),
+        "trc" => from_trc(&bytes, &shown, &mut findings),
+        "bvh" => from_bvh(&bytes, &shown, &mut findings),
+        "mot" | "sto" => from_forces(&bytes, &shown, &mut findings),
+        ending => bail!("{shown}: `.{ending}` holds no gait; expected .c3d, .trc, .bvh, .mot or .sto"),
+    };
+    let sources = read.with_context(|| shown.clone())?;
+    if let Some(output) = &args.output {
+        if fs::canonicalize(output).is_ok_and(|path| fs::canonicalize(&args.input).is_ok_and(|input| input == path)) {
+            bail!("{}: this file was read and would be written over. hint: choose another name", output.display());
+        }
+        files::write(output, csv(&sources).as_bytes())?;
+    }
+    printer::events(&sources, &agreements(&sources), &findings, args.voice)?;
+    Ok(Verdict::Accepted)
+}
+
+fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+    let (c3d, remarks) = C3d::read(bytes)?;
+    files::note_remarks(shown, &remarks, findings);
+    let listed = events_from_c3d(&c3d, findings);
+    let plates = plates_from_c3d(&c3d, PlateSettings::default(), findings)?;
+    let markers = markers_from_c3d(&c3d, findings)?;
+    let axes = laboratory(&markers, &plates, &c3d.point_unit, findings);
+    findings.note("laboratory.axes", axes.statement.clone());
+    let plates: Vec<PlateRecording> = plates.iter().map(|plate| axes.plate(plate)).collect();
+    let markers = axes.markers(&markers);
+    let motion = foot_motion(&markers, findings);
+    let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
+    let mut sources = vec![Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates(&feet) }];
+    sources.push(of_motion(motion));
+    sources.push(Source { word: "file", title: "the file's own list".into(), events: listed });
+    Ok(sources)
+}
+
+fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+    let (trc, remarks) = Trc::read(bytes)?;
+    files::note_remarks(shown, &remarks, findings);
+    let markers = markers_from_trc(&trc, findings)?;
+    let axes = laboratory(&markers, &[], trc.unit.symbol(), findings);
+    findings.note("laboratory.axes", axes.statement.clone());
+    Ok(markers_alone(&axes.markers(&markers), findings))
+}
+
+fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+    let (bvh, remarks) = Bvh::read(bytes)?;
+    files::note_remarks(shown, &remarks, findings);
+    let skeleton = skeleton_from_bvh(&bvh, shown, None, findings)?;
+    // Figures of animation walk wherever they like.
+    let straight = straightened(&skeleton.markers).unwrap_or(skeleton.markers);
+    Ok(markers_alone(&straight, findings))
+}
+
+fn markers_alone(markers: &MarkerRecording, findings: &mut Findings) -> Vec<Source> {
+    vec![of_motion(foot_motion(markers, findings))]
+}
+
+/// Ground forces by their usual columns: what stands before `vy`, with a side in its name or the usual order of the two feet.
+fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+    let (table, remarks) = Table::read_storage(bytes)?;
+    files::note_remarks(shown, &remarks, findings);
+    let times = table.times().context("no column `time`; expected it first")?;
+    let columns = vertical_columns(&table);
+    if columns.is_empty() {
+        bail!(
+            "no columns of ground forces among {}; expected ground_force_r_vy and ground_force_l_vy, or their like. hint: `ambulo info` lists what a table holds",
+            table.names().join(", ")
+        );
+    }
+    let mut events = Vec::new();
+    for (side, column) in columns {
+        findings.note("events.columns", format!("the {side} foot's upward force is `{column}`"));
+        for contact in contacts(times, table.column(&column).unwrap_or_default()) {
+            push(&mut events, side, contact.strike_s, contact.off_s);
+        }
+    }
+    Ok(vec![Source { word: "plates", title: "ground forces (20 N)".into(), events: sorted(events) }])
+}
+
+/// The upward forces of both feet.
+fn vertical_columns(table: &Table) -> Vec<(Side, String)> {
+    const USUAL: [[&str; 2]; 4] = [
+        ["ground_force_r_vy", "ground_force_l_vy"],
+        ["R_ground_force_vy", "L_ground_force_vy"],
+        ["ground_force_vy", "1_ground_force_vy"],
+        ["ground_force_vy", "l_ground_force_vy"],
+    ];
+    let there = |names: &&[&str; 2]| names.iter().all(|name| table.column(name).is_some());
+    let found = USUAL.iter().find(there);
+    found.map_or(vec![], |names| Side::BOTH.into_iter().zip(names.map(str::to_owned)).collect())
+}
+
+/// Edges of contacts of which a plate saw all.
+fn of_plates(feet: &FeetOnPlates) -> Vec<Event> {
+    let mut events = Vec::new();
+    for contact in &feet.contacts {
+        if let (Some(side), ContactQuality::Clean) = (contact.side, contact.quality) {
+            push(&mut events, side, Some(contact.start_s), Some(contact.end_s));
+        }
+    }
+    sorted(events)
+}
+
+fn of_motion(motion: FootMotion) -> Source {
+    let methods = motion.by_method.len();
+    Source { word: "motion", title: format!("motion of the feet ({methods} methods)"), events: motion.events }
+}
+
+fn push(events: &mut Vec<Event>, side: Side, strike_s: Option<f64>, off_s: Option<f64>) {
+    let event = |kind, time_s: Option<f64>| time_s.map(|time_s| Event { side, kind, time_s });
+    events.extend([event(EventKind::Strike, strike_s), event(EventKind::Off, off_s)].into_iter().flatten());
+}
+
+fn sorted(mut events: Vec<Event>) -> Vec<Event> {
+    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    events
+}
+
+/// Each source against the ones before it that have events.
+fn agreements(sources: &[Source]) -> Vec<Agreed> {
+    let filled: Vec<&Source> = sources.iter().filter(|source| !source.events.is_empty()).collect();
+    let pairs = (0..filled.len()).flat_map(|k| (k + 1..filled.len()).map(move |later| (k, later)));
+    let agreed = |(reference, found): (usize, usize)| Agreed {
+        found: filled[found].word,
+        reference: filled[reference].word,
+        kinds: event_agreement(&filled[reference].events, &filled[found].events),
+    };
+    pairs.map(agreed).collect()
+}
+
+fn csv(sources: &[Source]) -> String {
+    let mut out = String::from("side,event,time,source\n");
+    for source in sources {
+        for Event { side, kind, time_s } in &source.events {
+            // Writing to memory does not fail.
+            let _ = writeln!(out, "{},{},{time_s},{}", side.letter(), kind.word(), source.word);
+        }
+    }
+    out
+}

@@ -1,0 +1,168 @@
+//! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
+
+mod coordinates;
+mod ground_table;
+mod laboratory_file;
+mod markers;
+mod skeleton;
+
+use super::outcome::{Outcome, read_thresholds};
+use super::stopwatch::Stopwatch;
+use crate::args::{AddedMass, Filter, ForcesArgs};
+use crate::{Verdict, files};
+use ambulo::analysis::feasibility::{Person, Thresholds};
+use ambulo::analysis::{AnalysisError, Event, Settings, analyse};
+use ambulo::findings::Findings;
+use ambulo::model::{Model, from_osim};
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{DeviceRecording, ForceRecording, Motion, Smoother, Window, device_from_table};
+use ambulo::report::{Input, OutputFile, SubjectSummary};
+use ambulo_formats::osim::OsimModel;
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+
+pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
+    if let (Some(from), Some(to)) = (args.from, args.to)
+        && from > to
+    {
+        bail!("--from {from} is after --to {to}; expected a range of time that runs forwards");
+    }
+    let mut reading =
+        Reading { findings: Findings::default(), clock: Stopwatch::new(), read: vec![args.input.clone()] };
+    let recorded = match Kind::of(&args.input)? {
+        Kind::Coordinates => coordinates::read(args, &mut reading)?,
+        Kind::Markers => markers::read(args, &mut reading)?,
+        Kind::Skeleton => skeleton::read(args, &mut reading)?,
+    };
+    let device = read_device(args, &recorded.model, &mut reading)?;
+    let thresholds = read_thresholds(args.thresholds.as_deref())?;
+    reading.read.extend(args.device.iter().chain(&args.thresholds).cloned());
+    compute(args, recorded, device, &thresholds, reading)
+}
+
+/// What kind of recording a file is, by the ending of its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Coordinates,
+    Markers,
+    Skeleton,
+}
+
+impl Kind {
+    fn of(input: &Path) -> Result<Kind> {
+        let ending = input.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match ending.as_str() {
+            "mot" | "sto" | "csv" => Ok(Kind::Coordinates),
+            "c3d" | "trc" => Ok(Kind::Markers),
+            "bvh" => Ok(Kind::Skeleton),
+            _ => bail!(
+                "{}: unknown kind of recording `.{ending}`; expected .c3d or .trc (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
+                input.display()
+            ),
+        }
+    }
+}
+
+/// What accompanies the reading of files.
+struct Reading {
+    findings: Findings,
+    clock: Stopwatch,
+    /// Every file that was read; none of them is written over.
+    read: Vec<PathBuf>,
+}
+
+/// A recording, whatever it was made with: a body, its motion, and the forces under its feet.
+struct Recorded {
+    model: Model,
+    motion: Motion,
+    plates: Vec<ForceRecording>,
+    person: Person,
+    input: Input,
+    /// How markers became a body in motion.
+    subject: Option<SubjectSummary>,
+    /// Foot strikes and toe-offs that are known besides what forces show.
+    events: Vec<Event>,
+    /// Files of its own.
+    files: Vec<OutputFile>,
+}
+
+fn compute(
+    args: &ForcesArgs,
+    recorded: Recorded,
+    device: Option<DeviceRecording>,
+    thresholds: &Thresholds,
+    reading: Reading,
+) -> Result<Verdict> {
+    let Reading { mut findings, mut clock, read } = reading;
+    let Recorded { model, motion, plates, person, input, subject, events, files } = recorded;
+    let settings = settings(args);
+    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
+        .map_err(|error| name_the_file(error, &input))?;
+    if !events.is_empty() {
+        analysis.complete_events(&events);
+    }
+    if let Some(device) = &device {
+        device.report_cover(analysis.trajectory.grid(), &mut findings);
+    }
+    let device = device.map(|d| d.on(analysis.trajectory.grid()));
+    let outcome = Outcome {
+        model: &model,
+        settings: &settings,
+        thresholds,
+        input: &input,
+        person,
+        device: device.as_deref(),
+        read: &read,
+        walk: None,
+        subject,
+        files,
+    };
+    outcome.write(analysis, findings, clock, &args.output, args.voice)
+}
+
+/// The error with the file that it is about.
+fn name_the_file(error: AnalysisError, input: &Input) -> anyhow::Error {
+    let file = match error {
+        AnalysisError::Ground(_) => input.ground.clone().unwrap_or_default(),
+        _ => input.motion.clone(),
+    };
+    anyhow::Error::new(error).context(file)
+}
+
+fn read_model(path: &Path, args: &ForcesArgs, reading: &mut Reading) -> Result<Model> {
+    let shown = || path.display().to_string();
+    let document = OsimModel::read(&files::read(path)?).with_context(shown)?;
+    reading.read.push(path.to_owned());
+    let mut model = from_osim(&document, &mut reading.findings).with_context(shown)?;
+    for added in &args.add_mass {
+        model = carry(&model, added)?;
+    }
+    Ok(model)
+}
+
+fn carry(model: &Model, added: &AddedMass) -> Result<Model> {
+    let Some(body) = model.body(&added.body) else {
+        let known: Vec<_> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+        bail!("--add-mass: the model has no body `{}`; expected one of {}", added.body, known.join(", "));
+    };
+    model.with_point_mass(body, added.mass_kg, added.place_m).context("--add-mass")
+}
+
+fn read_device(args: &ForcesArgs, model: &Model, reading: &mut Reading) -> Result<Option<DeviceRecording>> {
+    let Some(path) = &args.device else { return Ok(None) };
+    let shown = path.display().to_string();
+    let (table, remarks) = files::read_table(path)?;
+    files::note_remarks(&shown, &remarks, &mut reading.findings);
+    device_from_table(model, &table, &mut reading.findings).map(Some).context(shown)
+}
+
+fn settings(args: &ForcesArgs) -> Settings {
+    let low_pass = |cutoff_hz: Option<f64>| cutoff_hz.map(|cutoff_hz| LowPass { order: args.order, cutoff_hz });
+    let smoother = match (args.filter, low_pass(args.cutoff.0)) {
+        (Filter::Spline, _) => Smoother::Spline,
+        (Filter::Butterworth, Some(filter)) => Smoother::Butterworth(filter),
+        (Filter::Butterworth, None) => Smoother::Off,
+    };
+    let force_filter = low_pass(args.force_cutoff.unwrap_or(args.cutoff).0);
+    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to }, rate_hz: args.rate }
+}

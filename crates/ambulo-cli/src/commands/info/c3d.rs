@@ -1,0 +1,216 @@
+//! Recordings of a laboratory.
+
+use super::sheet::wrapped;
+use super::{Sheet, markers};
+use ambulo::findings::Findings;
+use ambulo::motion::{
+    MarkerRecording, PlateRecording, PlateSettings, SubjectParameters, laboratory, markers_from_c3d, plates_from_c3d,
+    subject_from_c3d,
+};
+use ambulo_formats::c3d::{C3d, Channel, Encoding, Processor, Storage};
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// POINT parameters that list points which are no markers, and what to call them.
+const GROUPS: [(&str, &str); 7] = [
+    ("ANGLES", "angles"),
+    ("MOMENTS", "moments"),
+    ("FORCES", "forces"),
+    ("POWERS", "powers"),
+    ("SCALARS", "scalars"),
+    ("MODELED_MARKERS", "modelled markers"),
+    ("REACTIONS", "reactions"),
+];
+
+pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
+    let (c3d, remarks) = C3d::read(bytes)?;
+    let times = c3d.times();
+    let mut sheet = Sheet::of("C3D recording");
+    sheet.text("encoding", &encoding(&c3d.encoding));
+    sheet.value("written_by", written_by(&c3d));
+    sheet.value("frames", c3d.frames());
+    sheet.value("first_frame", c3d.first_frame);
+    sheet.value("from_s", times.first().copied());
+    sheet.value("to_s", times.last().copied());
+    sheet.value("rate_hz", c3d.point_rate_hz);
+    sheet.value("analog_rate_hz", (!c3d.channels.is_empty()).then_some(c3d.analog_rate_hz));
+    sheet.text("unit", if c3d.point_unit.is_empty() { "not stated" } else { &c3d.point_unit });
+    let mut findings = Findings::default();
+    let recording = markers_from_c3d(&c3d, &mut findings);
+    let set = match &recording {
+        Ok(recording) => markers::say(&mut sheet, recording),
+        Err(error) => {
+            sheet.said("markers", Value::Null, vec![format!("none: {error}")]);
+            None
+        }
+    };
+    say_points(&mut sheet, &c3d, recording.as_ref().map_or(0, |recording| recording.markers.len()));
+    say_channels(&mut sheet, &c3d.channels);
+    let plates = plates_from_c3d(&c3d, PlateSettings::default(), &mut findings);
+    match &plates {
+        Ok(plates) => say_plates(&mut sheet, plates),
+        Err(error) => sheet.said("plates", Value::Null, vec![format!("unusable: {error}")]),
+    }
+    say_events(&mut sheet, &c3d);
+    let subject = subject_from_c3d(&c3d);
+    say_subject(&mut sheet, &c3d, &subject);
+    let plates = plates.unwrap_or_default();
+    if let Ok(recording) = &recording {
+        let axes = laboratory(recording, &plates, &c3d.point_unit, &mut findings);
+        sheet.text("axes", &axes.statement);
+    }
+    sheet.remarks(&remarks);
+    sheet.findings(&findings);
+    if let Ok(recording) = &recording {
+        sheet.next(next(path, recording, set.is_some(), &subject, &plates));
+    }
+    Ok(sheet)
+}
+
+fn next(
+    path: &Path,
+    recording: &MarkerRecording,
+    known: bool,
+    subject: &SubjectParameters,
+    plates: &[PlateRecording],
+) -> String {
+    let mass = subject.mass_kg.is_none().then_some("--mass KG");
+    let height = subject.height_m.is_none().then_some("--height M");
+    let ground = (!plates.iter().any(|plate| plate.peak_n() > 0.0)).then_some("--no-ground");
+    let options: Vec<&str> = [mass, height, ground].into_iter().flatten().collect();
+    markers::next(path, recording, known, &options.join(" "))
+}
+
+fn encoding(encoding: &Encoding) -> String {
+    let processor = match encoding.processor {
+        Processor::Intel => "Intel (little-endian)",
+        Processor::Dec => "DEC (VAX)",
+        Processor::Sgi => "SGI/MIPS (big-endian)",
+    };
+    let storage = match encoding.storage {
+        Storage::Integer => "integers with a scale",
+        Storage::Real => "reals",
+    };
+    format!("{processor}, {storage}")
+}
+
+/// Company, software and version, as the file has them.
+fn written_by(c3d: &C3d) -> Option<String> {
+    let words = ["COMPANY", "SOFTWARE", "VERSION_LABEL", "VERSION"];
+    let texts = words.into_iter().filter_map(|name| c3d.parameters.text("MANUFACTURER", name));
+    let texts: Vec<&str> = texts.map(str::trim).filter(|text| !text.is_empty()).collect();
+    (!texts.is_empty()).then(|| texts.join(" "))
+}
+
+/// Points that are no markers, by their groups.
+fn say_points(sheet: &mut Sheet, c3d: &C3d, markers: usize) {
+    let mut lines = vec![(c3d.points.len() - markers.min(c3d.points.len())).to_string()];
+    let mut groups = serde_json::Map::new();
+    for (parameter, word) in GROUPS {
+        let listed = c3d.parameters.texts("POINT", parameter);
+        let names: Vec<&str> = listed.into_iter().filter(|name| c3d.point(name).is_some()).collect();
+        if !names.is_empty() {
+            lines.push(format!("{word}: {}", names.len()));
+            lines.extend(wrapped(&names).into_iter().map(|line| format!("  {line}")));
+            groups.insert(word.replace(' ', "_"), json!(names));
+        }
+    }
+    let unlabelled = c3d.points.iter().filter(|point| point.name.trim().starts_with('*')).count();
+    if unlabelled > 0 {
+        lines.push(format!("without a label: {unlabelled}"));
+    }
+    if c3d.points.len() > markers {
+        sheet.said("other_points", groups, lines);
+    }
+}
+
+fn say_channels(sheet: &mut Sheet, channels: &[Channel]) {
+    let named = |channel: &Channel| match channel.unit.trim() {
+        "" => channel.name.clone(),
+        unit => format!("{} [{unit}]", channel.name),
+    };
+    let names: Vec<String> = channels.iter().map(named).collect();
+    sheet.names("analog_channels", &names.iter().map(String::as_str).collect::<Vec<_>>());
+}
+
+fn say_plates(sheet: &mut Sheet, plates: &[PlateRecording]) {
+    let values = plates.iter().map(|plate| {
+        json!({
+            "name": plate.name,
+            "type": plate.kind,
+            "corners_m": plate.corners.map(|corner| [corner.x, corner.y, corner.z]),
+            "size_m": size(plate),
+            "peak_n": plate.peak_n(),
+            "loaded_s": loaded(plate),
+            "baseline_n": plate.baseline_n,
+        })
+    });
+    let values: Vec<Value> = values.collect();
+    let lines = std::iter::once(plates.len().to_string()).chain(plates.iter().map(plate_line)).collect();
+    sheet.said("plates", values, lines);
+}
+
+fn plate_line(plate: &PlateRecording) -> String {
+    let [width, length] = size(plate);
+    let center = plate.center();
+    let spans: Vec<String> = loaded(plate).iter().map(|[from, to]| format!("{from:.3}-{to:.3} s")).collect();
+    let load = if spans.is_empty() {
+        "never loaded".to_owned()
+    } else {
+        format!("loaded {}, peak {:.1} N", spans.join(", "), plate.peak_n())
+    };
+    let baseline = plate.baseline_n.map_or(String::new(), |n| format!(", baseline {n:.1} N removed"));
+    format!(
+        "{}: type {}, {width:.3} x {length:.3} m, centre {:.3} {:.3} {:.3} m, {load}{baseline}",
+        plate.name, plate.kind, center.x, center.y, center.z
+    )
+}
+
+/// Lengths of the first two edges [m].
+fn size(plate: &PlateRecording) -> [f64; 2] {
+    let [a, b, c, _] = plate.corners;
+    [(b - a).norm(), (c - b).norm()]
+}
+
+/// Spans during which the plate carried a foot [s]; touches and breaks shorter than 0.05 s are noise.
+fn loaded(plate: &PlateRecording) -> Vec<[f64; 2]> {
+    const SHORTEST: f64 = 0.05;
+    let mut spans: Vec<[f64; 2]> = Vec::new();
+    for (sample, &time) in plate.times.iter().enumerate().filter(|(sample, _)| plate.is_loaded(*sample)) {
+        let previous = sample.checked_sub(1).map_or(f64::NEG_INFINITY, |before| plate.times[before]);
+        match spans.last_mut() {
+            Some(span) if previous <= span[1] || time - span[1] < SHORTEST => span[1] = time,
+            _ => spans.push([time, time]),
+        }
+    }
+    spans.retain(|[from, to]| to - from >= SHORTEST);
+    spans
+}
+
+fn say_events(sheet: &mut Sheet, c3d: &C3d) {
+    let mut events: Vec<_> = c3d.events.iter().collect();
+    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    let values: Vec<Value> = events
+        .iter()
+        .map(|event| json!({ "time_s": event.time_s, "label": event.label, "context": event.context }))
+        .collect();
+    let lines = events.iter().map(|e| format!("{:.3} s {} {}", e.time_s, e.context, e.label).replace("  ", " "));
+    sheet.said("events", values, std::iter::once(events.len().to_string()).chain(lines).collect());
+}
+
+fn say_subject(sheet: &mut Sheet, c3d: &C3d, subject: &SubjectParameters) {
+    let names: Vec<&str> = c3d.parameters.texts("SUBJECTS", "NAMES").into_iter().filter(|n| !n.is_empty()).collect();
+    if !names.is_empty() {
+        sheet.value("subject", names.join(", "));
+    }
+    sheet.value("mass_kg", subject.mass_kg);
+    sheet.value("height_m", subject.height_m);
+    if !subject.processing.is_empty() {
+        let lines: Vec<String> = subject.processing.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        let lines = wrapped(&lines.iter().map(String::as_str).collect::<Vec<_>>());
+        let value: serde_json::Map<String, Value> =
+            subject.processing.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
+        sheet.said("processing", value, lines);
+    }
+}

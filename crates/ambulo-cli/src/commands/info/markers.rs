@@ -1,0 +1,145 @@
+//! Markers, of TRC files and of what else has markers.
+
+use super::Sheet;
+use super::sheet::wrapped;
+use ambulo::findings::Findings;
+use ambulo::model::marker_set::MarkerSet;
+use ambulo::motion::{MarkerPath, MarkerRecording, laboratory, markers_from_trc};
+use ambulo_formats::trc::Trc;
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Markers that stay within this stand still [m].
+const STILL: f64 = 0.1;
+
+pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
+    let (trc, remarks) = Trc::read(bytes)?;
+    let times = trc.times();
+    let mut sheet = Sheet::of("marker trajectories");
+    sheet.text("name", &trc.name);
+    sheet.text("unit", trc.unit.symbol());
+    sheet.value("frames", times.len());
+    sheet.value("first_frame", trc.frames().first().copied());
+    sheet.value("from_s", times.first().copied());
+    sheet.value("to_s", times.last().copied());
+    sheet.value("rate_hz", trc.rate_hz);
+    let mut findings = Findings::default();
+    match markers_from_trc(&trc, &mut findings) {
+        Ok(recording) => {
+            let set = say(&mut sheet, &recording);
+            let axes = laboratory(&recording, &[], trc.unit.symbol(), &mut findings);
+            sheet.text("axes", &axes.statement);
+            sheet.remarks(&remarks);
+            sheet.findings(&findings);
+            sheet.next(next(path, &recording, set.is_some(), "--mass KG --height M"));
+        }
+        Err(error) => {
+            sheet.names("markers", &trc.markers().iter().map(|m| m.name.as_str()).collect::<Vec<_>>());
+            sheet.remarks(&remarks);
+            sheet.text("unusable", &error.to_string());
+        }
+    }
+    Ok(sheet)
+}
+
+/// What to type next with markers.
+pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, subject: &str) -> String {
+    let shown = path.display();
+    let subject = if subject.is_empty() { String::new() } else { format!(" {subject}") };
+    if !is_known {
+        return format!(
+            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md tells how to name markers)"
+        );
+    }
+    if stands_still(recording) {
+        return format!("a standing trial: ambulo forces WALK --static {shown}{subject} -o out");
+    }
+    format!(
+        "ambulo forces {shown} --static STANDING{subject} -o out (without --static the body is measured from the trial itself)"
+    )
+}
+
+/// Says which markers there are, which of them have gaps and what set they are; gives the names of the sets if one is known.
+pub(super) fn say(sheet: &mut Sheet, recording: &MarkerRecording) -> Option<Vec<String>> {
+    let names: Vec<&str> = recording.markers.iter().map(|marker| marker.name.as_str()).collect();
+    sheet.names("markers", &names);
+    say_gaps(sheet, recording);
+    match MarkerSet::recognise(names.iter().copied()) {
+        Ok(recognised) => {
+            let known = recognised.markers.len();
+            let head = format!("{}, {known} of {} markers", recognised.sets.join(" with "), names.len());
+            let unknown: Vec<&str> = recognised.unknown.iter().map(String::as_str).collect();
+            let mut lines = vec![head];
+            if !unknown.is_empty() {
+                lines.extend(
+                    wrapped(&unknown)
+                        .into_iter()
+                        .enumerate()
+                        .map(|(k, line)| if k == 0 { format!("not known: {line}") } else { line }),
+                );
+            }
+            sheet.said("marker_set", json!({ "sets": recognised.sets, "known": known, "unknown": unknown }), lines);
+            Some(recognised.sets)
+        }
+        Err(error) => {
+            sheet.said("marker_set", Value::Null, vec![format!("none is known: {error}")]);
+            None
+        }
+    }
+}
+
+fn say_gaps(sheet: &mut Sheet, recording: &MarkerRecording) {
+    let gaps: Vec<Gaps> = recording.markers.iter().filter_map(|marker| Gaps::of(marker, recording.rate_hz)).collect();
+    let lines: Vec<String> = gaps.iter().map(|gap| gap.line(recording.frames())).collect();
+    let values = gaps.iter().map(|gap| {
+        json!({ "marker": gap.name, "gaps": gap.count, "missing_frames": gap.missing, "longest_s": gap.longest_s })
+    });
+    let head = if gaps.is_empty() { "none".to_owned() } else { gaps.len().to_string() };
+    sheet.said("markers_with_gaps", values.collect::<Vec<_>>(), std::iter::once(head).chain(lines).collect());
+}
+
+/// Where a marker was not seen.
+struct Gaps<'m> {
+    name: &'m str,
+    count: usize,
+    missing: usize,
+    longest_s: f64,
+}
+
+impl Gaps<'_> {
+    fn of(marker: &MarkerPath, rate_hz: f64) -> Option<Gaps<'_>> {
+        let (mut count, mut missing, mut longest, mut run) = (0, 0, 0, 0);
+        for frame in 0..marker.positions.len() {
+            if marker.is_seen(frame) {
+                run = 0;
+                continue;
+            }
+            count += usize::from(run == 0);
+            run += 1;
+            missing += 1;
+            longest = longest.max(run);
+        }
+        (missing > 0).then(|| Gaps { name: &marker.name, count, missing, longest_s: longest as f64 / rate_hz })
+    }
+
+    fn line(&self, frames: usize) -> String {
+        let Gaps { name, count, missing, longest_s } = self;
+        if *missing == frames {
+            return format!("{name}: never seen");
+        }
+        let gaps = if *count == 1 { "gap" } else { "gaps" };
+        let share = 100.0 * *missing as f64 / frames as f64;
+        format!("{name}: {count} {gaps}, {missing} frames ({share:.0} %), longest {longest_s:.3} s")
+    }
+}
+
+/// Whether no marker goes anywhere.
+fn stands_still(recording: &MarkerRecording) -> bool {
+    let extent = |marker: &MarkerPath| {
+        let seen = || (0..marker.positions.len()).filter(|&frame| marker.is_seen(frame)).map(|i| marker.positions[i]);
+        let (low, high) = (seen().reduce(|a, b| a.inf(&b))?, seen().reduce(|a, b| a.sup(&b))?);
+        Some((high - low).amax())
+    };
+    recording.markers.iter().filter_map(extent).fold(0.0, f64::max) < STILL
+}

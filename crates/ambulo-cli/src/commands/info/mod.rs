@@ -1,0 +1,57 @@
+//! `ambulo info`: what a file holds.
+
+mod bvh;
+mod c3d;
+mod markers;
+mod model;
+mod sheet;
+mod table;
+
+pub(crate) use sheet::Sheet;
+
+use crate::args::InfoArgs;
+use crate::{Verdict, files, printer};
+use ambulo_formats::external_loads::ExternalLoads;
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+
+pub(crate) fn run(args: &InfoArgs) -> Result<Verdict> {
+    let bytes = files::read(&args.file)?;
+    let sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
+    printer::info(&sheet, args.voice)?;
+    Ok(Verdict::Accepted)
+}
+
+fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
+    match files::ending(path).as_str() {
+        "c3d" => c3d::describe(path, bytes),
+        "trc" => markers::describe_trc(path, bytes),
+        "bvh" => bvh::describe(path, bytes),
+        "osim" => model::describe(path, bytes),
+        "mot" | "sto" => table::describe_storage(path, bytes),
+        "csv" => table::describe_csv(bytes),
+        "xml" => loads(bytes),
+        ending => bail!(
+            "unknown kind of file `.{ending}`; expected .c3d, .trc, .bvh, .osim, .mot, .sto, .csv or .xml (external loads)"
+        ),
+    }
+}
+
+fn loads(bytes: &[u8]) -> Result<Sheet> {
+    let (loads, remarks) = ExternalLoads::read(bytes)?;
+    let forces: Vec<String> = loads
+        .forces
+        .iter()
+        .map(|f| {
+            let columns = f.force_identifier.as_deref().unwrap_or("no columns");
+            let switch = if f.enabled { "" } else { ", switched off" };
+            format!("{}: {columns} on {}{switch}", f.name, f.applied_to_body)
+        })
+        .collect();
+    let mut sheet = Sheet::of("external loads");
+    sheet.text("name", &loads.name);
+    sheet.value("data_file", loads.datafile);
+    sheet.list("forces", forces);
+    sheet.remarks(&remarks);
+    Ok(sheet)
+}

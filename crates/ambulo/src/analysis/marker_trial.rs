@@ -1,0 +1,175 @@
+//! From a laboratory's markers and plates to a body in motion with forces under its feet, ready for [`super::analyse`].
+//!
+//! The axes are found ([`crate::motion::laboratory`]), the body is calibrated or scaled from a standing trial or taken as it is,
+//! its coordinates are fitted to the markers, and what plates measured is given to the feet that stood on them.
+
+use super::feasibility::Person;
+use crate::findings::Findings;
+use crate::ground::foot_motion::{FootMotion, foot_motion};
+use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
+use crate::kinematics::calibration::{
+    self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
+};
+use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
+use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
+use crate::model::{Model, Side};
+use crate::motion::force_plate::PlateRecording;
+use crate::motion::{ForceRecording, MarkerRecording};
+use crate::motion::{Laboratory, laboratory};
+use std::collections::BTreeMap;
+
+/// What one file of a laboratory holds, in its axes.
+#[derive(Debug, Clone)]
+pub struct LaboratoryRecording {
+    /// Markers [m].
+    pub markers: MarkerRecording,
+    /// Force plates.
+    pub plates: Vec<PlateRecording>,
+    /// The unit of length as the file states it.
+    pub unit: String,
+}
+
+/// Whose body is fitted.
+#[derive(Debug, Clone)]
+pub enum Body<'a> {
+    /// The built-in one, made to the person's measure. Without a set of markers the one whose names are found is taken.
+    BuiltIn {
+        /// What is known of the person.
+        person: &'a calibration::Person,
+        /// The set of markers.
+        set: Option<&'a MarkerSet>,
+    },
+    /// A model as it is.
+    Model(&'a Model),
+}
+
+/// A body that moves as the markers did.
+#[derive(Debug, Clone)]
+pub struct BodyInMotion {
+    /// The body.
+    pub subject: Subject,
+    /// The walk's axes.
+    pub laboratory: Laboratory,
+    /// Plates in world axes.
+    pub plates: Vec<PlateRecording>,
+    /// Its coordinates, and how well the markers were followed.
+    pub fit: MarkerFit,
+    /// When the feet met and left the ground, by the markers.
+    pub feet: FootMotion,
+    /// Which foot stood on which plate.
+    pub on_plates: FeetOnPlates,
+}
+
+/// A body that has markers.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// The body.
+    pub model: Model,
+    /// The person, for the verdict.
+    pub person: Person,
+    /// How much each marker counts; 1 if not listed.
+    pub weights: BTreeMap<String, f64>,
+    /// How the built-in body was made.
+    pub calibration: Option<CalibrationReport>,
+    /// The sets of markers that were recognised.
+    pub sets: Vec<String>,
+}
+
+/// Why markers give no body in motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MarkerTrialError {
+    /// The names of the markers.
+    #[error(transparent)]
+    Names(#[from] RecognitionError),
+    /// The body.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+    /// The fit.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
+
+/// Fits a body to a recording. `still` is the same person standing; `told` names the foot of plates (by index) where a person has
+/// decided. `stage` is called with a name as each stage ends.
+///
+/// # Errors
+/// Markers that no set knows, that make no body, or that the body does not have: see [`MarkerTrialError`].
+pub fn body_in_motion(
+    walk: &LaboratoryRecording,
+    still: Option<&LaboratoryRecording>,
+    body: &Body<'_>,
+    settings: &FitSettings,
+    told: &[(usize, Side)],
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<BodyInMotion, MarkerTrialError> {
+    let axes = laboratory(&walk.markers, &walk.plates, &walk.unit, findings);
+    let markers = axes.markers(&walk.markers);
+    let plates: Vec<PlateRecording> = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
+    stage("axes");
+    let subject = match body {
+        Body::Model(model) => Subject::of_model(model),
+        Body::BuiltIn { person, set } => {
+            let still = still
+                .map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
+            Subject::built_in(&markers, still.as_ref(), person, *set, findings)?
+        }
+    };
+    stage("body");
+    let settings = FitSettings { weights: subject.weights.clone(), ..settings.clone() };
+    let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    if subject.calibration.is_some() {
+        assume_upright_trunk(&subject.model, &mut fit.motion, findings);
+    }
+    stage("markers");
+    let feet = foot_motion(&markers, findings);
+    let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
+    stage("feet");
+    Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+}
+
+impl BodyInMotion {
+    /// What the plates did to the feet; nothing if the body has no feet.
+    #[must_use]
+    pub fn plate_forces(&self) -> Vec<ForceRecording> {
+        foot_bodies(&self.subject.model).map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
+    }
+}
+
+impl Subject {
+    fn of_model(model: &Model) -> Subject {
+        Subject {
+            model: model.clone(),
+            person: Person::of_model(model),
+            weights: BTreeMap::new(),
+            calibration: None,
+            sets: Vec::new(),
+        }
+    }
+
+    /// The built-in body, calibrated from the standing trial or, without one, from the walk.
+    fn built_in(
+        walk: &MarkerRecording,
+        still: Option<&MarkerRecording>,
+        person: &calibration::Person,
+        set: Option<&MarkerSet>,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        let (recording, trial) = still.map_or((walk, Trial::Moving), |still| (still, Trial::Standing));
+        let names = recording.markers.iter().map(|marker| marker.name.as_str());
+        let recognised = match set {
+            Some(set) => Recognised::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
+            None => MarkerSet::recognise(names)?,
+        };
+        let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
+        let human = calibrated.human;
+        Ok(Subject {
+            person: Person::of_human(&human),
+            weights: calibrated.weights,
+            calibration: Some(calibrated.report),
+            sets: recognised.sets,
+            model: human.model,
+        })
+    }
+}

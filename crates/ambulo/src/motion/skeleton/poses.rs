@@ -1,0 +1,132 @@
+//! Where the joints of a skeleton are: forward kinematics.
+//!
+//! A joint's frame in its parent's: its place, then the rotations of its channels in the file's order, each about axes that
+//! the ones before have turned: R = R_1 R_2 R_3.
+//!
+//! Position channels replace the offset or are added to it; the file does not say which. Of a root the choice shifts the
+//! whole motion by a constant, and they are taken to replace it. Of another joint they are taken for what they are nearer
+//! to on average: the offset, or zero.
+
+use super::error::SkeletonError;
+use crate::spatial::{Mat3, Pose, Vec3};
+use ambulo_formats::bvh::{Bvh, ChannelKind};
+use nalgebra::Rotation3;
+use std::ops::Range;
+
+/// A skeleton in motion, ready for forward kinematics. Lengths in the file's unit, axes of the file.
+pub(super) struct Skeleton<'b> {
+    bvh: &'b Bvh,
+    ranges: Vec<Range<usize>>,
+    /// Whether a joint's position channels are added to its offset.
+    added: Vec<bool>,
+}
+
+impl<'b> Skeleton<'b> {
+    pub(super) fn new(bvh: &'b Bvh) -> Result<Skeleton<'b>, SkeletonError> {
+        if bvh.frames() < 2 {
+            return Err(SkeletonError::NoFrames);
+        }
+        let ranges = bvh.channel_ranges();
+        let added = (0..ranges.len()).map(|joint| is_added(bvh, joint, &ranges[joint])).collect();
+        Ok(Skeleton { bvh, ranges, added })
+    }
+
+    pub(super) fn frames(&self) -> usize {
+        self.bvh.frames()
+    }
+
+    /// The joint that carries this one.
+    pub(super) fn parent(&self, joint: usize) -> Option<usize> {
+        self.bvh.joints()[joint].parent
+    }
+
+    /// All joints in one frame; `None` of a frame means that every channel is zero and every joint at its offset.
+    pub(super) fn poses(&self, frame: Option<usize>) -> Vec<Pose> {
+        let values = frame.and_then(|frame| self.bvh.frame(frame));
+        let mut poses: Vec<Pose> = Vec::with_capacity(self.ranges.len());
+        for (joint, range) in self.ranges.iter().enumerate() {
+            let own = match values.and_then(|values| values.get(range.clone())) {
+                Some(values) => self.own_pose(joint, values),
+                None => Pose::at(Vec3::from(self.bvh.joints()[joint].offset)),
+            };
+            let parent = self.parent(joint).map_or(Pose::IDENTITY, |parent| poses[parent]);
+            poses.push(parent * own);
+        }
+        poses
+    }
+
+    /// All frames, one after the other.
+    pub(super) fn all_poses(&self) -> impl Iterator<Item = Vec<Pose>> + '_ {
+        (0..self.frames()).map(|frame| self.poses(Some(frame)))
+    }
+
+    /// At most `most` frames, evenly spread.
+    pub(super) fn some_poses(&self, most: usize) -> impl Iterator<Item = Vec<Pose>> + '_ {
+        (0..self.frames()).step_by(self.frames().div_ceil(most)).map(|frame| self.poses(Some(frame)))
+    }
+
+    fn own_pose(&self, joint: usize, values: &[f64]) -> Pose {
+        let description = &self.bvh.joints()[joint];
+        let offset = Vec3::from(description.offset);
+        let mut translation = offset;
+        let mut rotation = Mat3::identity();
+        for (channel, &value) in description.channels.iter().zip(values) {
+            match channel.kind {
+                ChannelKind::Position => {
+                    let start = if self.added[joint] { offset[channel.axis] } else { 0.0 };
+                    translation[channel.axis] = start + value;
+                }
+                ChannelKind::Rotation => {
+                    let axis = [Vec3::x_axis(), Vec3::y_axis(), Vec3::z_axis()][channel.axis];
+                    rotation *= Rotation3::from_axis_angle(&axis, value.to_radians()).into_inner();
+                }
+            }
+        }
+        Pose { rotation, translation }
+    }
+
+    /// From one joint to a joint that it carries, in its own axes when all channels are zero; zero to itself.
+    pub(super) fn way(&self, from: usize, to: usize) -> Vec3 {
+        let joints = self.bvh.joints();
+        let (mut way, mut at) = (Vec3::zeros(), to);
+        while at != from {
+            way += Vec3::from(joints[at].offset);
+            match joints[at].parent {
+                Some(parent) => at = parent,
+                None => break,
+            }
+        }
+        way
+    }
+
+    /// The far end of a joint's own bone, in its axes: an end site or else a joint that it carries, if not where it is.
+    pub(super) fn tip(&self, joint: usize) -> Option<Vec3> {
+        let joints = self.bvh.joints();
+        let carried = joints.iter().filter(|other| other.parent == Some(joint)).map(|other| other.offset);
+        let ends = joints[joint].end_sites.iter().copied().chain(carried);
+        ends.map(Vec3::from).find(|end| end.norm() > 0.0)
+    }
+
+    /// The last joint that carries both.
+    pub(super) fn common_carrier(&self, a: usize, b: usize) -> Option<usize> {
+        let chain = |joint: usize| std::iter::successors(Some(joint), |&joint| self.parent(joint));
+        chain(a).skip(1).find(|joint| chain(b).skip(1).any(|other| other == *joint))
+    }
+}
+
+fn is_added(bvh: &Bvh, joint: usize, range: &Range<usize>) -> bool {
+    let description = &bvh.joints()[joint];
+    if description.parent.is_none() {
+        return false;
+    }
+    let (mut to_offset, mut to_zero) = (0.0, 0.0);
+    for values in (0..bvh.frames()).filter_map(|frame| bvh.frame(frame)?.get(range.clone())) {
+        for (channel, value) in description.channels.iter().zip(values) {
+            if channel.kind == ChannelKind::Position && value.is_finite() {
+                to_offset += (value - description.offset[channel.axis]).abs();
+                to_zero += value.abs();
+            }
+        }
+    }
+    to_zero < to_offset
+}
