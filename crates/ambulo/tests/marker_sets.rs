@@ -181,3 +181,19 @@ fn a_set_of_ones_own_is_read_and_its_faults_are_named() {
         matches!(MarkerSet::named("helen"), Err(MarkerSetError::Unknown(e)) if e.to_string().contains("plug-in-gait"))
     );
 }
+
+#[test]
+fn the_page_lists_every_finding_of_a_calibration() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/kinematics/calibration");
+    let mut codes = std::collections::BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        for part in text.split("\"calibration.").skip(1) {
+            codes.insert(format!("calibration.{}", part.split('"').next().unwrap()));
+        }
+    }
+    let listed: std::collections::BTreeSet<String> =
+        rows("How a body is measured").into_iter().map(|row| row[0].clone()).filter(|c| c.contains('.')).collect();
+    assert_eq!(codes, listed);
+    assert!(codes.len() >= 3);
+}
