@@ -11,9 +11,9 @@ use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{AnalysisError, Event, Settings, analyse};
+use ambulo::analysis::{Analysis, AnalysisError, BodyInMotion, Event, Settings, analyse};
 use ambulo::findings::Findings;
-use ambulo::model::{Model, from_osim};
+use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{DeviceRecording, ForceRecording, Motion, Smoother, Window, device_from_table};
 use ambulo::report::{Input, OutputFile, SubjectSummary};
@@ -78,12 +78,51 @@ struct Recorded {
     plates: Vec<ForceRecording>,
     person: Person,
     input: Input,
-    /// How markers became a body in motion.
-    subject: Option<SubjectSummary>,
-    /// Foot strikes and toe-offs that are known besides what forces show.
-    events: Vec<Event>,
-    /// Files of its own.
-    files: Vec<OutputFile>,
+    /// What else is known of it.
+    origin: Origin,
+}
+
+/// What a recording was made with.
+enum Origin {
+    Coordinates,
+    Markers(Box<Followed>),
+    Skeleton(Box<SubjectSummary>),
+}
+
+/// A body that followed markers, and what its files say besides.
+struct Followed {
+    body: BodyInMotion,
+    /// Foot strikes and toe-offs that the file lists.
+    listed: Vec<Event>,
+    /// What plates carried while the person stood [kg].
+    standing_kg: Option<f64>,
+}
+
+impl Origin {
+    /// Adds to an analysis what is known besides forces and motion.
+    fn complete(&self, analysis: &mut Analysis) -> Option<SubjectSummary> {
+        match self {
+            Origin::Coordinates => None,
+            Origin::Skeleton(summary) => Some(*summary.clone()),
+            Origin::Markers(followed) => {
+                let Followed { body, listed, standing_kg } = &**followed;
+                let summary = SubjectSummary::of_markers(body, listed, &analysis.events);
+                analysis.complete_events(if listed.is_empty() { &body.feet.events } else { listed });
+                if let Some(standing_kg) = standing_kg {
+                    analysis.weigh_standing(*standing_kg);
+                }
+                Some(summary)
+            }
+        }
+    }
+
+    /// Files of its own: the body that was fitted, for OpenSim and for later runs.
+    fn files(&self, model: &Model) -> Result<Vec<OutputFile>> {
+        Ok(match self {
+            Origin::Coordinates => Vec::new(),
+            _ => vec![OutputFile { name: "subject.osim".to_owned(), bytes: to_osim(model)?.write()? }],
+        })
+    }
 }
 
 fn compute(
@@ -94,13 +133,11 @@ fn compute(
     reading: Reading,
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
-    let Recorded { model, motion, plates, person, input, subject, events, files } = recorded;
+    let Recorded { model, motion, plates, person, input, origin } = recorded;
     let settings = settings(args);
     let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, &input))?;
-    if !events.is_empty() {
-        analysis.complete_events(&events);
-    }
+    let subject = origin.complete(&mut analysis);
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
@@ -115,7 +152,7 @@ fn compute(
         read: &read,
         walk: None,
         subject,
-        files,
+        files: origin.files(&model)?,
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
 }
