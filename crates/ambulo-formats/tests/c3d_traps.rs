@@ -466,18 +466,31 @@ fn texts_are_utf_8_or_latin_1_without_blanks_at_their_end() {
 }
 
 #[test]
-fn scales_and_data_blocks_in_conflict_are_remarks() {
+fn scales_in_conflict_are_decided_by_the_size_of_the_file() {
+    // 100 frames of one point as integers (800 bytes) or reals (1600 bytes); header says reals, POINT:SCALE integers.
+    for (storage, bytes) in [(Storage::Integer, 800), (Storage::Real, 1600)] {
+        let mut file = File::new(1, 100, 0, 0, -0.5);
+        file.texts(1, "LABELS", &["HEEL"]).float(1, "SCALE", &[], &[0.25]);
+        file.data = vec![0; bytes];
+        let (record, remarks) = read(&file);
+        assert_eq!((record.encoding.storage, record.frames()), (storage, 100));
+        let said = "POINT:SCALE is 0.25, the header's scale -0.5: one says integers, the other reals; read as";
+        assert_eq!(remarks, [format!("{said} {storage:?} numbers")]);
+    }
+}
+
+#[test]
+fn data_blocks_in_conflict_or_without_sense_are_remarks() {
     let mut file = File::with_words(&[0.0]);
-    file.texts(1, "LABELS", &["HEEL"]).float(1, "SCALE", &[], &[0.5]).integer(1, "DATA_START", &[], &[90]);
+    file.texts(1, "LABELS", &["HEEL"]).integer(1, "DATA_START", &[], &[90]);
     let (record, remarks) = read(&file);
-    assert_eq!(record.encoding.storage, Storage::Integer);
-    assert_eq!(
-        remarks[..2],
-        [
-            "POINT:SCALE is 0.5, the header's scale -0.5: one says integers, the other reals; POINT:SCALE counts",
-            "the data begin in block 3 (header) or 90 (POINT:DATA_START); read from 3",
-        ]
-    );
+    assert_close(&record.points[0].positions[0], &[1.0, 2.0, 3.0]);
+    assert_eq!(remarks, ["the data begin in block 3 (header) or 90 (POINT:DATA_START); read from 3"]);
+    let mut bytes = File::with_words(&[0.0]).texts(1, "LABELS", &["HEEL"]).bytes();
+    bytes[16] = 0;
+    let (record, remarks) = C3d::read(&bytes).unwrap();
+    assert_close(&record.points[0].positions[0], &[1.0, 2.0, 3.0]);
+    assert_eq!(remarks[0].to_string(), "the data cannot begin in block 0; read from behind the parameters");
 }
 
 #[test]

@@ -236,6 +236,13 @@ fn what_the_format_cannot_hold_is_refused() {
     said(refused(|r| r.channels[0].samples[3] = f64::INFINITY), "inf as sample 3 of channel `FX`");
     said(refused(|r| r.events[2].label = "Heel strike".into()), "expected a label of at most four in the header");
     said(refused(|r| r.points[0].name = "x".repeat(256)), "a text of 256 bytes; expected at most 255");
+    said(
+        refused(|r| {
+            r.encoding.processor = Processor::Dec;
+            r.encoding.point_scale = 1e-39;
+        }),
+        "a scale of points of 0.000000000000000000000000000000000000001; expected a finite number above zero",
+    );
     let crooked = Parameter { dimensions: vec![2, 2], ..Parameter::list("P", Values::Reals(vec![0.0; 3])) };
     let mut record = sample();
     record.parameters.set("MINE", crooked);

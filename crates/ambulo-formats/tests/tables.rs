@@ -171,6 +171,13 @@ fn csv_is_read_with_commas_semicolons_or_tabs() {
 }
 
 #[test]
+fn control_characters_in_names_of_a_csv_are_blanks_and_do_not_separate_when_written() {
+    let (table, _) = Table::read_csv("a\tb;\u{19}c\u{feff};d\n1;2;3\n".as_bytes()).unwrap();
+    assert_eq!(table.names(), ["a b", "c", "d"]);
+    assert_eq!(Table::read_csv(&table.write_csv()).unwrap().0.names(), table.names());
+}
+
+#[test]
 fn csv_of_an_old_macintosh_is_read_with_its_lines() {
     let (table, _) = Table::read_csv(b"\xef\xbb\xbftime,x\r0,1\r1,2\r").unwrap();
     assert_eq!((table.times(), table.line_of_row(1)), (Some(&[0.0, 1.0][..]), Some(3)));

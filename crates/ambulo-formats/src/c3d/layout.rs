@@ -5,6 +5,9 @@ use super::header::{BLOCK, Header};
 use super::parameters::Parameters;
 use crate::error::{Error, Remark};
 
+/// Largest number of 16 bits.
+const WORD: usize = 65535;
+
 /// Where the data are and how a frame is built.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Layout {
@@ -19,6 +22,15 @@ pub(super) struct Layout {
     pub(super) point_rate_hz: f64,
 }
 
+/// Bytes of the file.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// All of them.
+    pub(super) size: usize,
+    /// First byte after the blocks of the parameter section.
+    pub(super) after_parameters: usize,
+}
+
 /// A number of frames and who says it.
 #[derive(Debug, Clone, Copy)]
 struct Claim {
@@ -29,7 +41,7 @@ struct Claim {
 impl Layout {
     /// Words of four points and all samples of one frame.
     fn values_per_frame(&self) -> usize {
-        4 * self.points + self.channels * self.samples_per_frame
+        (4 * self.points).saturating_add(self.channels.saturating_mul(self.samples_per_frame))
     }
 
     /// Bytes of one value.
@@ -42,24 +54,24 @@ impl Layout {
 
     /// Bytes of one frame.
     pub(super) fn frame_bytes(&self) -> usize {
-        self.values_per_frame() * self.width()
+        self.values_per_frame().saturating_mul(self.width())
     }
 }
 
-/// Settles what the file holds. `size` is its number of bytes.
+/// Settles what the file holds.
 pub(super) fn decide(
     header: &Header,
     parameters: &Parameters,
-    size: usize,
+    file: &Extent,
     remarks: &mut Vec<Remark>,
 ) -> Result<Layout, Error> {
-    let (storage, point_scale) = storage(header, parameters, remarks);
-    let data_offset = data_offset(header, parameters, size, remarks);
+    let scales = scales(header, parameters, remarks);
+    let data_offset = data_offset(header, parameters, file, remarks);
     let point_rate_hz = point_rate(header, parameters, remarks)?;
     let frame_claims = frame_claims(header, parameters);
     let mut layout = Layout {
-        storage,
-        point_scale,
+        storage: Storage::Real,
+        point_scale: 1.0,
         data_offset,
         points: 0,
         channels: 0,
@@ -68,8 +80,9 @@ pub(super) fn decide(
         first_frame: 1,
         point_rate_hz,
     };
-    let room = size.saturating_sub(data_offset);
-    choose_frame(&mut layout, header, parameters, room, &frame_claims, remarks);
+    let room = file.size.saturating_sub(data_offset);
+    let question = Question { header, parameters, scales: &scales, frames: &frame_claims, room };
+    choose_frame(&mut layout, &question, remarks);
     layout.frames = choose_frames(&layout, room, &frame_claims, remarks);
     if layout.frames == 0 {
         keep_named(&mut layout, parameters);
@@ -78,32 +91,26 @@ pub(super) fn decide(
     Ok(layout)
 }
 
-/// The sign of the scale says integers (positive) or reals; the parameter is preferred to the header.
-fn storage(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> (Storage, f64) {
+/// The sign of the scale says integers (positive) or reals. Two answers, the parameter's first, where the header's sign is
+/// another.
+fn scales(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<f64> {
     let usable = |scale: &f64| scale.is_finite() && scale.abs() > 0.0;
-    let parameter = parameters.number("POINT", "SCALE").filter(usable);
     let in_header = Some(f64::from(header.scale)).filter(usable);
-    if let (Some(a), Some(b)) = (parameter, in_header)
-        && a.is_sign_negative() != b.is_sign_negative()
-    {
-        remark(
-            remarks,
-            format!(
-                "POINT:SCALE is {a}, the header's scale {b}: one says integers, the other reals; POINT:SCALE counts"
-            ),
-        );
+    let mut scales: Vec<f64> = parameters.number("POINT", "SCALE").filter(usable).into_iter().collect();
+    if scales.first().is_none_or(|&scale| in_header.is_some_and(|other| scale * other < 0.0)) {
+        scales.extend(in_header);
     }
-    let Some(scale) = parameter.or(in_header) else {
+    if scales.is_empty() {
         remark(remarks, "neither POINT:SCALE nor the header has a scale; read as reals".into());
-        return (Storage::Real, 1.0);
-    };
-    (if scale < 0.0 { Storage::Real } else { Storage::Integer }, scale.abs())
+        scales.push(-1.0);
+    }
+    scales
 }
 
-fn data_offset(header: &Header, parameters: &Parameters, size: usize, remarks: &mut Vec<Remark>) -> usize {
+fn data_offset(header: &Header, parameters: &Parameters, file: &Extent, remarks: &mut Vec<Remark>) -> usize {
     let in_header = usize::from(header.data_block);
-    let stated = parameters.count("POINT", "DATA_START").filter(|&block| block > 0);
-    let inside = |block: usize| block >= 3 && (block - 1) * BLOCK <= size;
+    let stated = parameters.count("POINT", "DATA_START").filter(|block| (1..=WORD).contains(block));
+    let inside = |block: usize| block >= 3 && (block - 1) * BLOCK <= file.size;
     let block = match stated {
         Some(block) if block != in_header => {
             let chosen = if inside(in_header) { in_header } else { block };
@@ -115,7 +122,11 @@ fn data_offset(header: &Header, parameters: &Parameters, size: usize, remarks: &
         }
         _ => in_header,
     };
-    block.saturating_sub(1) * BLOCK
+    if block >= 3 {
+        return (block - 1) * BLOCK;
+    }
+    remark(remarks, format!("the data cannot begin in block {block}; read from behind the parameters"));
+    file.after_parameters
 }
 
 fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Result<f64, Error> {
@@ -144,15 +155,16 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
 /// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
 fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
-    let actual = start.zip(end).and_then(|(start, end)| (end + 1).checked_sub(start)).filter(|&frames| frames > 0);
+    let actual =
+        start.zip(end).and_then(|(start, end)| end.checked_add(1)?.checked_sub(start)).filter(|&frames| frames > 0);
     let frames = parameters.count("POINT", "FRAMES");
     let long = long_frames(parameters);
     let in_header = header.frames();
     let largest = [actual, frames, long].into_iter().flatten().max().unwrap_or(0);
     let first = start.unwrap_or(usize::from(header.first_frame));
-    let last = (first + largest).saturating_sub(1);
-    let header_full = last > 65535 && [65535, last & 0xffff].contains(&usize::from(header.last_frame));
-    let cut = |frames: &usize| largest > 65535 && *frames < largest && [65535, largest & 0xffff].contains(frames);
+    let last = first.saturating_add(largest).saturating_sub(1);
+    let header_full = last > WORD && [WORD, last & 0xffff].contains(&usize::from(header.last_frame));
+    let cut = |frames: &usize| largest > WORD && *frames < largest && [WORD, largest & 0xffff].contains(frames);
     let claims = [
         ("the header", in_header.filter(|_| !header_full)),
         ("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", actual),
@@ -165,42 +177,59 @@ fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
 /// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
 /// (The user guide multiplies the high word by 65535; two words are 65536.)
 fn field(parameters: &Parameters, name: &str) -> Option<usize> {
-    match parameters.get("TRIAL", name)?.counts()?.as_slice() {
-        [low, high, ..] => Some(low + (high << 16)),
-        [number] => Some(*number),
+    wide(&parameters.get("TRIAL", name)?.counts()?)
+}
+
+/// One number, or two words, the low one first.
+fn wide(words: &[usize]) -> Option<usize> {
+    match *words {
+        [low, high, ..] => (low <= WORD && high <= WORD).then_some((high << 16) | low),
+        [number] => Some(number),
         [] => None,
     }
 }
 
 /// POINT:LONG_FRAMES: a real, or two words as in TRIAL.
 fn long_frames(parameters: &Parameters) -> Option<usize> {
-    match parameters.get("POINT", "LONG_FRAMES")?.counts()?.as_slice() {
-        [low, high, ..] => Some(low + (high << 16)),
-        [number] => Some(*number),
-        [] => None,
-    }
+    wide(&parameters.get("POINT", "LONG_FRAMES")?.counts()?)
 }
 
-/// Chooses points, channels and samples so that a number of frames which somebody states fills the file; if none does,
-/// what the header says.
-fn choose_frame(
-    layout: &mut Layout,
-    header: &Header,
-    parameters: &Parameters,
+/// What [`choose_frame`] decides on.
+struct Question<'a> {
+    header: &'a Header,
+    parameters: &'a Parameters,
+    scales: &'a [f64],
+    frames: &'a [Claim],
+    /// Bytes from the beginning of the data to the end of the file.
     room: usize,
-    frames: &[Claim],
-    remarks: &mut Vec<Remark>,
-) {
-    let points = distinct([Some(usize::from(header.points)), parameters.count("POINT", "USED")]);
+}
+
+/// Chooses storage, points, channels and samples so that a number of frames which somebody states fills the file; if none
+/// does, what is trusted most.
+fn choose_frame(layout: &mut Layout, question: &Question<'_>, remarks: &mut Vec<Remark>) {
+    let &Question { header, parameters, scales, frames, room } = question;
+    let points = distinct([Some(usize::from(header.points)), used(parameters, "POINT")]);
     let samples = sample_candidates(layout.point_rate_hz, header, parameters);
-    let candidates: Vec<Layout> = points
-        .iter()
-        .flat_map(|&points| samples.iter().map(move |&(channels, samples)| (points, channels, samples)))
-        .map(|(points, channels, samples_per_frame)| Layout { points, channels, samples_per_frame, ..*layout })
-        .collect();
+    let mut candidates = Vec::new();
+    for &scale in scales {
+        let storage = if scale < 0.0 { Storage::Real } else { Storage::Integer };
+        for &points in &points {
+            for &(channels, samples_per_frame) in &samples {
+                let point_scale = scale.abs();
+                candidates.push(Layout { storage, point_scale, points, channels, samples_per_frame, ..*layout });
+            }
+        }
+    }
     let fits = |candidate: &&Layout| frames.iter().any(|claim| fills(candidate, claim.value, room));
     if let Some(best) = candidates.iter().find(fits).or(candidates.first()) {
         *layout = *best;
+    }
+    if let [parameter, in_header] = scales[..] {
+        let what = "one says integers, the other reals";
+        let storage = layout.storage;
+        let message =
+            format!("POINT:SCALE is {parameter}, the header's scale {in_header}: {what}; read as {storage:?} numbers");
+        remark(remarks, message);
     }
     if let [in_header, used] = points[..] {
         remark(remarks, format!("the header has {in_header} points, POINT:USED {used}; read {}", layout.points));
@@ -215,11 +244,16 @@ fn choose_frame(
     }
 }
 
+/// `POINT:USED` or `ANALOG:USED`.
+fn used(parameters: &Parameters, group: &str) -> Option<usize> {
+    parameters.count(group, "USED").filter(|&used| used <= WORD)
+}
+
 /// Channels and samples a frame, most trusted first.
 fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameters) -> Vec<(usize, usize)> {
     let words = usize::from(header.analog_words);
     let per_frame = usize::from(header.samples_per_frame);
-    let used = parameters.count("ANALOG", "USED");
+    let used = used(parameters, "ANALOG");
     let rate = parameters.number("ANALOG", "RATE").map(|rate| (rate / point_rate_hz).round());
     let by_rate = rate.filter(|ratio| (1.0..=65535.0).contains(ratio)).map(|ratio| ratio as usize);
     let mut found: Vec<(usize, usize)> = Vec::new();
@@ -290,11 +324,11 @@ fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks:
     let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
         return i64::from(header.first_frame);
     };
-    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| (end + 1).checked_sub(actual));
+    let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| end.checked_add(1)?.checked_sub(actual));
     let header_alone = header.frames() == Some(frames) && counted != Some(frames);
     let first = if header_alone { in_header } else { actual };
     // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
-    let explained = actual > 65535 && (actual & 0xffff == in_header || in_header == 65535);
+    let explained = actual > WORD && (actual & 0xffff == in_header || in_header == WORD);
     if !explained {
         let message =
             format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");

@@ -1,7 +1,7 @@
 //! Reading from the first byte to the last.
 
 use super::header::{Header, parameter_offset};
-use super::layout::{self, Layout};
+use super::layout::{self, Extent, Layout};
 use super::parameters::Parameters;
 use super::words::Words;
 use super::{C3d, Encoding, analog, events, points, section};
@@ -14,7 +14,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(C3d, Vec<Remark>), Error> {
     let words = Words { bytes, processor };
     let header = Header::read(words)?;
     let parameters = section::read(words, start, header.data_block, &mut remarks)?;
-    let layout = layout::decide(&header, &parameters, bytes.len(), &mut remarks)?;
+    let file = Extent { size: bytes.len(), after_parameters: section::end(words, start) };
+    let layout = layout::decide(&header, &parameters, &file, &mut remarks)?;
     let Layout { storage, point_scale, .. } = layout;
     let unsigned_analog = analog::unsigned(&parameters, &mut remarks);
     let encoding = Encoding { processor, storage, point_scale, unsigned_analog };

@@ -47,6 +47,11 @@ enum Content {
     Parameter(Parameter),
 }
 
+/// First byte after the blocks that the section says it has.
+pub(super) fn end(words: Words<'_>, start: usize) -> usize {
+    start + usize::from(words.u8(start + 2).unwrap_or(0)) * BLOCK
+}
+
 /// The whole section. `data_block` is where the header says that the data begin.
 pub(super) fn read(
     words: Words<'_>,
@@ -54,9 +59,8 @@ pub(super) fn read(
     data_block: u16,
     remarks: &mut Vec<Remark>,
 ) -> Result<Parameters, Error> {
-    let blocks = usize::from(words.u8(start + 2).unwrap_or(0));
     let data = usize::from(data_block).saturating_sub(1) * BLOCK;
-    let end = (start + blocks * BLOCK).max(data);
+    let end = end(words, start).max(data);
     let mut reader = Reader { words, at: start + SECTION_HEADER, end, closed: false };
     let mut records = Vec::new();
     while let Some(record) = reader.record(remarks)? {

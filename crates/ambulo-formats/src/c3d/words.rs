@@ -104,12 +104,14 @@ fn vax_bits(value: f32) -> Option<u32> {
     if !value.is_finite() {
         return None;
     }
-    let bits = value.to_bits();
-    let exponent = (bits >> 23) & 0xff;
-    // IEEE: 1.m · 2^(e-127), VAX: 0.1m · 2^(e-128); the same significand has an exponent field larger by two.
+    // As a double every such number has a hidden bit: 1.m · 2^(e-1023) is 0.1m · 2^(f-128) with f = e - 1023 + 129.
+    let bits = f64::from(value).to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023 + 129;
+    let significand = (bits >> 29) as u32 & (HIDDEN - 1);
+    let sign = (bits >> 63) as u32;
     match exponent {
-        0 => Some(0),
-        1..=253 => Some(bits + (2 << 23)),
+        ..1 => Some(0),
+        1..=255 => Some(sign << 31 | exponent.cast_unsigned() << 23 | significand),
         _ => None,
     }
 }
@@ -163,7 +165,9 @@ mod tests {
     #[test]
     fn every_processor_reads_what_it_wrote() {
         for processor in Processor::ALL {
-            for value in [0.0, 1.0, -1.0, 0.1, -83.25, 1e-30, 65535.0, 8.5e37, f32::MIN_POSITIVE] {
+            for value in
+                [0.0, 1.0, -1.0, 0.1, -83.25, 1e-30, 65535.0, 8.5e37, f32::MIN_POSITIVE, f32::MIN_POSITIVE / 2.0]
+            {
                 let bytes = processor.f32_bytes(value).unwrap();
                 assert_eq!(processor.f32(bytes).to_bits(), value.to_bits(), "{processor:?} {value}");
             }
@@ -176,6 +180,7 @@ mod tests {
         assert_eq!(Processor::Dec.f32_bytes(f32::NAN), None);
         assert_eq!(Processor::Dec.f32_bytes(3e38), None);
         assert_eq!(Processor::Dec.f32_bytes(-0.0), Some([0; 4]));
+        assert_eq!(Processor::Dec.f32_bytes(1e-39), Some([0; 4]));
         assert!(Processor::Dec.f32([0x00, 0x80, 0, 0]).is_nan());
     }
 }

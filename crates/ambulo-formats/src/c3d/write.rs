@@ -60,7 +60,9 @@ fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
 /// What the format cannot hold is refused before a byte is written.
 fn check(record: &C3d) -> Result<(), Error> {
     let positive = |what: &str, value: f64| {
-        let written = value as f32;
+        // As it will be read: VAX reals have nothing below 2^-128.
+        let bytes = record.encoding.processor.f32_bytes(value as f32);
+        let written = bytes.map_or(f32::NAN, |bytes| record.encoding.processor.f32(bytes));
         let fine = written.is_finite() && written > 0.0;
         if fine { Ok(()) } else { Err(invalid(format!("{what} of {value}"), "a finite number above zero")) }
     };

@@ -93,7 +93,7 @@ fn line_of(record: &ByteRecord, bytes: &[u8]) -> usize {
 }
 
 fn read_names(record: &ByteRecord, line: usize) -> Result<Vec<String>, Error> {
-    let names: Vec<String> = record.iter().map(crate::xml::decode).collect();
+    let names: Vec<String> = record.iter().map(|cell| one_line(&crate::xml::decode(cell))).collect();
     let fail = |found, expected: &str| Err(Error::Line { line, found, expected: expected.into() });
     if let Some(empty) = names.iter().position(String::is_empty) {
         return fail(format!("no name for column {}", empty + 1), "a name for every column");
@@ -105,6 +105,13 @@ fn read_names(record: &ByteRecord, line: usize) -> Result<Vec<String>, Error> {
         return fail(format!("two columns {}", quoted(twice)), "column names that differ");
     }
     Ok(names)
+}
+
+/// The name without blanks and byte order marks at its ends, a blank for each control character: a tab would be taken for
+/// a separator.
+fn one_line(name: &str) -> String {
+    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    name.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').to_owned()
 }
 
 /// Appends a row and says how many of its cells are empty.
