@@ -173,3 +173,22 @@ fn feet_are_found_by_the_names_of_their_bodies() {
     assert_eq!(bodies.map(|b| model.bodies()[b.index()].name.clone()), ["foot_r", "foot_l"]);
     assert_eq!(foot_bodies(&free_bodies(DOWN_Y, &[("pelvis", 1.0)])), None);
 }
+
+#[test]
+fn events_are_those_of_the_plates_where_they_saw_them_and_of_motion_elsewhere() {
+    let markers = walk();
+    let motion = foot_motion(&markers, &mut Findings::default());
+    let (feet, _) = judge(&markers, &two_plates(), &[]);
+    let by_force = feet.force_events([0.0, 4.0]);
+    assert_eq!(by_force.len(), 4, "{by_force:?}");
+    let all = feet.events(&motion, [0.0, 4.0]);
+    assert_eq!(all.len(), motion.events.len(), "{all:?}");
+    for event in &by_force {
+        assert!(all.contains(event) && !motion.events.contains(event), "{event:?}");
+    }
+    for pair in all.windows(2) {
+        assert!(pair[0].time_s <= pair[1].time_s);
+    }
+    // A load that the recording cuts is no event.
+    assert_eq!(feet.force_events([by_force[0].time_s, 4.0]).len(), 3);
+}

@@ -356,6 +356,30 @@ fn lengths_without_unit_are_an_error_that_names_the_parameter() {
 }
 
 #[test]
+fn plates_of_four_hundred_metres_were_written_in_millimetres() {
+    let mut file = type_2().record();
+    file.point_unit = "m".to_owned();
+    let mut findings = Findings::default();
+    let plates = plates_from_c3d(&file, PlateSettings::default(), &mut findings).unwrap();
+    assert_person(&plates[0]);
+    assert!(findings.has("plates.unit_changed"));
+}
+
+#[test]
+fn volts_without_matrix_and_polynomials_that_are_not_used_are_told() {
+    let mut file = type_2();
+    file.units[0] = "V";
+    assert!(read(&file).1.has("plates.unit_unknown"));
+    let mut record = type_2().record();
+    let polynomial = ambulo_formats::c3d::Values::Reals(vec![0.1; 12]);
+    let parameter = ambulo_formats::c3d::Parameter::list("FPCOPPOLY", polynomial);
+    record.parameters.groups[0].parameters.push(parameter);
+    let mut findings = Findings::default();
+    plates_from_c3d(&record, PlateSettings::default(), &mut findings).unwrap();
+    assert!(findings.has("plates.polynomial"));
+}
+
+#[test]
 fn turning_the_axes_turns_everything_alike() {
     let (plate, _) = read(&type_2());
     let world_from_lab = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);

@@ -3,8 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "tests may unwrap")]
 
 use ambulo::findings::Findings;
-use ambulo::motion::{MarkerError, markers_from_trc};
+use ambulo::motion::{MarkerError, markers_from_c3d, markers_from_trc};
 use ambulo::spatial::{Mat3, Vec3};
+use ambulo_formats::c3d::{C3d, Group, Parameter, Point, Values};
 use ambulo_formats::trc::{Marker, Trc};
 
 fn trc(markers: &[(&str, [[f64; 3]; 2])]) -> Trc {
@@ -51,4 +52,75 @@ fn times_that_stand_still_are_refused_with_the_frame() {
     let file = Trc::new(100.0, vec![0.0, 0.01, 0.01], vec![marker]).unwrap();
     let error = markers_from_trc(&file, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, MarkerError::TimeNotRising { frame: 3, .. }), "{error}");
+}
+
+/// A C3D record in mm whose points all stand at (100, 200, 300).
+fn c3d(names: &[&str]) -> C3d {
+    let mut file = C3d::new(100.0, "mm");
+    file.points = names.iter().map(|name| Point::new(name, vec![[100.0, 200.0, 300.0]; 3])).collect();
+    file
+}
+
+fn names(file: &C3d) -> Vec<String> {
+    let markers = markers_from_c3d(file, &mut Findings::default()).unwrap();
+    markers.markers.into_iter().map(|m| m.name).collect()
+}
+
+#[test]
+fn points_of_a_c3d_file_become_metres_at_the_times_of_its_frames() {
+    let mut file = c3d(&["LASI"]);
+    file.first_frame = 157;
+    file.points[0].positions[1] = [f64::NAN; 3];
+    let markers = markers_from_c3d(&file, &mut Findings::default()).unwrap();
+    let times: Vec<i64> = markers.times.iter().map(|t| (t * 1000.0).round() as i64).collect();
+    assert_eq!(times, [1560, 1570, 1580]);
+    assert!((markers.markers[0].positions[0] - Vec3::new(0.1, 0.2, 0.3)).norm() < 1e-12);
+    assert!(!markers.markers[0].is_seen(1) && markers.markers[0].is_seen(2));
+}
+
+#[test]
+fn angles_forces_axes_and_unlabelled_points_are_no_markers() {
+    let mut file = c3d(&["LASI", "LHipAngles", "*7", "", "LFEO", "LFEA", "LFEL", "LFEP", "PELO", "HEDA", "LKNEPower"]);
+    let list = |name: &str, labels: &[&str]| {
+        Parameter::list(name, Values::Texts(labels.iter().map(|l| (*l).to_owned()).collect()))
+    };
+    file.parameters.groups.push(Group {
+        name: "POINT".to_owned(),
+        description: String::new(),
+        locked: false,
+        parameters: vec![list("ANGLES", &["LHipAngles"]), list("POWERS", &["LKNEPower"])],
+    });
+    // One corner of an axis alone (PELO, HEDA) may be a marker that somebody called so.
+    assert_eq!(names(&file), ["LASI", "PELO", "HEDA"]);
+}
+
+#[test]
+fn a_prefix_that_all_labels_share_is_cut_off() {
+    assert_eq!(names(&c3d(&["Anna:LASI", "Anna:RASI", "Anna:*3"])), ["LASI", "RASI"]);
+    assert_eq!(names(&c3d(&["Anna:LASI", "Ball:RASI"])), ["Anna:LASI", "Ball:RASI"]);
+    assert_eq!(names(&c3d(&["Anna:LASI", "RASI"])), ["Anna:LASI", "RASI"]);
+}
+
+#[test]
+fn of_two_points_with_one_name_the_one_that_was_seen_longer_is_kept() {
+    let mut file = c3d(&["RANK", "LANK", "RANK"]);
+    file.points[0].positions[0] = [f64::NAN; 3];
+    file.points[2].positions[2] = [400.0; 3];
+    let mut findings = Findings::default();
+    let markers = markers_from_c3d(&file, &mut findings).unwrap();
+    assert_eq!(markers.markers.len(), 2);
+    assert!((markers.marker("RANK").unwrap().positions[2].x - 0.4).abs() < 1e-12);
+    assert!(findings.has("markers.name_twice"));
+}
+
+#[test]
+fn a_file_without_unit_of_length_and_places_beyond_reach_are_told() {
+    let mut file = c3d(&["LASI", "RASI"]);
+    file.points[1].positions[1] = [1e12, 0.0, 0.0];
+    let mut findings = Findings::default();
+    let markers = markers_from_c3d(&file, &mut findings).unwrap();
+    assert!(findings.has("markers.impossible") && !markers.markers[1].is_seen(1));
+    file.point_unit = "deg".to_owned();
+    let error = markers_from_c3d(&file, &mut findings).unwrap_err();
+    assert!(matches!(&error, MarkerError::Unit { found } if found == "deg"), "{error}");
 }

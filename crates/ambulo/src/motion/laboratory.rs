@@ -66,13 +66,10 @@ impl Laboratory {
         recording.turned(&(self.world_from_lab * self.metres_per_stated_metre))
     }
 
-    /// A plate in the world's axes, in metres; its moments are in the same unit as its lengths.
+    /// A plate in the world's axes. Its lengths were put right when it was read.
     #[must_use]
     pub fn plate(&self, plate: &PlateRecording) -> PlateRecording {
-        let mut plate = plate.turned(&self.world_from_lab);
-        plate.corners = plate.corners.map(|c| c * self.metres_per_stated_metre);
-        plate.moment.iter_mut().for_each(|m| *m *= self.metres_per_stated_metre);
-        plate
+        plate.turned(&self.world_from_lab)
     }
 }
 
@@ -253,7 +250,7 @@ fn travel(
 ) -> Option<Vec3> {
     let path = body_path(markers, landmarks, up);
     let (first, last) = (path.first()?, path.last()?);
-    let way = last.1 - first.1;
+    let way = level(last.1 - first.1, up);
     let duration = last.0 - first.0;
     if way.norm() * scale < WALKED_M || way.norm() * scale < WALKED_M_S * duration {
         return None;
@@ -279,7 +276,7 @@ fn travel(
 /// Instants and horizontal places of the pelvis, or of the middle of all markers that are always seen.
 fn body_path(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<(f64, Vec3)> {
     let of = |chosen: &[usize]| -> Vec<(f64, Vec3)> {
-        let place = |i: usize| mean_of(markers, chosen, i).map(|p| (markers.times[i], p - up * p.dot(&up)));
+        let place = |i: usize| mean_of(markers, chosen, i).map(|p| (markers.times[i], level(p, up)));
         (0..markers.frames()).filter_map(place).collect()
     };
     let seen = |m: &MarkerPath| (0..m.positions.len()).filter(|&i| m.is_seen(i)).count();
@@ -303,7 +300,7 @@ fn loaded_span(plates: &[PlateRecording]) -> Option<[f64; 2]> {
 
 /// Where pelvis and feet look to, on average.
 fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<Vec3> {
-    let level = |v: Vec3| (v - up * v.dot(&up)).try_normalize(f64::MIN_POSITIVE);
+    let level = |v: Vec3| level(v, up).try_normalize(f64::MIN_POSITIVE);
     let at = |marker: Option<usize>, i: usize| {
         marker.filter(|&m| markers.markers[m].is_seen(i)).map(|m| markers.markers[m].positions[i])
     };
@@ -321,10 +318,15 @@ fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<
 
 // ---- directions ----
 
+/// A level direction, or the axis of the laboratory that it is next to.
 fn snapped(direction: Vec3, up: Vec3) -> Vec3 {
-    let level = direction - up * direction.dot(&up);
-    let (axis, deg) = nearest_axis(level.try_normalize(f64::MIN_POSITIVE).unwrap_or(direction));
-    if deg <= SNAP_DEG { axis } else { level.normalize() }
+    let level = level(direction, up).normalize();
+    let (axis, deg) = nearest_axis(level);
+    if deg <= SNAP_DEG { axis } else { level }
+}
+
+fn level(v: Vec3, up: Vec3) -> Vec3 {
+    v - up * v.dot(&up)
 }
 
 /// The axis of the laboratory next to a unit vector, and the angle to it [deg].

@@ -29,6 +29,9 @@ pub struct MarkerPath {
     pub positions: Vec<Vec3>,
 }
 
+/// Nobody is recorded further from the origin than this, in whatever unit [m].
+const FARTHEST_M: f64 = 1e6;
+
 /// Why markers cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -161,6 +164,7 @@ fn checked(mut recording: MarkerRecording, findings: &mut Findings) -> Result<Ma
         return Err(MarkerError::TimeNotRising { name: recording.name, frame: i + 1, earlier, later });
     }
     read_zeros_as_gaps(&mut recording, findings);
+    drop_impossible_places(&mut recording, findings);
     if !recording.markers.iter().any(|m| m.positions.iter().any(is_finite)) {
         let listed: Vec<&str> = recording.markers.iter().take(6).map(|m| m.name.as_str()).collect();
         let listed = if listed.is_empty() { "none".to_owned() } else { listed.join(", ") };
@@ -186,6 +190,22 @@ fn read_zeros_as_gaps(recording: &mut MarkerRecording, findings: &mut Findings) 
         let message =
             format!("{count} positions of exactly 0 0 0 were read as gaps, of the markers {}", names.join(", "));
         findings.warn("markers.zero_is_gap", message);
+    }
+}
+
+/// Numbers that a broken file holds are gaps.
+fn drop_impossible_places(recording: &mut MarkerRecording, findings: &mut Findings) {
+    let possible = |p: &Vec3| p.iter().all(|x| x.abs() < FARTHEST_M);
+    let mut count = 0;
+    for position in recording.markers.iter_mut().flat_map(|m| &mut m.positions) {
+        if !possible(position) {
+            count += usize::from(!position.iter().any(|x| x.is_nan()));
+            *position = Vec3::repeat(f64::NAN);
+        }
+    }
+    if count > 0 {
+        let message = format!("{count} positions further than {FARTHEST_M} m from the origin were read as gaps");
+        findings.warn("markers.impossible", message);
     }
 }
 

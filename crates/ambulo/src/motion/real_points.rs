@@ -17,7 +17,9 @@ pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
     let names: Vec<&str> = file.points.iter().map(|p| p.name.as_str()).collect();
     let is_real = |point: &&Point| {
         let name = point.name.trim();
-        !name.is_empty() && !name.starts_with('*') && !listed.contains(&point.name.as_str()) && !is_axis(name, &names)
+        let plain = name.rsplit(':').next().unwrap_or(name);
+        let is_listed = listed.iter().any(|l| *l == name || *l == plain);
+        !plain.is_empty() && !plain.starts_with('*') && !is_listed && !is_axis(name, &names)
     };
     file.points.iter().filter(is_real).collect()
 }

@@ -12,6 +12,7 @@
 //! Pinned by: tests/feet_on_plates.rs, tests/laboratory_files.rs
 
 mod contact;
+mod events;
 mod feet;
 mod windows;
 
@@ -159,10 +160,13 @@ impl FeetOnPlates {
     }
 }
 
-/// The contact next to an instant: what a plate shows between two contacts belongs to the nearer one.
+/// The contact next to an instant: what a plate shows between two contacts belongs to the nearer one. `contacts` follow
+/// each other.
 fn nearest<'a>(contacts: &[&'a PlateContact], t: f64) -> Option<&'a PlateContact> {
+    let next = contacts.partition_point(|c| c.end_s < t);
     let apart = |c: &PlateContact| (c.start_s - t).max(t - c.end_s).max(0.0);
-    contacts.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)))
+    let around = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|i| contacts.get(i).copied());
+    around.min_by(|a, b| apart(a).total_cmp(&apart(b)))
 }
 
 fn recording(plate: &PlateRecording, side: Side, body: BodyId, own: impl Fn(f64) -> bool) -> ForceRecording {

@@ -8,6 +8,11 @@ use crate::spatial::Vec3;
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
 
+/// Edges of plates that people stand on: from a step to a treadmill [m].
+const EDGE_M: [f64; 2] = [0.1, 10.0];
+/// Factors that slips of unit bring.
+const SLIPS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+
 /// Why plates cannot be read at all.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -40,12 +45,15 @@ pub fn plates_from_c3d(
         return Ok(Vec::new());
     }
     let unit_m = file.metres_per_unit().ok_or_else(|| PlateError::Unit { found: file.point_unit.clone() })?;
+    let unit_m = plausible_unit(&platforms, unit_m, findings);
+    report_polynomial(file, findings);
     let body = mean_marker(file).map(|p| p * unit_m);
     let mut plates = Vec::new();
     for (i, platform) in platforms.iter().enumerate() {
         let name = format!("plate {}", i + 1);
-        let plate =
-            source(file, platform, unit_m, body, name.clone()).and_then(|source| decode(&source, settings, findings));
+        report_volts(file, platform, &name, findings);
+        let plate = source(file, platform, unit_m, body, name.clone());
+        let plate = plate.and_then(|source| decode(&source, settings, findings));
         match plate {
             Ok(plate) => plates.push(plate),
             Err(reason) => findings.warn("plates.unusable", format!("{name} was left out: {reason}")),
@@ -66,6 +74,9 @@ fn source(
     if samples == 0 {
         return Err("it has no samples".to_owned());
     }
+    if let Some(odd) = channels.iter().find(|c| c.samples.len() != file.analog_times().len()) {
+        return Err(format!("its channel `{}` has {} samples, others {samples}", odd.name, odd.samples.len()));
+    }
     if !(file.analog_rate_hz.is_finite() && file.analog_rate_hz > 0.0) {
         return Err(format!("its rate is {} Hz; expected a number above zero", file.analog_rate_hz));
     }
@@ -82,6 +93,43 @@ fn source(
         rate_hz: file.analog_rate_hz,
         body,
     })
+}
+
+/// The unit of length, put right where it makes no plate that a foot could stand on.
+fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings) -> f64 {
+    let edge = |p: &Platform| (Vec3::from(p.corners[0]) - Vec3::from(p.corners[1])).norm();
+    let mut edges: Vec<f64> = platforms.iter().map(edge).filter(|e| e.is_finite() && *e > 0.0).collect();
+    edges.sort_by(f64::total_cmp);
+    let Some(middle) = edges.get(edges.len() / 2) else { return stated_m };
+    let fits = |unit_m: f64| (EDGE_M[0]..=EDGE_M[1]).contains(&(middle * unit_m));
+    if fits(stated_m) {
+        return stated_m;
+    }
+    let Some(factor) = SLIPS.into_iter().find(|f| fits(stated_m * f)) else { return stated_m };
+    let message = format!(
+        "the force plates have edges of {:.4} m by the file's unit; lengths of plates were multiplied by {factor}",
+        middle * stated_m
+    );
+    findings.warn("plates.unit_changed", message);
+    stated_m * factor
+}
+
+/// Kistler's polynomial moves the centre of pressure by millimetres.
+fn report_polynomial(file: &C3d, findings: &mut Findings) {
+    if file.parameters.numbers("FORCE_PLATFORM", "FPCOPPOLY").iter().any(|x| x.abs() > 0.0) {
+        let message = "the file has a polynomial that corrects the centre of pressure (FPCOPPOLY); it was not used";
+        findings.note("plates.polynomial", message);
+    }
+}
+
+/// Channels in volts need a calibration matrix.
+fn report_volts(file: &C3d, platform: &Platform, name: &str, findings: &mut Findings) {
+    let unit = platform.channels.first().copied().flatten().and_then(|i| file.channels.get(i)).map(|c| c.unit.trim());
+    let known = unit.is_none_or(|u| u.is_empty() || units::force_n(u).is_some());
+    if !known && platform.calibration.is_empty() {
+        let message = format!("the force of {name} is in `{}`; it was read as newtons", unit.unwrap_or_default());
+        findings.warn("plates.unit_unknown", message);
+    }
 }
 
 /// The plate's channels up to the first that it does not have.

@@ -1,0 +1,63 @@
+//! The best list of events: by force where a plate saw them, by motion elsewhere.
+
+use super::{ContactQuality, FeetOnPlates, PlateContact};
+use crate::ground::foot_motion::FootMotion;
+use crate::model::Side;
+use crate::motion::{Event, EventKind};
+
+/// Force and motion tell of one event if they differ by less than this [s].
+const SAME_EVENT_S: f64 = 0.15;
+
+impl FeetOnPlates {
+    /// Strikes and offs that plates saw, in order of time: the ends of clean contacts, and of shared ones the first and
+    /// the last. A load that the recording cuts has no event at the cut.
+    #[must_use]
+    pub fn force_events(&self, recorded_s: [f64; 2]) -> Vec<Event> {
+        let mut out = Vec::new();
+        for side in Side::BOTH {
+            for [start_s, end_s] in self.measured_stances(side) {
+                let event = |kind, time_s| Event { side, kind, time_s };
+                out.extend((start_s > recorded_s[0]).then_some(event(EventKind::Strike, start_s)));
+                out.extend((end_s < recorded_s[1]).then_some(event(EventKind::Off, end_s)));
+            }
+        }
+        sorted(out)
+    }
+
+    /// Events by force where there are any, by motion elsewhere.
+    #[must_use]
+    pub fn events(&self, motion: &FootMotion, recorded_s: [f64; 2]) -> Vec<Event> {
+        let mut out = self.force_events(recorded_s);
+        let stances = Side::BOTH.map(|side| self.measured_stances(side));
+        let is_told = |e: &Event| {
+            let near = |f: &Event| f.side == e.side && f.kind == e.kind && (f.time_s - e.time_s).abs() < SAME_EVENT_S;
+            let during = stances[usize::from(e.side == Side::Left)].iter().any(|s| s[0] < e.time_s && e.time_s < s[1]);
+            out.iter().any(near) || during
+        };
+        let others: Vec<Event> = motion.events.iter().filter(|e| !is_told(e)).copied().collect();
+        out.extend(others);
+        sorted(out)
+    }
+
+    /// Times during which plates saw all of a foot's load [s]; plates under one foot count as one.
+    fn measured_stances(&self, side: Side) -> Vec<[f64; 2]> {
+        let whole = |c: &&PlateContact| {
+            c.side == Some(side) && matches!(c.quality, ContactQuality::Clean | ContactQuality::Shared)
+        };
+        let mut spans: Vec<[f64; 2]> = self.contacts.iter().filter(whole).map(|c| [c.start_s, c.end_s]).collect();
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut merged: Vec<[f64; 2]> = Vec::new();
+        for span in spans {
+            match merged.last_mut() {
+                Some(last) if span[0] <= last[1] => last[1] = last[1].max(span[1]),
+                _ => merged.push(span),
+            }
+        }
+        merged
+    }
+}
+
+fn sorted(mut events: Vec<Event>) -> Vec<Event> {
+    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    events
+}
