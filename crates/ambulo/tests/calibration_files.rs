@@ -16,7 +16,7 @@ use ambulo::motion::{MarkerRecording, interpolate, markers_from_trc};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use gait_files::{File, Subject, everyone, woman};
+use gait_files::{File, Subject, everyone, turning, woman};
 
 fn calibrated(subject: &Subject, markers: &MarkerRecording, trial: Trial) -> Calibrated {
     let known = MarkerSet::recognise(markers.markers.iter().map(|m| m.name.as_str())).unwrap();
@@ -170,6 +170,16 @@ fn a_walk_on_a_body_from_the_standing_trial_has_plug_in_gaits_angles() {
 }
 
 #[test]
+fn a_turning_walk_has_plug_in_gaits_angles_too() {
+    for subject in turning() {
+        let body = calibrated(&subject, &subject.standing.markers, Trial::Standing);
+        let found = fit(&body, &subject.walk.markers);
+        let worst = compare(&body, &found, &subject.walk);
+        assert!(worst >= 0.97, "{}: {worst}", subject.name);
+    }
+}
+
+#[test]
 fn a_walk_on_a_body_from_the_walk_itself_has_plug_in_gaits_angles_too() {
     for subject in everyone() {
         let body = calibrated(&subject, &subject.walk.markers, Trial::Moving);
@@ -239,5 +249,32 @@ fn compare_with_opensim(body: &Calibrated, fit: &MarkerFit, reference: &Table, k
             assert!(a.r >= if is_ankle { 0.88 } else { 0.99 }, "{name}: {}", a.r);
             assert!(a.rmse_deg < if is_ankle { 4.0 } else { 2.0 }, "{name}: {}", a.rmse_deg);
         }
+    }
+}
+
+#[test]
+fn a_runner_on_a_treadmill_is_followed() {
+    let Some(folder) = gait_files::folder() else { return };
+    let folder = folder.join("opensim-rajagopal-run");
+    let [standing, run] = ["static_run.trc", "motion_capture_run.trc"].map(|file| trc(&folder, file));
+    let table = SegmentTable::DeLevaMale;
+    let person = Person { table, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let known = MarkerSet::recognise(standing.markers.iter().map(|m| m.name.as_str())).unwrap();
+    let body = calibrate(&standing, Trial::Standing, &known, &person, &mut Findings::default()).unwrap();
+    show(&body);
+    let found = fit(&body, &run);
+    show_errors(&found);
+    // The other leg's swing: a runner's knee bends by 80 to 110 degrees, and is never bent backwards by more than a few.
+    for side in ["r", "l"] {
+        let id = body.human.model.coordinate(&format!("knee_angle_{side}")).unwrap();
+        let column = found.motion.column(id).unwrap();
+        let (low, high) =
+            column.iter().filter(|v| v.is_finite()).fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        println!("  knee {side} {:.1} to {:.1} deg", low.to_degrees(), high.to_degrees());
+        assert!((-120.0..-70.0).contains(&low.to_degrees()) && (-25.0..8.0).contains(&high.to_degrees()));
+    }
+    let legs = ["RLFC", "RTB1", "RTB2", "RCAL", "RTOE", "RTH2", "LTB1", "LCAL"];
+    for error in found.errors.iter().filter(|e| legs.contains(&e.name.as_str())) {
+        assert!(error.rms_m < 0.025, "{} {}", error.name, error.rms_m);
     }
 }

@@ -30,7 +30,7 @@ pub(crate) struct File {
 }
 
 /// All three laboratories are z up, walking along +y.
-fn world_from_lab() -> Mat3 {
+pub(crate) fn world_from_lab() -> Mat3 {
     Mat3::from_rows(&[Vec3::y().transpose(), Vec3::z().transpose(), Vec3::x().transpose()])
 }
 
@@ -98,6 +98,14 @@ pub(crate) fn adult() -> Option<Subject> {
     let folder = "btkdata-pig-adult3plates";
     let [standing, walk] = ["PiG_Calibration3_FF.c3d", "PiG_Motion3_FF.c3d"].map(|file| format!("{folder}/{file}"));
     subject("PiG adult", SegmentTable::DeLevaMale, &standing, &walk)
+}
+
+/// Walks with a turn of some 45 degrees, of the woman and of the child.
+pub(crate) fn turning() -> Vec<Subject> {
+    let read =
+        |subject: Option<Subject>, walk: &str| Some(Subject { walk: File::read(&folder()?.join(walk)), ..subject? });
+    let walks = [read(woman(), "biomechzoo-HC032A/HC032A18.c3d"), read(child(), "biomechzoo-HC002D/HC002D25.c3d")];
+    walks.into_iter().flatten().collect()
 }
 
 pub(crate) fn everyone() -> Vec<Subject> {

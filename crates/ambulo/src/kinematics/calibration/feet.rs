@@ -21,6 +21,8 @@ const LEAST_FRAMES: usize = 3;
 const MARKER_HEIGHTS: [f64; 2] = [0.0, 0.1];
 /// Heights of ankles, against the table's for a foot of that size, that need no remark.
 const ANKLE_HEIGHTS: [f64; 2] = [0.6, 1.4];
+/// Twists of the shank that need no remark [deg]: means in adults are 20 to 25 outwards, with a standard deviation of some 10 (unverified).
+const TORSIONS_DEG: [f64; 2] = [-10.0, 40.0];
 /// Sizes of feet against the table's that walkers have.
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
@@ -173,6 +175,7 @@ impl Finder<'_> {
         let table_rear = ends.iter().flatten().map(|e| e.table_rear).next().unwrap_or_default();
         let print = FootPrint { ankle_height, forward: rear.x - table_rear.x * factor, right: rear.z };
         let tibia_from_joint = ankle_axes(leg, &poses);
+        note_torsion(&tibia_from_joint, side, assumptions);
         let joint_from_foot = standing_offset(leg, &poses, &tibia_from_joint);
         Foot { poses, factor, print, tibia_from_joint, joint_from_foot }
     }
@@ -229,6 +232,18 @@ fn ankle_axes(leg: &Leg, poses: &[Option<Pose>]) -> Mat3 {
     };
     let axis = axis(false).or_else(|| axis(true)).unwrap_or_else(Vec3::z);
     from_y_z(Vec3::y(), axis).unwrap_or_else(Mat3::identity)
+}
+
+/// Says if the ankle axis lies where no shank is twisted so far.
+fn note_torsion(tibia_from_joint: &Mat3, side: Side, assumptions: &mut Vec<String>) {
+    let axis = tibia_from_joint.column(2);
+    let out = if side == Side::Right { 1.0 } else { -1.0 };
+    let outwards = (-axis.x * out).atan2(axis.z).to_degrees();
+    if !(TORSIONS_DEG[0]..=TORSIONS_DEG[1]).contains(&outwards) {
+        assumptions.push(format!(
+            "the {side} ankle axis is turned outwards by {outwards:.0} degrees against the knee axis (usual: 10 to 30): a wand or a knee marker may be misplaced, and moments about these axes with it"
+        ));
+    }
 }
 
 /// What the flat foot deviates from the joint's axes beside dorsiflexion.

@@ -18,6 +18,9 @@
 //! joint. The ankle's hinge lies along the line of the malleoli, wherever the shank's torsion puts it; what the flat foot deviates
 //! beside flexion is a fixed part too. So a model stands as the subject stood.
 //!
+//! On a walk the joints then put the places of the markers right by least squares (`refinement`): a knee that only flexes shows which way
+//! its axis lies against wand and epicondyle.
+//!
 //! Sources: Harrington, Zavatsky, Lawson, Yuan, Theologis 2007, J Biomech 40:595 (unverified beside the numbers); Kadaba 1990 and Davis
 //! 1991 for the construction with wands, as Plug-in-Gait has it (unverified). Tilt of the standing pelvis: see
 //! [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
@@ -32,6 +35,7 @@ mod legs;
 mod pelvis;
 mod person;
 mod reference;
+mod refinement;
 mod report;
 mod sight;
 mod trunk;
@@ -90,7 +94,10 @@ pub fn calibrate(
     let feet = feet::find(&sight, &frames, trial, &legs, &generic.dimensions, &mut assumptions);
     let trunk = trunk::find(&sight, &frames, &pelvis, &generic.dimensions, person, &mut assumptions);
     let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk };
-    let calibrated = assembly::assemble(&sight, &frames, &generic, &parts, assumptions)?;
+    let mut calibrated = assembly::assemble(&sight, &frames, &generic, &parts, assumptions)?;
+    if trial == Trial::Moving {
+        refinement::refine(&mut calibrated, recording)?;
+    }
     for assumption in &calibrated.report.assumptions {
         findings.note("calibration.assumed", assumption.clone());
     }

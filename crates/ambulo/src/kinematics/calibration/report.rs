@@ -37,7 +37,8 @@ pub struct MarkerPlace {
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Distance between where it was seen and where it stands on the body: root mean square over the frames measured [m].
+    /// Distance between where it was seen and where it stands on the body: root mean square over the frames measured [m]. Standing,
+    /// each body by itself; walking, on the body with its joints.
     pub rms_m: f64,
     /// Frames in which marker and body were seen.
     pub frames: usize,

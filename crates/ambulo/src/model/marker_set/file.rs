@@ -16,7 +16,7 @@
 //! weight = 0.5
 //! ```
 
-use super::landmark::LOOSE_WEIGHT;
+use super::landmark::{LOOSE_WEIGHT, TECHNICAL_WEIGHT};
 use super::{Landmark, MarkerDefinition, MarkerSet, Segment};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -24,8 +24,6 @@ use crate::toml_reader::{Source, Table, TomlError, Value};
 use std::collections::BTreeSet;
 
 const DOCUMENT: &str = "docs/MARKERS.md";
-/// Markers that only say how a segment moves stand on soft tissue.
-const TECHNICAL_WEIGHT: f64 = 0.5;
 const LARGEST_WEIGHT: f64 = 1000.0;
 
 impl MarkerSet {

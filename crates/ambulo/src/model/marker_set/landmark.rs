@@ -157,6 +157,8 @@ pub(super) const TABLE: [Row; 50] = {
     ]
 };
 
+/// Weight of markers on soft tissue, which only say how a segment moves, and of wands.
+pub(super) const TECHNICAL_WEIGHT: f64 = 0.5;
 /// Weight of markers that move on the body that carries them in the model.
 pub(super) const LOOSE_WEIGHT: f64 = 0.02;
 
@@ -188,7 +190,7 @@ impl Landmark {
         self.row().segment
     }
 
-    /// How much a marker on it counts where markers are fitted: little on arms and shoulders, whose girdle moves on the trunk by
+    /// How much a marker on it counts where markers are fitted: less on wands, little on arms and shoulders, whose girdle moves on the trunk by
     /// centimetres, and on the head, which turns on it.
     #[must_use]
     pub fn weight(self) -> f64 {
@@ -198,6 +200,7 @@ impl Landmark {
             | (L::Acromion | L::ShoulderCentre | L::FrontHead | L::BackHead | L::Ear | L::Nose | L::Vertex, _) => {
                 LOOSE_WEIGHT
             }
+            (L::ThighWand | L::ShankWand, _) => TECHNICAL_WEIGHT,
             _ => 1.0,
         }
     }

@@ -1,0 +1,99 @@
+//! Places of markers put right by the body's own joints.
+//!
+//! A body that was measured on a walk has its markers where each frame's own axes put them, in the middle. Its joints know better:
+//! a knee that only flexes shows which way its axis lies against the markers. So the body is fitted to some of the frames, and every
+//! marker goes a part of the way to where it was seen on the fitted body; both again a few times. This is the least-squares problem
+//!
+//!   min Σ_frames Σ_markers w |m - p(q_frame, place)|² + κ Σ_markers w |place - place₀|²
+//!
+//! solved for postures and places in turn, κ being a number of frames: places that the walk does not determine stay at the first ones.
+//!
+//! Source: alternating least squares, as in Reinbolt et al. 2005 and Charlton et al. 2004 (unverified).
+
+use super::Calibrated;
+use super::axes::inside;
+use crate::findings::Findings;
+use crate::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
+use crate::kinematics::{Posture, body_motion};
+use crate::model::anthropometry::BuildError;
+use crate::model::{Marker, Model};
+use crate::motion::{MarkerPath, MarkerRecording};
+use crate::spatial::Vec3;
+
+/// Frames that are fitted, at most.
+const FRAMES: usize = 30;
+/// Rounds of postures and places.
+const ROUNDS: usize = 8;
+/// Frames that the first place of a marker is worth.
+const PRIOR: f64 = 6.0;
+
+/// Moves the markers of a body to where the walk shows them on it.
+pub(super) fn refine(body: &mut Calibrated, recording: &MarkerRecording) -> Result<(), BuildError> {
+    let sample = sample(recording);
+    let first: Vec<Vec3> = body.human.model.markers().iter().map(|m| m.location).collect();
+    for _ in 0..ROUNDS {
+        let Some(fit) = fitted(body, &sample) else { return Ok(()) };
+        let places = places(body, &sample, &fit, &first);
+        let model = &body.human.model;
+        let markers: Vec<Marker> = model
+            .markers()
+            .iter()
+            .zip(&places)
+            .map(|(marker, place)| Marker { location: *place, ..marker.clone() })
+            .collect();
+        let (bodies, coordinates) = (model.bodies().to_vec(), model.coordinates().to_vec());
+        body.human.model = Model::new(model.name(), model.gravity(), bodies, coordinates, markers)?;
+    }
+    if let Some(fit) = fitted(body, &sample) {
+        for place in &mut body.report.markers {
+            if let Some(error) = fit.errors.iter().find(|e| e.name == place.name && e.rms_m.is_finite()) {
+                place.rms_m = error.rms_m;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn fitted(body: &Calibrated, sample: &MarkerRecording) -> Option<MarkerFit> {
+    let settings = FitSettings { weights: body.weights.clone(), ..FitSettings::default() };
+    fit_markers(&body.human.model, sample, &settings, &mut Findings::default()).ok()
+}
+
+/// Some frames spread over a recording.
+fn sample(recording: &MarkerRecording) -> MarkerRecording {
+    let step = recording.frames().div_ceil(FRAMES).max(1);
+    let path = |path: &MarkerPath| MarkerPath {
+        name: path.name.clone(),
+        positions: path.positions.iter().copied().step_by(step).collect(),
+    };
+    MarkerRecording {
+        name: recording.name.clone(),
+        rate_hz: recording.rate_hz / step as f64,
+        times: recording.times.iter().copied().step_by(step).collect(),
+        markers: recording.markers.iter().map(path).collect(),
+    }
+}
+
+/// Where the markers were seen on the fitted body, in the mean with their first places.
+fn places(body: &Calibrated, sample: &MarkerRecording, fit: &MarkerFit, first: &[Vec3]) -> Vec<Vec3> {
+    let model = &body.human.model;
+    let mut sums: Vec<(Vec3, f64)> = first.iter().map(|place| (place * PRIOR, PRIOR)).collect();
+    let paths: Vec<Option<&MarkerPath>> = model.markers().iter().map(|m| sample.marker(&m.name)).collect();
+    for frame in 0..sample.frames() {
+        let value = |id| fit.motion.column(id).map_or(0.0, |column: &[f64]| column[frame]);
+        let q: Vec<f64> = model.coordinate_ids().map(value).collect();
+        if !q.iter().all(|v| v.is_finite()) {
+            continue;
+        }
+        let rest = vec![0.0; q.len()];
+        let motion = body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest });
+        for ((marker, path), sum) in model.markers().iter().zip(&paths).zip(&mut sums) {
+            let seen = path.map(|path| path.positions[frame]).filter(|p| p.iter().all(|x| x.is_finite()));
+            if let (Some(id), Some(seen)) = (marker.body, seen) {
+                sum.0 += inside(&motion[id.index()].pose, seen);
+                sum.1 += 1.0;
+            }
+        }
+    }
+    sums.into_iter().map(|(sum, count)| sum / count).collect()
+}
