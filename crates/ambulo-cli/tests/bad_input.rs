@@ -270,7 +270,13 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
         assert!(ExternalLoads::read(&loads[..cut]).is_err(), "the loads read when cut at {cut}");
     }
     let loads = ExternalLoads::read(&loads).unwrap().0;
-    let settings = Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings = Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let (mut read, mut analysed) = (0, 0);
     for (bytes, is_motion) in [(&walk, true), (&grf, false)] {
         for cut in (0..end(bytes)).step_by(100) {
@@ -301,7 +307,13 @@ fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
     let plates = force_recordings(&model, &loads, &Table::read_storage(grf).ok()?.0, &mut findings).ok()?;
     let low_pass = LowPass { order: 3, cutoff_hz: 6.0 };
     let smoother = Smoother::Butterworth(low_pass);
-    let settings = Settings { smoother, force_filter: Some(low_pass), window: Window::default(), rate_hz: None };
+    let settings = Settings {
+        smoother,
+        force_filter: Some(low_pass),
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).ok()?;
     Some(output_files(&model, &analysis, None).ok()?.len())
 }

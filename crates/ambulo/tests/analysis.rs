@@ -310,7 +310,13 @@ fn alternating(model: &Model, share: f64) -> Vec<ForceRecording> {
 }
 
 fn run(model: &Model, motion: &Motion, plates: &[ForceRecording]) -> (Analysis, Findings) {
-    let settings = Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings = Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let mut findings = Findings::default();
     let analysis = analyse(model, motion, plates, settings, &mut findings, &mut |_| {}).unwrap();
     (analysis, findings)

@@ -49,8 +49,13 @@ fn walked(subject: &Subject, trial: Trial) -> Walked {
     let feet = feet_on_plates(markers, &plates, &foot_motion(markers, &mut findings), &[], &mut findings);
     let forces = feet.recordings(&plates, foot_bodies(model).unwrap());
     let window = Window { from_s: markers.times.first().copied(), to_s: markers.times.last().copied() };
-    let settings =
-        Settings { smoother: Smoother::Butterworth(FILTER), force_filter: Some(FILTER), window, rate_hz: None };
+    let settings = Settings {
+        smoother: Smoother::Butterworth(FILTER),
+        force_filter: Some(FILTER),
+        window,
+        rate_hz: None,
+        instrumented: None,
+    };
     let analysis = analyse(model, &motion, &forces, settings, &mut findings, &mut |_| ()).unwrap();
     Walked { body, analysis, forces }
 }

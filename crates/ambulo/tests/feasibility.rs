@@ -683,6 +683,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
         force_filter: Some(six_hz),
         window: Window::default(),
         rate_hz: None,
+        instrumented: None,
     };
     let mut findings = Findings::default();
     let Subject { model, motion, plates } = subject;

@@ -164,7 +164,13 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
         (force, Vec3::new(0.3, 0.05, 0.1), Vec3::new(0.0, 4.0, 0.0))
     });
     let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings = Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default(), &mut |_| {}).unwrap();
     let files = output_files(&model, &analysis, None).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
@@ -332,7 +338,13 @@ fn the_written_ground_forces_hold_everything_that_pushed_a_side() {
     };
     let plates = [push("calcn_r", 400.0), push("toes_r", 300.0)];
     let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings { smoother: Smoother::Off, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings = Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let mut findings = Findings::default();
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).unwrap();
     let files = output_files(&model, &analysis, None).unwrap();

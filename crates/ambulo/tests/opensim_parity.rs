@@ -79,7 +79,8 @@ fn rajagopal(data: &Path) -> Subject {
 }
 
 fn run_with(subject: &Subject, smoother: Smoother) -> (Analysis, Findings) {
-    let settings = Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings =
+        Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None, instrumented: None };
     let mut findings = subject.findings.clone();
     let done = analyse(&subject.model, &subject.motion, &subject.plates, settings, &mut findings, &mut |_| {});
     (done.unwrap(), findings)

@@ -141,6 +141,7 @@ fn support(moved: &Retargeted, [from, to]: [f64; 2], findings: &mut Findings) ->
         force_filter: Some(filter),
         window: Window { from_s: Some(from), to_s: Some(to) },
         rate_hz: None,
+        instrumented: None,
     };
     let analysis = analyse(model, &moved.fit.motion, &[], settings, findings, &mut |_| {}).unwrap();
     let up = model.coordinate("pelvis_ty").unwrap();

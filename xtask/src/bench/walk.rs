@@ -70,7 +70,13 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     let plates = force_recordings(&model, &loads, &table, &mut findings)?;
     stage("read forces");
     let smoother = Smoother::Butterworth(LOW_PASS);
-    let settings = analysis::Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None };
+    let settings = analysis::Settings {
+        smoother,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, stage)?;
     black_box(output_files(&model, &analysis, None)?);
     stage("files' content");

@@ -72,6 +72,7 @@ impl Made<'_> {
             force_filter: None,
             window: Window::default(),
             rate_hz: Some(self.order.rate_hz),
+            instrumented: None,
         };
         let outcome = Outcome {
             model,

@@ -7,13 +7,17 @@ use super::feasibility::Person;
 use crate::findings::Findings;
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
-use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
+use crate::kinematics::calibration::{
+    self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
+};
 use crate::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, fit_markers};
+use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
 use crate::model::{Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{ForceRecording, MarkerRecording};
 use crate::motion::{Laboratory, laboratory};
+use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
 /// What one file of a laboratory holds, in its axes.
@@ -37,8 +41,13 @@ pub enum Body<'a> {
         /// The set of markers.
         set: Option<&'a MarkerSet>,
     },
-    /// A model as it is.
-    Model(&'a Model),
+    /// A model as it is or, with a standing trial, brought to the person's size.
+    Model {
+        /// The model.
+        model: &'a Model,
+        /// Body mass [kg]; `None` keeps the model's.
+        mass: Option<f64>,
+    },
 }
 
 /// A body that moves as the markers did.
@@ -69,6 +78,8 @@ pub struct Subject {
     pub weights: BTreeMap<String, f64>,
     /// How the built-in body was made.
     pub calibration: Option<CalibrationReport>,
+    /// How a given model was scaled: factors of each body along its axes.
+    pub scaled: Vec<(String, Vec3)>,
     /// The sets of markers that were recognised.
     pub sets: Vec<String>,
 }
@@ -83,6 +94,9 @@ pub enum MarkerTrialError {
     /// The body.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The size of a given model.
+    #[error(transparent)]
+    Scaling(#[from] ScalingError),
     /// The fit.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -106,17 +120,18 @@ pub fn body_in_motion(
     let markers = axes.markers(&walk.markers);
     let plates: Vec<PlateRecording> = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
     stage("axes");
+    let still =
+        still.map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
     let subject = match body {
-        Body::Model(model) => Subject::of_model(model),
-        Body::BuiltIn { person, set } => {
-            let still = still
-                .map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
-            Subject::built_in(&markers, still.as_ref(), person, *set, findings)?
-        }
+        Body::Model { model, mass } => Subject::of_model(model, *mass, still.as_ref(), findings)?,
+        Body::BuiltIn { person, set } => Subject::built_in(&markers, still.as_ref(), person, *set, findings)?,
     };
     stage("body");
     let settings = FitSettings { weights: subject.weights.clone(), ..settings.clone() };
-    let fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
+    if subject.calibration.is_some() {
+        assume_upright_trunk(&subject.model, &mut fit.motion, findings);
+    }
     stage("markers");
     let feet = foot_motion(&markers, findings);
     let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
@@ -133,14 +148,32 @@ impl BodyInMotion {
 }
 
 impl Subject {
-    fn of_model(model: &Model) -> Subject {
-        Subject {
-            model: model.clone(),
-            person: Person::of_model(model),
+    fn of_model(
+        model: &Model,
+        mass: Option<f64>,
+        still: Option<&MarkerRecording>,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        let (model, scaled) = match still {
+            Some(still) => {
+                let sized = fit_size(model, still, SizeSettings { mass }, findings)?;
+                findings.note("scaling.fitted", scaling_message(&sized));
+                let names = sized.model.bodies().iter().map(|body| body.name.clone());
+                (sized.model.clone(), names.zip(sized.factors).collect())
+            }
+            None => {
+                let as_it_is = vec![Vec3::repeat(1.0); model.bodies().len()];
+                (model.scaled(&as_it_is, mass).map_err(ScalingError::from)?, Vec::new())
+            }
+        };
+        Ok(Subject {
+            person: Person::of_model(&model),
+            model,
             weights: BTreeMap::new(),
             calibration: None,
+            scaled,
             sets: Vec::new(),
-        }
+        })
     }
 
     /// The built-in body, calibrated from the standing trial or, without one, from the walk.
@@ -163,8 +196,20 @@ impl Subject {
             person: Person::of_human(&human),
             weights: calibrated.weights,
             calibration: Some(calibrated.report),
+            scaled: Vec::new(),
             sets: recognised.sets,
             model: human.model,
         })
     }
+}
+
+fn scaling_message(sized: &SizedModel) -> String {
+    let size = |factor: &Vec3| factor.sum() / 3.0;
+    let least = sized.factors.iter().map(size).fold(f64::INFINITY, f64::min);
+    let most = sized.factors.iter().map(size).fold(0.0, f64::max);
+    format!(
+        "the model was brought to the size of the standing trial: bodies by {least:.3} to {most:.3}, markers {:.1} mm off before, {:.1} mm after, then put where they are",
+        1e3 * sized.rms_before_m,
+        1e3 * sized.rms_m
+    )
 }

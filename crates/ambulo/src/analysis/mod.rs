@@ -20,5 +20,5 @@ pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events
 pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
-pub use residual::{Residual, residual};
+pub use residual::{Residual, residual, residual_within};
 pub use standing_mass::standing_mass;

@@ -4,7 +4,7 @@ use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts, events};
 use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
-use super::residual::{Residual, residual};
+use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
 use crate::ground::{self, MeasuredGround};
@@ -25,6 +25,9 @@ pub struct Settings {
     pub window: Window,
     /// Frames a second of the results; `None` keeps the recording's own [Hz].
     pub rate_hz: Option<f64>,
+    /// The time during which every foot on the ground stood on a plate, where that is known: outside of it forces are missing, and
+    /// the residual says nothing. `None` believes the plates throughout.
+    pub instrumented: Option<Window>,
 }
 
 /// Everything that was computed from one recording.
@@ -64,6 +67,8 @@ pub struct Mass {
 pub enum MassSource {
     /// Mean vertical force over whole gait cycles.
     Plates,
+    /// What plates carried while the person stood still.
+    Standing,
     /// The model's own mass.
     Model,
 }
@@ -84,7 +89,7 @@ pub enum AnalysisError {
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
-const WHOLE_BODY_SHARE: f64 = 0.05;
+pub(super) const WHOLE_BODY_SHARE: f64 = 0.05;
 /// Above this difference between plates and model the reader is told (issue of scaling or of plates).
 const MASS_MISMATCH: f64 = 0.03;
 
@@ -108,15 +113,26 @@ pub fn analyse(
         .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
     let trajectory = Trajectory::complete(model, &smoothed, findings)?;
     stage("smooth");
-    analyse_trajectory(model, trajectory, plates, ForceSource::Measured(settings.force_filter), findings, stage)
+    analyse_trajectory(
+        model,
+        trajectory,
+        plates,
+        ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented },
+        findings,
+        stage,
+    )
 }
 
 /// How the forces under the feet are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceSource {
-    /// By plates; with a low-pass of what they measured, `None` leaves it as it is. The body's mass is read off them where they saw
-    /// whole cycles.
-    Measured(Option<LowPass>),
+    /// By plates. The body's mass is read off them where they saw whole cycles.
+    Measured {
+        /// Low-pass of what they measured; `None` leaves it as it is.
+        filter: Option<LowPass>,
+        /// When they measured everything, if that is known.
+        within: Option<Window>,
+    },
     /// By a simulation of this very model, exactly; its mass is the model's.
     Simulated,
 }
@@ -133,9 +149,9 @@ pub fn analyse_trajectory(
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
-    let filter = match source {
-        ForceSource::Measured(filter) => filter,
-        ForceSource::Simulated => None,
+    let (filter, within) = match source {
+        ForceSource::Measured { filter, within } => (filter, within),
+        ForceSource::Simulated => (None, None),
     };
     let ground = ground::measured(model, &trajectory, plates, filter, findings).map_err(AnalysisError::Ground)?;
     report_sides(model, &ground, findings);
@@ -154,11 +170,12 @@ pub fn analyse_trajectory(
         findings.note("events.none", "no foot strike was found in the forces inside the window");
     }
     let mass = match source {
-        ForceSource::Measured(_) => mass(model, &vertical, &weighing(&cycles, &events, findings), findings),
+        ForceSource::Measured { .. } => mass(model, &vertical, &weighing(&cycles, &events, findings), findings),
         ForceSource::Simulated => Mass { kg: model.mass(), source: MassSource::Model },
     };
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
-    let residual = residual(model, &forces);
+    let (first, frames) = grid.inside(within.unwrap_or_default());
+    let residual = residual_within(model, &forces, first..first + frames);
     plausibility::report_residual(residual, mass.kg * model.gravity().norm(), !plates.is_empty(), findings);
     plausibility::report_downward(model, &ground, up, findings);
     plausibility::report_far_feet(model, &trajectory, &ground, findings);

@@ -3,6 +3,7 @@
 use crate::dynamics::{Forces, JointReaction};
 use crate::model::{Displacement, Joint, JointAxis, Model};
 use crate::spatial::{Vec3, Wrench};
+use std::ops::Range;
 
 /// Size of the residual at the root joints over a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,13 +24,19 @@ pub struct Residual {
 /// truly fastened to ground (a robot arm) this is the load on its foundation.
 #[must_use]
 pub fn residual(model: &Model, forces: &Forces) -> Option<Residual> {
-    let frames = forces.reactions.first()?.len();
-    if frames == 0 {
+    residual_within(model, forces, 0..forces.reactions.first()?.len())
+}
+
+/// The residual over some of the frames: those in which all that the ground does was measured.
+#[must_use]
+pub fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> Option<Residual> {
+    let frames = frames.start..frames.end.min(forces.reactions.first()?.len());
+    if frames.is_empty() {
         return None;
     }
     let roots = Roots::of(model);
     let (mut force, mut moment) = (Series::default(), Series::default());
-    for frame in 0..frames {
+    for frame in frames {
         let total = roots.residual(forces, frame);
         force.add(total.force.norm());
         moment.add(total.moment.norm());

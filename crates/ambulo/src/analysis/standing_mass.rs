@@ -1,5 +1,6 @@
 //! Body mass from plates under a person who stands still: m = median of the total vertical force / g.
 
+use super::recording::{Analysis, Mass, MassSource, WHOLE_BODY_SHARE};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::interpolate;
 
@@ -26,6 +27,16 @@ pub fn standing_mass(plates: &[PlateRecording]) -> Option<f64> {
     let (low, median, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
     let steady = high - median <= SWAY * median && median - low <= SWAY * median;
     (steady && median > LEAST_WEIGHT_N).then_some(median / STANDARD_GRAVITY)
+}
+
+impl Analysis {
+    /// Takes what plates carried in a standing trial [kg] for the body's mass, where no whole gait cycle says it better. A mass more
+    /// than 5 % beside the model's is not the whole body's, or not this person's.
+    pub fn weigh_standing(&mut self, standing_kg: f64) {
+        if self.mass.source == MassSource::Model && (standing_kg / self.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE {
+            self.mass = Mass { kg: standing_kg, source: MassSource::Standing };
+        }
+    }
 }
 
 #[cfg(test)]

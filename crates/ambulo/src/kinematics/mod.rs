@@ -10,6 +10,7 @@ pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;
 pub mod retarget;
+pub mod scaling;
 mod sin_cos;
 pub(crate) mod sweep;
 mod trajectory;

@@ -37,7 +37,7 @@ const GROUND: &str = "ground";
 pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
     let joints = model.body_ids().map(|id| joint(model, id)).collect::<Result<_, _>>()?;
     Ok(OsimModel {
-        name: model.name().to_owned(),
+        name: component_name(model.name()),
         document_version: VERSION,
         gravity: model.gravity().into(),
         bodies: model.bodies().iter().map(body).collect(),
@@ -58,6 +58,11 @@ fn body(body: &Body) -> OsimBody {
         mass_center_m: body.inertia.center().into(),
         inertia: [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23],
     }
+}
+
+/// A name that OpenSim takes: it refuses these characters in names of components.
+fn component_name(name: &str) -> String {
+    name.replace([' ', '\t', '\n', '\r', '/', '\\', '*', '+'], "_")
 }
 
 fn name_of(model: &Model, body: Option<BodyId>) -> String {
@@ -157,5 +162,9 @@ fn coordinate(coordinate: &Coordinate) -> Result<OsimCoordinate, ExportError> {
 }
 
 fn marker(model: &Model, marker: &Marker) -> OsimMarker {
-    OsimMarker { name: marker.name.clone(), body: name_of(model, marker.body), location_m: marker.location.into() }
+    OsimMarker {
+        name: component_name(&marker.name),
+        body: name_of(model, marker.body),
+        location_m: marker.location.into(),
+    }
 }

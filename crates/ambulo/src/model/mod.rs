@@ -11,6 +11,7 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
+mod scaled;
 mod side;
 mod simm_spline;
 
@@ -19,6 +20,7 @@ pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
 pub use knots::Knots;
+pub use scaled::ScaleError;
 pub use side::Side;
 pub use simm_spline::SimmSpline;
 
@@ -285,7 +287,7 @@ impl Model {
     }
 
     /// All bodies, by id.
-    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + use<> {
+    pub fn body_ids(&self) -> impl DoubleEndedIterator<Item = BodyId> + use<> {
         (0..self.bodies.len()).map(BodyId)
     }
 

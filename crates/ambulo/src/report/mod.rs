@@ -32,7 +32,9 @@ pub use scene_summary::{
 };
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
-pub use subject_summary::{MarkerErrorSummary, MarkersSummary, SubjectSummary};
+pub use subject_summary::{
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+};
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
 };

@@ -1,6 +1,10 @@
 //! How markers became a body in motion: `subject` of `summary.json` (docs/OUTPUTS.md).
 
+use crate::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
+use crate::ground::plates::PlateContact;
+use crate::kinematics::calibration::SegmentScale;
 use crate::kinematics::marker_fit::MarkerFit;
+use crate::model::Side;
 use serde::Serialize;
 
 /// How markers became a body in motion.
@@ -12,6 +16,15 @@ pub struct SubjectSummary {
     pub marker_sets: Vec<String>,
     /// How well the body follows the markers.
     pub markers: MarkersSummary,
+    /// Sizes of the built-in body's segments.
+    pub segments: Vec<SegmentSummary>,
+    /// Whose foot loaded which plate, and when.
+    pub plates: Vec<PlateContactSummary>,
+    /// Times during which every foot on the ground stood on a plate that saw all of it [s], the longest first: only there do totals
+    /// and the forces at the pelvis mean anything.
+    pub instrumented_windows_s: Vec<[f64; 2]>,
+    /// How well foot strikes and toe-offs of several sources agree.
+    pub events: Vec<EventAgreementSummary>,
     /// What the built-in body assumes of this person, in sentences.
     pub assumptions: Vec<String>,
 }
@@ -42,16 +55,109 @@ pub struct MarkerErrorSummary {
     pub frames_refused: usize,
 }
 
+/// A time during which a force plate was loaded.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlateContactSummary {
+    /// Name of the plate.
+    pub plate: String,
+    /// `r`, `l`, or nobody knows.
+    pub side: Option<&'static str>,
+    /// First loaded instant [s].
+    pub start_s: f64,
+    /// Last loaded instant [s].
+    pub end_s: f64,
+    /// Largest vertical force [N].
+    pub peak_n: f64,
+    /// `clean`, `shared`, `partial`, `two feet` or `unassigned`.
+    pub quality: &'static str,
+    /// Why it is not clean; empty if it is.
+    pub reason: String,
+}
+
+/// How well two sources of foot strikes and toe-offs agree.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EventAgreementSummary {
+    /// What is compared: `motion`, `file`.
+    pub found: &'static str,
+    /// With what: `plates`.
+    pub reference: &'static str,
+    /// Strikes, then offs.
+    pub kinds: Vec<EventAgreement>,
+}
+
+/// The size of a segment of the built-in body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SegmentSummary {
+    /// Name of the body.
+    pub body: String,
+    /// Length over the table's for the stature.
+    pub factor: f64,
+    /// Whether markers say so, or the table.
+    pub measured: bool,
+}
+
 impl SubjectSummary {
-    /// Of a body that was fitted to markers.
+    /// Of a body that was fitted to the markers of a laboratory; `listed` are the events that the file lists.
     #[must_use]
-    pub fn new(axes: &str, sets: &[String], fit: &MarkerFit, assumptions: &[String]) -> SubjectSummary {
+    pub fn of_markers(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> SubjectSummary {
+        let report = body.subject.calibration.as_ref();
+        let segments = report.map_or(&[][..], |report| &report.segments);
+        SubjectSummary {
+            marker_sets: body.subject.sets.clone(),
+            segments: segments.iter().map(SegmentSummary::new).collect(),
+            plates: plate_contacts(body),
+            instrumented_windows_s: body.on_plates.windows.clone(),
+            events: agreements(body, listed, measured),
+            assumptions: report.map(|r| r.assumptions.clone()).unwrap_or_default(),
+            ..SubjectSummary::of_skeleton(&body.laboratory.statement, &body.fit)
+        }
+    }
+
+    /// Of a body that was fitted to a skeleton.
+    #[must_use]
+    pub fn of_skeleton(axes: &str, fit: &MarkerFit) -> SubjectSummary {
         SubjectSummary {
             axes: axes.to_owned(),
-            marker_sets: sets.to_vec(),
+            marker_sets: Vec::new(),
             markers: MarkersSummary::new(fit),
-            assumptions: assumptions.to_vec(),
+            segments: Vec::new(),
+            plates: Vec::new(),
+            instrumented_windows_s: Vec::new(),
+            events: Vec::new(),
+            assumptions: Vec::new(),
         }
+    }
+}
+
+fn plate_contacts(body: &BodyInMotion) -> Vec<PlateContactSummary> {
+    let summary = |contact: &PlateContact| PlateContactSummary {
+        plate: body.plates[contact.plate].name.clone(),
+        side: contact.side.map(Side::letter),
+        start_s: contact.start_s,
+        end_s: contact.end_s,
+        peak_n: contact.peak_n,
+        quality: contact.quality.word(),
+        reason: contact.reason.clone(),
+    };
+    body.on_plates.contacts.iter().map(summary).collect()
+}
+
+/// Motion and file against plates; the file against the motion where there are no plates.
+fn agreements(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> Vec<EventAgreementSummary> {
+    let sources = [("plates", measured), ("motion", &body.feet.events[..]), ("file", listed)];
+    let filled: Vec<_> = sources.into_iter().filter(|(_, events)| !events.is_empty()).collect();
+    let Some(((reference, events), others)) = filled.split_first() else { return Vec::new() };
+    let agreement = |(found, with): &(&'static str, &[Event])| EventAgreementSummary {
+        found,
+        reference,
+        kinds: event_agreement(events, with).to_vec(),
+    };
+    others.iter().map(agreement).collect()
+}
+
+impl SegmentSummary {
+    fn new(scale: &SegmentScale) -> SegmentSummary {
+        SegmentSummary { body: scale.body.clone(), factor: scale.factor, measured: scale.is_measured }
     }
 }
 

@@ -25,7 +25,7 @@ pub struct Summary {
     pub mass_kg: f64,
     /// The model's mass, which the dynamics use [kg].
     pub mass_model_kg: f64,
-    /// `plates` or `model`.
+    /// `plates` (whole gait cycles), `standing` (plates in the standing trial) or `model`.
     pub mass_source: &'static str,
     /// Stature [m], where it was given.
     pub height_m: Option<f64>,
@@ -180,6 +180,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         mass_model_kg: model.mass(),
         mass_source: match analysis.mass.source {
             MassSource::Plates => "plates",
+            MassSource::Standing => "standing",
             MassSource::Model => "model",
         },
         height_m: None,

@@ -1,7 +1,7 @@
 //! Recorded coordinates (`.mot`, `.sto`, `.csv`) of an OpenSim model.
 
 use super::ground_table::{self, GroundTable};
-use super::{Reading, Recorded, read_model};
+use super::{Origin, Reading, Recorded, read_model};
 use crate::args::ForcesArgs;
 use crate::files;
 use ambulo::analysis::feasibility::Person;
@@ -19,6 +19,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
             args.input.display()
         );
     };
+    refuse_what_is_for_markers(args)?;
     let model = read_model(model_path, args, reading)?;
     reading.clock.lap("read_model");
     let motion = read_motion(&model, &args.input, &mut reading.findings)?;
@@ -27,7 +28,24 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("read_forces");
     let input = input(args, ground.as_ref());
     let person = Person::of_model(&model);
-    Ok(Recorded { model, motion, plates, person, input, subject: None, files: Vec::new(), events: Vec::new() })
+    Ok(Recorded { model, motion, plates, person, input, origin: Origin::Coordinates })
+}
+
+fn refuse_what_is_for_markers(args: &ForcesArgs) -> Result<()> {
+    let given = [
+        ("--static", args.subject.still.is_some()),
+        ("--markers", args.subject.markers.is_some()),
+        ("--plate", !args.subject.plate.is_empty()),
+        ("--mass", args.subject.mass.is_some()),
+        ("--height", args.subject.height.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((option, _)) => bail!(
+            "{}: {option} is for markers (.c3d, .trc); recorded coordinates are those of one model, whose size and mass they have",
+            args.input.display()
+        ),
+        None => Ok(()),
+    }
 }
 
 /// What went in, for the summary.

@@ -1,7 +1,7 @@
 //! Markers (`.c3d`, `.trc`): the body that is fitted to them, and the plates under its feet.
 
 use super::laboratory_file::{self, LaboratoryFile};
-use super::{Reading, Recorded, coordinates, read_model};
+use super::{Followed, Origin, Reading, Recorded, coordinates, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot};
 use crate::files;
 use ambulo::analysis::{Body, BodyInMotion, body_in_motion, standing_mass};
@@ -9,9 +9,9 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Measures, Person};
 use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::model::{Model, Side, to_osim};
+use ambulo::model::{Model, Side};
 use ambulo::motion::ForceRecording;
-use ambulo::report::{Input, OutputFile, SubjectSummary};
+use ambulo::report::Input;
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -28,16 +28,17 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let body =
         body(args, &walk, still.as_ref(), model.as_ref(), reading).with_context(|| args.input.display().to_string())?;
     let (plates, input) = ground(args, &body, reading)?;
-    let events = if walk.events.is_empty() { body.feet.events.clone() } else { walk.events };
     Ok(Recorded {
-        subject: Some(subject_summary(&body)),
-        files: vec![subject_file(&body)?],
-        events,
         plates,
         input,
-        motion: body.fit.motion,
-        model: body.subject.model,
-        person: body.subject.person,
+        motion: body.fit.motion.clone(),
+        model: body.subject.model.clone(),
+        person: body.subject.person.clone(),
+        origin: Origin::Markers(Box::new(Followed {
+            body,
+            listed: walk.events,
+            standing_kg: still.and_then(|still| standing_mass(&still.recording.plates)),
+        })),
     })
 }
 
@@ -56,7 +57,7 @@ fn body(
         args.subject.plate.iter().filter_map(|told| Some((told.plate - 1, told.side?))).collect();
     let standing = still.map(|still| &still.recording);
     if let Some(model) = model {
-        let body = Body::Model(model);
+        let body = Body::Model { model, mass: args.subject.mass };
         return Ok(body_in_motion(&walk.recording, standing, &body, &settings, &told, findings, stage)?);
     }
     let person = person(args, walk, still, findings)?;
@@ -102,16 +103,6 @@ fn ground(args: &ForcesArgs, body: &BodyInMotion, reading: &mut Reading) -> Resu
     }
     let input = Input { ground: Some(args.input.display().to_string()), ..coordinates::input(args, None) };
     Ok((plates, input))
-}
-
-/// The body that was fitted, for OpenSim and for later runs.
-fn subject_file(body: &BodyInMotion) -> Result<OutputFile> {
-    Ok(OutputFile { name: "subject.osim".to_owned(), bytes: to_osim(&body.subject.model)?.write()? })
-}
-
-fn subject_summary(body: &BodyInMotion) -> SubjectSummary {
-    let assumptions = body.subject.calibration.as_ref().map_or(&[][..], |report| &report.assumptions);
-    SubjectSummary::new(&body.laboratory.statement, &body.subject.sets, &body.fit, assumptions)
 }
 
 fn fit_settings(args: &ForcesArgs) -> FitSettings {

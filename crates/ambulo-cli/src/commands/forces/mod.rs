@@ -11,9 +11,9 @@ use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{AnalysisError, Event, Settings, analyse};
+use ambulo::analysis::{Analysis, AnalysisError, BodyInMotion, Event, Settings, analyse};
 use ambulo::findings::Findings;
-use ambulo::model::{Model, from_osim};
+use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{DeviceRecording, ForceRecording, Motion, Smoother, Window, device_from_table};
 use ambulo::report::{Input, OutputFile, SubjectSummary};
@@ -78,12 +78,72 @@ struct Recorded {
     plates: Vec<ForceRecording>,
     person: Person,
     input: Input,
-    /// How markers became a body in motion.
-    subject: Option<SubjectSummary>,
-    /// Foot strikes and toe-offs that are known besides what forces show.
-    events: Vec<Event>,
-    /// Files of its own.
-    files: Vec<OutputFile>,
+    /// What else is known of it.
+    origin: Origin,
+}
+
+/// What a recording was made with.
+enum Origin {
+    Coordinates,
+    Markers(Box<Followed>),
+    Skeleton(Box<SubjectSummary>),
+}
+
+/// A body that followed markers, and what its files say besides.
+struct Followed {
+    body: BodyInMotion,
+    /// Foot strikes and toe-offs that the file lists.
+    listed: Vec<Event>,
+    /// What plates carried while the person stood [kg].
+    standing_kg: Option<f64>,
+}
+
+impl Origin {
+    /// Adds to an analysis what is known besides forces and motion.
+    fn complete(&self, analysis: &mut Analysis) -> Option<SubjectSummary> {
+        match self {
+            Origin::Coordinates => None,
+            Origin::Skeleton(summary) => Some(*summary.clone()),
+            Origin::Markers(followed) => {
+                let Followed { body, listed, standing_kg } = &**followed;
+                let summary = SubjectSummary::of_markers(body, listed, &analysis.events);
+                analysis.complete_events(if listed.is_empty() { &body.feet.events } else { listed });
+                if let Some(standing_kg) = standing_kg {
+                    analysis.weigh_standing(*standing_kg);
+                }
+                Some(summary)
+            }
+        }
+    }
+
+    /// The longest time during which plates measured all that the ground did.
+    fn instrumented(&self) -> Option<Window> {
+        let Origin::Markers(followed) = self else { return None };
+        let [from, to] = *followed.body.on_plates.windows.first()?;
+        Some(Window { from_s: Some(from), to_s: Some(to) })
+    }
+
+    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. A given model whose joints follow
+    /// curves is not written.
+    fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
+        let is_made = match self {
+            Origin::Coordinates => false,
+            Origin::Skeleton(_) => true,
+            Origin::Markers(followed) => {
+                followed.body.subject.calibration.is_some() || !followed.body.subject.scaled.is_empty()
+            }
+        };
+        if !is_made {
+            return Vec::new();
+        }
+        match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
+            Ok(bytes) => vec![OutputFile { name: "subject.osim".to_owned(), bytes }],
+            Err(reason) => {
+                findings.note("subject.not_written", format!("subject.osim was not written: {reason:#}"));
+                Vec::new()
+            }
+        }
+    }
 }
 
 fn compute(
@@ -94,13 +154,11 @@ fn compute(
     reading: Reading,
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
-    let Recorded { model, motion, plates, person, input, subject, events, files } = recorded;
-    let settings = settings(args);
+    let Recorded { model, motion, plates, person, input, origin } = recorded;
+    let settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
     let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, &input))?;
-    if !events.is_empty() {
-        analysis.complete_events(&events);
-    }
+    let subject = origin.complete(&mut analysis);
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
@@ -115,7 +173,7 @@ fn compute(
         read: &read,
         walk: None,
         subject,
-        files,
+        files: origin.files(&model, &mut findings),
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
 }
@@ -164,5 +222,11 @@ fn settings(args: &ForcesArgs) -> Settings {
         (Filter::Butterworth, None) => Smoother::Off,
     };
     let force_filter = low_pass(args.force_cutoff.unwrap_or(args.cutoff).0);
-    Settings { smoother, force_filter, window: Window { from_s: args.from, to_s: args.to }, rate_hz: args.rate }
+    Settings {
+        smoother,
+        force_filter,
+        window: Window { from_s: args.from, to_s: args.to },
+        rate_hz: args.rate,
+        instrumented: None,
+    }
 }

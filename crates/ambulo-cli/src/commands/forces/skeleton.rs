@@ -1,6 +1,6 @@
 //! A skeleton in motion (`.bvh`), on the built-in body. No file of this kind has forces, a mass or a unit.
 
-use super::{Reading, Recorded, coordinates};
+use super::{Origin, Reading, Recorded, coordinates};
 use crate::args::ForcesArgs;
 use crate::files;
 use ambulo::analysis::feasibility::Person;
@@ -31,9 +31,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
         "a BVH has no ground forces and they are not predicted yet: the whole support stands in the root's residual, and moments of legs that stand are those of legs that swing",
     );
     Ok(Recorded {
-        subject: Some(SubjectSummary::new(&skeleton.statement, &[], &body.fit, &[])),
-        files: Vec::new(),
-        events: Vec::new(),
+        origin: Origin::Skeleton(Box::new(SubjectSummary::of_skeleton(&skeleton.statement, &body.fit))),
         plates: Vec::new(),
         input: Input { ground_source: GroundSource::None, ..coordinates::input(args, None) },
         person: Person::of_human(&body.human),

@@ -83,7 +83,7 @@ pub fn calibrate(
     let sight = Sight::new(recording, recognised);
     let frames = reference::frames(&sight, trial, findings);
     let mut assumptions = Vec::new();
-    let pelvis = pelvis::find(&sight, &frames, person)?;
+    let pelvis = pelvis::find(&sight, &frames)?;
     let legs = legs::find(&sight, &frames, &pelvis, person, &mut assumptions)?;
     let height = match person.height {
         Some(height) => height,

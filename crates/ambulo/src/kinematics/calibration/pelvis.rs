@@ -2,7 +2,6 @@
 
 use super::CalibrationError;
 use super::axes::{about_z, direction, from_z_x, from_z_y, median};
-use super::person::Person;
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::full_body::STANDING_TILT;
@@ -38,11 +37,11 @@ impl Pelvis {
     }
 }
 
-pub(super) fn find(sight: &Sight<'_>, frames: &[usize], person: &Person) -> Result<Pelvis, CalibrationError> {
+pub(super) fn find(sight: &Sight<'_>, frames: &[usize]) -> Result<Pelvis, CalibrationError> {
     let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| sight.has(landmark, Some(side)));
     let has_back = both(Landmark::Psis) || sight.has(Landmark::Sacrum, None);
     let pelvis = if both(Landmark::Asis) && has_back {
-        from_spines(sight, frames, person)
+        from_spines(sight, frames)
     } else if both(Landmark::HipCentre) {
         from_hips(sight, frames)
     } else {
@@ -82,18 +81,17 @@ fn spines(sight: &Sight<'_>, frame: usize) -> Option<(Vec3, Vec3, Vec3)> {
 }
 
 /// Hip centres by Harrington 2007: from midway between the front spines, in axes through the spines, by width PW and depth PD of the
-/// pelvis [m]. The regression was made on bones: markers stand a radius before and behind them.
-fn regression(width: f64, depth: f64, radius: f64) -> Vec3 {
-    let depth = depth - 2.0 * radius;
-    Vec3::new(-0.24 * depth - 0.0099 - radius, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
+/// pelvis between the markers [m].
+fn regression(width: f64, depth: f64) -> Vec3 {
+    Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
 }
 
-fn from_spines(sight: &Sight<'_>, frames: &[usize], person: &Person) -> Pelvis {
+fn from_spines(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
     let seen: Vec<_> = frames.iter().map(|&frame| spines(sight, frame)).collect();
     let known = || seen.iter().flatten();
     let width = median(known().map(|(_, _, across)| across.norm())).unwrap_or(f64::NAN);
     let depth = median(known().map(|(front, back, _)| (front - back).norm())).unwrap_or(f64::NAN);
-    let hip = regression(width, depth, person.measures.radius());
+    let hip = regression(width, depth);
     let origin = Vec3::new(hip.x, hip.y, 0.0);
     let pose = |(front, back, across): &(Vec3, Vec3, Vec3)| {
         let rotation = from_z_x(*across, front - back)?;

@@ -153,6 +153,22 @@ impl Frames {
         self.targets[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(offsets);
     }
 
+    /// Loads what is believed in a frame, and missing markers of the core where its posture has them at their offsets.
+    pub(super) fn load_as_if_seen(&self, frame: usize, problem: &mut Problem<'_>, with_missing: bool) {
+        self.load(frame, problem);
+        if self.is_plain(frame) || !with_missing || self.outcomes[frame].is_none() {
+            return;
+        }
+        problem.tree.pose_at(self.posture(frame));
+        for (i, offset) in self.targets(frame).iter().enumerate() {
+            let is_known = offset.iter().all(|x| x.is_finite());
+            if problem.frame_weights[i] <= 0.0 && self.core[i] && is_known {
+                problem.positions[i] = problem.place(i, offset);
+                problem.frame_weights[i] = problem.weights[i];
+            }
+        }
+    }
+
     /// Keeps the posture of a frame, at which the problem stands.
     /// `plain` if it was fitted to the model's own markers.
     pub(super) fn keep(&mut self, frame: usize, problem: &Problem<'_>, x: &[f64], outcome: Outcome, plain: bool) {

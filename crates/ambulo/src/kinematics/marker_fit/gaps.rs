@@ -275,17 +275,8 @@ fn known_offsets(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> Ve
 /// Fits a frame to the markers that are seen and to the missing ones where the posture has them at their offsets.
 fn fit_as_if_seen(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) {
     let Some(mut x) = nearby(frames, frame) else { return };
-    frames.load(frame, problem);
-    let seen = problem.frame_weights.clone();
-    problem.pose_at(&x);
-    for (i, offset) in frames.targets(frame).iter().enumerate() {
-        let is_known = offset.iter().all(|x| x.is_finite());
-        if seen[i] <= 0.0 && frames.core[i] && is_known {
-            problem.positions[i] = problem.place(i, offset);
-            problem.frame_weights[i] = problem.weights[i];
-        }
-    }
+    frames.load_as_if_seen(frame, problem, true);
     let outcome = problem.fit(&mut x);
-    problem.frame_weights.copy_from_slice(&seen);
+    frames.load(frame, problem);
     frames.keep(frame, problem, &x, outcome, false);
 }

@@ -18,7 +18,7 @@
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: some 10 µs a step, three or four steps a frame; `cargo xtask bench-markers`.
 //! Not handled: markers fixed to ground; weights that change in time.
-//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_outliers.rs
+//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
 
 mod bridge;
 mod cholesky;
@@ -28,8 +28,10 @@ mod normal;
 mod problem;
 mod report;
 mod result;
+pub(crate) mod rows;
 mod sequence;
 mod settings;
+mod smoothing;
 mod solve;
 mod start;
 mod tree;
@@ -54,6 +56,9 @@ pub fn fit_markers(
     findings: &mut Findings,
 ) -> Result<MarkerFit, FitError> {
     let mut problem = Problem::new(model, markers, settings, findings)?;
+    if settings.smoothing.is_some() {
+        smoothing::check(problem.frames(), problem.tree.unknowns())?;
+    }
     let mut frames = Frames::new(&problem);
     let most = (0..frames.count()).map(|frame| frames.used_in(frame)).max().unwrap_or(0);
     if most < FEWEST {
@@ -64,6 +69,9 @@ pub fn fit_markers(
         (0..problem.tree.unknowns()).map(|u| model.coordinates()[problem.tree.coordinate(u)].default_value).collect();
     sequence::run(&mut problem, &mut frames, settings.guard, &default);
     let states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
+    if let Some(smoothing) = settings.smoothing {
+        smoothing::smooth(model, &mut problem, &mut frames, &states, smoothing);
+    }
     report::markers(&problem, &frames, findings);
     report::coordinates(model, &problem, &frames, &states, settings.longest_gap_s, findings);
     Ok(report::fit(model, &markers.name, &mut problem, &frames, &states))

@@ -96,10 +96,15 @@ impl<'a> Problem<'a> {
         if count > 0 {
             self.tree.refer_to(sum / count as f64);
         }
+        self.enter(frame);
+        count
+    }
+
+    /// Gives the coordinates that are functions of time their values.
+    pub(super) fn enter(&mut self, frame: usize) {
         for (coordinate, function) in &self.prescribed {
             self.tree.give(*coordinate, function.at(self.times[frame])[0]);
         }
-        count
     }
 
     /// Fits what was loaded to the model's own markers.

@@ -42,7 +42,8 @@ pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Mo
         making.arm(torso, side, p)?;
     }
     let Making { bodies, coordinates, markers, .. } = making;
-    let name = format!("{} {} kg {} m", build.table, build.mass, build.height);
+    let rounded = |x: f64| (1e3 * x).round() / 1e3;
+    let name = format!("{} {} kg {} m", build.table, rounded(build.mass), rounded(build.height));
     Ok(Model::new(name, Vec3::new(0.0, -GRAVITY, 0.0), bodies, coordinates, markers)?)
 }
 

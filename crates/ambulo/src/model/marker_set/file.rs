@@ -16,7 +16,7 @@
 //! weight = 0.5
 //! ```
 
-use super::landmark::{LOOSE_WEIGHT, TECHNICAL_WEIGHT};
+use super::landmark::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use super::{Landmark, MarkerDefinition, MarkerSet, Segment};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -131,7 +131,7 @@ fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
     let usual = match (landmark, segment) {
         (Some(landmark), _) => landmark.weight(),
         (None, Segment::Humerus | Segment::Forearm) => LOOSE_WEIGHT,
-        (None, _) => TECHNICAL_WEIGHT,
+        (None, _) => FOLLOWING_WEIGHT,
     };
     let weight = match table.get("weight") {
         Some(value) => {

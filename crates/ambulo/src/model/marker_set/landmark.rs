@@ -157,10 +157,11 @@ pub(super) const TABLE: [Row; 50] = {
     ]
 };
 
-/// Weight of markers on soft tissue, which only say how a segment moves, and of wands.
-pub(super) const TECHNICAL_WEIGHT: f64 = 0.5;
-/// Weight of markers that move on the body that carries them in the model.
+/// Weight of markers that move by several centimetres on the body that carries them in the model.
 pub(super) const LOOSE_WEIGHT: f64 = 0.02;
+/// Weight of markers that only show how a segment turns, and of a trunk that bends where the model does not: their skin moves by
+/// one or two centimetres on the bone, three times as far as over the landmarks that joints are found by.
+pub(super) const FOLLOWING_WEIGHT: f64 = 0.1;
 
 impl Landmark {
     /// All landmarks, from the pelvis down and then up.
@@ -190,8 +191,9 @@ impl Landmark {
         self.row().segment
     }
 
-    /// How much a marker on it counts where markers are fitted: less on wands, little on arms and shoulders, whose girdle moves on the trunk by
-    /// centimetres, and on the head, which turns on it.
+    /// How much a marker on it counts where markers are fitted: 1 where joints are found by it; less on wands and on the skin along
+    /// thigh and shank, and on a trunk that bends; little on arms and shoulders, whose girdle moves on the trunk, and on the head,
+    /// which turns on it. So joint centres follow the landmarks that define them, as in Plug-in-Gait, and the rest fills in.
     #[must_use]
     pub fn weight(self) -> f64 {
         use Landmark as L;
@@ -200,7 +202,8 @@ impl Landmark {
             | (L::Acromion | L::ShoulderCentre | L::FrontHead | L::BackHead | L::Ear | L::Nose | L::Vertex, _) => {
                 LOOSE_WEIGHT
             }
-            (L::ThighWand | L::ShankWand, _) => TECHNICAL_WEIGHT,
+            (L::ThighWand | L::ShankWand | L::FibulaHead | L::TibialTuberosity | L::GreaterTrochanter, _)
+            | (_, Segment::Torso) => FOLLOWING_WEIGHT,
             _ => 1.0,
         }
     }

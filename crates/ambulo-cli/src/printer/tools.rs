@@ -1,11 +1,73 @@
-//! The verbs that read files of every kind: `info`, `convert`, `events`.
+//! The outcomes of the small tools.
 
 use super::{print_findings, say};
 use crate::args::Voice;
 use crate::commands::events::{Agreed, Source};
 use crate::commands::info::Sheet;
+use ambulo::analysis::Agreement;
 use ambulo::findings::Findings;
 use anyhow::Result;
+use serde::Serialize;
+
+/// Agreement of one column.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ComparedColumn {
+    pub(crate) column: String,
+    /// In the column's unit.
+    pub(crate) rmse: f64,
+    /// RMSE over the mean range; `null` if both are flat.
+    pub(crate) rrmse: Option<f64>,
+    /// Pearson's correlation; `null` if one is flat.
+    pub(crate) r: Option<f64>,
+    pub(crate) max_difference: f64,
+    pub(crate) samples: usize,
+    /// Whether the limit was kept; `null` without a limit.
+    pub(crate) within_limit: Option<bool>,
+}
+
+impl ComparedColumn {
+    pub(crate) fn new(column: &str, agreement: Agreement, limit: Option<f64>) -> ComparedColumn {
+        let known = |x: f64| x.is_finite().then_some(x);
+        ComparedColumn {
+            column: column.to_owned(),
+            rmse: agreement.rmse,
+            rrmse: known(agreement.rrmse),
+            r: known(agreement.r),
+            max_difference: agreement.max_difference,
+            samples: agreement.samples,
+            within_limit: limit.map(|limit| agreement.rmse <= limit),
+        }
+    }
+}
+
+/// The outcome of `compare`.
+pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice) -> Result<()> {
+    if voice.json {
+        say(&serde_json::to_string_pretty(rows)?)?;
+    }
+    if voice.json || voice.quiet {
+        return Ok(());
+    }
+    let width = rows.iter().map(|r| r.column.len()).max().unwrap_or(0).max(6);
+    say(&format!("{:<width$}  {:>12}  {:>8}  {:>8}  {:>12}  samples", "column", "RMSE", "rRMSE", "r", "max"))?;
+    for row in rows {
+        let share = row.rrmse.map_or("-".into(), |x| format!("{x:.4}"));
+        let r = row.r.map_or("-".into(), |x| format!("{x:.5}"));
+        let verdict = match row.within_limit {
+            Some(false) => "  over the limit",
+            _ => "",
+        };
+        say(&format!(
+            "{:<width$}  {:>12.6}  {share:>8}  {r:>8}  {:>12.6}  {}{verdict}",
+            row.column, row.rmse, row.max_difference, row.samples
+        ))?;
+    }
+    if let Some(limit) = limit {
+        let over = rows.iter().filter(|r| r.within_limit == Some(false)).count();
+        say(&format!("{over} of {} columns over the limit of {limit}", rows.len()))?;
+    }
+    Ok(())
+}
 
 /// The outcome of `info`.
 pub(crate) fn info(sheet: &Sheet, voice: Voice) -> Result<()> {

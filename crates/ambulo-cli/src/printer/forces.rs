@@ -1,0 +1,104 @@
+//! The outcome of `forces`, `walk` and `demo`.
+
+use super::{print_findings, print_verdict, say, subject};
+use crate::args::Voice;
+use ambulo::report::{FilterSummary, Ground, Summary, WalkSummary};
+use anyhow::Result;
+use std::path::Path;
+
+/// The outcome of `forces` and `demo`.
+pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(&summary.findings);
+    if voice.json {
+        say(&serde_json::to_string_pretty(summary)?)?;
+        return Ok(());
+    }
+    say(&format!("{}, {}", summary.model, summary.input.motion))?;
+    say(&format!("  mass      {:.2} kg ({})", summary.mass_kg, summary.mass_source))?;
+    if let Some(subject) = &summary.subject {
+        subject::print(subject)?;
+    }
+    if let Some(speed) = summary.speed_m_s {
+        say(&format!("  speed     {speed:.2} m/s"))?;
+    }
+    let [from, to] = summary.window_s;
+    say(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
+    print_ground(summary)?;
+    if let Some(walk) = &summary.walk {
+        print_walk(walk)?;
+    }
+    if let Some(r) = &summary.residual {
+        say(&format!(
+            "  residual  {:.1} N rms ({:.1} %BW), {:.1} N peak; {:.1} N.m rms, {:.1} N.m peak",
+            r.force_rms_n,
+            100.0 * r.force_rms_bw,
+            r.force_peak_n,
+            r.moment_rms_nm,
+            r.moment_peak_nm
+        ))?;
+    }
+    print_peaks(summary)?;
+    if let Some(verdict) = &summary.verdict {
+        print_verdict(verdict)?;
+    }
+    say(&format!("  written   {}", output.display()))?;
+    Ok(())
+}
+
+/// How a walk was made.
+fn print_walk(walk: &WalkSummary) -> Result<()> {
+    say(&format!(
+        "  walk      {}, style {}, {} mode: {:.2} m/s, steps of {:.3} m, {:.1} a minute",
+        walk.gait, walk.style, walk.mode, walk.speed_asked_m_s, walk.step_length_m, walk.cadence_steps_min
+    ))?;
+    if let (Some(count), Some(degrees), Some(path)) =
+        (walk.parameters_adjusted, &walk.adjustment_deg, &walk.pelvis_path_mm)
+    {
+        let angles: Vec<String> =
+            degrees.iter().map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
+        say(&format!("  changed   by {count} numbers: {} deg rms", angles.join(", ")))?;
+        say(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
+    }
+    let slip = match (walk.foot_slip_mm, walk.foot_slip_path_mm) {
+        (Some(distance), Some(path)) => {
+            format!("; feet get {distance:.1} mm from where they stood, by a way of {path:.1} mm")
+        }
+        _ => String::new(),
+    };
+    say(&format!(
+        "  trunk     held with {:.1} N.m rms, {:.1} N.m peak{slip}",
+        walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest
+    ))?;
+    if walk.blows > 0 {
+        say(&format!("  blows     {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;
+    }
+    Ok(())
+}
+
+fn print_ground(summary: &Summary) -> Result<()> {
+    let motion = filter(&summary.filter.motion);
+    let Ground { source, threshold_n, .. } = summary.ground;
+    if source == "none" {
+        return say(&format!("  filter    motion {motion}\n  ground    none"));
+    }
+    say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
+    say(&format!("  ground    {source} (a foot counts as unloaded below {threshold_n} N)"))
+}
+
+fn print_peaks(summary: &Summary) -> Result<()> {
+    say("  peaks                               min          max")?;
+    for peak in summary.peaks.iter().filter(|p| p.unit == "N.m") {
+        say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+    }
+    Ok(())
+}
+
+fn filter(filter: &FilterSummary) -> String {
+    match (filter.cutoff_hz, filter.order) {
+        (Some(hz), Some(order)) => format!("{} {hz} Hz (order {order}, forwards and backwards)", filter.kind),
+        _ => filter.kind.to_owned(),
+    }
+}

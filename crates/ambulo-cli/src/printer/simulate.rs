@@ -1,0 +1,90 @@
+//! The outcome of `simulate`.
+
+use super::{print_findings, print_verdict, say};
+use crate::args::Voice;
+use ambulo::report::SceneSummary;
+use anyhow::Result;
+use std::path::Path;
+
+/// The outcome of `simulate`.
+pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> Result<()> {
+    if voice.quiet {
+        return Ok(());
+    }
+    print_findings(&summary.findings);
+    if voice.json {
+        return say(&serde_json::to_string_pretty(summary)?);
+    }
+    let (world, energy, convergence) = (&summary.world, &summary.energy, &summary.convergence);
+    say(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
+    let counted = |count: usize, one: &str, many: &str| match count {
+        0 => String::new(),
+        1 => format!(", 1 {one}"),
+        _ => format!(", {count} {many}"),
+    };
+    say(&format!(
+        "  world       {} bod{}, {:.2} kg{}{}{}{}",
+        world.bodies,
+        if world.bodies == 1 { "y" } else { "ies" },
+        world.mass_kg,
+        counted(world.figures, "figure", "figures"),
+        counted(world.joints, "joint", "joints"),
+        counted(world.closures, "closure", "closures"),
+        counted(world.obstacles, "obstacle", "obstacles"),
+    ))?;
+    let [from, to] = summary.window_s;
+    let each_us = 1e3 * summary.timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
+    say(&format!(
+        "  time        {from} to {to} s, {} steps of {} s ({}), {each_us:.1} us each",
+        summary.steps, summary.step_s, summary.integrator
+    ))?;
+    say(&format!(
+        "  energy      {:.6} J at the start, {:.6} J at the end; between {:.6} and {:.6} J",
+        energy.start_j, energy.end_j, energy.lowest_j, energy.highest_j
+    ))?;
+    if world.joints + world.closures > 0 {
+        say(&format!("  joint error {:.1e} m at most", summary.joint_error_max_m))?;
+    }
+    if world.surfaces > 0 {
+        let contacts = &summary.contacts;
+        say(&format!(
+            "  contacts    {} points at most, {:.2} N at one of them, overlap {:.1e} m{}",
+            contacts.points_max,
+            contacts.normal_force_max_n,
+            contacts.overlap_max_m,
+            counted(contacts.impacts, "collision within a step", "collisions within steps"),
+        ))?;
+    }
+    say(&format!(
+        "  iterations  {:.1} a step, {} at most; residual {:.1e} at most, {} step{} not converged",
+        convergence.iterations_mean,
+        convergence.iterations_max,
+        convergence.residual_max,
+        convergence.not_converged,
+        if convergence.not_converged == 1 { "" } else { "s" },
+    ))?;
+    print_efforts(summary)?;
+    for judged in summary.verdict.iter().flat_map(|verdict| &verdict.figures) {
+        say(&format!("  {}", judged.figure))?;
+        print_verdict(&judged.verdict)?;
+    }
+    say(&format!("  written     {}", output.display()))
+}
+
+/// Efforts of the coordinates that have some.
+fn print_efforts(summary: &SceneSummary) -> Result<()> {
+    /// Longer lists are in summary.json.
+    const MOST: usize = 12;
+    let acting: Vec<_> = summary.peaks.iter().filter(|p| p.max.abs().max(p.min.abs()) >= 0.005).collect();
+    if acting.is_empty() {
+        return Ok(());
+    }
+    say("  efforts                                   min          max")?;
+    for peak in acting.iter().take(MOST) {
+        say(&format!("    {:<34} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+    }
+    if acting.len() > MOST {
+        say(&format!("    and {} more in summary.json", acting.len() - MOST))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,50 @@
+//! How markers became a body in motion.
+
+use super::say;
+use ambulo::report::{EventAgreementSummary, MarkerErrorSummary, PlateContactSummary, SubjectSummary};
+use anyhow::Result;
+
+/// Markers that stay furthest from the body are named.
+const NAMED: usize = 4;
+
+pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
+    say(&format!("  axes      {}", subject.axes))?;
+    say(&format!("  markers   {}", markers(subject)))?;
+    for contact in &subject.plates {
+        say(&format!("  {:9} {}", contact.plate, on_plate(contact)))?;
+    }
+    if let Some([from, to]) = subject.instrumented_windows_s.first() {
+        say(&format!("  measured  {from:.3} to {to:.3} s: every foot on the ground stands on a plate"))?;
+    }
+    for agreement in &subject.events {
+        say(&format!("  events    {}", events(agreement)))?;
+    }
+    Ok(())
+}
+
+fn markers(subject: &SubjectSummary) -> String {
+    let mut errors: Vec<&MarkerErrorSummary> =
+        subject.markers.errors.iter().filter(|error| error.rms_mm.is_some()).collect();
+    errors.sort_by(|a, b| b.rms_mm.unwrap_or(0.0).total_cmp(&a.rms_mm.unwrap_or(0.0)));
+    let far: Vec<String> =
+        errors.iter().take(NAMED).map(|e| format!("{} {:.0}", e.name, e.rms_mm.unwrap_or(0.0))).collect();
+    let sets =
+        if subject.marker_sets.is_empty() { String::new() } else { format!(" ({})", subject.marker_sets.join(", ")) };
+    let rms = subject.markers.rms_mm.map_or("-".to_owned(), |mm| format!("{mm:.1} mm"));
+    format!("{}{sets}, {rms} rms from the body; furthest {} mm", errors.len(), far.join(", "))
+}
+
+fn on_plate(contact: &PlateContactSummary) -> String {
+    let PlateContactSummary { side, start_s, end_s, peak_n, quality, .. } = contact;
+    format!("{} {start_s:.3} to {end_s:.3} s, peak {peak_n:.0} N, {quality}", side.unwrap_or("nobody"))
+}
+
+fn events(agreement: &EventAgreementSummary) -> String {
+    let kinds = agreement.kinds.iter().map(|kind| match kind.pairs {
+        0 => format!("no {} in common", kind.kind),
+        pairs => {
+            format!("{pairs} {}{} {:.0} ms apart", kind.kind, if pairs > 1 { "s" } else { "" }, kind.mean_absolute_ms)
+        }
+    });
+    format!("{} against {}: {}", agreement.found, agreement.reference, kinds.collect::<Vec<_>>().join(", "))
+}

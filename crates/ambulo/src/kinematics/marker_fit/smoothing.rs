@@ -1,0 +1,226 @@
+//! All frames fitted together, with a prior on the third derivative of every coordinate.
+//!
+//! min  Σ_t Σ_i w |m - p(q_t)|² / σ²  +  Σ_t Σ_u (Δ³q_u / (Δt³ J_u))²
+//!
+//! Newton's method on all frames at once: the markers give a block on the diagonal for each frame, the prior ties each frame to the
+//! three before it along each coordinate, so the matrix has 3 n bands for n coordinates and its Cholesky factor too. What no marker
+//! sees follows from the prior. Frames that lack markers have the missing ones where the frame-by-frame fit put them.
+//!
+//! | code    | symbol                         | unit          |
+//! | `noise` | σ, [`Smoothing::marker_noise_m`] | m           |
+//! | `jerk`  | J                              | rad/s³, m/s³  |
+//!
+//! Source: the discrete smoothing spline of half order three (Whittaker 1923 for the penalty (unverified)); derived here.
+//! Cost: frames times 9 n³ multiplications a step; 8 bytes times frames times 3 n² of memory.
+//! Pinned by: tests/marker_smoothing.rs
+
+use super::frames::Frames;
+use super::gaps::State;
+use super::normal::{Normal, Targets, cost};
+use super::problem::Problem;
+use super::result::FitError;
+use super::settings::Smoothing;
+use super::solve::Outcome;
+use crate::model::{CoordinateKind, Model};
+use crate::numerics::BandMatrix;
+use crate::spatial::Vec3;
+
+/// Numbers in the band matrix at most: 1 GB.
+const MOST_NUMBERS: usize = 1 << 27;
+const STEPS: usize = 30;
+/// The iteration rests when no coordinate moves by more [rad or m].
+const SMALL_STEP: f64 = 1e-7;
+const HALVINGS: usize = 12;
+/// Weight that holds a coordinate at the end of its range.
+const HELD: f64 = 1e15;
+/// Weight of a coordinate's own value, so that one which neither markers nor prior see has a pivot.
+const FLOOR: f64 = 1e-9;
+const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+
+/// Positions and weights of all frames, and the prior.
+struct Whole {
+    positions: Vec<Vec3>,
+    weights: Vec<f64>,
+    markers: usize,
+    unknowns: usize,
+    frames: usize,
+    /// 1 / σ².
+    precision: f64,
+    /// 1 / (Δt³ J)² of each unknown.
+    stiffness: Vec<f64>,
+}
+
+/// Refuses recordings that would fill the memory.
+pub(super) fn check(frames: usize, unknowns: usize) -> Result<(), FitError> {
+    let most = MOST_NUMBERS / (unknowns * (3 * unknowns + 1));
+    if frames > most { Err(FitError::TooLong { frames, unknowns, most }) } else { Ok(()) }
+}
+
+/// Replaces the postures of all frames by those of the whole.
+pub(super) fn smooth(
+    model: &Model,
+    problem: &mut Problem<'_>,
+    frames: &mut Frames,
+    states: &[State],
+    smoothing: Smoothing,
+) {
+    let unknowns = problem.tree.unknowns();
+    let count = frames.count();
+    let mut whole = Whole::new(model, problem, frames, states, smoothing);
+    let mut x = whole.start(frames);
+    let mut normal = Normal::new(&problem.tree);
+    let mut total = whole.cost(problem, &x);
+    let (mut steps, mut converged) = (0, false);
+    while steps < STEPS && !converged {
+        let Some(step) = whole.step(problem, &mut normal, &x) else { break };
+        let Some((next, after)) = whole.walk(problem, &x, &step, total) else {
+            converged = true;
+            break;
+        };
+        let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        (x, total) = (next, after);
+        steps += 1;
+        converged = longest < SMALL_STEP;
+    }
+    for frame in 0..count {
+        let own = &x[frame * unknowns..(frame + 1) * unknowns];
+        frames.load(frame, problem);
+        let cost = problem.pose_at(own);
+        frames.keep(frame, problem, own, Outcome { cost, steps, converged }, false);
+    }
+}
+
+impl Whole {
+    fn new(model: &Model, problem: &mut Problem<'_>, frames: &Frames, states: &[State], smoothing: Smoothing) -> Whole {
+        let (markers, unknowns, count) = (frames.markers(), problem.tree.unknowns(), frames.count());
+        let mut positions = vec![Vec3::zeros(); count * markers];
+        let mut weights = vec![0.0; count * markers];
+        for frame in 0..count {
+            let gap = states[frame * unknowns..(frame + 1) * unknowns].contains(&State::Gap);
+            frames.load_as_if_seen(frame, problem, !gap);
+            positions[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.positions);
+            weights[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.frame_weights);
+        }
+        let times = problem.times;
+        let step_s = (times[count - 1] - times[0]) / (count.max(2) - 1) as f64;
+        let jerk = |u: usize| match model.coordinates()[problem.tree.coordinate(u)].kind {
+            CoordinateKind::Translation => smoothing.translation_jerk,
+            CoordinateKind::Rotation | CoordinateKind::Coupled => smoothing.rotation_jerk,
+        };
+        let stiffness = (0..unknowns).map(|u| (step_s.powi(3) * jerk(u)).powi(-2)).collect();
+        let precision = smoothing.marker_noise_m.powi(-2);
+        Whole { positions, weights, markers, unknowns, frames: count, precision, stiffness }
+    }
+
+    /// Postures of the frame-by-frame fit, a missing one as in the frame before.
+    fn start(&self, frames: &Frames) -> Vec<f64> {
+        let mut x: Vec<f64> = (0..self.frames).flat_map(|frame| frames.posture(frame).to_vec()).collect();
+        let n = self.unknowns;
+        for i in n..x.len() {
+            if !x[i].is_finite() {
+                x[i] = x[i - n];
+            }
+        }
+        for i in (0..x.len().saturating_sub(n)).rev() {
+            if !x[i].is_finite() {
+                x[i] = x[i + n];
+            }
+        }
+        x
+    }
+
+    fn targets<'t>(&'t self, problem: &'t Problem<'_>, frame: usize) -> Targets<'t> {
+        let own = frame * self.markers..(frame + 1) * self.markers;
+        Targets { points: &problem.points, positions: &self.positions[own.clone()], weights: &self.weights[own] }
+    }
+
+    /// Puts the model into a frame's posture at its time.
+    fn pose(&self, problem: &mut Problem<'_>, frame: usize, x: &[f64]) {
+        problem.enter(frame);
+        problem.tree.pose_at(&x[frame * self.unknowns..(frame + 1) * self.unknowns]);
+    }
+
+    fn cost(&self, problem: &mut Problem<'_>, x: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for frame in 0..self.frames {
+            self.pose(problem, frame, x);
+            sum += self.precision * cost(&problem.tree, &self.targets(problem, frame));
+        }
+        sum + self.each_third(x).map(|(u, _, third)| self.stiffness[u] * third * third).sum::<f64>()
+    }
+
+    /// Unknown, first frame and third difference.
+    fn each_third<'t>(&'t self, x: &'t [f64]) -> impl Iterator<Item = (usize, usize, f64)> + 't {
+        let n = self.unknowns;
+        (0..self.frames.saturating_sub(3)).flat_map(move |frame| {
+            (0..n).map(move |u| {
+                let at = |k: usize| x[(frame + k) * n + u];
+                (u, frame, (0..4).map(|k| THIRD[k] * at(k)).sum())
+            })
+        })
+    }
+
+    /// Newton's step, or Gauss's where the second derivatives are not positive.
+    fn step(&mut self, problem: &mut Problem<'_>, normal: &mut Normal, x: &[f64]) -> Option<Vec<f64>> {
+        self.solve(problem, normal, x, 1.0).or_else(|| self.solve(problem, normal, x, 0.0))
+    }
+
+    fn solve(&self, problem: &mut Problem<'_>, normal: &mut Normal, x: &[f64], curvature: f64) -> Option<Vec<f64>> {
+        let n = self.unknowns;
+        let mut matrix = BandMatrix::zeros(self.frames * n, 3 * n);
+        let mut right = vec![0.0; self.frames * n];
+        for frame in 0..self.frames {
+            self.pose(problem, frame, x);
+            normal.gather(&problem.tree, &self.targets(problem, frame));
+            let first = frame * n;
+            for i in 0..n {
+                right[first + i] = self.precision * normal.right[i];
+                for j in 0..=i {
+                    let entry = normal.matrix[i * n + j] - curvature * normal.curvature[i * n + j];
+                    matrix.add(first + i, first + j, self.precision * entry);
+                }
+                matrix.add(first + i, first + i, FLOOR * self.precision);
+            }
+        }
+        for (u, frame, third) in self.each_third(x) {
+            for a in 0..4 {
+                let row = (frame + a) * n + u;
+                right[row] -= self.stiffness[u] * THIRD[a] * third;
+                for b in 0..=a {
+                    matrix.add(row, (frame + b) * n + u, self.stiffness[u] * THIRD[a] * THIRD[b]);
+                }
+            }
+        }
+        self.hold(problem, x, &mut matrix, &mut right);
+        let factor = matrix.factor()?;
+        factor.solve(&mut right);
+        right.iter().all(|s| s.is_finite()).then_some(right)
+    }
+
+    /// Coordinates at the end of their range that are pushed outwards stay.
+    fn hold(&self, problem: &Problem<'_>, x: &[f64], matrix: &mut BandMatrix, right: &mut [f64]) {
+        for (i, push) in right.iter_mut().enumerate() {
+            let u = i % self.unknowns;
+            let (low, high) = (problem.bounds.low[u], problem.bounds.high[u]);
+            if (x[i] <= low && *push < 0.0) || (x[i] >= high && *push > 0.0) {
+                matrix.add(i, i, HELD * self.precision);
+                *push = 0.0;
+            }
+        }
+    }
+
+    /// As far along the step as lowers the cost.
+    fn walk(&self, problem: &mut Problem<'_>, x: &[f64], step: &[f64], total: f64) -> Option<(Vec<f64>, f64)> {
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            let mut next: Vec<f64> = x.iter().zip(step).map(|(x, s)| x + share * s).collect();
+            next.chunks_mut(self.unknowns).for_each(|posture| problem.bounds.project(posture));
+            let after = self.cost(problem, &next);
+            if after <= total {
+                return Some((next, after));
+            }
+            share *= 0.5;
+        }
+        None
+    }
+}

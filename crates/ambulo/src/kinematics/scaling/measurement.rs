@@ -1,0 +1,130 @@
+//! Factors from distances between markers.
+//!
+//! A measurement is a list of pairs of markers and the axes of bodies that its factor scales. The factor is the mean over the
+//! pairs of the distance as recorded over that on the model in its default posture. Bodies that no measurement names keep
+//! their size.
+//!
+//! Source: OpenSim 4, ModelScaler.cpp (`computeMeasurementScaleFactor`) (unverified; pinned by its numbers).
+//! Pinned by: tests/scaling.rs
+
+use super::standing::{at_rest, complete, poses, with_markers_placed};
+use super::{ScalingError, SizedModel};
+use crate::findings::Findings;
+use crate::kinematics::marker_fit::{FitSettings, Guard, fit_markers};
+use crate::model::Model;
+use crate::motion::MarkerRecording;
+use crate::spatial::Vec3;
+
+/// What a distance between markers says of the size of bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Name, for messages.
+    pub name: String,
+    /// Pairs of markers.
+    pub pairs: Vec<[String; 2]>,
+    /// What is scaled.
+    pub bodies: Vec<MeasuredBody>,
+}
+
+/// The axes of a body that a measurement scales.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredBody {
+    /// Name of the body.
+    pub body: String,
+    /// Along x, y, z of its frame.
+    pub axes: [bool; 3],
+}
+
+/// Factors of all bodies, in the model's order.
+///
+/// # Errors
+/// Bodies that are not there, measurements without a pair of common markers.
+pub fn measured_factors(
+    model: &Model,
+    standing: &MarkerRecording,
+    measurements: &[Measurement],
+    findings: &mut Findings,
+) -> Result<Vec<Vec3>, ScalingError> {
+    let standing = at_rest(standing, findings);
+    let bodies = poses(model, &complete(model, |_| None));
+    let on_model = |name: &str| {
+        let marker = model.markers().iter().find(|m| m.name == name)?;
+        Some(marker.body.map_or(marker.location, |id| bodies[id.index()].place(marker.location)))
+    };
+    let recorded =
+        |name: &str| standing.marker(name).map(|path| path.positions[0]).filter(|p| p.iter().all(|x| x.is_finite()));
+    let mut factors = vec![Vec3::repeat(1.0); model.bodies().len()];
+    for measurement in measurements {
+        let factor = factor(measurement, on_model, recorded, model, findings)?;
+        for MeasuredBody { body, axes } in &measurement.bodies {
+            let Some(id) = model.body(body) else {
+                let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
+                let (measurement, body) = (measurement.name.clone(), body.clone());
+                return Err(ScalingError::UnknownBody { measurement, body, known: known.join(", ") });
+            };
+            for k in (0..3).filter(|&k| axes[k]) {
+                factors[id.index()][k] = factor;
+            }
+        }
+    }
+    Ok(factors)
+}
+
+/// Two markers are in one place if they are nearer than this [m].
+const ONE_PLACE: f64 = 1e-6;
+
+fn factor(
+    measurement: &Measurement,
+    on_model: impl Fn(&str) -> Option<Vec3>,
+    recorded: impl Fn(&str) -> Option<Vec3>,
+    model: &Model,
+    findings: &mut Findings,
+) -> Result<f64, ScalingError> {
+    let mut ratios = Vec::new();
+    for [a, b] in &measurement.pairs {
+        let pair = format!("{a} - {b}");
+        let (Some(model_a), Some(model_b), Some(real_a), Some(real_b)) =
+            (on_model(a), on_model(b), recorded(a), recorded(b))
+        else {
+            let message = format!("measurement `{}`: the pair {pair} is not in both model and trial", measurement.name);
+            findings.warn("scaling.pair", message);
+            continue;
+        };
+        let distance_m = (model_a - model_b).norm();
+        if distance_m < ONE_PLACE {
+            return Err(ScalingError::NoDistance { measurement: measurement.name.clone(), pair, distance_m });
+        }
+        ratios.push((real_a - real_b).norm() / distance_m);
+    }
+    if ratios.is_empty() {
+        let pairs: Vec<String> = measurement.pairs.iter().map(|[a, b]| format!("{a} - {b}")).collect();
+        let common: Vec<&str> =
+            model.markers().iter().map(|m| m.name.as_str()).filter(|m| recorded(m).is_some()).collect();
+        let measurement = measurement.name.clone();
+        return Err(ScalingError::NoPair { measurement, pairs: pairs.join(", "), common: common.join(", ") });
+    }
+    Ok(ratios.iter().sum::<f64>() / ratios.len() as f64)
+}
+
+/// The model scaled by measurements, with the person's mass [kg] and markers where the person has them in the fitted standing
+/// posture.
+///
+/// # Errors
+/// As [`measured_factors`], and markers that cannot be fitted.
+pub fn size_by_measurements(
+    model: &Model,
+    standing: &MarkerRecording,
+    measurements: &[Measurement],
+    mass: Option<f64>,
+    findings: &mut Findings,
+) -> Result<SizedModel, ScalingError> {
+    let factors = measured_factors(model, standing, measurements, findings)?;
+    let standing = at_rest(standing, &mut Findings::default());
+    let scaled = model.scaled(&factors, mass)?;
+    let settings = FitSettings { guard: Guard::Off, ..FitSettings::default() };
+    let before = fit_markers(model, &standing, &settings, &mut Findings::default())?;
+    let fit = fit_markers(&scaled, &standing, &settings, findings)?;
+    let posture = complete(&scaled, |i| Some(fit.motion.columns[i].as_ref()?[0]));
+    let (sized, moved) = with_markers_placed(&scaled, &standing, &posture)?;
+    Ok(SizedModel { model: sized, factors, posture, rms_before_m: before.rms_m[0], rms_m: fit.rms_m[0], moved })
+}

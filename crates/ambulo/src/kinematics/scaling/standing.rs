@@ -1,0 +1,93 @@
+//! A standing trial as one instant, and markers put where a person has them.
+
+use super::ScalingError;
+use crate::findings::Findings;
+use crate::kinematics::body_motion::{Posture, body_motion};
+use crate::model::{Drive, Marker, Model};
+use crate::motion::{MarkerPath, MarkerRecording};
+use crate::spatial::{Pose, Vec3};
+
+/// A marker that strays from its middle by more than this [m], root mean square, is not standing still.
+const STILL: f64 = 0.01;
+
+/// Every marker at its middle: along each axis the median of the frames in which it was seen.
+pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
+    let mut moving = Vec::new();
+    let mut markers = Vec::new();
+    for path in &recording.markers {
+        let seen: Vec<&Vec3> = path.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        let middle = Vec3::from_fn(|k, _| median(seen.iter().map(|p| p[k])));
+        let stray = seen.iter().map(|p| (*p - middle).norm_squared()).sum::<f64>() / seen.len() as f64;
+        if stray > STILL * STILL {
+            moving.push(format!("{} ({:.0} mm)", path.name, 1000.0 * stray.sqrt()));
+        }
+        markers.push(MarkerPath { name: path.name.clone(), positions: vec![middle] });
+    }
+    if !moving.is_empty() {
+        let message = format!("`{}` is no standing trial: these markers move: {}", recording.name, moving.join(", "));
+        findings.warn("scaling.moving", message);
+    }
+    let times = vec![recording.times.first().copied().unwrap_or(0.0)];
+    MarkerRecording { name: recording.name.clone(), rate_hz: recording.rate_hz, times, markers }
+}
+
+/// Not a number for an empty list.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    match sorted.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => sorted[n / 2],
+        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
+    }
+}
+
+/// Values of all coordinates: those given, defaults elsewhere, followers as their coupler has them.
+pub(super) fn complete(model: &Model, given: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
+    let own =
+        |(i, c): (usize, &crate::model::Coordinate)| given(i).filter(|v| v.is_finite()).unwrap_or(c.default_value);
+    let mut q: Vec<f64> = model.coordinates().iter().enumerate().map(own).collect();
+    for (i, coordinate) in model.coordinates().iter().enumerate() {
+        match &coordinate.drive {
+            Drive::Coupled(leader, function) => q[i] = function.at(q[leader.index()])[0],
+            Drive::Prescribed(function) => q[i] = function.at(0.0)[0],
+            Drive::Free | Drive::Locked => {}
+        }
+    }
+    q
+}
+
+/// Poses of all bodies.
+pub(super) fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
+    let zeros = vec![0.0; q.len()];
+    body_motion(model, Posture { q, qd: &zeros, qdd: &zeros }).into_iter().map(|b| b.pose).collect()
+}
+
+/// A marker and how far it was moved on its body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MovedMarker {
+    /// Name of the marker.
+    pub name: String,
+    /// How far [m].
+    pub distance_m: f64,
+}
+
+/// The model with every marker that was seen at the place it has on its body in this posture.
+pub(super) fn with_markers_placed(
+    model: &Model,
+    standing: &MarkerRecording,
+    q: &[f64],
+) -> Result<(Model, Vec<MovedMarker>), ScalingError> {
+    let poses = poses(model, q);
+    let mut moved = Vec::new();
+    let place = |marker: &Marker| {
+        let seen =
+            standing.marker(&marker.name).map(|path| path.positions[0]).filter(|p| p.iter().all(|x| x.is_finite()));
+        let (Some(body), Some(position)) = (marker.body, seen) else { return marker.clone() };
+        let location = poses[body.index()].inverse().place(position);
+        moved.push(MovedMarker { name: marker.name.clone(), distance_m: (location - marker.location).norm() });
+        Marker { location, ..marker.clone() }
+    };
+    let markers = model.markers().iter().map(place).collect();
+    Ok((model.with_markers(markers)?, moved))
+}

@@ -1,0 +1,205 @@
+//! A model brought to another size, body by body, as OpenSim's scaling does it.
+//!
+//! Factors are along the axes of each body's own frame. With S = diag(factors of the body):
+//! - mass centre, markers and the frames of joints on the body: place S p, orientation unchanged;
+//! - translations of a joint follow the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
+//!   coordinate (slope one, no intercept) does not, for its value is a length of the motion, not of the body;
+//! - the half axes of an ellipsoid follow the parent;
+//! - a coupler whose follower is a translation is multiplied by the parent's factor along it;
+//! - masses keep their shares; inertias go with the square of the factor, or, where the three factors differ, as those of a cylinder
+//!   with the body's smallest and another moment.
+//!
+//! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp (`scale`), read.
+//! Differs from it: an axis against x, y or z is scaled as one along it (OpenSim multiplies by the negative factor); couplers of
+//! translations may have unequal factors.
+//! Pinned by: tests/scaling.rs, against OpenSim 4.6
+
+use super::{
+    Body, BodyId, CoordinateKind, Displacement, Drive, Function, JointAxis, Marker, Measure, Model, ModelError,
+};
+use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
+
+/// Factors that differ by less than this share are one factor.
+const SAME_FACTOR: f64 = 1e-12;
+
+/// Why a model cannot be brought to a size.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScaleError {
+    /// As many factors as there are no bodies.
+    #[error("found factors for {found} bodies; expected {expected}, one for each body of the model")]
+    Count {
+        /// Number of factors.
+        found: usize,
+        /// Number of bodies.
+        expected: usize,
+    },
+    /// A factor that is no size.
+    #[error("body `{body}` has the factors {found:?}; expected finite numbers above zero")]
+    Factor {
+        /// The body.
+        body: String,
+        /// Its factors.
+        found: [f64; 3],
+    },
+    /// A mass that is none, or one for a body without mass.
+    #[error("the mass asked for is {found} kg and the model's is {own} kg; expected finite numbers above zero")]
+    Mass {
+        /// What was asked for [kg].
+        found: f64,
+        /// The model's own [kg].
+        own: f64,
+    },
+    /// Numbers that are no inertia.
+    #[error("body `{body}` cannot be scaled")]
+    Inertia {
+        /// The body.
+        body: String,
+        /// Why.
+        source: InertiaError,
+    },
+    /// Parts that no longer fit.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+impl Model {
+    /// The same model with every body scaled along its axes, and its masses all multiplied so that the whole has `mass` [kg]
+    /// (`None` keeps them).
+    ///
+    /// # Errors
+    /// Factors or masses that are not finite numbers above zero.
+    pub fn scaled(&self, factors: &[Vec3], mass: Option<f64>) -> Result<Model, ScaleError> {
+        check(self, factors)?;
+        let share = mass_share(self, mass)?;
+        let of = |body: Option<BodyId>| body.map_or(Vec3::repeat(1.0), |id| factors[id.index()]);
+        let mut bodies = Vec::with_capacity(self.bodies.len());
+        for (body, own) in self.bodies.iter().zip(factors) {
+            bodies.push(scaled_body(body, own, &of(body.joint.parent), share)?);
+        }
+        let mut coordinates = self.coordinates.clone();
+        for body in &self.bodies {
+            scale_couplers(body, &of(body.joint.parent), &mut coordinates);
+        }
+        let place = |m: &Marker| Marker { location: of(m.body).component_mul(&m.location), ..m.clone() };
+        let markers = self.markers.iter().map(place).collect();
+        Ok(Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?)
+    }
+
+    /// The same model with other markers.
+    ///
+    /// # Errors
+    /// None of today's checks can fail; see [`ModelError`].
+    pub fn with_markers(&self, markers: Vec<Marker>) -> Result<Model, ModelError> {
+        Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)
+    }
+}
+
+fn check(model: &Model, factors: &[Vec3]) -> Result<(), ScaleError> {
+    let (found, expected) = (factors.len(), model.bodies.len());
+    if found != expected {
+        return Err(ScaleError::Count { found, expected });
+    }
+    for (body, factors) in model.bodies.iter().zip(factors) {
+        if !factors.iter().all(|f| *f > 0.0 && f.is_finite()) {
+            return Err(ScaleError::Factor { body: body.name.clone(), found: (*factors).into() });
+        }
+    }
+    Ok(())
+}
+
+fn mass_share(model: &Model, mass: Option<f64>) -> Result<f64, ScaleError> {
+    let Some(found) = mass else { return Ok(1.0) };
+    let own = model.mass();
+    if found > 0.0 && found.is_finite() && own > 0.0 { Ok(found / own) } else { Err(ScaleError::Mass { found, own }) }
+}
+
+fn scaled_body(body: &Body, own: &Vec3, parent: &Vec3, share: f64) -> Result<Body, ScaleError> {
+    let error = |source| ScaleError::Inertia { body: body.name.clone(), source };
+    let inertia = scaled_inertia(&body.inertia, own, share).map_err(error)?;
+    let mut joint = body.joint.clone();
+    joint.parent_from_joint = scaled_pose(&joint.parent_from_joint, parent);
+    joint.child_from_joint = scaled_pose(&joint.child_from_joint, own);
+    joint.translations.iter_mut().for_each(|axis| scale_axis(axis, parent));
+    if let Measure::Ellipsoid(radii) = &mut joint.measure {
+        *radii = radii.component_mul(parent);
+    }
+    Ok(Body { name: body.name.clone(), inertia, joint })
+}
+
+fn scaled_pose(pose: &Pose, factors: &Vec3) -> Pose {
+    Pose { rotation: pose.rotation, translation: factors.component_mul(&pose.translation) }
+}
+
+/// aᵀ S a.
+fn along(direction: &Vec3, factors: &Vec3) -> f64 {
+    direction.component_mul(direction).dot(factors)
+}
+
+fn scale_axis(axis: &mut JointAxis, parent: &Vec3) {
+    let factor = along(&axis.direction, parent);
+    match &mut axis.displacement {
+        Displacement::Fixed(value) => *value *= factor,
+        Displacement::Follows(_, function) if !is_the_coordinate(function) => {
+            let scaled = match &*function {
+                Function::Scaled(scale, inner) => Function::Scaled(scale * factor, inner.clone()),
+                other => Function::Scaled(factor, Box::new(other.clone())),
+            };
+            *function = scaled;
+        }
+        Displacement::Follows(..) => {}
+    }
+}
+
+fn is_the_coordinate(function: &Function) -> bool {
+    matches!(function, Function::Linear { slope, intercept }
+        if (slope - 1.0).abs() < f64::MIN_POSITIVE && intercept.abs() < f64::MIN_POSITIVE)
+}
+
+/// Couplers that lead translations of this joint.
+fn scale_couplers(body: &Body, parent: &Vec3, coordinates: &mut [super::Coordinate]) {
+    for axis in &body.joint.translations {
+        let Displacement::Follows(id, _) = &axis.displacement else { continue };
+        let coordinate = &mut coordinates[id.index()];
+        if let (Drive::Coupled(leader, function), CoordinateKind::Translation) = (&coordinate.drive, coordinate.kind) {
+            let scaled = Function::Scaled(along(&axis.direction, parent), Box::new(function.clone()));
+            coordinate.drive = Drive::Coupled(*leader, scaled);
+        }
+    }
+}
+
+fn scaled_inertia(inertia: &Inertia, s: &Vec3, share: f64) -> Result<Inertia, InertiaError> {
+    let (mass, about) = (inertia.mass(), inertia.about_center());
+    let equal = (s.x - s.y).abs() <= SAME_FACTOR * s.x && (s.y - s.z).abs() <= SAME_FACTOR * s.y;
+    let scaled = if mass <= 0.0 {
+        Mat3::zeros()
+    } else if equal {
+        about * (s.x * s.x)
+    } else {
+        as_cylinder(mass, &about, s)
+    };
+    Inertia::new(mass * share, s.component_mul(&inertia.center()), scaled * share)
+}
+
+/// A cylinder along the axis k of the smallest moment, m r²/2, with length from another one, m (l²/12 + r²/4); products go with
+/// both their factors.
+fn as_cylinder(mass: f64, about: &Mat3, s: &Vec3) -> Mat3 {
+    let moments = about.diagonal();
+    let k = if moments.x <= moments.y {
+        if moments.x <= moments.z { 0 } else { 2 }
+    } else if moments.y <= moments.z {
+        1
+    } else {
+        2
+    };
+    let other = if k == 0 { 1 } else { 0 };
+    let radius_squared = (2.0 * moments[k] / mass).max(0.0);
+    let length_squared = (12.0 * (moments[other] - 0.25 * mass * radius_squared) / mass).max(0.0) * s[k] * s[k];
+    let radius_squared = radius_squared * s[(k + 1) % 3] * s[(k + 2) % 3];
+    let across = mass * (length_squared / 12.0 + 0.25 * radius_squared);
+    Mat3::from_fn(|i, j| match (i, j) {
+        (i, j) if i != j => about[(i, j)] * s[i] * s[j],
+        (i, _) if i == k => 0.5 * mass * radius_squared,
+        _ => across,
+    })
+}

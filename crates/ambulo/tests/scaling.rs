@@ -1,0 +1,254 @@
+//! Models brought to another size: as OpenSim does it, and back from a standing trial.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+mod common;
+mod marker_data;
+
+use ambulo::findings::Findings;
+use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
+use ambulo::kinematics::scaling::{
+    MeasuredBody, Measurement, ScalingError, SizeSettings, SizedModel, fit_size, measured_factors, size_by_measurements,
+};
+use ambulo::kinematics::{Posture, body_motion};
+use ambulo::model::{Drive, Model, ScaleError};
+use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::spatial::Vec3;
+use common::random::Random;
+use marker_data::{Subject, gait2392, rajagopal};
+use std::path::Path;
+
+/// Rows of a file of OpenSim's numbers: a name and values.
+fn rows(file: &str) -> Vec<(String, Vec<f64>)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/testdata/opensim_scale").join(file);
+    let text = std::fs::read_to_string(path).unwrap();
+    let row = |line: &str| {
+        let (name, values) = line.split_once(',').unwrap();
+        (name.to_owned(), values.split(',').map(|v| v.parse().unwrap()).collect())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// Places of the markers in ground, in the model's order [m].
+fn places(model: &Model, q: &[f64]) -> Vec<Vec3> {
+    let zeros = vec![0.0; q.len()];
+    let bodies = body_motion(model, Posture { q, qd: &zeros, qdd: &zeros });
+    let place = |m: &ambulo::model::Marker| m.body.map_or(m.location, |id| bodies[id.index()].pose.place(m.location));
+    model.markers().iter().map(place).collect()
+}
+
+fn assert_scales_as_opensim(model: &Model, name: &str) {
+    let bodies = rows(&format!("{name}_bodies.csv"));
+    let of = |body: &str| &bodies.iter().find(|(b, _)| b == body).unwrap().1;
+    let factors: Vec<Vec3> = model.bodies().iter().map(|b| Vec3::from_column_slice(&of(&b.name)[..3])).collect();
+    let scaled = model.scaled(&factors, Some(77.0)).unwrap();
+    let mut worst = [0.0_f64; 2];
+    for body in scaled.bodies() {
+        let row = of(&body.name);
+        let (center, i) = (body.inertia.center(), body.inertia.about_center());
+        let ours = [body.inertia.mass(), center.x, center.y, center.z, i.m11, i.m22, i.m33, i.m12, i.m13, i.m23];
+        for (ours, theirs) in ours.iter().zip(&row[3..]) {
+            worst[0] = worst[0].max((ours - theirs).abs());
+            assert!((ours - theirs).abs() < 1e-8, "{name}, {}: {ours} instead of {theirs}", body.name);
+        }
+    }
+    let posture = rows(&format!("{name}_posture.csv"));
+    let value = |c: &str| posture.iter().find(|(n, _)| n == c).unwrap().1[0];
+    let q: Vec<f64> = scaled.coordinates().iter().map(|c| value(&c.name)).collect();
+    let theirs = rows(&format!("{name}_markers.csv"));
+    for (marker, place) in scaled.markers().iter().zip(places(&scaled, &q)) {
+        let (_, there) = theirs.iter().find(|(n, _)| *n == marker.name).unwrap();
+        let miss = (place - Vec3::from_column_slice(there)).norm();
+        worst[1] = worst[1].max(miss);
+        assert!(miss < 1e-7, "{name}, marker {}: {miss} m", marker.name);
+    }
+    println!("{name}: largest difference of masses and inertias {:.1e}, of marker places {:.1e} m", worst[0], worst[1]);
+    assert!((scaled.mass() - 77.0).abs() < 1e-9);
+}
+
+#[test]
+fn models_scale_as_opensim_scales_them() {
+    if let (Some(a), Some(b)) = (rajagopal(), gait2392()) {
+        assert_scales_as_opensim(&a.model, "rajagopal");
+        assert_scales_as_opensim(&b.model, "gait2392");
+    }
+}
+
+/// Bodies that are disturbed together; a body without markers cannot tell its own size.
+const GROUPS: [&[&str]; 5] = [
+    &["pelvis"],
+    &["femur"],
+    &["tibia", "patella"],
+    &["talus", "calcn", "toes"],
+    &["torso", "humerus", "ulna", "radius", "hand"],
+];
+
+fn disturbed(model: &Model, r: &mut Random) -> (Model, Vec<f64>) {
+    let of_group: Vec<f64> = GROUPS.iter().map(|_| r.between(0.8, 1.25)).collect();
+    let group = |name: &str| GROUPS.iter().position(|g| g.iter().any(|stem| name.starts_with(stem)));
+    let factors: Vec<f64> = model.bodies().iter().map(|b| group(&b.name).map_or(1.0, |g| of_group[g])).collect();
+    let all: Vec<Vec3> = factors.iter().map(|f| Vec3::repeat(*f)).collect();
+    (model.scaled(&all, Some(55.0)).unwrap(), factors)
+}
+
+/// From each joint to the joint of its parent, on the parent [mm], at the default posture.
+fn lengths(model: &Model) -> Vec<(String, f64)> {
+    let joint = |b: &ambulo::model::Body| {
+        let parent = &model.bodies()[b.joint.parent?.index()];
+        let arm = b.joint.parent_from_joint.translation - parent.joint.child_from_joint.translation;
+        Some((format!("{} to {}", parent.name, b.name), 1000.0 * arm.norm()))
+    };
+    model.bodies().iter().filter_map(joint).collect()
+}
+
+/// Largest difference of lengths of the legs and the pelvis [mm], and where.
+fn worst_length(a: &Model, b: &Model) -> (f64, String) {
+    let mut worst = (0.0, String::new());
+    for ((what, a), (_, b)) in lengths(a).into_iter().zip(lengths(b)) {
+        let of_leg = ["hum", "torso", "ulna", "radius", "patella"].iter().all(|arm| !what.contains(arm));
+        if of_leg && (a - b).abs() > worst.0 {
+            worst = ((a - b).abs(), format!("{what}: {a:.1} mm against {b:.1}"));
+        }
+    }
+    worst
+}
+
+/// `from_stored_mm`: how far the legs may be from those of the stored model, which another program scaled from other distances.
+fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
+    let mut findings = Findings::default();
+    let settings = SizeSettings { mass: Some(subject.model.mass()) };
+    let plain = fit_size(&subject.model, &subject.standing, settings, &mut findings).unwrap();
+    let (stored, place) = worst_length(&subject.model, &plain.model);
+    println!(
+        "{name} as stored: marker RMS {:.1} mm before, {:.1} mm after; {place}",
+        1000.0 * plain.rms_before_m,
+        1000.0 * plain.rms_m
+    );
+    assert!(stored < from_stored_mm, "{name}: {stored} mm, {place}");
+    for seed in 0..6 {
+        let mut r = Random::new(seed);
+        let (other, _) = disturbed(&subject.model, &mut r);
+        let sized = fit_size(&other, &subject.standing, settings, &mut Findings::default()).unwrap();
+        let [before, after] = [sized.rms_before_m, sized.rms_m].map(|m| 1000.0 * m);
+        let (worst, place) = worst_length(&plain.model, &sized.model);
+        println!(
+            "{name} seed {seed}: marker RMS {before:.1} mm before, {after:.1} mm after; worst length {worst:.1} mm, {place}"
+        );
+        assert!(worst < 4.0, "{name} seed {seed}: {worst} mm");
+        assert!(
+            after < 0.7 * before && after < 1000.0 * plain.rms_m + 2.0,
+            "{name} seed {seed}: {before} to {after} mm"
+        );
+        assert!((sized.model.mass() - subject.model.mass()).abs() < 1e-9);
+        let share = |m: &Model| m.bodies()[0].inertia.mass() / m.mass();
+        assert!((share(&sized.model) - share(&subject.model)).abs() < 1e-12, "mass distribution");
+        assert_fits_standing(subject, &sized);
+    }
+}
+
+/// The model's markers are where the person has them in the standing posture.
+fn assert_fits_standing(subject: &Subject, sized: &SizedModel) {
+    let fit = fit_markers(&sized.model, &subject.standing, &FitSettings::default(), &mut Findings::default()).unwrap();
+    let middle = fit.rms_m[fit.rms_m.len() / 2];
+    // The person sways by some millimetres in the trial.
+    assert!(middle < 0.01, "{middle} m");
+}
+
+#[test]
+fn a_disturbed_model_comes_back_to_size_from_a_standing_trial() {
+    if let (Some(a), Some(b)) = (gait2392(), rajagopal()) {
+        assert_comes_back("gait2392", &a, 5.0);
+        assert_comes_back("rajagopal", &b, 20.0);
+    }
+}
+
+#[test]
+fn sizes_that_are_none_are_refused() {
+    let Some(subject) = gait2392() else { return };
+    let ones = vec![Vec3::repeat(1.0); subject.model.bodies().len()];
+    assert!(matches!(subject.model.scaled(&ones[1..], None), Err(ScaleError::Count { .. })));
+    let mut flat = ones.clone();
+    flat[3].y = 0.0;
+    let message = subject.model.scaled(&flat, None).unwrap_err().to_string();
+    assert!(message.contains(&subject.model.bodies()[3].name) && message.contains("above zero"), "{message}");
+    assert!(matches!(subject.model.scaled(&ones, Some(-1.0)), Err(ScaleError::Mass { .. })));
+}
+
+/// A person of a known size, standing in the model's default posture.
+fn standing_person(model: &Model, factors: &[Vec3]) -> MarkerRecording {
+    let person = model.scaled(factors, None).unwrap();
+    let mut q: Vec<f64> = person.coordinates().iter().map(|c| c.default_value).collect();
+    for (i, coordinate) in person.coordinates().iter().enumerate() {
+        if let Drive::Coupled(leader, function) = &coordinate.drive {
+            q[i] = function.at(q[leader.index()])[0];
+        }
+    }
+    let path = |(marker, place): (&ambulo::model::Marker, Vec3)| MarkerPath {
+        name: marker.name.clone(),
+        positions: vec![place; 3],
+    };
+    let markers = person.markers().iter().zip(places(&person, &q)).map(path).collect();
+    MarkerRecording { name: "known".into(), rate_hz: 100.0, times: vec![0.0, 0.01, 0.02], markers }
+}
+
+fn measurement(name: &str, pairs: &[[&str; 2]], bodies: &[(&str, [bool; 3])]) -> Measurement {
+    Measurement {
+        name: name.into(),
+        pairs: pairs.iter().map(|[a, b]| [(*a).to_owned(), (*b).to_owned()]).collect(),
+        bodies: bodies.iter().map(|(body, axes)| MeasuredBody { body: (*body).to_owned(), axes: *axes }).collect(),
+    }
+}
+
+const ALL: [bool; 3] = [true; 3];
+
+#[test]
+fn measured_distances_give_the_factors_of_a_known_person() {
+    let Some(subject) = gait2392() else { return };
+    let model = &subject.model;
+    let of = |name: &str| match name {
+        "pelvis" => Vec3::repeat(1.1),
+        "tibia_r" | "tibia_l" => Vec3::repeat(0.9),
+        _ => Vec3::repeat(1.0),
+    };
+    let factors: Vec<Vec3> = model.bodies().iter().map(|b| of(&b.name)).collect();
+    let standing = standing_person(model, &factors);
+    let measurements = [
+        measurement("pelvis", &[["R.ASIS", "L.ASIS"], ["R.ASIS", "V.Sacral"]], &[("pelvis", ALL)]),
+        measurement("right shank", &[["R.Shank.Upper", "R.Ankle.Lat"], ["R.Nowhere", "R.ASIS"]], &[("tibia_r", ALL)]),
+        measurement("left shank", &[["L.Shank.Upper", "L.Ankle.Lat"]], &[("tibia_l", ALL)]),
+    ];
+    let mut findings = Findings::default();
+    let found = measured_factors(model, &standing, &measurements, &mut findings).unwrap();
+    for ((found, expected), body) in found.iter().zip(&factors).zip(model.bodies()) {
+        assert!((found - expected).norm() < 1e-12, "{}: {found} for {expected}", body.name);
+    }
+    assert!(findings.has("scaling.pair"));
+    let sized = size_by_measurements(model, &standing, &measurements, Some(60.0), &mut findings).unwrap();
+    assert!(sized.rms_m < 1e-8 && sized.rms_before_m > 0.003, "{} from {}", sized.rms_m, sized.rms_before_m);
+    assert!((sized.model.mass() - 60.0).abs() < 1e-9);
+    assert!(sized.moved.iter().all(|m| m.distance_m < 1e-7));
+
+    let error = |m: Measurement| measured_factors(model, &standing, &[m], &mut Findings::default()).unwrap_err();
+    let nowhere = error(measurement("nowhere", &[["A", "B"]], &[("pelvis", ALL)]));
+    assert!(matches!(nowhere, ScalingError::NoPair { .. }) && nowhere.to_string().contains("A - B"), "{nowhere}");
+    let strange = error(measurement("tail", &[["R.ASIS", "L.ASIS"]], &[("tail", ALL)]));
+    assert!(matches!(strange, ScalingError::UnknownBody { .. }), "{strange}");
+    let none = error(measurement("none", &[["R.ASIS", "R.ASIS"]], &[("pelvis", ALL)]));
+    assert!(matches!(none, ScalingError::NoDistance { .. }), "{none}");
+}
+
+#[test]
+fn axes_that_a_measurement_does_not_name_keep_their_size() {
+    let Some(subject) = gait2392() else { return };
+    let ones = vec![Vec3::repeat(1.0); subject.model.bodies().len()];
+    let standing = standing_person(&subject.model, &ones);
+    let pair = measurement("width", &[["R.ASIS", "L.ASIS"]], &[("pelvis", [false, false, true])]);
+    let mut wide = standing.clone();
+    let far = wide.markers.iter().position(|m| m.name == "R.ASIS").unwrap();
+    let near = standing.marker("L.ASIS").unwrap().positions[0];
+    wide.markers[far].positions.iter_mut().for_each(|p| *p = near + (*p - near) * 1.2);
+    let found = measured_factors(&subject.model, &wide, &[pair], &mut Findings::default()).unwrap();
+    let pelvis = subject.model.body("pelvis").unwrap().index();
+    assert!((found[pelvis] - Vec3::new(1.0, 1.0, 1.2)).norm() < 1e-12, "{}", found[pelvis]);
+}
