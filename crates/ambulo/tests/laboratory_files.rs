@@ -13,8 +13,8 @@ use ambulo::ground::phases::contacts;
 use ambulo::ground::plates::{ContactQuality, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::{
-    Event, EventKind, Laboratory, MarkerRecording, PlateRecording, PlateSettings, laboratory, markers_from_c3d,
-    markers_from_trc, plates_from_c3d, standing_weight_n,
+    Event, EventKind, Laboratory, MarkerRecording, PlateRecording, PlateSettings, events_from_c3d, laboratory,
+    markers_from_c3d, markers_from_trc, plates_from_c3d, standing_weight_n,
 };
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
@@ -332,4 +332,42 @@ fn vertical_peaks_of_the_variants_are_those_of_ezc3d() {
         }
         assert_eq!(findings.has("plates.force_on_plate"), name.starts_with("FP"), "{name}");
     }
+}
+
+#[test]
+fn strikes_and_offs_of_a_foot_take_turns_in_turns_too() {
+    let Some(data) = data() else { return };
+    for name in [
+        "biomechzoo-HC032A/HC032A18.c3d",
+        "biomechzoo-HC002D/HC002D25.c3d",
+        "biomechzoo-HC032A/HC032A03.c3d",
+        "btkdata-pig-adult3plates/PiG_Motion3_FF.c3d",
+    ] {
+        let mut trial = trial(&data, name);
+        let motion = foot_motion(&trial.markers, &mut trial.findings);
+        for side in Side::BOTH {
+            let kinds: Vec<EventKind> = motion.events.iter().filter(|e| e.side == side).map(|e| e.kind).collect();
+            assert!(kinds.windows(2).all(|pair| pair[0] != pair[1]), "{name} {side}: {kinds:?}");
+        }
+        let listed = events_from_c3d(&trial.file, &mut trial.findings);
+        let rows = event_agreement(&listed, &motion.events);
+        println!("{name}: the file's own list and motion: {rows:?}");
+        // Whoever set them: they stand in whole frames of 10 ms.
+        assert!(rows.iter().all(|r| r.pairs >= 4 && r.missed + r.extra <= 1 && r.mean_absolute_ms < 40.0), "{rows:?}");
+    }
+}
+
+#[test]
+fn over_a_whole_cycle_on_plates_the_ground_carries_the_weight_and_pushes_nowhere() {
+    let Some(data) = data() else { return };
+    let trial = trial(&data, "btkdata-pig-adult3plates/PiG_Motion3_FF.c3d");
+    // One cycle inside the instrumented window: as long as from the left foot's first strike to its second.
+    let (from_s, to_s) = (8.0, 8.0 + 8.931 - 7.853);
+    let times = &trial.plates[0].times;
+    let inside: Vec<usize> = (0..times.len()).filter(|&i| (from_s..to_s).contains(&times[i])).collect();
+    let total = |i: usize| trial.plates.iter().map(|p| p.force[i]).sum::<ambulo::spatial::Vec3>();
+    let mean = inside.iter().map(|&i| total(i)).sum::<ambulo::spatial::Vec3>() / inside.len() as f64;
+    println!("mean total force {mean:?} N, {:.2} kg", mean.y / 9.80665);
+    // The README has 72.3 kg.
+    assert!((mean.y / 9.80665 - 72.3).abs() < 0.3 && mean.x.abs() < 3.0 && mean.z.abs() < 3.0, "{mean:?}");
 }

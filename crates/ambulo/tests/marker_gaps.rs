@@ -29,6 +29,7 @@ fn moments(subject: &Subject, fit: &MarkerFit, window: [f64; 2]) -> Vec<Vec<f64>
         force_filter: None,
         window: Window { from_s: Some(window[0]), to_s: Some(window[1]) },
         rate_hz: None,
+        instrumented: None,
     };
     let mut findings = Findings::default();
     let done = analyse(&subject.model, &fit.motion, &subject.plates, settings, &mut findings, &mut |_| {}).unwrap();

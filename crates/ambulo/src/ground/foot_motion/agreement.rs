@@ -7,13 +7,21 @@ use crate::motion::{Event, EventKind};
 /// Two methods saw the same event if they differ by less than this [s].
 const SAME_EVENT_S: f64 = 0.15;
 
+/// An event with the number of methods that saw it.
+struct Voiced {
+    event: Event,
+    voices: usize,
+}
+
 /// The median of what the methods say of each event that at least two of them saw; with one method alone, what it says.
+///
+/// Strikes and offs of a foot take turns: of two of one kind without the other between them the one that more methods
+/// saw is kept, else the first.
 pub(super) fn agreed(by_method: &[(EventMethod, Vec<Event>)]) -> Vec<Event> {
-    if let [(_, alone)] = by_method {
-        return alone.clone();
-    }
+    let needed = by_method.len().min(2);
     let mut out = Vec::new();
     for side in Side::BOTH {
+        let mut voiced: Vec<Voiced> = Vec::new();
         for kind in [EventKind::Strike, EventKind::Off] {
             let of = |(m, list): (usize, &(EventMethod, Vec<Event>))| {
                 let same = list.1.iter().filter(|e| e.side == side && e.kind == kind);
@@ -21,12 +29,29 @@ pub(super) fn agreed(by_method: &[(EventMethod, Vec<Event>)]) -> Vec<Event> {
             };
             let mut seen: Vec<(f64, usize)> = by_method.iter().enumerate().flat_map(of).collect();
             seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let times = groups(&seen).into_iter().filter_map(median_of_methods);
-            out.extend(times.map(|time_s| Event { side, kind, time_s }));
+            voiced.extend(groups(&seen).into_iter().filter_map(|group| median(group, side, kind)));
         }
+        voiced.retain(|v| v.voices >= needed);
+        voiced.sort_by(|a, b| a.event.time_s.total_cmp(&b.event.time_s));
+        out.extend(taking_turns(voiced));
     }
     out.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
     out
+}
+
+fn taking_turns(voiced: Vec<Voiced>) -> impl Iterator<Item = Event> {
+    let mut kept: Vec<Voiced> = Vec::new();
+    for next in voiced {
+        match kept.last_mut() {
+            Some(last) if last.event.kind == next.event.kind => {
+                if next.voices > last.voices {
+                    *last = next;
+                }
+            }
+            _ => kept.push(next),
+        }
+    }
+    kept.into_iter().map(|v| v.event)
 }
 
 /// Runs of instants that are one event: each close to the first.
@@ -41,15 +66,16 @@ fn groups(seen: &[(f64, usize)]) -> Vec<&[(f64, usize)]> {
     groups
 }
 
-/// Median over the methods, one voice each; `None` if only one spoke.
-fn median_of_methods(group: &[(f64, usize)]) -> Option<f64> {
+/// Median over the methods, one voice each.
+fn median(group: &[(f64, usize)], side: Side, kind: EventKind) -> Option<Voiced> {
     let voice = |m: usize| group.iter().find(|(_, by)| *by == m).map(|(t, _)| *t);
     let mut times: Vec<f64> = (0..EventMethod::ALL.len()).filter_map(voice).collect();
     times.sort_by(f64::total_cmp);
-    let middle = times.len() / 2;
-    match times.len() {
-        0 | 1 => None,
-        n if n % 2 == 1 => Some(times[middle]),
-        _ => Some(0.5 * (times[middle - 1] + times[middle])),
-    }
+    let (voices, middle) = (times.len(), times.len() / 2);
+    let time_s = match voices {
+        0 => return None,
+        n if n % 2 == 1 => times[middle],
+        _ => 0.5 * (times[middle - 1] + times[middle]),
+    };
+    Some(Voiced { event: Event { side, kind, time_s }, voices })
 }

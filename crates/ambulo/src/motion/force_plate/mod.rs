@@ -1,7 +1,7 @@
 //! Force plates: the force on the foot, from the channels of a plate to the laboratory's axes.
 //!
 //! With R the plate's axes in the laboratory, C the centre of its surface, n the upward normal, and F, M the force and
-//! its moment about C in the plate's axes ([`kind`]):
+//! its moment about C in the plate's axes (kind.rs):
 //!
 //!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
 //!
