@@ -11,9 +11,17 @@ use workbench::{FORCES, RAW, Workbench};
 #[test]
 fn alone_it_prints_a_guide() {
     let run = Workbench::empty("guide").run(&[]).done();
-    for verb in
-        ["ambulo demo", "ambulo walk", "ambulo forces", "ambulo simulate", "ambulo info", "ambulo compare", "--help"]
-    {
+    for verb in [
+        "ambulo demo",
+        "ambulo walk",
+        "ambulo forces",
+        "ambulo simulate",
+        "ambulo info",
+        "ambulo convert",
+        "ambulo events",
+        "ambulo compare",
+        "--help",
+    ] {
         assert!(run.stdout.contains(verb), "{}", run.stdout);
     }
     assert!(run.stderr.is_empty(), "{}", run.stderr);
@@ -22,7 +30,7 @@ fn alone_it_prints_a_guide() {
 #[test]
 fn help_of_every_verb_has_an_example() {
     let bench = Workbench::empty("help");
-    for verb in ["demo", "walk", "forces", "simulate", "info", "compare"] {
+    for verb in ["demo", "walk", "forces", "simulate", "info", "convert", "events", "compare"] {
         let run = bench.run(&[verb, "--help"]).done();
         let example = run.stdout.split("Example").nth(1).unwrap_or_default();
         assert!(example.contains(&format!("ambulo {verb}")), "{}", run.stdout);

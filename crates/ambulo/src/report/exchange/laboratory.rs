@@ -4,7 +4,7 @@
 //! sensor [N.mm] below the middle of its surface, in axes of its own that look down: x_p = -x, y_p = y, z_p = -z. With o from
 //! the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the middle.
 //! Nobody was measured; noise is left out.
-//! Pinned by: tests/laboratory_recording.rs
+//! Pinned by: tests/exchange.rs of the command
 
 use crate::kinematics::{Trajectory, TrajectoryError, each_body_motion};
 use crate::model::anthropometry::Human;

@@ -1,0 +1,293 @@
+//! `info`, `convert`, `events` on files of every kind, and a laboratory's own files through `forces`: all of them made by `demo`.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+mod workbench;
+
+use ambulo_formats::bvh::Bvh;
+use ambulo_formats::c3d::C3d;
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::table::Table;
+use ambulo_formats::trc::Trc;
+use serde_json::Value;
+use std::fs;
+use std::sync::OnceLock;
+use workbench::Workbench;
+
+/// A folder with `demo/input`: a walk as C3D, TRC, BVH, coordinates and forces, with the figure that walks.
+fn with_demo(name: &str) -> Workbench {
+    static DEMO: OnceLock<Workbench> = OnceLock::new();
+    let made = DEMO.get_or_init(|| {
+        let bench = Workbench::empty("exchange_demo");
+        bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+        bench
+    });
+    let bench = Workbench::empty(name);
+    for folder in ["demo", "demo/input"] {
+        fs::create_dir_all(bench.folder.join(folder)).unwrap();
+        for entry in fs::read_dir(made.folder.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                fs::copy(&path, bench.folder.join(folder).join(path.file_name().unwrap())).unwrap();
+            }
+        }
+    }
+    bench
+}
+
+fn info(bench: &Workbench, file: &str) -> (Value, String) {
+    let json = serde_json::from_str(&bench.run(&["info", file, "--json"]).done().stdout).unwrap();
+    (json, bench.run(&["info", file]).done().stdout)
+}
+
+#[test]
+fn info_tells_a_recording_as_a_colleague_would() {
+    let bench = with_demo("info_recording");
+    let (json, text) = info(&bench, "demo/input/walk.c3d");
+    assert_eq!(
+        (&json["kind"], &json["unit"], &json["first_frame"]),
+        (&"C3D recording".into(), &"mm".into(), &1.into())
+    );
+    assert_eq!((&json["rate_hz"], &json["analog_rate_hz"]), (&100.0.into(), &1000.0.into()));
+    assert_eq!(json["marker_set"]["sets"], serde_json::json!(["plug-in-gait"]));
+    assert!((json["mass_kg"].as_f64().unwrap() - 75.0).abs() < 1e-6, "{json}");
+    let plates = json["plates"].as_array().unwrap();
+    // Three cycles and a little more: a plate for each of nine contacts, the highest peaks 1.14 body weights.
+    assert_eq!((plates.len(), json["events"].as_array().unwrap().len()), (9, 16));
+    assert!(plates.iter().all(|plate| (700.0..900.0).contains(&plate["peak_n"].as_f64().unwrap())), "{json}");
+    assert!(plates.iter().all(|plate| plate["loaded_s"].as_array().unwrap().len() == 1), "{json}");
+    for line in [
+        "encoding: Intel (little-endian), reals",
+        "markers with gaps: none",
+        "marker set: plug-in-gait, 46 of 46 markers",
+        "axes: lab z up, mm, walking +y -> world x forward, y up, z right, m",
+        "next: ambulo forces demo/input/walk.c3d --static STANDING -o out",
+        "  0.223 s Right Foot Strike",
+    ] {
+        assert!(text.contains(line), "`{line}` is missing in {text}");
+    }
+    let (_, text) = info(&bench, "demo/input/standing.c3d");
+    assert!(text.contains("next: a standing trial: ambulo forces WALK --static demo/input/standing.c3d"), "{text}");
+}
+
+#[test]
+fn info_tells_gaps_of_markers_and_markers_that_nobody_knows() {
+    let bench = with_demo("info_gaps");
+    let (mut c3d, _) = C3d::read(&bench.read("demo/input/walk.c3d")).unwrap();
+    for frame in (10..30).chain(50..55) {
+        c3d.points[0].positions[frame] = [f64::NAN; 3];
+    }
+    c3d.points[1].positions.fill([f64::NAN; 3]);
+    for (k, point) in c3d.points.iter_mut().enumerate().skip(6) {
+        point.name = format!("Mystery{k}");
+    }
+    bench.write("gaps.c3d", c3d.write().unwrap());
+    let (json, text) = info(&bench, "gaps.c3d");
+    let gap = serde_json::json!({ "marker": "RASI", "gaps": 2, "missing_frames": 25, "longest_s": 0.2 });
+    assert_eq!(json["markers_with_gaps"][0], gap);
+    assert!(
+        text.contains("RASI: 2 gaps, 25 frames (6 %), longest 0.200 s") && text.contains("LASI: never seen"),
+        "{text}"
+    );
+    assert!(text.contains("Mystery7"), "{text}");
+}
+
+#[test]
+fn info_tells_what_a_skeleton_was_taken_for() {
+    let bench = with_demo("info_skeleton");
+    let (json, text) = info(&bench, "demo/input/walk.bvh");
+    assert_eq!((&json["frames"], &json["channels"]), (&437.into(), &45.into()));
+    assert!((json["height_m"].as_f64().unwrap() - 1.75).abs() < 0.05, "{json}");
+    assert!(text.contains("axes: lengths in centimetres") && text.contains("+y up"), "{text}");
+    assert!(text.contains("next: ambulo forces demo/input/walk.bvh --mass KG --height M"), "{text}");
+    let (_, text) = info(&bench, "demo/input/walk.trc");
+    assert!(text.contains("axes: lab y up, mm, walking +x"), "{text}");
+    let (_, text) = info(&bench, "demo/input/walk_grf.mot");
+    assert!(text.contains("ground_force_r_..., ground_force_l_..."), "{text}");
+    bench.write(
+        "tree.bvh",
+        "HIERARCHY\nROOT Trunk\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\nMOTION\nFrames: 2\nFrame Time: 1\n0\n1\n",
+    );
+    let (_, text) = info(&bench, "tree.bvh");
+    assert!(text.contains("axes: not known: no joint was recognised as right hip"), "{text}");
+}
+
+#[test]
+fn a_laboratory_s_files_give_the_forces_that_moved_the_figure() {
+    let bench = with_demo("laboratory");
+    bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-o", "out", "--quiet"]).done();
+    // Markers on a body made to measure, plates, a filter of 6 Hz against the figure's own, unfiltered: what a 6 Hz filter takes from
+    // the knee is 4 N.m rms of 50.
+    let range = ["--from", "0.5", "--to", "3.8"];
+    for (columns, limit) in [
+        ("hip_flexion_r_moment,hip_flexion_l_moment,knee_angle_r_moment,knee_angle_l_moment", "6"),
+        ("ankle_angle_r_moment,ankle_angle_l_moment", "5"),
+    ] {
+        let files = ["compare", "out/moments.sto", "demo/moments.sto", "--columns", columns, "--limit", limit];
+        bench.run(&[&files[..], &range].concat()).done();
+    }
+    let forces = bench.json("out/summary.json");
+    assert!((forces["mass_kg"].as_f64().unwrap() - 75.0).abs() < 0.75, "{}", forces["mass_kg"]);
+    // The same from the figure's own markers on its own model.
+    let own =
+        ["forces", "demo/input/walk.trc", "--model", "demo/input/figure.osim", "--loads", "demo/input/walk_grf.xml"];
+    bench.run(&[&own[..], &["-o", "own", "--quiet"]].concat()).done();
+    let ankle = ["--columns", "ankle_angle_r_moment", "--limit", "4"];
+    bench.run(&[&["compare", "own/moments.sto", "demo/moments.sto"][..], &ankle, &range].concat()).done();
+}
+
+#[test]
+fn a_skeleton_gives_back_the_angles_that_it_was_made_from() {
+    let bench = with_demo("skeleton");
+    let run = bench.run(&["forces", "demo/input/walk.bvh", "--mass", "75", "--height", "1.75", "-o", "out", "--quiet"]);
+    assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
+    let summary = bench.json("out/summary.json");
+    let codes: Vec<&str> =
+        summary["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap()).collect();
+    assert!(codes.contains(&"bvh.low_trust"), "{codes:?}");
+    // Degrees. A filter of 6 Hz takes half a degree from the ankle.
+    let columns = "hip_flexion_r,knee_angle_r,ankle_angle_r,hip_flexion_l,knee_angle_l,ankle_angle_l,pelvis_tilt,arm_flex_r,elbow_flex_r";
+    let files = ["compare", "out/kinematics.mot", "demo/kinematics.mot", "--columns", columns, "--limit", "1"];
+    bench.run(&[&files[..], &["--from", "0.5", "--to", "3.8"]].concat()).done();
+}
+
+#[test]
+fn events_of_plates_motion_and_file_agree() {
+    let bench = with_demo("events");
+    let run = bench.run(&["events", "demo/input/walk.c3d", "--json", "-o", "events.csv"]).done();
+    let json: Value = serde_json::from_str(&run.stdout).unwrap();
+    for agreement in json["agreement"].as_array().unwrap() {
+        for kind in agreement["kinds"].as_array().unwrap() {
+            let (pairs, apart) = (kind["pairs"].as_u64().unwrap(), kind["mean_absolute_ms"].as_f64().unwrap());
+            // Three methods of published errors about 20 ms, and 7 clean contacts at least.
+            assert!(pairs >= 7 && apart < 30.0, "{agreement}");
+        }
+    }
+    let csv = bench.text("events.csv");
+    assert!(csv.starts_with("side,event,time,source\n") && csv.contains("\nr,strike,0.22"), "{csv}");
+    let forces = bench.run(&["events", "demo/input/walk_grf.mot"]).done();
+    assert!(forces.stdout.starts_with("ground forces (20 N): 16\n"), "{}", forces.stdout);
+    for file in ["demo/input/walk.trc", "demo/input/walk.bvh"] {
+        let motion = bench.run(&["events", file]).done();
+        assert!(motion.stdout.starts_with("motion of the feet (4 methods): 16\n"), "{file}: {}", motion.stdout);
+    }
+    bench.run(&["events", "demo/input/figure.osim"]).refused(&["`.osim` holds no gait; expected .c3d, .trc"]);
+    bench.run(&["events", "demo/input/walk.mot"]).refused(&["no columns of ground forces", "hint: "]);
+    let input = "demo/input/walk.trc";
+    bench.run(&["events", input, "-o", input]).refused(&["this file was read and would be written over"]);
+}
+
+#[test]
+fn markers_go_from_c3d_to_trc_and_back() {
+    let bench = with_demo("convert_markers");
+    let run = bench.run(&["convert", "demo/input/walk.c3d", "walk.trc"]).done();
+    assert_eq!(run.stdout, "written: walk.trc\n");
+    run.says(&["note: not carried over: 54 analog channels, 16 events, "]);
+    bench.run(&["convert", "walk.trc", "again.c3d"]).done();
+    let (first, _) = C3d::read(&bench.read("demo/input/walk.c3d")).unwrap();
+    let (again, _) = C3d::read(&bench.read("again.c3d")).unwrap();
+    assert_eq!(
+        (first.frames(), first.points.len(), first.first_frame),
+        (again.frames(), again.points.len(), again.first_frame)
+    );
+    for (a, b) in first.points.iter().zip(&again.points) {
+        let differences = a.positions.iter().flatten().zip(b.positions.iter().flatten()).map(|(a, b)| (a - b).abs());
+        assert_eq!(a.name, b.name);
+        // Reals of 24 bits: 7000 mm are held to 0.0005.
+        assert!(differences.fold(0.0, f64::max) < 1e-3, "{}", a.name);
+    }
+    let run = bench.run(&["convert", "demo/input/walk.c3d", "world.trc", "--world"]).done();
+    run.says(&["walking +y -> world x forward"]);
+    let (lab, _) = Trc::read(&bench.read("walk.trc")).unwrap();
+    let (world, _) = Trc::read(&bench.read("world.trc")).unwrap();
+    for (a, b) in lab.markers().iter().zip(world.markers()) {
+        let ([x, y, z], [forward, up, right]) = (a.positions_m[7], b.positions_m[7]);
+        assert!([y - forward, z - up, x - right].iter().all(|d| d.abs() < 1e-12), "{}", a.name);
+    }
+    bench.run(&["convert", "demo/input/walk.c3d", "walk.csv"]).done();
+    let (table, _) = Table::read_csv(&bench.read("walk.csv")).unwrap();
+    assert_eq!((table.names()[0].as_str(), table.names()[1].as_str(), table.rows()), ("time", "RASI_x", 437));
+    bench.run(&["convert", "demo/input/walk.c3d", "analog.csv", "--what", "analog"]).done();
+    let (table, _) = Table::read_csv(&bench.read("analog.csv")).unwrap();
+    assert_eq!((table.names()[3].as_str(), table.names().len(), table.rows()), ("Fz1 [N]", 55, 4370));
+}
+
+#[test]
+fn plates_become_ground_reactions_by_foot() {
+    let bench = with_demo("convert_plates");
+    bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
+    let (loads, _) = ExternalLoads::read(&bench.read("grf.xml")).unwrap();
+    assert_eq!(loads.datafile.as_deref(), Some("grf.mot"));
+    // Against what the figure was walked with, in the same axes; the plates were sampled on straight lines between frames.
+    let columns = "ground_force_r_vy,ground_force_l_vy,ground_force_r_vx,ground_force_l_vx";
+    let files = ["compare", "grf.mot", "demo/grf.mot", "--columns", columns, "--limit", "2"];
+    bench.run(&[&files[..], &["--from", "0.5", "--to", "3.8"]].concat()).done();
+    // And they are what `forces` takes.
+    let run = [
+        "forces",
+        "demo/input/walk.mot",
+        "--model",
+        "demo/input/figure.osim",
+        "--loads",
+        "grf.xml",
+        "-o",
+        "out",
+        "--quiet",
+    ];
+    bench.run(&run).done();
+}
+
+#[test]
+fn tables_and_skeletons_are_converted() {
+    let bench = with_demo("convert_tables");
+    let run = bench.run(&["convert", "demo/input/walk.mot", "walk.csv"]).done();
+    run.says(&["not carried over: the header's word that angles are in degrees"]);
+    bench.run(&["convert", "walk.csv", "walk.sto"]).done().says(&["does not say whether angles are in degrees"]);
+    let (first, again) = (bench.table("demo/input/walk.mot"), bench.table("walk.sto"));
+    assert!(again.columns().eq(first.columns()) && again.in_degrees.is_none());
+    let figure = "demo/input/figure.osim";
+    bench.run(&["convert", "demo/input/walk.mot", "walk.bvh", "--model", figure]).done();
+    let (bvh, _) = Bvh::read(&bench.read("walk.bvh")).unwrap();
+    assert_eq!((bvh.frames(), bvh.joints()[0].name.as_str(), bvh.joint("RightForeArm").is_some()), (437, "Hips", true));
+    bench.run(&["convert", "walk.bvh", "channels.csv"]).done();
+    let (table, _) = Table::read_csv(&bench.read("channels.csv")).unwrap();
+    assert_eq!((table.names()[1].as_str(), table.names().len()), ("Hips.Xposition", 46));
+    bench.run(&["convert", "walk.bvh", "centres.trc"]).done().says(&["lengths in centimetres"]);
+    let (centres, _) = Trc::read(&bench.read("centres.trc")).unwrap();
+    let (markers, _) = Trc::read(&bench.read("demo/input/walk.trc")).unwrap();
+    // The centre of the knee by the skeleton and by the model.
+    let (a, b) = (centres.marker("RightLeg").unwrap(), markers.marker("knee_r").unwrap());
+    let differences = a.positions_m.iter().flatten().zip(b.positions_m.iter().flatten()).map(|(a, b)| (a - b).abs());
+    let worst = differences.fold(0.0, f64::max);
+    println!("knee by skeleton and by model: {worst:.2e} m");
+    assert!(worst < 1e-9);
+}
+
+#[test]
+fn conversions_that_make_no_sense_are_refused_with_those_that_do() {
+    let bench = with_demo("convert_refused");
+    let refused = |args: &[&str], words: &[&str]| bench.run(&[&["convert"][..], args].concat()).refused(words);
+    let (walk, figure) = ("demo/input/walk.c3d", "demo/input/figure.osim");
+    refused(&[walk, "x.bvh"], &["there is no way from .c3d to .bvh; expected one of .trc, .csv, .mot, .sto"]);
+    refused(&[figure, "x.trc"], &["`.osim` is not converted; expected an input that ends with one of .c3d, .trc"]);
+    refused(&["demo/input/walk.mot", "x.bvh"], &["expected --model FILE.osim"]);
+    refused(&[walk, "x.trc", "--what", "analog"], &["--what is for .c3d to .csv only"]);
+    refused(&["demo/input/walk.mot", "x.csv", "--world"], &["--world is for markers and joint centres only"]);
+    refused(&["demo/input/standing.c3d", "x.trc", "--model", figure], &["--model is for .bvh only"]);
+    refused(&["no.c3d", "x.trc"], &["no.c3d: there is no such file"]);
+    bench.write("x.trc", "mine");
+    refused(&[walk, "x.trc"], &["x.trc: this file is there already", "hint: --force writes over it"]);
+    assert_eq!(bench.text("x.trc"), "mine");
+    bench.run(&["convert", walk, "x.trc", "--force"]).done();
+    assert!(bench.text("x.trc").starts_with("PathFileType"));
+    bench.write("y.xml", "mine");
+    refused(&[walk, "y.mot"], &["y.xml: this file is there already"]);
+    assert!(!bench.exists("y.mot"));
+    bench.write("walk.csv", "a,b\n1,2\n");
+    refused(&["walk.csv", "x.sto"], &["the first column is `a`; expected `time`"]);
+    bench.write("short.bvh", "HIERARCHY\nROOT a\n{\n");
+    refused(&["short.bvh", "x.csv"], &["short.bvh", "line 3: the file ends here", "Is it truncated?"]);
+    bench.write("bad.c3d", [0_u8; 600]);
+    refused(&["bad.c3d", "z.trc"], &["bad.c3d"]);
+}
