@@ -219,6 +219,29 @@ fn clamped_ranges_hold_and_others_do_not() {
 }
 
 #[test]
+fn a_body_may_turn_further_than_the_range_of_its_root_and_keeps_count_over_a_gap() {
+    let mut r = Random::new(11);
+    let model = with_coordinates(&pins(&mut r), |i, c| match i {
+        0 => Coordinate { range: Some([-3.2, 3.2]), clamped: true, ..c.clone() },
+        _ => c.clone(),
+    });
+    let state = |i: u32| {
+        let mut state = State::rest(&model);
+        state.q[0] = 0.04 * f64::from(i);
+        state
+    };
+    let states: Vec<State> = (0..200).map(state).collect();
+    let mut markers = recorded(&model, &states);
+    markers.markers.iter_mut().for_each(|m| m.positions[150..190].fill(Vec3::repeat(f64::NAN)));
+    let fit = fitted(&model, &markers);
+    let turn = fit.motion.columns[0].as_ref().unwrap();
+    for i in (0..150).chain(190..200) {
+        assert!((turn[i] - states[i].q[0]).abs() < 1e-7, "frame {i}: {} for {}", turn[i], states[i].q[0]);
+    }
+    assert!(turn[170].is_nan());
+}
+
+#[test]
 fn markers_on_a_follower_tell_its_leader() {
     let mut r = Random::new(6);
     let model = pins(&mut r);

@@ -114,7 +114,7 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
     pub(crate) fit: MarkerFitting,
     /// Gaps of markers up to this long are bridged [s]; longer ones stay gaps.
-    #[arg(long, value_name = "S", default_value_t = 0.2, value_parser = zero_or_more_seconds)]
+    #[arg(long, value_name = "S", default_value_t = 0.35, value_parser = zero_or_more_seconds)]
     pub(crate) max_gap: f64,
 }
 

@@ -254,9 +254,12 @@ pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
+/// Where a body is in the world is no limit of a joint: a person may turn around more often than a root's range foresees.
 fn bounds(model: &Model, tree: &Tree, limits: Limits) -> Bounds {
     let mut bounds = Bounds::none(tree.unknowns());
-    for unknown in 0..tree.unknowns() {
+    let on_ground = model.bodies().iter().filter(|b| b.joint.parent.is_none());
+    let places: Vec<usize> = on_ground.flat_map(|b| b.joint.coordinates()).map(|id| id.index()).collect();
+    for unknown in (0..tree.unknowns()).filter(|&u| !places.contains(&tree.coordinate(u))) {
         let coordinate = &model.coordinates()[tree.coordinate(unknown)];
         let obeyed = match limits {
             Limits::Off => false,

@@ -118,7 +118,11 @@ fn fit_frame(
     let t = problem.times[frame];
     let is_fresh = foretell(problem, frames, memory, frame);
     if !is_fresh {
-        memory.x = start::posture(problem, default);
+        // After a gap the last posture tells which of several sets of angles is meant.
+        memory.x = match memory.last[0] {
+            Some(last) => start::posture(problem, frames.posture(last)),
+            None => start::posture(problem, default),
+        };
         if guard == Guard::On && memory.last[0].is_none() {
             exchange_in_first(problem, frames, memory, frame);
         }

@@ -39,9 +39,9 @@ impl Default for FitSettings {
 pub enum Limits {
     /// None.
     Off,
-    /// Those of coordinates that the model clamps, as OpenSim does.
+    /// Those of coordinates that the model clamps, as OpenSim does; but for joints to ground.
     Clamped,
-    /// All that the model states.
+    /// All that the model states; but for joints to ground.
     Ranges,
 }
 
