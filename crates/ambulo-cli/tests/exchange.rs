@@ -57,6 +57,10 @@ fn info_tells_a_recording_as_a_colleague_would() {
     assert_eq!((plates.len(), json["events"].as_array().unwrap().len()), (9, 16));
     assert!(plates.iter().all(|plate| (700.0..900.0).contains(&plate["peak_n"].as_f64().unwrap())), "{json}");
     assert!(plates.iter().all(|plate| plate["loaded_s"].as_array().unwrap().len() == 1), "{json}");
+    let feet = json["feet_on_plates"].as_array().unwrap();
+    let sides: Vec<&str> = feet.iter().filter_map(|foot| foot["side"].as_str()).collect();
+    // The plates stand in the order of right, then left contacts.
+    assert_eq!(sides.concat(), "rrrrlllll", "{json}");
     for line in [
         "encoding: Intel (little-endian), reals",
         "markers with gaps: none",
