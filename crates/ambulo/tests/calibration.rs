@@ -57,7 +57,7 @@ fn sign(side: Side) -> f64 {
 fn pelvis() -> (f64, f64, Vec3) {
     let width = (0.5 * HIP_WIDTH - 0.0073) / 0.33;
     let depth = 0.16;
-    (width, depth, Vec3::new(-0.24 * (depth - 2.0 * RADIUS) - 0.0099 - RADIUS, -0.30 * width - 0.0109, 0.0))
+    (width, depth, Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.0))
 }
 
 /// A subject with a bowed knee and a twisted shank, and the markers of Plug-in-Gait with the medial ones where the joints are.

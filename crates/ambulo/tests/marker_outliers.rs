@@ -163,6 +163,22 @@ fn exchanged_labels_are_found_and_change_no_angle() {
 }
 
 #[test]
+fn a_marker_that_is_off_in_the_first_frames_counts_as_lost_there() {
+    let Some(subject) = rajagopal() else { return };
+    for (name, length) in [("R.Heel", 15), ("L.Knee", 30), ("S2", 1)] {
+        let place = subject.markers.markers.iter().position(|m| m.name == name).unwrap();
+        let (mut wild, mut lost) = (subject.markers.clone(), subject.markers.clone());
+        wild.markers[place].positions[..length].iter_mut().for_each(|p| *p += Vec3::new(0.05, 0.06, -0.04));
+        lost.markers[place].positions[..length].fill(Vec3::repeat(f64::NAN));
+        let (fit, findings) = fitted(&subject, &wild, Guard::On);
+        let (difference, angle) = largest_difference(&subject, &fitted(&subject, &lost, Guard::On).0, &fit);
+        println!("{name} in the first {length} frames: {difference:.1e} deg at {angle} from its loss");
+        assert!(findings.as_slice().iter().any(|f| f.code == "markers.jump" && f.message.contains(name)));
+        assert!(difference < 1e-4, "{name}: {difference} deg at {angle}");
+    }
+}
+
+#[test]
 fn labels_exchanged_from_the_first_frame_are_found() {
     let Some(subject) = rajagopal() else { return };
     let (clean, _) = fitted(&subject, &subject.markers, Guard::On);

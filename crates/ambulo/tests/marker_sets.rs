@@ -34,7 +34,7 @@ fn every_built_in_set_is_read_and_has_each_name_once() {
         for marker in &set.markers {
             assert!(marker.landmark.is_none_or(|l| l.segment() == marker.segment && marker.place.is_some()));
             let loose = matches!(marker.segment, Segment::Humerus | Segment::Forearm);
-            let expected = marker.landmark.map_or(if loose { 0.02 } else { 0.5 }, Landmark::weight);
+            let expected = marker.landmark.map_or(if loose { 0.02 } else { 0.1 }, Landmark::weight);
             assert!((marker.weight - expected).abs() < 1e-15 || marker.names == ["RBAK"], "{:?}", marker.names);
             assert!(!loose || marker.weight < 0.2, "{:?}", marker.names);
         }
@@ -180,4 +180,20 @@ fn a_set_of_ones_own_is_read_and_its_faults_are_named() {
     assert!(
         matches!(MarkerSet::named("helen"), Err(MarkerSetError::Unknown(e)) if e.to_string().contains("plug-in-gait"))
     );
+}
+
+#[test]
+fn the_page_lists_every_finding_of_a_calibration() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/kinematics/calibration");
+    let mut codes = std::collections::BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        for part in text.split("\"calibration.").skip(1) {
+            codes.insert(format!("calibration.{}", part.split('"').next().unwrap()));
+        }
+    }
+    let listed: std::collections::BTreeSet<String> =
+        rows("How a body is measured").into_iter().map(|row| row[0].clone()).filter(|c| c.contains('.')).collect();
+    assert_eq!(codes, listed);
+    assert!(codes.len() >= 3);
 }

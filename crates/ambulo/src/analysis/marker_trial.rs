@@ -15,7 +15,7 @@ use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_siz
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
 use crate::model::{Model, Side};
 use crate::motion::force_plate::PlateRecording;
-use crate::motion::{ForceRecording, MarkerRecording};
+use crate::motion::{Event, ForceRecording, MarkerRecording};
 use crate::motion::{Laboratory, laboratory};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
@@ -140,6 +140,25 @@ pub fn body_in_motion(
 }
 
 impl BodyInMotion {
+    /// Foot strikes and toe-offs that plates saw.
+    #[must_use]
+    pub fn measured_events(&self) -> Vec<Event> {
+        self.on_plates.force_events(self.recorded_s())
+    }
+
+    /// Those that plates saw and, elsewhere, those that were `seen`.
+    #[must_use]
+    pub fn events(&self, seen: &[Event]) -> Vec<Event> {
+        let seen = FootMotion { events: seen.to_vec(), ..self.feet.clone() };
+        self.on_plates.events(&seen, self.recorded_s())
+    }
+
+    /// First and last instant of the plates [s].
+    fn recorded_s(&self) -> [f64; 2] {
+        let ends = self.plates.iter().filter_map(|plate| Some([*plate.times.first()?, *plate.times.last()?]));
+        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+
     /// What the plates did to the feet; nothing if the body has no feet.
     #[must_use]
     pub fn plate_forces(&self) -> Vec<ForceRecording> {

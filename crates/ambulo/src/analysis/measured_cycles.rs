@@ -1,36 +1,47 @@
-//! Cycles whose stance was measured and whose end was only seen.
+//! Cycles whose stance was measured and whose end was only seen; a mass that was weighed in a standing trial.
 //!
 //! Two plates catch one stance of each foot: no plate sees the next strike, but markers and the file's own events do. A cycle
 //! that begins with a strike on a plate is whole for that foot's leg if the foot's next strike is known from anywhere.
 
 use super::cycles::{Cycle, cycles};
 use super::events::{Event, EventKind};
-use super::recording::Analysis;
+use super::recording::{Analysis, Mass, MassSource, WHOLE_BODY_SHARE};
 
 /// Events of one foot and kind closer than this are one [s].
 const SAME_S: f64 = 0.15;
 
 impl Analysis {
-    /// Adds events that forces did not show, and the cycles that begin with a strike that they did show. Without forces there are
-    /// no cycles to add: moments of legs that stood on nothing mean little.
-    pub fn complete_events(&mut self, seen: &[Event]) {
+    /// Takes these events instead of those that the forces show by themselves; `measured` are those among them that plates saw. Cycles
+    /// begin with strikes that plates saw: moments of a leg that stood beside them mean little.
+    pub fn take_events(&mut self, measured: &[Event], all: &[Event]) {
         let grid = self.trajectory.grid();
-        let measured = self.events.clone();
         let inside = |e: &&Event| (grid.start_s..=grid.end_s()).contains(&e.time_s);
-        for event in seen.iter().filter(inside) {
-            if !measured.iter().any(|known| is_same(known, event)) {
-                self.events.push(*event);
-            }
-        }
+        self.events = all.iter().filter(inside).copied().collect();
         self.events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
         let was_measured = |cycle: &Cycle| {
             let strike = Event { side: cycle.side, kind: EventKind::Strike, time_s: cycle.start_s };
-            measured.iter().any(|event| event.kind == EventKind::Strike && is_same(event, &strike))
+            measured.iter().any(|event| is_same(event, &strike))
         };
         self.cycles = cycles(&self.events, grid).into_iter().filter(was_measured).collect();
         for i in 0..self.cycles.len() {
             let side = self.cycles[i].side;
             self.cycles[i].number = self.cycles[..=i].iter().filter(|cycle| cycle.side == side).count();
+        }
+    }
+
+    /// The events of the forces, and those that were seen where forces show none; then as [`Analysis::take_events`].
+    pub fn add_events(&mut self, seen: &[Event]) {
+        let measured = self.events.clone();
+        let others = seen.iter().filter(|event| !measured.iter().any(|known| is_same(known, event)));
+        let all: Vec<Event> = measured.iter().chain(others).copied().collect();
+        self.take_events(&measured, &all);
+    }
+
+    /// Takes what plates carried in a standing trial [kg] for the body's mass, where no whole gait cycle says it better. A mass more
+    /// than 5 % beside the model's is not the whole body's, or not this person's.
+    pub fn weigh_standing(&mut self, standing_kg: f64) {
+        if self.mass.source == MassSource::Model && (standing_kg / self.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE {
+            self.mass = Mass { kg: standing_kg, source: MassSource::Standing };
         }
     }
 }

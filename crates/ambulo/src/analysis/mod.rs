@@ -11,7 +11,6 @@ mod peaks;
 mod plausibility;
 mod recording;
 mod residual;
-mod standing_mass;
 
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
@@ -21,4 +20,3 @@ pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError
 pub use peaks::{Peak, peak};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_within};
-pub use standing_mass::standing_mass;

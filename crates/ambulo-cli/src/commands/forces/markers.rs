@@ -4,13 +4,14 @@ use super::laboratory_file::{self, LaboratoryFile};
 use super::{Followed, Origin, Reading, Recorded, coordinates, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot};
 use crate::files;
-use ambulo::analysis::{Body, BodyInMotion, body_in_motion, standing_mass};
+use ambulo::analysis::{Body, BodyInMotion, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Measures, Person};
 use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
 use ambulo::motion::ForceRecording;
+use ambulo::motion::force_plate::standing_weight_n;
 use ambulo::report::Input;
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
@@ -18,6 +19,8 @@ use std::path::Path;
 
 /// Masses stated and measured that differ by more are reported.
 const MASS_MISMATCH: f64 = 0.03;
+/// Weight to mass [m/s²].
+const STANDARD_GRAVITY: f64 = 9.806_65;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded> {
     let walk = laboratory_file::read(&args.input, reading)?;
@@ -37,7 +40,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
         origin: Origin::Markers(Box::new(Followed {
             body,
             listed: walk.events,
-            standing_kg: still.and_then(|still| standing_mass(&still.recording.plates)),
+            standing_kg: still.as_ref().and_then(standing_kg),
         })),
     })
 }
@@ -153,7 +156,7 @@ fn mass(
 ) -> Result<f64> {
     let in_file = still.and_then(|still| still.subject.mass_kg).or(walk.subject.mass_kg);
     let stated = args.subject.mass.or(in_file);
-    let standing = still.and_then(|still| standing_mass(&still.recording.plates));
+    let standing = still.and_then(standing_kg);
     match (stated, standing) {
         (Some(stated), Some(standing)) => {
             if (standing / stated - 1.0).abs() > MASS_MISMATCH {
@@ -176,6 +179,11 @@ fn mass(
             "the body mass is not known: the files state none and nobody stands still on plates; expected --mass KG"
         ),
     }
+}
+
+/// What stands on the plates of a standing trial [kg].
+fn standing_kg(still: &LaboratoryFile) -> Option<f64> {
+    standing_weight_n(&still.recording.plates).map(|weight_n| weight_n / STANDARD_GRAVITY)
 }
 
 fn height(args: &ForcesArgs, walk: &LaboratoryFile, still: Option<&LaboratoryFile>) -> Option<f64> {

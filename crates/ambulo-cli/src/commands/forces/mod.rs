@@ -106,8 +106,19 @@ impl Origin {
             Origin::Skeleton(summary) => Some(*summary.clone()),
             Origin::Markers(followed) => {
                 let Followed { body, listed, standing_kg } = &**followed;
-                let summary = SubjectSummary::of_markers(body, listed, &analysis.events);
-                analysis.complete_events(if listed.is_empty() { &body.feet.events } else { listed });
+                let seen = if listed.is_empty() { &body.feet.events } else { listed };
+                let measured = match body.on_plates.contacts.is_empty() {
+                    true => {
+                        analysis.add_events(seen);
+                        Vec::new()
+                    }
+                    false => {
+                        let measured = body.measured_events();
+                        analysis.take_events(&measured, &body.events(seen));
+                        measured
+                    }
+                };
+                let summary = SubjectSummary::of_markers(body, listed, &measured);
                 if let Some(standing_kg) = standing_kg {
                     analysis.weigh_standing(*standing_kg);
                 }

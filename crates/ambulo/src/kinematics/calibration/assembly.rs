@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 const ENOUGH_ON_TRUNK: usize = 3;
 
 /// Markers of less weight than this do not show how the trunk moves.
-const FIRM: f64 = 0.4;
+const FIRM: f64 = 0.05;
 /// Weight of shoulders that must.
 const SHOULDER_WEIGHT: f64 = 0.1;
 

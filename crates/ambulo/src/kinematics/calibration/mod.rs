@@ -6,7 +6,7 @@
 //! | part | how |
 //! |---|---|
 //! | pelvis | axes through the iliac spines, turned back by the tilt of upright standing |
-//! | hip centre | Harrington 2007's regression on width and depth of the pelvis between the spines' bones |
+//! | hip centre | Harrington 2007's regression on width and depth of the pelvis between its markers |
 //! | knee | midway between the epicondyles; else half the knee's breadth inside the lateral marker, at right angles to the line to the hip, in the plane of the wand (Plug-in-Gait's construction); without a wand, in the frontal plane of the pelvis |
 //! | ankle | the same with the malleoli and the shank's wand; without one, in the plane of the knee axis |
 //! | thigh, shank | y from the lower to the upper joint, z along the knee axis as far as it is at right angles to that |

@@ -80,16 +80,12 @@ fn refit_complete(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) 
     frames.keep(frame, problem, &x, outcome, true);
 }
 
-/// The posture of the frame, or of the nearest one that has one.
+/// The posture of the frame, or of the last one before it that has one, or of the first after it.
 fn nearby(frames: &Frames, frame: usize) -> Option<Vec<f64>> {
-    let has = |f: usize| frames.outcomes[f].is_some();
-    let before = (0..=frame).rev().find(|&f| has(f));
-    let after = (frame..frames.count()).find(|&f| has(f));
-    let nearest = match (before, after) {
-        (Some(a), Some(b)) => Some(if frame - a <= b - frame { a } else { b }),
-        (a, b) => a.or(b),
-    };
-    nearest.map(|f| frames.posture(f).to_vec())
+    let has = |f: &usize| frames.outcomes[*f].is_some();
+    let before = (0..=frame).rev().find(has);
+    let found = before.or_else(|| (frame..frames.count()).find(has));
+    found.map(|f| frames.posture(f).to_vec())
 }
 
 /// Frames `start..end` lack markers of the core; those beside them do not.

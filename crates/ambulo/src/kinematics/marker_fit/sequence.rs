@@ -80,6 +80,23 @@ pub(super) fn run(problem: &mut Problem<'_>, frames: &mut Frames, guard: Guard, 
     for frame in 0..frames.count() {
         fit_frame(problem, frames, &mut memory, frame, guard, default);
     }
+    believe_majority(frames);
+}
+
+/// A marker that is off from some frame to the end, and for longer than it was believed before, was off before: what came first
+/// has no right of its own.
+fn believe_majority(frames: &mut Frames) {
+    for i in 0..frames.markers() {
+        let is_seen = |frames: &Frames, f: usize| frames.path(f, i) == i && frames.is_seen(f, i);
+        let seen = |f: &usize| is_seen(frames, *f);
+        let off = (0..frames.count()).rev().filter(seen).take_while(|&f| !frames.is_used(f, i)).count();
+        let believed = (0..frames.count()).filter(seen).filter(|&f| frames.is_used(f, i)).count();
+        for frame in 0..frames.count() {
+            if off > believed && is_seen(frames, frame) {
+                frames.believe(frame, i, !frames.is_used(frame, i));
+            }
+        }
+    }
 }
 
 fn fit_frame(
