@@ -45,7 +45,7 @@ fn what_cannot_be_asked_for_exits_with_two_and_says_what_can() {
     let cases: [(&[&str], &str); 12] = [
         (&["dance"], "unrecognized subcommand"),
         (&["forces"], "<INPUT>"),
-        (&["forces", "walk.mot"], "--model <FILE>"),
+        (&["forces", "walk.mot"], "expected --model FILE.osim"),
         (&["forces", "walk.mot", "--model", "figure.osim", "--fast"], "--fast"),
         (&["info"], "<FILE>"),
         (&["compare", "walk.mot"], "<B>"),

@@ -140,6 +140,38 @@ fn points_beside_a_joint_show_how_its_segment_is_turned() {
 }
 
 #[test]
+fn a_rig_whose_legs_lie_when_it_rests_stands_by_its_mean_posture() {
+    // The bones of the legs lie along +z at rest; thighs turned by 90 degrees about x hang down. (x, y, z) = Rx(90) (x, z, -y).
+    let lying = FIGURE
+        .replace("OFFSET 0 -43 0", "OFFSET 0 0 43")
+        .replace("OFFSET 0 -42 0", "OFFSET 0 0 42")
+        .replace("OFFSET 0 -6 14", "OFFSET 0 14 6")
+        .replace("OFFSET 0 0 6\n", "OFFSET 0 6 0\n");
+    let (head, _) = lying.split_once("0 93 0 0").unwrap();
+    let frame = "0 93 0 0 0 0  0 90 0 0 0 0 0 0 0 0 0 0  0 90 0 0 0 0 0 0 0  0 0 0 0 0 0\n";
+    let (recording, findings) = read(&format!("{head}{frame}{frame}"), None);
+    assert!(findings.has("bvh.rest_pose"), "{findings:?}");
+    assert!(!read(FIGURE, None).1.has("bvh.rest_pose"));
+    for (name, place) in [
+        ("ankle_r", [0.0, 0.08, 0.09]),
+        ("toe_r", [0.14, 0.02, 0.09]),
+        ("toe_tip_r", [0.2, 0.02, 0.09]),
+        ("pelvis_up", [0.0, 0.93 + REACH, 0.0]),
+        ("pelvis_front", [REACH, 0.93, 0.0]),
+        ("thigh_side_r", [0.0, 0.5, 0.09 + REACH]),
+        ("shank_side_l", [0.0, 0.08, REACH - 0.09]),
+        ("foot_front_r", [REACH, 0.08, 0.09]),
+        ("foot_side_r", [0.0, 0.08, 0.09 + REACH]),
+        ("toe_front_r", [0.14 + REACH, 0.02, 0.09]),
+        // A third of 0.2 m behind the ankle, as low as the ball.
+        ("heel_r", [-0.2 / 3.0, 0.02, 0.09]),
+    ] {
+        assert_at(&recording, name, 0, place);
+        assert_at(&read(FIGURE, None).0, name, 0, place);
+    }
+}
+
+#[test]
 fn rotations_are_applied_in_the_order_of_the_channels() {
     let turned = FIGURE.replace("0 93 0 0 0 0  0 0 0 0 90", "0 93 0 0 0 0  0 90 90 0 0");
     let (recording, _) = read(&turned, None);

@@ -71,7 +71,8 @@ fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<So
     let markers = axes.markers(&markers);
     let motion = foot_motion(&markers, findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
-    let mut sources = vec![Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates(&feet) }];
+    let mut sources =
+        vec![Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates(&feet, &plates) }];
     sources.push(of_motion(motion));
     sources.push(Source { word: "file", title: "the file's own list".into(), events: listed });
     Ok(sources)
@@ -134,12 +135,14 @@ fn vertical_columns(table: &Table) -> Vec<(Side, String)> {
     found.map_or(vec![], |names| Side::BOTH.into_iter().zip(names.map(str::to_owned)).collect())
 }
 
-/// Edges of contacts of which a plate saw all.
-fn of_plates(feet: &FeetOnPlates) -> Vec<Event> {
+/// Edges of contacts of which a plate saw all; the ends of the recording are no edges.
+fn of_plates(feet: &FeetOnPlates, plates: &[PlateRecording]) -> Vec<Event> {
     let mut events = Vec::new();
     for contact in &feet.contacts {
         if let (Some(side), ContactQuality::Clean) = (contact.side, contact.quality) {
-            push(&mut events, side, Some(contact.start_s), Some(contact.end_s));
+            let times = &plates[contact.plate].times;
+            let inside = |time: &f64| times.first().is_some_and(|t| t < time) && times.last().is_some_and(|t| time < t);
+            push(&mut events, side, Some(contact.start_s).filter(inside), Some(contact.end_s).filter(inside));
         }
     }
     sorted(events)

@@ -1,11 +1,13 @@
 //! Recordings of a laboratory.
 
-use super::sheet::wrapped;
+use super::sheet::{short, wrapped};
 use super::{Sheet, markers};
 use ambulo::findings::Findings;
+use ambulo::ground::foot_motion::foot_motion;
+use ambulo::ground::plates::{PlateContact, feet_on_plates};
 use ambulo::motion::{
-    MarkerRecording, PlateRecording, PlateSettings, SubjectParameters, laboratory, markers_from_c3d, plates_from_c3d,
-    subject_from_c3d,
+    Laboratory, MarkerRecording, PlateRecording, PlateSettings, SubjectParameters, laboratory, markers_from_c3d,
+    plates_from_c3d, subject_from_c3d,
 };
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Processor, Storage};
 use anyhow::Result;
@@ -59,6 +61,7 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     if let Ok(recording) = &recording {
         let axes = laboratory(recording, &plates, &c3d.point_unit, &mut findings);
         sheet.text("axes", &axes.statement);
+        say_feet(&mut sheet, recording, &plates, &axes, &mut findings);
     }
     sheet.remarks(&remarks);
     sheet.findings(&findings);
@@ -77,7 +80,8 @@ fn next(
 ) -> String {
     let mass = subject.mass_kg.is_none().then_some("--mass KG");
     let height = subject.height_m.is_none().then_some("--height M");
-    let ground = (!plates.iter().any(|plate| plate.peak_n() > 0.0)).then_some("--no-ground");
+    let stands = markers::stands_still(recording);
+    let ground = (!stands && !plates.iter().any(|plate| plate.peak_n() > 0.0)).then_some("--no-ground");
     let options: Vec<&str> = [mass, height, ground].into_iter().flatten().collect();
     markers::next(path, recording, known, &options.join(" "))
 }
@@ -167,6 +171,43 @@ fn plate_line(plate: &PlateRecording) -> String {
     )
 }
 
+/// Whose foot stood on which plate.
+fn say_feet(
+    sheet: &mut Sheet,
+    recording: &MarkerRecording,
+    plates: &[PlateRecording],
+    axes: &Laboratory,
+    findings: &mut Findings,
+) {
+    let markers = axes.markers(recording);
+    let turned: Vec<PlateRecording> = plates.iter().map(|plate| axes.plate(plate)).collect();
+    let motion = foot_motion(&markers, findings);
+    let feet = feet_on_plates(&markers, &turned, &motion, &[], findings);
+    if feet.contacts.is_empty() {
+        return;
+    }
+    let foot = |contact: &PlateContact| contact.side.map_or("nobody's".to_owned(), |side| side.to_string());
+    let values = feet.contacts.iter().map(|contact| {
+        json!({
+            "plate": plates[contact.plate].name,
+            "side": contact.side.map(ambulo::model::Side::letter),
+            "span_s": [contact.start_s, contact.end_s],
+            "quality": contact.quality.word(),
+            "reason": contact.reason,
+        })
+    });
+    let line = |contact: &PlateContact| {
+        let reason = if contact.reason.is_empty() { String::new() } else { format!(": {}", contact.reason) };
+        let (plate, quality) = (&plates[contact.plate].name, contact.quality.word());
+        format!("{plate}, {:.3}-{:.3} s: {} foot, {quality}{reason}", contact.start_s, contact.end_s, foot(contact))
+    };
+    let lines = std::iter::once(feet.contacts.len().to_string()).chain(feet.contacts.iter().map(line)).collect();
+    sheet.said("feet_on_plates", values.collect::<Vec<_>>(), lines);
+    let windows: Vec<String> = feet.windows.iter().map(|[from, to]| format!("{from:.3}-{to:.3} s")).collect();
+    let shown = if windows.is_empty() { "never".to_owned() } else { windows.join(", ") };
+    sheet.said("every_foot_on_a_plate_s", json!(feet.windows), vec![shown]);
+}
+
 /// Lengths of the first two edges [m].
 fn size(plate: &PlateRecording) -> [f64; 2] {
     let [a, b, c, _] = plate.corners;
@@ -204,10 +245,14 @@ fn say_subject(sheet: &mut Sheet, c3d: &C3d, subject: &SubjectParameters) {
     if !names.is_empty() {
         sheet.value("subject", names.join(", "));
     }
-    sheet.value("mass_kg", subject.mass_kg);
-    sheet.value("height_m", subject.height_m);
+    // Reals of 24 bits: two digits for the eye.
+    let rounded = |value: Option<f64>| value.map(|value| format!("{value:.2}")).into_iter().collect();
+    sheet.said("mass_kg", json!(subject.mass_kg), rounded(subject.mass_kg));
+    sheet.said("height_m", json!(subject.height_m), rounded(subject.height_m));
     if !subject.processing.is_empty() {
-        let lines: Vec<String> = subject.processing.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        // Names with signs in front are a program's own memory; --json has them too.
+        let own = subject.processing.iter().filter(|(name, _)| name.starts_with(char::is_alphabetic));
+        let lines: Vec<String> = own.map(|(name, value)| format!("{name} {}", short(*value))).collect();
         let lines = wrapped(&lines.iter().map(String::as_str).collect::<Vec<_>>());
         let value: serde_json::Map<String, Value> =
             subject.processing.iter().map(|(name, value)| (name.clone(), json!(value))).collect();

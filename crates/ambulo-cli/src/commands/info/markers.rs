@@ -135,7 +135,7 @@ impl Gaps<'_> {
 }
 
 /// Whether no marker goes anywhere.
-fn stands_still(recording: &MarkerRecording) -> bool {
+pub(super) fn stands_still(recording: &MarkerRecording) -> bool {
     let extent = |marker: &MarkerPath| {
         let seen = || (0..marker.positions.len()).filter(|&frame| marker.is_seen(frame)).map(|i| marker.positions[i]);
         let (low, high) = (seen().reduce(|a, b| a.inf(&b))?, seen().reduce(|a, b| a.sup(&b))?);

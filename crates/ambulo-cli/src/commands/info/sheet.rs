@@ -99,7 +99,7 @@ impl Sheet {
 }
 
 /// Six digits for the eye; --json has them all.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     let rounded = format!("{number:.6}");
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

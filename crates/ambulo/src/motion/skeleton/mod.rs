@@ -25,6 +25,7 @@ mod error;
 mod joint_paths;
 mod landmarks;
 mod neutral;
+mod points;
 mod poses;
 mod unit;
 
@@ -32,21 +33,19 @@ pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
 
 use crate::findings::Findings;
-use crate::model::Side;
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::Mat3;
 use ambulo_formats::bvh::Bvh;
 use axes::Axes;
-use landmarks::{Landmark, Landmarks};
+use landmarks::Landmarks;
 use neutral::Neutral;
+use points::points;
 use poses::Skeleton;
 use unit::Unit;
 
 /// How far the points that show turning stand from their joint [m].
 pub const REACH: f64 = 0.1;
 
-/// Heel to ankle over ankle to tip of the toes: 25 % and 75 % of the foot, as in [`crate::model::anthropometry`].
-const HEEL_SHARE: f64 = 1.0 / 3.0;
 /// Faster than this no joint moves [m/s]: hands of athletes who throw reach about 20 m/s (unverified).
 const LEAP: f64 = 30.0;
 
@@ -133,72 +132,4 @@ fn warn_of_low_trust(unit: &Unit, neutral: &Neutral, findings: &mut Findings) {
             unit.statement
         ),
     );
-}
-
-/// A point that goes with the skeleton.
-struct Point {
-    name: String,
-    /// Mean of the centres of these joints.
-    between: Vec<usize>,
-    /// How far beside it the point stands [the file's unit], in the axes of which joint. A centre is seen even where the
-    /// turning of its joint is not.
-    beside: Option<(usize, Vec3)>,
-}
-
-impl Point {
-    fn at(&self, poses: &[Pose]) -> Vec3 {
-        let sum: Vec3 = self.between.iter().map(|&joint| poses[joint].translation).sum();
-        let middle = sum / self.between.len() as f64;
-        self.beside.map_or(middle, |(joint, offset)| middle + poses[joint].rotation * offset)
-    }
-}
-
-fn points(skeleton: &Skeleton<'_>, landmarks: &Landmarks, neutral: &Neutral, reach: f64) -> Vec<Point> {
-    let mut points = Vec::new();
-    let hips = Side::BOTH.iter().filter_map(|&side| landmarks.get(Landmark::Hip, side)).collect::<Vec<_>>();
-    let pelvis = neutral.pelvis;
-    for (name, direction) in [("pelvis_up", neutral.up(pelvis)), ("pelvis_front", neutral.forward(pelvis))] {
-        points.push(Point { name: name.into(), between: hips.clone(), beside: Some((pelvis, direction * reach)) });
-    }
-    for side in Side::BOTH {
-        let sided = |name: &str| format!("{name}_{}", side.letter());
-        for landmark in Landmark::ALL {
-            if let Some(joint) = landmarks.get(landmark, side) {
-                points.push(Point { name: sided(landmark.name()), between: vec![joint], beside: None });
-            }
-        }
-        // A forearm without a hand ends at the wrist.
-        let elbow = landmarks.get(Landmark::Elbow, side).filter(|_| landmarks.get(Landmark::Wrist, side).is_none());
-        if let Some((joint, offset)) = elbow.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
-            points.push(Point { name: sided("wrist"), between: vec![joint], beside: Some((joint, offset)) });
-        }
-        let last = landmarks.get(Landmark::Toe, side).or(landmarks.get(Landmark::Ankle, side));
-        if let Some((joint, offset)) = last.and_then(|joint| skeleton.tip(joint).map(|tip| (joint, tip))) {
-            points.push(Point { name: sided("toe_tip"), between: vec![joint], beside: Some((joint, offset)) });
-        }
-        let chain = [Landmark::Hip, Landmark::Knee, Landmark::Ankle].map(|landmark| landmarks.get(landmark, side));
-        let [Some(hip), Some(knee), Some(ankle)] = chain else { continue };
-        let bone = last.map_or(Vec3::zeros(), |last| match skeleton.way(ankle, last) {
-            way if way.norm() > 0.0 => way,
-            _ => skeleton.tip(ankle).unwrap_or_default(),
-        });
-        let [front, right] = neutral.along_foot(ankle, bone);
-        let tip = bone + last.filter(|last| *last != ankle).and_then(|last| skeleton.tip(last)).unwrap_or_default();
-        let up = neutral.up(ankle);
-        let heel = up * bone.dot(&up) - front * (HEEL_SHARE * tip.dot(&front));
-        points.push(Point { name: sided("heel"), between: vec![ankle], beside: Some((ankle, heel)) });
-        if let Some(toe) = landmarks.get(Landmark::Toe, side) {
-            let [front, _] = neutral.along_foot(toe, skeleton.tip(toe).unwrap_or_default());
-            points.push(Point { name: sided("toe_front"), between: vec![toe], beside: Some((toe, front * reach)) });
-        }
-        for (name, carrier, base, direction) in [
-            ("thigh_side", hip, knee, neutral.right_beside(hip, skeleton.way(hip, knee))),
-            ("shank_side", knee, ankle, neutral.right_beside(knee, skeleton.way(knee, ankle))),
-            ("foot_side", ankle, ankle, right),
-            ("foot_front", ankle, ankle, front),
-        ] {
-            points.push(Point { name: sided(name), between: vec![base], beside: Some((carrier, direction * reach)) });
-        }
-    }
-    points
 }
