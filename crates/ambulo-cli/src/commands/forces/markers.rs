@@ -113,12 +113,7 @@ fn fit_settings(args: &ForcesArgs) -> FitSettings {
         MarkerFitting::Frames => None,
         MarkerFitting::Trajectory => Some(Smoothing::default()),
     };
-    FitSettings {
-        longest_gap_s: args.subject.max_gap,
-        smoothing,
-        limits: ambulo::kinematics::marker_fit::Limits::Ranges,
-        ..FitSettings::default()
-    }
+    FitSettings { longest_gap_s: args.subject.max_gap, smoothing, ..FitSettings::default() }
 }
 
 /// A set of markers by its name, or from a file.
