@@ -11,8 +11,16 @@ use workbench::Workbench;
 
 /// Runs `forces` on the demo's C3D, whose nine plates each catch one step: 1 to 4 right, 5 to 9 left.
 fn forces(bench: &Workbench, options: &[&str]) -> (Value, String) {
-    let mut args =
-        vec!["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+    let mut args = vec![
+        "forces",
+        "demo/input/walk.c3d",
+        "--static",
+        "demo/input/standing.c3d",
+        "--mass",
+        "75",
+        "--height",
+        "1.75",
+    ];
     args.extend(options);
     args.extend(["-o", "out"]);
     let run = bench.run(&args);
