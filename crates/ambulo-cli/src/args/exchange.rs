@@ -48,7 +48,7 @@ pub(crate) enum What {
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
-  ambulo events demo/input/walk_grf.mot
+  ambulo events demo/input/walk.c3d
 
 Foot strikes and toe-offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from the
 file's own list, and how far they agree. Reads .c3d (all three), .trc and .bvh (motion), .mot and .sto (ground forces). Events of feet that

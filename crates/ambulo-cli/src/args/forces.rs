@@ -102,7 +102,7 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) height: Option<f64>,
     /// Table of body segments of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
+    #[arg(long, value_name = "NAME", default_value = SubjectArgs::USUAL_FIGURE)]
     pub(crate) figure: String,
     /// The marker set: a name of docs/MARKERS.md or a .toml [default: the one whose names are found].
     #[arg(long, value_name = "NAME|FILE")]
@@ -114,8 +114,12 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
     pub(crate) fit: MarkerFitting,
     /// Gaps of markers up to this long are bridged [s]; longer ones stay gaps.
-    #[arg(long, value_name = "S", default_value_t = 0.35, value_parser = zero_or_more_seconds)]
+    #[arg(long, value_name = "S", default_value_t = 0.35, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,
+}
+
+impl SubjectArgs {
+    pub(crate) const USUAL_FIGURE: &'static str = "de-leva-male";
 }
 
 /// How markers become coordinates.

@@ -39,7 +39,7 @@ pub(crate) struct SimulateArgs {
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
-  ambulo info demo/input/figure.osim
+  ambulo info demo/input/walk.c3d
 
 Knows recordings (.c3d), markers (.trc), skeletons (.bvh), models (.osim), tables (.mot, .sto, .csv) and external loads (.xml). Says what
 is inside (rates, markers and their gaps, marker set, plates, events, subject), what was odd, and what to type next.")]

@@ -34,7 +34,8 @@ pub(crate) fn guide() -> Result<()> {
 
   ambulo demo -o demo                                        try it, no file needed
   ambulo walk --speed 1.2                                    a figure that walks: the same results, no file needed
-  ambulo forces MOTION --model OSIM --grf GRF --loads XML    joint moments, powers, ground forces
+  ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces, from markers and plates
+  ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same, from coordinates of an OpenSim model
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
   ambulo info FILE                                           what a file holds

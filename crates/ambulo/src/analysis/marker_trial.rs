@@ -13,9 +13,9 @@ use crate::kinematics::calibration::{
 use crate::kinematics::marker_fit::{FitError, FitSettings, Limits, MarkerFit, fit_markers};
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
-use crate::model::{Model, Side};
+use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
-use crate::motion::{Event, ForceRecording, MarkerRecording};
+use crate::motion::{Event, ForceRecording, MarkerRecording, Motion};
 use crate::motion::{Laboratory, laboratory};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
@@ -134,11 +134,33 @@ pub fn body_in_motion(
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
+    hold_what_no_marker_shows(&subject.model, &mut fit.motion, findings);
     stage("markers");
     let feet = foot_motion(&markers, findings);
     let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
     stage("feet");
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
+}
+
+/// Gives joints beyond the last marker, such as toes, the value that the model has for them.
+fn hold_what_no_marker_shows(model: &Model, motion: &mut Motion, findings: &mut Findings) {
+    /// Names in a message at most.
+    const MOST: usize = 6;
+    let mut held = Vec::new();
+    let frames = motion.times.len();
+    for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
+        if column.is_none() && matches!(coordinate.drive, Drive::Free) {
+            *column = Some(vec![coordinate.default_value; frames]);
+            held.push(format!("`{}` ({})", coordinate.name, coordinate.default_value));
+        }
+    }
+    if !held.is_empty() {
+        let more = if held.len() > MOST { format!(" and {} more", held.len() - MOST) } else { String::new() };
+        held.truncate(MOST);
+        let names = held.join(", ");
+        findings
+            .note("markers.held", format!("no marker shows {names}{more}; the values in brackets are used throughout"));
+    }
 }
 
 impl BodyInMotion {

@@ -53,6 +53,9 @@ fn check_pair(from: &str, to: &str) -> Result<()> {
     let listed = |endings: &[&str]| endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ");
     match PAIRS.iter().find(|(known, _)| *known == from) {
         Some((_, targets)) if targets.contains(&to) => Ok(()),
+        Some((_, targets)) if to.is_empty() => {
+            bail!("the output's name has no ending that says its format; expected one of {}", listed(targets))
+        }
         Some((_, targets)) => bail!("there is no way from .{from} to .{to}; expected one of {}", listed(targets)),
         None => {
             let known: Vec<&str> = PAIRS.iter().map(|(known, _)| *known).collect();

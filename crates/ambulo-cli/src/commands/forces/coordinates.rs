@@ -2,7 +2,7 @@
 
 use super::ground_table::{self, GroundTable};
 use super::{Origin, Reading, Recorded, read_model};
-use crate::args::ForcesArgs;
+use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
 use crate::files;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
@@ -38,6 +38,8 @@ fn refuse_what_is_for_markers(args: &ForcesArgs) -> Result<()> {
         ("--plate", !args.subject.plate.is_empty()),
         ("--mass", args.subject.mass.is_some()),
         ("--height", args.subject.height.is_some()),
+        ("--figure", args.subject.figure != SubjectArgs::USUAL_FIGURE),
+        ("--fit", args.subject.fit != MarkerFitting::Frames),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(

@@ -40,6 +40,10 @@ fn from_c3d(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<Laborato
     let (c3d, remarks) = C3d::read(bytes)?;
     let findings = &mut reading.findings;
     files::note_remarks(shown, &remarks, findings);
+    if c3d.frames() == 0 {
+        let odd = remarks.last().map_or_else(String::new, |remark| format!(" ({remark})"));
+        bail!("the file holds no frames{odd}; expected a recorded trial. hint: export it again");
+    }
     Ok(LaboratoryFile {
         recording: LaboratoryRecording {
             markers: markers_from_c3d(&c3d, findings)?,

@@ -50,13 +50,19 @@ enum Kind {
 
 impl Kind {
     fn of(input: &Path) -> Result<Kind> {
-        let ending = input.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let ending = files::ending(input);
+        let found = match ending.as_str() {
+            _ if input.as_os_str() == "-" => "standard input is not read".to_owned(),
+            _ if input.is_dir() => "this is a folder".to_owned(),
+            "" => "its name has no ending that says what it is".to_owned(),
+            other => format!("unknown kind of recording `.{other}`"),
+        };
         match ending.as_str() {
             "mot" | "sto" | "csv" => Ok(Kind::Coordinates),
             "c3d" | "trc" => Ok(Kind::Markers),
             "bvh" => Ok(Kind::Skeleton),
             _ => bail!(
-                "{}: unknown kind of recording `.{ending}`; expected .c3d or .trc (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
+                "{}: {found}; expected .c3d or .trc (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
                 input.display()
             ),
         }

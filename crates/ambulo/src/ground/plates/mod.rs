@@ -126,11 +126,11 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
             ),
             (ContactQuality::TwoFeet, _) => findings.warn(
                 "plates.two_feet",
-                format!("{name}, {times}: two feet on one plate: {reason}; this load was given to neither foot. hint: name the foot of the plate yourself to give it all to one"),
+                format!("{name}, {times}: two feet on one plate: {reason}; this load was given to neither foot. hint: name the foot of the plate (`--plate`) to give it all to one"),
             ),
             (ContactQuality::Unassigned, _) => findings.warn(
                 "plates.unassigned",
-                format!("{name}, {times}: its load was given to no foot: {reason}. hint: name the foot of the plate yourself"),
+                format!("{name}, {times}: its load was given to no foot: {reason}. hint: name the foot of the plate (`--plate`)"),
             ),
             (ContactQuality::Shared, Some(side)) => {
                 findings.note("plates.shared", format!("{name}, {times}, {side}: {reason}; both forces were added"));

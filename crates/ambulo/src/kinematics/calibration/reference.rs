@@ -33,7 +33,7 @@ pub(super) fn frames(sight: &Sight<'_>, trial: Trial, findings: &mut Findings) -
         findings.warn(
             "calibration.not_standing",
             format!(
-                "in the standing trial the markers move slower than {QUIET_M_PER_S} m/s in only {} of {} frames; all frames were taken",
+                "in the standing trial the markers move slower than {QUIET_M_PER_S} m/s in only {} of {} frames; all frames were taken. hint: give a trial in which the person stands still, or none",
                 quiet.len(),
                 all.len()
             ),

@@ -5,6 +5,9 @@ use crate::model::marker_set::{Landmark, NamedMarker, Recognised};
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
 
+/// Markers named in a message at most.
+const MOST_NAMES: usize = 12;
+
 /// A recording seen as landmarks.
 #[derive(Debug)]
 pub(super) struct Sight<'a> {
@@ -57,6 +60,11 @@ impl<'a> Sight<'a> {
             m.definition.landmark.map(|landmark| format!("{}{side}", landmark.word()))
         };
         let words: Vec<String> = self.markers.iter().filter_map(word).collect();
-        if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+        if words.is_empty() {
+            let names: Vec<&str> = self.recording.markers.iter().map(|marker| marker.name.as_str()).collect();
+            let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
+            return format!("none, the markers are called {}{more}", names[..names.len().min(MOST_NAMES)].join(", "));
+        }
+        words.join(", ")
     }
 }

@@ -11,7 +11,9 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 
 /// Names listed in a message at most.
-const MOST_NAMES: usize = 60;
+const MOST_NAMES: usize = 20;
+/// ... and in a finding, which is no list to work through.
+const FEW_NAMES: usize = 6;
 
 /// Everything that the fit of any frame needs, and its scratch.
 #[derive(Debug, Clone)]
@@ -224,20 +226,27 @@ fn common_markers<'a>(
     }
     let only_model: Vec<&str> =
         model.markers().iter().map(|m| m.name.as_str()).filter(|name| !recorded(name)).collect();
-    report_uncommon(common.len(), &only_recorded, &only_model, findings);
+    report_uncommon(recording, common.len(), [&only_recorded, &only_model], findings);
     Ok(common)
 }
 
-fn report_uncommon(common: usize, only_recorded: &[&str], only_model: &[&str], findings: &mut Findings) {
+fn report_uncommon(
+    recording: &MarkerRecording,
+    common: usize,
+    [only_recorded, only_model]: [&[&str]; 2],
+    findings: &mut Findings,
+) {
     if only_recorded.is_empty() && only_model.is_empty() {
         return;
     }
     let part = |what: &str, names: &[&str]| match names {
         [] => String::new(),
-        _ => format!("; only {what}: {}", listed(names.iter().copied())),
+        _ => format!("; {} only {what}: {}", names.len(), first(names.iter().copied(), FEW_NAMES)),
     };
     let message = format!(
-        "{common} markers of the recording are on the model and are fitted{}{}",
+        "{common} of {} markers of `{}` are on the model and are fitted{}{}",
+        recording.markers.len(),
+        recording.name,
         part("recorded", only_recorded),
         part("on the model", only_model)
     );
@@ -246,10 +255,14 @@ fn report_uncommon(common: usize, only_recorded: &[&str], only_model: &[&str], f
 
 /// Names in one line; the rest counted when there are very many.
 pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    first(names, MOST_NAMES)
+}
+
+fn first<'a>(names: impl Iterator<Item = &'a str>, most: usize) -> String {
     let names: Vec<&str> = names.collect();
     match names.len() {
         0 => "none".to_owned(),
-        n if n > MOST_NAMES => format!("{} and {} more", names[..MOST_NAMES].join(", "), n - MOST_NAMES),
+        n if n > most => format!("{} and {} more", names[..most].join(", "), n - most),
         _ => names.join(", "),
     }
 }

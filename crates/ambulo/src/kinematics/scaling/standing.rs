@@ -9,6 +9,8 @@ use crate::spatial::{Pose, Vec3};
 
 /// A marker that strays from its middle by more than this [m], root mean square, is not standing still.
 const STILL: f64 = 0.01;
+/// Markers named in a message at most.
+const MOST_NAMED: usize = 6;
 
 /// Every marker at its middle: along each axis the median of the frames in which it was seen.
 pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
@@ -24,7 +26,16 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
         markers.push(MarkerPath { name: path.name.clone(), positions: vec![middle] });
     }
     if !moving.is_empty() {
-        let message = format!("`{}` is no standing trial: these markers move: {}", recording.name, moving.join(", "));
+        let (count, all) = (moving.len(), recording.markers.len());
+        let judged = if 2 * count > all { "; this is no standing trial" } else { "" };
+        let more = if count > MOST_NAMED { format!(" and {} more", count - MOST_NAMED) } else { String::new() };
+        moving.truncate(MOST_NAMED);
+        let message = format!(
+            "in `{}` {count} of {all} markers move by more than {:.0} mm rms ({}{more}); their middle was taken{judged}",
+            recording.name,
+            1000.0 * STILL,
+            moving.join(", ")
+        );
         findings.warn("scaling.moving", message);
     }
     let times = vec![recording.times.first().copied().unwrap_or(0.0)];

@@ -33,7 +33,7 @@ pub struct Recognised {
 /// No set explains the names.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small TOML file described there"
+    "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small TOML file described there; markers of an OpenSim model need that model"
 )]
 pub struct UnknownMarkers {
     /// How many markers there are.

@@ -1,6 +1,6 @@
 //! The force plates of a C3D file.
 
-use super::decode::{PlateSource, decode};
+use super::decode::{PlateSource, decode, origin_was_turned};
 use super::kind::Units;
 use super::{PlateRecording, PlateSettings, units};
 use crate::findings::Findings;
@@ -49,17 +49,36 @@ pub fn plates_from_c3d(
     report_polynomial(file, findings);
     let body = mean_marker(file).map(|p| p * unit_m);
     let mut plates = Vec::new();
+    let mut turned = Vec::new();
     for (i, platform) in platforms.iter().enumerate() {
         let name = format!("plate {}", i + 1);
         report_volts(file, platform, &name, findings);
-        let plate = source(file, platform, unit_m, body, name.clone());
-        let plate = plate.and_then(|source| decode(&source, settings, findings));
+        let source = source(file, platform, unit_m, body, name.clone());
+        if source.as_ref().is_ok_and(origin_was_turned) {
+            turned.push(i + 1);
+        }
+        let plate = source.and_then(|source| decode(&source, settings, findings));
         match plate {
             Ok(plate) => plates.push(plate),
             Err(reason) => findings.warn("plates.unusable", format!("{name} was left out: {reason}")),
         }
     }
+    report_turned(&turned, platforms.len(), findings);
     Ok(plates)
+}
+
+/// One note for all plates: this is so in nearly every file of Vicon's programs.
+fn report_turned(turned: &[usize], plates: usize, findings: &mut Findings) {
+    let which = match turned {
+        [] => return,
+        [one] => format!("plate {one}"),
+        all if all.len() == plates => format!("all {plates} plates"),
+        some => format!("plates {}", some.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+    };
+    let message = format!(
+        "ORIGIN of {which} leads from the surface down to the sensors, as many programs write it; it was turned round"
+    );
+    findings.note("plates.origin_turned", message);
 }
 
 fn source(

@@ -152,15 +152,17 @@ fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec
         }
         return origin;
     }
-    if kind == PlateKind::Wrench && finite.z > 0.0 {
-        let message = format!(
-            "ORIGIN of {} leads from the surface to the sensors (z = {:+.4} m); it was turned round, as other programs do",
-            source.name, finite.z
-        );
-        findings.note("plates.origin_turned", message);
-        return -finite;
-    }
-    finite
+    if leads_down(kind, finite) { -finite } else { finite }
+}
+
+/// Whether ORIGIN leads from the surface down to the sensors. Most of Vicon's files have it so, against the format's guide.
+fn leads_down(kind: PlateKind, origin: Vec3) -> bool {
+    kind == PlateKind::Wrench && origin.z > 0.0
+}
+
+/// Whether the stated ORIGIN of a plate was turned round.
+pub(super) fn origin_was_turned(source: &PlateSource) -> bool {
+    Layout::of_type(source.number).is_some_and(|layout| leads_down(layout.kind, source.origin))
 }
 
 /// The unit normal that points to where the markers are; against the plate's z without markers.
