@@ -9,6 +9,7 @@ use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker,
     OsimModel,
 };
+use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a model makes no document.
@@ -101,14 +102,38 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     }
     // In the order of the model, which may differ from that of the axes.
     let own: BTreeSet<CoordinateId> = joint.coordinates().into_iter().collect();
+    // OpenSim 4.6 breaks down over a custom joint without coordinates.
+    let (kind, on_parent) = match standing(joint) {
+        Some(standing) => (OsimJointKind::Weld, joint.parent_from_joint * standing),
+        None => (OsimJointKind::Custom(Box::new(axes(model, joint))), joint.parent_from_joint),
+    };
     Ok(OsimJoint {
         name: joint.name.clone(),
         line: 0,
-        kind: OsimJointKind::Custom(Box::new(axes(model, joint))),
-        parent: frame(name_of(model, joint.parent), &joint.parent_from_joint),
+        kind,
+        parent: frame(name_of(model, joint.parent), &on_parent),
         child: frame(name_of(model, Some(id)), &joint.child_from_joint),
         coordinates: own.into_iter().map(|id| coordinate(&model.coordinates()[id.index()])).collect(),
     })
+}
+
+/// Where the child's frame of a joint stands in the parent's; `None` where a coordinate moves it.
+fn standing(joint: &Joint) -> Option<Pose> {
+    let mut pose = Pose::IDENTITY;
+    for (axis, value) in fixed(&joint.rotations)? {
+        pose.rotation *= Rotation3::new(axis * value).into_inner();
+    }
+    pose.translation = fixed(&joint.translations)?.into_iter().map(|(axis, value)| axis * value).sum();
+    Some(pose)
+}
+
+/// Directions and displacements of axes; `None` where a coordinate moves one.
+fn fixed(axes: &[JointAxis]) -> Option<Vec<(Vec3, f64)>> {
+    let displacement = |axis: &JointAxis| match axis.displacement {
+        Displacement::Fixed(value) => Some((axis.direction, value)),
+        Displacement::Follows(..) => None,
+    };
+    axes.iter().map(displacement).collect()
 }
 
 /// Three rotations and three translations; those that the joint lacks stand still, at right angles to the others.
