@@ -144,8 +144,8 @@ impl Origin {
         Some(Window { from_s: Some(from), to_s: Some(to) })
     }
 
-    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. A given model whose joints follow
-    /// curves is not written.
+    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. What cannot be written
+    /// is noted.
     fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
         let is_made = match self {
             Origin::Coordinates => false,
