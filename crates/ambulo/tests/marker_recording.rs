@@ -124,3 +124,27 @@ fn a_file_without_unit_of_length_and_places_beyond_reach_are_told() {
     let error = markers_from_c3d(&file, &mut findings).unwrap_err();
     assert!(matches!(&error, MarkerError::Unit { found } if found == "deg"), "{error}");
 }
+
+#[test]
+fn ends_without_markers_are_cut_off_and_gaps_inside_stay() {
+    let path = |name: &str, seen: std::ops::Range<usize>, gap: usize| MarkerPath {
+        name: name.into(),
+        positions: (0..20)
+            .map(|i| if seen.contains(&i) && i != gap { Vec3::new(i as f64, 1.0, 0.0) } else { Vec3::repeat(f64::NAN) })
+            .collect(),
+    };
+    let recording = MarkerRecording {
+        name: "walk".into(),
+        rate_hz: 10.0,
+        times: (0..20).map(|i| i as f64 / 10.0).collect(),
+        markers: vec![path("A", 3..17, 9), path("B", 5..19, 9), path("C", 5..15, 8), path("never", 0..0, 0)],
+    };
+    let seen = recording.while_seen();
+    // Two of the three that were ever seen: from frame 5 to frame 16.
+    assert_eq!((seen.times.first(), seen.times.last()), (Some(&0.5), Some(&1.6)));
+    assert!(!seen.markers[0].is_seen(4) && seen.markers[0].is_seen(5), "the gap at 0.9 s is still one");
+    assert_eq!(seen.markers[0].positions[0].x, 5.0);
+    assert_eq!(seen.while_seen().times, seen.times);
+    let nothing = MarkerRecording { markers: vec![path("never", 0..0, 0)], ..recording };
+    assert_eq!(nothing.while_seen().frames(), 20);
+}

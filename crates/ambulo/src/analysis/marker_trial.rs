@@ -117,7 +117,7 @@ pub fn body_in_motion(
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let axes = laboratory(&walk.markers, &walk.plates, &walk.unit, findings);
-    let markers = axes.markers(&walk.markers);
+    let markers = while_seen(&axes.markers(&walk.markers), findings);
     let plates: Vec<PlateRecording> = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
     stage("axes");
     let still =
@@ -257,6 +257,20 @@ impl Subject {
             model: human.model,
         })
     }
+}
+
+/// The recording without ends in which hardly a marker was seen.
+fn while_seen(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
+    let seen = markers.while_seen();
+    if let (true, [first, .., last]) = (seen.frames() < markers.frames(), &seen.times[..]) {
+        let message = format!(
+            "less than half of the markers were seen before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",
+            markers.frames() - seen.frames(),
+            markers.frames()
+        );
+        findings.note("markers.ends", message);
+    }
+    seen
 }
 
 fn scaling_message(sized: &SizedModel) -> String {

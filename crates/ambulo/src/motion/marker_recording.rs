@@ -93,6 +93,27 @@ impl MarkerRecording {
         self.markers.iter().find(|marker| marker.name == name)
     }
 
+    /// Without the frames at both ends in which less than half of the markers were seen: people walk into the cameras' view and out of
+    /// it. The whole recording if that leaves nothing.
+    #[must_use]
+    pub fn while_seen(&self) -> MarkerRecording {
+        let ever_seen: Vec<&MarkerPath> =
+            self.markers.iter().filter(|marker| (0..self.frames()).any(|frame| marker.is_seen(frame))).collect();
+        let enough = |frame: &usize| 2 * ever_seen.iter().filter(|m| m.is_seen(*frame)).count() >= ever_seen.len();
+        let first = (0..self.frames()).find(enough).unwrap_or(0);
+        let last = (0..self.frames()).rev().find(enough).unwrap_or(self.frames().saturating_sub(1));
+        let cut = |path: &MarkerPath| MarkerPath {
+            name: path.name.clone(),
+            positions: path.positions.get(first..=last).unwrap_or(&path.positions).to_vec(),
+        };
+        MarkerRecording {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz,
+            times: self.times.get(first..=last).unwrap_or(&self.times).to_vec(),
+            markers: self.markers.iter().map(cut).collect(),
+        }
+    }
+
     /// The same paths seen from axes that are turned: `world_from_lab * p`.
     #[must_use]
     pub fn turned(&self, world_from_lab: &Mat3) -> MarkerRecording {
