@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "tests may unwrap")]
 
 use ambulo::findings::Findings;
-use ambulo::motion::{MarkerError, markers_from_c3d, markers_from_trc};
+use ambulo::motion::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Group, Parameter, Point, Values};
 use ambulo_formats::trc::{Marker, Trc};
