@@ -179,7 +179,7 @@ fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings:
     let is_upright = |sum: &Vec3| sum.y > UPRIGHT * sum.norm();
     if is_upright(&sum) && !is_upright(&(world_from_lab * sum)) {
         findings.note(
-            "ground.world_axes",
+            "loads.world_axes",
             "the table's forces do not stand in the axes of the markers; they are taken as x forward, y up, z right",
         );
         return;
