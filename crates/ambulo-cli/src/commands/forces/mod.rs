@@ -3,6 +3,7 @@
 mod coordinates;
 mod ground_table;
 mod laboratory_file;
+mod marker_ground;
 mod markers;
 mod skeleton;
 
