@@ -295,3 +295,20 @@ fn results_never_write_over_markers_or_a_model_that_was_read() {
     assert_eq!(bench.read("out/walk.c3d"), bench.read("walk.c3d"));
     forces(&bench, "walk.c3d", &[&STILL[..], &["-o", "walk.trc"]].concat()).refused(&["walk.trc", "expected a folder"]);
 }
+
+#[test]
+fn what_a_person_carries_counts_on_the_built_in_body_too() {
+    let bench = laboratory("carried");
+    let load = ["--add-mass", "torso:5"];
+    let total = |input: &str, given: &[&str]| -> f64 {
+        forces(&bench, input, &[given, &load, &["-o", "out", "--quiet"]].concat());
+        let model = bench.run(&["info", "out/subject.osim", "--json"]).done().stdout;
+        serde_json::from_str::<serde_json::Value>(&model).unwrap()["mass_kg"].as_f64().unwrap()
+    };
+    for (input, given) in [("walk.c3d", &STILL[..]), ("walk.bvh", &["--mass", "75"])] {
+        let found = total(input, given);
+        assert!((found - 80.0).abs() < 1e-6, "{input}: {found}");
+    }
+    let run = forces(&bench, "walk.c3d", &[&STILL[..], &["--add-mass", "rucksack:5"]].concat());
+    run.refused(&["--add-mass: the model has no body `rucksack`; expected one of", "torso"]);
+}

@@ -1,7 +1,7 @@
 //! Markers (`.c3d`, `.trc`): the body that is fitted to them, and the plates under its feet.
 
 use super::laboratory_file::{self, LaboratoryFile};
-use super::{Followed, Origin, Reading, Recorded, marker_ground, read_model};
+use super::{Followed, Origin, Reading, Recorded, loaded, marker_ground, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot, SubjectArgs};
 use crate::files;
 use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion};
@@ -31,7 +31,10 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("read_markers");
     let model = args.model.as_deref().map(|path| read_model(path, args, reading)).transpose()?;
     let walk = without_plates_switched_off(walk, args)?;
-    let body = body(args, &walk, still.as_ref(), model.as_ref(), reading)?;
+    let mut body = body(args, &walk, still.as_ref(), model.as_ref(), reading)?;
+    if model.is_none() {
+        body.subject.model = loaded(body.subject.model, args)?;
+    }
     let (plates, input) = marker_ground::read(args, &body, reading)?;
     Ok(Recorded {
         plates,
