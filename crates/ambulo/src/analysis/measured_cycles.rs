@@ -6,6 +6,9 @@
 use super::cycles::{Cycle, cycles};
 use super::events::{Event, EventKind};
 use super::recording::{Analysis, Mass, MassSource, WHOLE_BODY_SHARE};
+use crate::model::Side;
+use crate::motion::Window;
+use crate::spatial::Vec3;
 
 /// Events of one foot and kind closer than this are one [s].
 const SAME_S: f64 = 0.15;
@@ -37,11 +40,41 @@ impl Analysis {
         self.take_events(&measured, &all);
     }
 
+    /// Weighs the body over one gait cycle anywhere inside the time in which plates measured everything, where no cycle from strike to
+    /// strike did: walking repeats itself, so that the mean vertical force is m g from any instant on. `up` is the upward direction,
+    /// `gravity` its acceleration [m/s²].
+    pub fn weigh_within(&mut self, measured: Window, up: Vec3, gravity: f64) {
+        let (Some(from), Some(to)) = (measured.from_s, measured.to_s) else { return };
+        let strikes = |side: Side| {
+            let of_side = move |e: &&Event| e.side == side && e.kind == EventKind::Strike;
+            self.events.iter().filter(of_side).map(|e| e.time_s).collect::<Vec<f64>>()
+        };
+        let overlapping = |pair: &[f64]| (pair[0] < to && pair[1] > from).then_some(pair[1] - pair[0]);
+        let periods: Vec<f64> = Side::BOTH
+            .into_iter()
+            .flat_map(|s| strikes(s).windows(2).filter_map(overlapping).collect::<Vec<_>>())
+            .collect();
+        let period = periods.iter().sum::<f64>() / periods.len() as f64;
+        let grid = self.trajectory.grid();
+        let (first, frames) = grid.inside(Window { from_s: Some(from), to_s: Some(from + period) });
+        let has_a_cycle = period <= to - from;
+        if !has_a_cycle || frames == 0 {
+            return;
+        }
+        let vertical = |i: usize| self.ground.bodies.iter().map(|b| b.force[i].dot(&up)).sum::<f64>();
+        let mean = (first..first + frames).map(vertical).sum::<f64>() / frames as f64;
+        self.take_mass(mean / gravity, MassSource::Plates);
+    }
+
     /// Takes what plates carried in a standing trial [kg] for the body's mass, where no whole gait cycle says it better. A mass more
     /// than 5 % beside the model's is not the whole body's, or not this person's.
     pub fn weigh_standing(&mut self, standing_kg: f64) {
-        if self.mass.source == MassSource::Model && (standing_kg / self.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE {
-            self.mass = Mass { kg: standing_kg, source: MassSource::Standing };
+        self.take_mass(standing_kg, MassSource::Standing);
+    }
+
+    fn take_mass(&mut self, kg: f64, source: MassSource) {
+        if self.mass.source == MassSource::Model && (kg / self.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE {
+            self.mass = Mass { kg, source };
         }
     }
 }

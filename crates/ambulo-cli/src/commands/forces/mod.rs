@@ -126,6 +126,10 @@ impl Origin {
                     }
                 };
                 let summary = SubjectSummary::of_markers(body, listed, &measured);
+                if let Some(measured) = self.instrumented() {
+                    let gravity = body.subject.model.gravity();
+                    analysis.weigh_within(measured, -gravity.normalize(), gravity.norm());
+                }
                 if let Some(standing_kg) = standing_kg {
                     analysis.weigh_standing(*standing_kg);
                 }
