@@ -65,6 +65,11 @@ fn without_lines(mut model: OsimModel) -> OsimModel {
         joint.line = 0;
         joint.coordinates.iter_mut().for_each(|coordinate| coordinate.line = 0);
     }
+    for constraint in &mut model.constraints {
+        if let OsimConstraint::CoordinateCoupler { line, .. } = constraint {
+            *line = 0;
+        }
+    }
     model
 }
 
@@ -96,15 +101,66 @@ fn what_the_writer_does_not_know_is_refused() {
         let error = changed.write().unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     };
-    refused(&|m| m.constraints.push(OsimConstraint::Off { name: "c".into() }), "1 constraints");
+    let weld = || OsimConstraint::Other { kind: "WeldConstraint".into(), name: "c".into(), line: 1 };
+    refused(&|m| m.constraints.push(weld()), "found the WeldConstraint `c`; expected couplers of coordinates");
     refused(&|m| m.joints[0].kind = OsimJointKind::Ellipsoid { radii_m: [1.0; 3] }, "the ellipsoid joint");
     refused(&|m| m.bodies[0].mass_kg = f64::NAN, "found NaN; expected finite numbers");
-    refused(&|m| m.joints[1].coordinates[0].prescribed = Some(OsimFunction::Constant(0.0)), "the prescribed motion of");
-    let curve = OsimFunction::SimmSpline(Knots { x: vec![0.0, 1.0], y: vec![0.0, 1.0] });
-    let bend = |m: &mut OsimModel| {
-        if let OsimJointKind::Custom(axes) = &mut m.joints[8].kind {
-            axes[0].function = curve.clone();
-        }
-    };
-    refused(&bend, "a function of another kind");
+    let endless = knots(&[0.0, f64::INFINITY], &[0.0, 1.0]);
+    refused(&|m| set_curve(m, OsimFunction::SimmSpline(endless.clone())), "found inf; expected finite numbers");
+    let nested = (0..40).fold(OsimFunction::Constant(1.0), |inner, _| scaled(1.5, inner));
+    refused(&|m| set_curve(m, nested.clone()), "found functions nested more than 32 deep");
+}
+
+fn knots(x: &[f64], y: &[f64]) -> Knots {
+    Knots { x: x.to_vec(), y: y.to_vec() }
+}
+
+fn scaled(scale: f64, function: OsimFunction) -> OsimFunction {
+    OsimFunction::Multiplier { scale, function: Box::new(function) }
+}
+
+/// The first axis of the custom joint follows its coordinate so.
+fn set_curve(model: &mut OsimModel, curve: OsimFunction) {
+    if let OsimJointKind::Custom(axes) = &mut model.joints[8].kind {
+        axes[0].function = curve;
+    }
+}
+
+#[test]
+fn every_function_reads_back_the_same_wherever_it_stands() {
+    let (x, y) = ([-2.1, -0.1, 0.1 + 0.2, 1e-3 + 1.0], [1.0 / 3.0, -0.0125, 0.7, 1e-9]);
+    let points = || knots(&x, &y);
+    let functions = [
+        OsimFunction::Linear { slope: -1.0 / 3.0, intercept: 0.1 },
+        OsimFunction::Polynomial(vec![0.1, -2.0, 1.0 / 7.0]),
+        OsimFunction::SimmSpline(points()),
+        OsimFunction::GcvSpline { degree: 1, knots: points(), error_variance: 0.0 },
+        OsimFunction::GcvSpline { degree: 3, knots: points(), error_variance: 0.25 },
+        OsimFunction::PiecewiseLinear(points()),
+        OsimFunction::PiecewiseConstant(points()),
+        OsimFunction::Step { start: (0.1, 0.2), end: (0.7, -0.3) },
+        OsimFunction::Sine { amplitude: 0.1, omega: 6.5, phase: -0.2, offset: 0.05 },
+        scaled(1.150324903, scaled(-1.0, OsimFunction::SimmSpline(points()))),
+    ];
+    let model = without_lines(OsimModel::read(document().as_bytes()).unwrap());
+    for function in functions {
+        let mut written = model.clone();
+        set_curve(&mut written, function.clone());
+        written.joints[1].coordinates[0].prescribed = Some(function.clone());
+        let coupler = |scale: f64| OsimConstraint::CoordinateCoupler {
+            name: "follow".into(),
+            line: 0,
+            independent: "q3_0".into(),
+            dependent: "q8_1".into(),
+            function: scaled(scale, function.clone()),
+        };
+        written.constraints = vec![coupler(-0.4), OsimConstraint::Off { name: "nothing".into() }];
+        let read = without_lines(OsimModel::read(&written.write().unwrap()).unwrap());
+        let (OsimJointKind::Custom(axes), [held]) = (&read.joints[8].kind, &read.constraints[..]) else {
+            panic!("{read:?}");
+        };
+        assert_eq!(axes[0].function, function);
+        assert_eq!(read.joints[1].coordinates, written.joints[1].coordinates);
+        assert_eq!(*held, coupler(-0.4));
+    }
 }

@@ -73,7 +73,7 @@ const KNOWN: &str = "Constant, LinearFunction, PolynomialFunction, SimmSpline, N
                      PiecewiseLinearFunction, PiecewiseConstantFunction, StepFunction, Sine or MultiplierFunction";
 
 /// A function may scale a function that scales a function; deeper than this is no model.
-const DEEPEST: usize = 32;
+pub(super) const DEEPEST: usize = 32;
 
 /// The function held by a component: directly, under `<function>`, or as `<... name="function">`. `None` if empty.
 pub(super) fn held_by(node: Node<'_, '_>) -> Result<Option<OsimFunction>, Error> {

@@ -1,10 +1,12 @@
-//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, markers.
+//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, markers.
 //!
 //! Numbers are written so that they read back the same, to the last bit; but for orientations of frames, which are written as
 //! angles and come back to rounding.
 
+use super::write_function::function;
 use super::{
-    OsimAxis, OsimBody, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker, OsimModel,
+    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker,
+    OsimModel,
 };
 use crate::error::{Error, quoted};
 use crate::xml::escaped;
@@ -16,12 +18,9 @@ impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// What this writer does not know: constraints, functions but constants, lines and polynomials, ellipsoid joints; numbers that
-    /// are not finite.
+    /// What this writer does not know: constraints but couplers of coordinates, ellipsoid joints; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
-        if !self.constraints.is_empty() {
-            return Err(unknown(format!("{} constraints", self.constraints.len()), "a model without constraints"));
-        }
+        let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
         let joints = self.joints.iter().map(joint).collect::<Result<String, Error>>()?;
         let markers = self.markers.iter().map(marker).collect::<Result<String, Error>>()?;
@@ -30,6 +29,9 @@ impl OsimModel {
         out += &element(2, "gravity", &numbers(&self.gravity)?);
         out += &set("BodySet", "bodyset", &bodies);
         out += &set("JointSet", "jointset", &joints);
+        if !constraints.is_empty() {
+            out += &set("ConstraintSet", "constraintset", &constraints);
+        }
         if !markers.is_empty() {
             out += &set("MarkerSet", "markerset", &markers);
         }
@@ -38,28 +40,28 @@ impl OsimModel {
     }
 }
 
-fn unknown(found: String, expected: &str) -> Error {
+pub(super) fn unknown(found: String, expected: &str) -> Error {
     Error::Record { found, expected: expected.to_owned() }
 }
 
-fn numbers(values: &[f64]) -> Result<String, Error> {
+pub(super) fn numbers(values: &[f64]) -> Result<String, Error> {
     if let Some(odd) = values.iter().find(|value| !value.is_finite()) {
         return Err(unknown(odd.to_string(), "finite numbers"));
     }
     Ok(values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
 }
 
-fn element(depth: usize, tag: &str, text: &str) -> String {
+pub(super) fn element(depth: usize, tag: &str, text: &str) -> String {
     format!("{}<{tag}>{}</{tag}>\n", "\t".repeat(depth), escaped(text))
 }
 
 /// An element with a name around others.
-fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
+pub(super) fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
     let indent = "\t".repeat(depth);
     format!("{indent}<{tag} name=\"{}\">\n{content}{indent}</{tag}>\n", escaped(name))
 }
 
-fn group(depth: usize, tag: &str, content: &str) -> String {
+pub(super) fn group(depth: usize, tag: &str, content: &str) -> String {
     let indent = "\t".repeat(depth);
     format!("{indent}<{tag}>\n{content}{indent}</{tag}>\n")
 }
@@ -108,16 +110,16 @@ fn tag(joint: &OsimJoint) -> Result<&'static str, Error> {
 }
 
 fn coordinate(coordinate: &OsimCoordinate) -> Result<String, Error> {
-    if coordinate.prescribed.is_some() {
-        let found = format!("the prescribed motion of {}", quoted(&coordinate.name));
-        return Err(unknown(found, "coordinates that are free or locked"));
-    }
     let mut content = element(7, "default_value", &numbers(&[coordinate.default_value])?);
     if let Some(range) = coordinate.range {
         content += &element(7, "range", &numbers(&range)?);
     }
     content += &element(7, "clamped", if coordinate.clamped { "true" } else { "false" });
     content += &element(7, "locked", if coordinate.locked { "true" } else { "false" });
+    if let Some(prescribed) = &coordinate.prescribed {
+        content += &group(7, "prescribed_function", &function(8, "", prescribed)?);
+        content += &element(7, "prescribed", "true");
+    }
     Ok(holder(6, "Coordinate", &coordinate.name, &content))
 }
 
@@ -144,22 +146,32 @@ fn axis(number: usize, axis: &OsimAxis) -> Result<String, Error> {
     const NAMES: [&str; 6] = ["rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"];
     let content = element(7, "coordinates", axis.coordinate.as_deref().unwrap_or_default())
         + &element(7, "axis", &numbers(&axis.axis)?)
-        + &function(&axis.function)?;
+        + &function(7, "function", &axis.function)?;
     Ok(holder(6, "TransformAxis", NAMES.get(number).copied().unwrap_or_default(), &content))
 }
 
-fn function(function: &OsimFunction) -> Result<String, Error> {
-    let (tag, content) = match function {
-        OsimFunction::Constant(value) => ("Constant", element(8, "value", &numbers(&[*value])?)),
-        OsimFunction::Linear { slope, intercept } => {
-            ("LinearFunction", element(8, "coefficients", &numbers(&[*slope, *intercept])?))
+/// `dependent = scale · function(independent)`: the reader puts the factor around the function, here it is taken off again.
+fn constraint(constraint: &OsimConstraint) -> Result<String, Error> {
+    let (name, independent, dependent, held) = match constraint {
+        OsimConstraint::CoordinateCoupler { name, independent, dependent, function, .. } => {
+            (name, independent, dependent, function)
         }
-        OsimFunction::Polynomial(coefficients) => {
-            ("PolynomialFunction", element(8, "coefficients", &numbers(coefficients)?))
+        OsimConstraint::Other { kind, name, .. } => {
+            let found = format!("the {kind} {}", quoted(name));
+            return Err(unknown(found, "couplers of coordinates"));
         }
-        _ => return Err(unknown("a function of another kind".into(), "a constant, a line or a polynomial")),
+        // A constraint that is switched off binds nothing, and what it would bind is not known here.
+        OsimConstraint::Off { .. } => return Ok(String::new()),
     };
-    Ok(holder(7, tag, "function", &content))
+    let (scale, held) = match held {
+        OsimFunction::Multiplier { scale, function } => (*scale, function.as_ref()),
+        other => (1.0, other),
+    };
+    let content = group(5, "coupled_coordinates_function", &function(6, "", held)?)
+        + &element(5, "independent_coordinate_names", independent)
+        + &element(5, "dependent_coordinate_name", dependent)
+        + &element(5, "scale_factor", &numbers(&[scale])?);
+    Ok(holder(4, "CoordinateCouplerConstraint", name, &content))
 }
 
 fn marker(marker: &OsimMarker) -> Result<String, Error> {

@@ -177,6 +177,19 @@ impl BodyInMotion {
         self.on_plates.events(&seen, self.recorded_s())
     }
 
+    /// The longest time without a gap in any coordinate that markers move: first and last instant [s]. `None` if there is none, or if no
+    /// coordinate has a gap.
+    #[must_use]
+    pub fn longest_known_s(&self) -> Option<[f64; 2]> {
+        let motion = &self.fit.motion;
+        let is_known = |i: &usize| motion.columns.iter().flatten().all(|column| column[*i].is_finite());
+        let frames: Vec<usize> = (0..motion.times.len()).collect();
+        let stretches = frames.chunk_by(|a, b| is_known(a) == is_known(b));
+        let longest = stretches.filter(|stretch| is_known(&stretch[0])).max_by_key(|stretch| stretch.len())?;
+        let (first, last) = (*longest.first()?, *longest.last()?);
+        (longest.len() < frames.len()).then(|| [motion.times[first], motion.times[last]])
+    }
+
     /// First and last instant of the plates [s].
     fn recorded_s(&self) -> [f64; 2] {
         let ends = self.plates.iter().filter_map(|plate| Some([*plate.times.first()?, *plate.times.last()?]));

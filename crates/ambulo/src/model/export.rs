@@ -1,11 +1,16 @@
 //! From a [`Model`] to an OpenSim document.
 
-use super::{Body, BodyId, Coordinate, Displacement, Drive, Function, Joint, JointAxis, Marker, Measure, Model};
+use super::{
+    Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, Knots, Marker, Measure,
+    Model,
+};
 use crate::spatial::{Pose, Vec3};
 use ambulo_formats::osim::{
-    OsimAxis, OsimBody, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker, OsimModel,
+    OsimAxis, OsimBody, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind, OsimMarker,
+    OsimModel,
 };
-use std::collections::BTreeMap;
+use nalgebra::Rotation3;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a model makes no document.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -29,12 +34,12 @@ pub enum ExportError {
 const VERSION: u32 = 40000;
 const GROUND: &str = "ground";
 
-/// The document of a model whose joints follow their coordinates along straight lines, as those of
-/// [`anthropometry`](super::anthropometry) do.
+/// The document of a model: its bodies, joints with their curves, couplers of coordinates and markers.
 ///
 /// # Errors
-/// Couplers, prescribed motion, curves, joints that count angular velocities.
+/// Joints that count angular velocities; coordinates that move no joint.
 pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
+    check_coordinates(model)?;
     let joints = model.body_ids().map(|id| joint(model, id)).collect::<Result<_, _>>()?;
     Ok(OsimModel {
         name: component_name(model.name()),
@@ -42,11 +47,25 @@ pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
         gravity: model.gravity().into(),
         bodies: model.bodies().iter().map(body).collect(),
         joints,
-        constraints: Vec::new(),
+        constraints: model.coordinates().iter().filter_map(|c| coupler(model, c)).collect(),
         markers: model.markers().iter().map(|m| marker(model, m)).collect(),
         ignored: BTreeMap::new(),
         remarks: Vec::new(),
     })
+}
+
+/// A document has a coordinate where a joint follows it; one that none follows has no place.
+fn check_coordinates(model: &Model) -> Result<(), ExportError> {
+    let moving: BTreeSet<CoordinateId> = model.bodies().iter().flat_map(|body| body.joint.coordinates()).collect();
+    match model.coordinate_ids().find(|id| !moving.contains(id)) {
+        None => Ok(()),
+        Some(id) => Err(ExportError::Unknown {
+            part: "coordinate",
+            name: model.coordinates()[id.index()].name.clone(),
+            found: "no axis of a joint that follows it",
+            expected: "coordinates that move a joint",
+        }),
+    }
 }
 
 fn body(body: &Body) -> OsimBody {
@@ -81,19 +100,44 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
         let found = "forces that go with angular velocity";
         return Err(ExportError::Unknown { part: "joint", name: joint.name.clone(), found, expected });
     }
-    let own = joint.coordinates().into_iter().map(|id| &model.coordinates()[id.index()]);
+    // In the order of the model, which may differ from that of the axes.
+    let own: BTreeSet<CoordinateId> = joint.coordinates().into_iter().collect();
+    // OpenSim 4.6 breaks down over a custom joint without coordinates.
+    let (kind, on_parent) = match standing(joint) {
+        Some(standing) => (OsimJointKind::Weld, joint.parent_from_joint * standing),
+        None => (OsimJointKind::Custom(Box::new(axes(model, joint))), joint.parent_from_joint),
+    };
     Ok(OsimJoint {
         name: joint.name.clone(),
         line: 0,
-        kind: OsimJointKind::Custom(Box::new(axes(model, joint)?)),
-        parent: frame(name_of(model, joint.parent), &joint.parent_from_joint),
+        kind,
+        parent: frame(name_of(model, joint.parent), &on_parent),
         child: frame(name_of(model, Some(id)), &joint.child_from_joint),
-        coordinates: own.map(coordinate).collect::<Result<_, _>>()?,
+        coordinates: own.into_iter().map(|id| coordinate(&model.coordinates()[id.index()])).collect(),
     })
 }
 
+/// Where the child's frame of a joint stands in the parent's; `None` where a coordinate moves it.
+fn standing(joint: &Joint) -> Option<Pose> {
+    let mut pose = Pose::IDENTITY;
+    for (axis, value) in fixed(&joint.rotations)? {
+        pose.rotation *= Rotation3::new(axis * value).into_inner();
+    }
+    pose.translation = fixed(&joint.translations)?.into_iter().map(|(axis, value)| axis * value).sum();
+    Some(pose)
+}
+
+/// Directions and displacements of axes; `None` where a coordinate moves one.
+fn fixed(axes: &[JointAxis]) -> Option<Vec<(Vec3, f64)>> {
+    let displacement = |axis: &JointAxis| match axis.displacement {
+        Displacement::Fixed(value) => Some((axis.direction, value)),
+        Displacement::Follows(..) => None,
+    };
+    axes.iter().map(displacement).collect()
+}
+
 /// Three rotations and three translations; those that the joint lacks stand still, at right angles to the others.
-fn axes(model: &Model, joint: &Joint) -> Result<[OsimAxis; 6], ExportError> {
+fn axes(model: &Model, joint: &Joint) -> [OsimAxis; 6] {
     let mut all: [OsimAxis; 6] = std::array::from_fn(|_| still(Vec3::zeros()));
     for (first, list) in [(0, &joint.rotations), (3, &joint.translations)] {
         let mut directions: Vec<Vec3> = list.iter().map(|axis| axis.direction).collect();
@@ -105,59 +149,77 @@ fn axes(model: &Model, joint: &Joint) -> Result<[OsimAxis; 6], ExportError> {
         }
         for (k, direction) in directions.into_iter().enumerate() {
             all[first + k] = match list.get(k) {
-                Some(axis) => moving(model, joint, axis)?,
+                Some(axis) => moving(model, axis),
                 None => still(direction),
             };
         }
     }
-    Ok(all)
+    all
 }
 
 fn still(direction: Vec3) -> OsimAxis {
     OsimAxis { axis: direction.into(), coordinate: None, function: OsimFunction::Constant(0.0) }
 }
 
-fn moving(model: &Model, joint: &Joint, axis: &JointAxis) -> Result<OsimAxis, ExportError> {
-    let direction: [f64; 3] = axis.direction.into();
-    match &axis.displacement {
-        Displacement::Fixed(value) => {
-            Ok(OsimAxis { axis: direction, coordinate: None, function: OsimFunction::Constant(*value) })
+fn moving(model: &Model, axis: &JointAxis) -> OsimAxis {
+    let (coordinate, function) = match &axis.displacement {
+        Displacement::Fixed(value) => (None, OsimFunction::Constant(*value)),
+        Displacement::Follows(id, curve) => (Some(model.coordinates()[id.index()].name.clone()), function(curve)),
+    };
+    OsimAxis { axis: axis.direction.into(), coordinate, function }
+}
+
+fn function(curve: &Function) -> OsimFunction {
+    match curve {
+        Function::Constant(value) => OsimFunction::Constant(*value),
+        Function::Linear { slope, intercept } => OsimFunction::Linear { slope: *slope, intercept: *intercept },
+        Function::Polynomial(coefficients) => OsimFunction::Polynomial(coefficients.clone()),
+        Function::SimmSpline(spline) => OsimFunction::SimmSpline(points(spline.knots())),
+        // A smoothed spline is the one of its degree that goes through its own fitted values.
+        Function::NaturalSpline(spline) => OsimFunction::GcvSpline {
+            degree: spline.degree(),
+            knots: ambulo_formats::osim::Knots { x: spline.times().to_vec(), y: spline.fitted_values().collect() },
+            error_variance: 0.0,
+        },
+        Function::PiecewiseLinear(knots) => OsimFunction::PiecewiseLinear(points(knots)),
+        Function::PiecewiseConstant(knots) => OsimFunction::PiecewiseConstant(points(knots)),
+        Function::Step { start, end } => OsimFunction::Step { start: *start, end: *end },
+        Function::Sine { amplitude, omega, phase, offset } => {
+            OsimFunction::Sine { amplitude: *amplitude, omega: *omega, phase: *phase, offset: *offset }
         }
-        Displacement::Follows(id, Function::Linear { slope, intercept }) => Ok(OsimAxis {
-            axis: direction,
-            coordinate: Some(model.coordinates()[id.index()].name.clone()),
-            function: OsimFunction::Linear { slope: *slope, intercept: *intercept },
-        }),
-        Displacement::Follows(..) => Err(ExportError::Unknown {
-            part: "joint",
-            name: joint.name.clone(),
-            found: "an axis that follows its coordinate along a curve",
-            expected: "straight lines",
-        }),
+        Function::Scaled(scale, curve) => {
+            OsimFunction::Multiplier { scale: *scale, function: Box::new(function(curve)) }
+        }
     }
 }
 
-fn coordinate(coordinate: &Coordinate) -> Result<OsimCoordinate, ExportError> {
-    let locked = match coordinate.drive {
-        Drive::Free => false,
-        Drive::Locked => true,
-        Drive::Prescribed(_) | Drive::Coupled(..) => {
-            return Err(ExportError::Unknown {
-                part: "coordinate",
-                name: coordinate.name.clone(),
-                found: "motion that something else decides",
-                expected: "coordinates that are free or locked",
-            });
-        }
-    };
-    Ok(OsimCoordinate {
+fn points(knots: &Knots) -> ambulo_formats::osim::Knots {
+    ambulo_formats::osim::Knots { x: knots.x().to_vec(), y: knots.y().to_vec() }
+}
+
+fn coordinate(coordinate: &Coordinate) -> OsimCoordinate {
+    OsimCoordinate {
         name: coordinate.name.clone(),
         line: 0,
         default_value: coordinate.default_value,
         range: coordinate.range,
         clamped: coordinate.clamped,
-        locked,
-        prescribed: None,
+        locked: matches!(coordinate.drive, Drive::Locked),
+        prescribed: match &coordinate.drive {
+            Drive::Prescribed(curve) => Some(function(curve)),
+            _ => None,
+        },
+    }
+}
+
+fn coupler(model: &Model, coordinate: &Coordinate) -> Option<OsimConstraint> {
+    let Drive::Coupled(leader, curve) = &coordinate.drive else { return None };
+    Some(OsimConstraint::CoordinateCoupler {
+        name: format!("{}_coupler", coordinate.name),
+        line: 0,
+        independent: model.coordinates()[leader.index()].name.clone(),
+        dependent: coordinate.name.clone(),
+        function: function(curve),
     })
 }
 

@@ -31,6 +31,12 @@ impl SimmSpline {
         Some(SimmSpline { knots, curvature })
     }
 
+    /// The points that it goes through.
+    #[must_use]
+    pub fn knots(&self) -> &Knots {
+        &self.knots
+    }
+
     /// y, dy/dx and d²y/dx² at x.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 3] {

@@ -189,6 +189,11 @@ impl NaturalSpline {
         [value, slope, 2.0 * half_curvature]
     }
 
+    /// Degree of the pieces, 2m-1.
+    pub fn degree(&self) -> usize {
+        2 * self.half_order - 1
+    }
+
     /// Sample times (s).
     pub fn times(&self) -> &[f64] {
         &self.times

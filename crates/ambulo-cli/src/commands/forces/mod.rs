@@ -138,6 +138,17 @@ impl Origin {
         }
     }
 
+    /// The time to analyse when nobody says: all of it, or the longest time without a gap in what the markers tell.
+    fn known(&self, findings: &mut Findings) -> Window {
+        let Origin::Markers(followed) = self else { return Window::default() };
+        let Some([from, to]) = followed.body.longest_known_s() else { return Window::default() };
+        let message = format!(
+            "markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed. hint: --max-gap bridges longer gaps, --from and --to choose another time"
+        );
+        findings.warn("markers.window", message);
+        Window { from_s: Some(from), to_s: Some(to) }
+    }
+
     /// The longest time during which plates measured all that the ground did.
     fn instrumented(&self) -> Option<Window> {
         let Origin::Markers(followed) = self else { return None };
@@ -145,8 +156,8 @@ impl Origin {
         Some(Window { from_s: Some(from), to_s: Some(to) })
     }
 
-    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. A given model whose joints follow
-    /// curves is not written.
+    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. What cannot be written
+    /// is noted.
     fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
         let is_made = match self {
             Origin::Coordinates => false,
@@ -177,7 +188,10 @@ fn compute(
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
     let Recorded { model, motion, plates, person, input, origin } = recorded;
-    let settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
+    let mut settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
+    if settings.window == Window::default() {
+        settings.window = origin.known(&mut findings);
+    }
     let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
         .map_err(|error| name_the_file(error, &input))?;
     let subject = origin.complete(&mut analysis);
