@@ -6,7 +6,7 @@
 mod workbench;
 
 use ambulo_formats::bvh::Bvh;
-use ambulo_formats::c3d::C3d;
+use ambulo_formats::c3d::{C3d, Values};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
@@ -294,4 +294,96 @@ fn conversions_that_make_no_sense_are_refused_with_those_that_do() {
     refused(&["short.bvh", "x.csv"], &["short.bvh", "line 3: the file ends here", "Is it truncated?"]);
     bench.write("bad.c3d", [0_u8; 600]);
     refused(&["bad.c3d", "z.trc"], &["bad.c3d"]);
+}
+
+#[test]
+fn forces_that_were_converted_go_with_the_recording_that_they_came_from() {
+    let bench = with_demo("own_forces");
+    bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
+    let walk = ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--quiet"];
+    bench.run(&[&walk[..], &["-o", "plates"]].concat()).done();
+    // The table stands in world axes, the markers in the laboratory's.
+    bench.run(&[&walk[..], &["--loads", "grf.xml", "-o", "table"]].concat()).done();
+    let summary = bench.json("table/summary.json");
+    let codes: Vec<&str> =
+        summary["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap()).collect();
+    assert!(codes.contains(&"loads.world_axes"), "{codes:?}");
+    let columns = "hip_flexion_r_moment,knee_angle_r_moment,ankle_angle_r_moment,hip_adduction_r_moment";
+    bench.run(&["compare", "table/moments.sto", "plates/moments.sto", "--columns", columns, "--limit", "0.5"]).done();
+}
+
+#[test]
+fn the_same_is_not_said_twice_nor_at_length() {
+    let bench = with_demo("calm");
+    for name in ["walk", "standing"] {
+        let file = format!("demo/input/{name}.c3d");
+        let (mut c3d, _) = C3d::read(&bench.read(&file)).unwrap();
+        // As Vicon's programs write it, down to the sensors; and points that are no markers.
+        let mut origin = c3d.parameters.get("FORCE_PLATFORM", "ORIGIN").unwrap().clone();
+        let plates = origin.numbers().unwrap().len() / 3;
+        origin.values = Values::Reals([0.0, 0.0, 10.0].repeat(plates));
+        c3d.parameters.set("FORCE_PLATFORM", origin);
+        let extra: Vec<_> = (0..40)
+            .map(|i| {
+                let mut point = c3d.points[0].clone();
+                point.name = format!("Extra{i}");
+                point
+            })
+            .collect();
+        c3d.points.extend(extra);
+        bench.write(&file, c3d.write().unwrap());
+    }
+    let run = bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-o", "out"]).done();
+    run.says(&["44 only recorded", "and 38 more"]);
+    assert_eq!(run.stderr.matches("ORIGIN of every plate").count(), 1, "{}", run.stderr);
+    assert!(!run.stderr.contains("times)") && !run.stderr.contains("Extra9"), "{}", run.stderr);
+}
+
+#[test]
+fn mass_events_and_moments_of_the_figure_come_back_over_the_whole_recording() {
+    let bench = with_demo("identity");
+    let run =
+        ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+    bench.run(&[&run[..], &["-o", "out", "--quiet"]].concat()).done();
+    bench.run(&[&run[..], &["--cutoff", "off", "--force-cutoff", "off", "-o", "raw", "--quiet"]].concat()).done();
+    // N.m rms: without a filter 1.1 at the hip, 0.4 at the knee, 1.8 at the ankle; the filter of 6 Hz takes the rest from the figure's own.
+    for (joint, limit, raw_limit) in
+        [("hip_flexion", "4.5", "1.5"), ("knee_angle", "4.5", "0.8"), ("ankle_angle", "3.5", "2.2")]
+    {
+        let columns = format!("{joint}_r_moment,{joint}_l_moment");
+        for (moments, limit) in [("out/moments.sto", limit), ("raw/moments.sto", raw_limit)] {
+            bench.run(&["compare", moments, "demo/moments.sto", "--columns", &columns, "--limit", limit]).done();
+        }
+    }
+    let mass = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
+    assert!((mass - 75.0).abs() < 0.05, "{mass}");
+    let events = |file: &str| -> Vec<(String, f64)> {
+        let row = |line: &str| {
+            let (what, time) = line.rsplit_once(',').unwrap();
+            (what.to_owned(), time.parse().unwrap())
+        };
+        bench.text(file).lines().skip(1).map(row).collect()
+    };
+    let (found, own) = (events("out/events.csv"), events("demo/events.csv"));
+    assert_eq!(found.len(), own.len(), "{found:?}");
+    for ((what, time), (own_what, own_time)) in found.iter().zip(&own) {
+        assert!(what == own_what && (time - own_time).abs() < 0.02, "{what} {time}: {own_what} {own_time}");
+    }
+}
+
+#[test]
+fn what_info_says_to_type_next_can_be_typed() {
+    let bench = with_demo("next");
+    let (_, text) = info(&bench, "demo/input/walk.trc");
+    assert!(text.contains("--grf FORCES.mot -o out") && text.contains("or --model MODEL.osim"), "{text}");
+    bench.run(&["convert", "demo/input/walk.c3d", "walk.trc", "--world"]).done();
+    bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
+    let (_, text) = info(&bench, "walk.trc");
+    let next = "next: ambulo forces walk.trc --static STANDING --mass KG --height M --grf FORCES.mot -o out";
+    assert!(text.contains(next), "{text}");
+    let run = ["forces", "walk.trc", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+    bench.run(&[&run[..], &["--grf", "grf.mot", "-o", "out", "--quiet"]].concat()).done();
+    // The standing figure has both feet on one plate.
+    let (_, text) = info(&bench, "demo/input/standing.c3d");
+    assert!(text.contains("s: two feet: the right foot stood on it"), "{text}");
 }

@@ -111,9 +111,10 @@ pub(crate) fn events(sources: &[Source], agreements: &[Agreed], findings: &Findi
     for Agreed { found, reference, kinds } in agreements {
         for kind in kinds.iter().filter(|kind| kind.pairs > 0) {
             say(&format!(
-                "{found} against {reference}, {}: {} pairs, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} more",
+                "{found} against {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} more",
                 kind.kind,
                 kind.pairs,
+                if kind.pairs == 1 { "" } else { "s" },
                 kind.mean_absolute_ms,
                 kind.bias_ms.abs(),
                 if kind.bias_ms < 0.0 { "early" } else { "late" },

@@ -71,8 +71,11 @@ pub fn retarget(
     let floor = floor(&measured, table.dimensions.ankle_height);
     let markers = raised(&skeleton.markers, -floor);
     if floor.is_finite() {
-        let message =
-            format!("the floor was put {floor:.3} m above the skeleton's zero, where its ankles stand lowest");
+        let message = format!(
+            "the floor was put {:.3} m {} the skeleton's zero, where its ankles stand lowest",
+            floor.abs(),
+            if floor < 0.0 { "below" } else { "above" }
+        );
         findings.note("bvh.floor", message);
     }
     // What an animation program wrote has no exchanged labels, but arms so straight that only ranges keep them from turning round.

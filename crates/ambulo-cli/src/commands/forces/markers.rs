@@ -1,21 +1,18 @@
 //! Markers (`.c3d`, `.trc`): the body that is fitted to them, and the plates under its feet.
 
 use super::laboratory_file::{self, LaboratoryFile};
-use super::{Followed, Origin, Reading, Recorded, coordinates, read_model};
+use super::{Followed, Origin, Reading, Recorded, loaded, marker_ground, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot, SubjectArgs};
 use crate::files;
 use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion};
 use ambulo::findings::{Finding, Findings};
-use ambulo::ground::plates::{PlateContact, foot_bodies};
 use ambulo::kinematics::calibration::{CalibrationError, Measures, Person};
 use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
-use ambulo::motion::ForceRecording;
 use ambulo::motion::force_plate::standing_weight_n;
-use ambulo::report::Input;
-use ambulo::spatial::{Mat3, Vec3};
-use anyhow::{Context, Result, anyhow, bail};
+use ambulo::spatial::Vec3;
+use anyhow::{Context, Result, bail};
 use std::mem;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -34,8 +31,11 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("read_markers");
     let model = args.model.as_deref().map(|path| read_model(path, args, reading)).transpose()?;
     let walk = without_plates_switched_off(walk, args)?;
-    let body = body(args, &walk, still.as_ref(), model.as_ref(), reading)?;
-    let (plates, input) = ground(args, &body, reading)?;
+    let mut body = body(args, &walk, still.as_ref(), model.as_ref(), reading)?;
+    if model.is_none() {
+        body.subject.model = loaded(body.subject.model, args)?;
+    }
+    let (plates, input) = marker_ground::read(args, &body, reading)?;
     Ok(Recorded {
         plates,
         input,
@@ -151,71 +151,6 @@ fn without_plates_switched_off(mut walk: LaboratoryFile, args: &ForcesArgs) -> R
         }
     }
     Ok(walk)
-}
-
-/// The forces under the feet: from a table if one was given, else from the plates of the file.
-fn ground(args: &ForcesArgs, body: &BodyInMotion, reading: &mut Reading) -> Result<(Vec<ForceRecording>, Input)> {
-    if args.no_ground {
-        return Ok((Vec::new(), coordinates::input(args, None)));
-    }
-    if args.grf.is_some() || args.loads.is_some() {
-        let (table, mut plates) = coordinates::read_ground(args, &body.subject.model, reading)?;
-        turn_to_world(&mut plates, &body.laboratory.world_from_lab, &mut reading.findings);
-        return Ok((plates, coordinates::input(args, table.as_ref())));
-    }
-    let plates = body.plate_forces();
-    if plates.is_empty() {
-        return Err(without_forces(args, body));
-    }
-    let input = Input { ground: Some(args.input.display().to_string()), ..coordinates::input(args, None) };
-    Ok((plates, input))
-}
-
-/// Brings forces of a table to the world's axes: from those of the markers, or not at all where they stand upright as they are.
-fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings: &mut Findings) {
-    /// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and sideways.
-    const UPRIGHT: f64 = 0.9;
-    let sum: Vec3 = plates.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
-    let is_upright = |sum: &Vec3| sum.y > UPRIGHT * sum.norm();
-    if is_upright(&sum) && !is_upright(&(world_from_lab * sum)) {
-        findings.note(
-            "ground.world_axes",
-            "the table's forces do not stand in the axes of the markers; they are taken as x forward, y up, z right",
-        );
-        return;
-    }
-    plates.iter_mut().for_each(|plate| plate.turn(world_from_lab));
-}
-
-/// Why there are no forces under the feet, and what can be done.
-fn without_forces(args: &ForcesArgs, body: &BodyInMotion) -> anyhow::Error {
-    let shown = args.input.display();
-    let contacts = &body.on_plates.contacts;
-    let (found, hint) = if body.plates.is_empty() {
-        ("the file has no force plates".to_owned(), "--no-ground computes a motion without contact")
-    } else if contacts.is_empty() {
-        let found = format!("nobody stands on the file's {}", counted(body.plates.len(), "force plate"));
-        (found, "--no-ground computes a motion without contact")
-    } else if foot_bodies(&body.subject.model).is_none() {
-        let found = "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l";
-        (found.to_owned(), "give the forces with --grf and say which bodies they act on with --right and --left")
-    } else {
-        let one = |c: &PlateContact| {
-            format!("{}, {:.3}-{:.3} s: {}", body.plates[c.plate].name, c.start_s, c.end_s, c.reason)
-        };
-        let found = format!("no plate's load belongs to one foot ({})", one(&contacts[0]));
-        (
-            found,
-            "--plate 1=r says whose foot a plate carries; a person who stands is for --static, beside a trial that walks",
-        )
-    };
-    anyhow!(
-        "{shown}: no ground forces: {found}, and forces are not predicted from the motion yet; expected --grf FILE, or a trial that hits a plate. hint: {hint}"
-    )
-}
-
-fn counted(count: usize, one: &str) -> String {
-    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }
 
 fn fit_settings(args: &ForcesArgs) -> FitSettings {

@@ -3,6 +3,7 @@
 mod coordinates;
 mod ground_table;
 mod laboratory_file;
+mod marker_ground;
 mod markers;
 mod skeleton;
 
@@ -226,11 +227,12 @@ fn read_model(path: &Path, args: &ForcesArgs, reading: &mut Reading) -> Result<M
     let shown = || path.display().to_string();
     let document = OsimModel::read(&files::read(path)?).with_context(shown)?;
     reading.read.push(path.to_owned());
-    let mut model = from_osim(&document, &mut reading.findings).with_context(shown)?;
-    for added in &args.add_mass {
-        model = carry(&model, added)?;
-    }
-    Ok(model)
+    loaded(from_osim(&document, &mut reading.findings).with_context(shown)?, args)
+}
+
+/// The body with what it carries.
+fn loaded(model: Model, args: &ForcesArgs) -> Result<Model> {
+    args.add_mass.iter().try_fold(model, |model, added| carry(&model, added))
 }
 
 fn carry(model: &Model, added: &AddedMass) -> Result<Model> {

@@ -1,6 +1,6 @@
 //! A skeleton in motion (`.bvh`), on the built-in body. No file of this kind has forces, a mass or a unit.
 
-use super::{Origin, Reading, Recorded, coordinates};
+use super::{Origin, Reading, Recorded, coordinates, loaded};
 use crate::args::ForcesArgs;
 use crate::files;
 use ambulo::analysis::feasibility::Person;
@@ -36,7 +36,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
         input: Input { ground_source: GroundSource::None, ..coordinates::input(args, None) },
         person: Person::of_human(&body.human),
         motion: body.fit.motion,
-        model: body.human.model,
+        model: loaded(body.human.model, args)?,
     })
 }
 

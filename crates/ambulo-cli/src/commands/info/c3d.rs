@@ -4,7 +4,7 @@ use super::sheet::{short, wrapped};
 use super::{Sheet, markers};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::plates::{PlateContact, feet_on_plates};
+use ambulo::ground::plates::{ContactQuality, PlateContact, feet_on_plates};
 use ambulo::motion::{
     Laboratory, MarkerRecording, PlateRecording, PlateSettings, SubjectParameters, laboratory, markers_from_c3d,
     plates_from_c3d, subject_from_c3d,
@@ -186,7 +186,11 @@ fn say_feet(
     if feet.contacts.is_empty() {
         return;
     }
-    let foot = |contact: &PlateContact| contact.side.map_or("nobody's".to_owned(), |side| side.to_string());
+    let foot = |contact: &PlateContact| match (contact.quality, contact.side) {
+        (ContactQuality::TwoFeet, _) => String::new(),
+        (_, Some(side)) => format!("{side} foot, "),
+        (_, None) => "nobody's foot, ".to_owned(),
+    };
     let values = feet.contacts.iter().map(|contact| {
         json!({
             "plate": plates[contact.plate].name,
@@ -199,7 +203,7 @@ fn say_feet(
     let line = |contact: &PlateContact| {
         let reason = if contact.reason.is_empty() { String::new() } else { format!(": {}", contact.reason) };
         let (plate, quality) = (&plates[contact.plate].name, contact.quality.word());
-        format!("{plate}, {:.3}-{:.3} s: {} foot, {quality}{reason}", contact.start_s, contact.end_s, foot(contact))
+        format!("{plate}, {:.3}-{:.3} s: {}{quality}{reason}", contact.start_s, contact.end_s, foot(contact))
     };
     let lines = std::iter::once(feet.contacts.len().to_string()).chain(feet.contacts.iter().map(line)).collect();
     sheet.said("feet_on_plates", values.collect::<Vec<_>>(), lines);

@@ -32,7 +32,8 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
             sheet.text("axes", &axes.statement);
             sheet.remarks(&remarks);
             sheet.findings(&findings);
-            sheet.next(next(path, &recording, set.is_some(), "--mass KG --height M"));
+            let ground = if stands_still(&recording) { "" } else { " --grf FORCES.mot" };
+            sheet.next(next(path, &recording, set.is_some(), &format!("--mass KG --height M{ground}")));
         }
         Err(error) => {
             sheet.names("markers", &trc.markers().iter().map(|m| m.name.as_str()).collect::<Vec<_>>());
@@ -49,7 +50,7 @@ pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, sub
     let subject = if subject.is_empty() { String::new() } else { format!(" {subject}") };
     if !is_known {
         return format!(
-            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md tells how to name markers)"
+            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md tells how to name markers), or --model MODEL.osim if these are its markers"
         );
     }
     if stands_still(recording) {
@@ -79,8 +80,9 @@ pub(super) fn say(sheet: &mut Sheet, recording: &MarkerRecording) -> Option<Vec<
                         .map(|(k, line)| if k == 0 { format!("not known: {line}") } else { line }),
                 );
             }
-            sheet.said("marker_set", json!({ "sets": recognised.sets, "known": known, "unknown": unknown }), lines);
-            Some(recognised.sets)
+            sheet.said("marker_set", json!({ "sets": &recognised.sets, "known": known, "unknown": unknown }), lines);
+            // Names on no landmark make no body.
+            recognised.markers.iter().any(|marker| marker.definition.landmark.is_some()).then_some(recognised.sets)
         }
         Err(error) => {
             sheet.said("marker_set", Value::Null, vec![format!("none is known: {error}")]);

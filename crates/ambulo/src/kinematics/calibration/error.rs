@@ -8,7 +8,7 @@ use crate::model::anthropometry::BuildError;
 pub enum CalibrationError {
     /// Markers without which no body can be placed.
     #[error(
-        "the {part} cannot be found: {needed} are needed; found {found}. hint: docs/MARKERS.md lists what a body needs"
+        "the {part} cannot be found: {needed} are needed; found {found}. hint: docs/MARKERS.md lists what a body needs; a standing trial often has markers that the walk lacks"
     )]
     Markers {
         /// Which part of the body.

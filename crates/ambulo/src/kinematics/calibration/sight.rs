@@ -62,8 +62,10 @@ impl<'a> Sight<'a> {
         let words: Vec<String> = self.markers.iter().filter_map(word).collect();
         if words.is_empty() {
             let names: Vec<&str> = self.recording.markers.iter().map(|marker| marker.name.as_str()).collect();
-            let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
-            return format!("none, the markers are called {}{more}", names[..names.len().min(MOST_NAMES)].join(", "));
+            let shown = names.len().min(MOST_NAMES);
+            let rest = names.len() - shown;
+            let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
+            return format!("none, the markers are called {}{more}", names[..shown].join(", "));
         }
         words.join(", ")
     }

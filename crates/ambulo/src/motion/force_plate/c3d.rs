@@ -71,8 +71,8 @@ pub fn plates_from_c3d(
 fn report_turned(turned: &[usize], plates: usize, findings: &mut Findings) {
     let which = match turned {
         [] => return,
+        all if all.len() == plates => "every plate".to_owned(),
         [one] => format!("plate {one}"),
-        all if all.len() == plates => format!("all {plates} plates"),
         some => format!("plates {}", some.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
     };
     let message = format!(

@@ -1,0 +1,314 @@
+//! Markers, plates and skeletons that cannot be used: the message says where, what was found, what was allowed and what to do.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod workbench;
+
+use ambulo_formats::c3d::C3d;
+use ambulo_formats::trc::Trc;
+use std::sync::OnceLock;
+use workbench::{Run, Workbench};
+
+const STILL: [&str; 2] = ["--static", "standing.c3d"];
+const FILES: [&str; 8] =
+    ["walk.c3d", "standing.c3d", "walk.trc", "walk.bvh", "walk.mot", "walk_grf.mot", "walk_grf.xml", "figure.osim"];
+
+/// A folder with the laboratory's files that `demo` writes.
+fn laboratory(name: &str) -> Workbench {
+    static DEMO: OnceLock<Workbench> = OnceLock::new();
+    let made = DEMO.get_or_init(|| {
+        let bench = Workbench::empty("marker_input_demo");
+        bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+        bench
+    });
+    let bench = Workbench::empty(name);
+    for file in FILES {
+        bench.write(file, made.read(&format!("demo/input/{file}")));
+    }
+    bench
+}
+
+fn forces(bench: &Workbench, input: &str, more: &[&str]) -> Run {
+    bench.run(&[&["forces", input], more].concat())
+}
+
+/// Changes a C3D and writes it anew.
+fn edit_c3d(bench: &Workbench, name: &str, new: &str, edit: impl Fn(&mut C3d)) {
+    let (mut c3d, _) = C3d::read(&bench.read(name)).unwrap();
+    edit(&mut c3d);
+    bench.write(new, c3d.write().unwrap());
+}
+
+/// Takes mass and stature out of a recording.
+fn without_mass(c3d: &mut C3d) {
+    c3d.parameters.groups.retain(|group| group.name != "PROCESSING");
+}
+
+#[test]
+fn a_c3d_that_is_cut_says_where() {
+    let bench = laboratory("cut_c3d");
+    let whole = bench.read("walk.c3d");
+    let cut = |at: usize| {
+        bench.write("cut.c3d", &whole[..at]);
+        forces(&bench, "cut.c3d", &STILL)
+    };
+    cut(0).refused(&["cut.c3d", "the file is empty", "expected a C3D file"]);
+    cut(1).refused(&["cut.c3d", "expected the key 80"]);
+    cut(100).refused(&["cut.c3d", "ends after 100 bytes", "header of 512 bytes", "truncated"]);
+    cut(512).refused(&["cut.c3d", "ends after 512 bytes", "parameter section", "truncated"]);
+    cut(2000).refused(&["cut.c3d", "ends after 2000 bytes", "of the parameter section", "truncated"]);
+    // The parameters end before byte 6000, and no frame is whole there.
+    let data = C3d::read(&whole).unwrap().0.frames();
+    cut(5000).refused(&["cut.c3d", "holds no frames", &format!("{data} frames are stated"), "hint: export it again"]);
+    // Half of the walk is a walk.
+    let half = cut(whole.len() / 2);
+    half.warned(&["437 frames are stated, but the file ends after 217; it is truncated"]);
+    for verb in [&["info"][..], &["events"]] {
+        bench.write("cut.c3d", &whole[..2000]);
+        bench.run(&[verb, &["cut.c3d"]].concat()).refused(&["cut.c3d", "truncated"]);
+    }
+    bench.write("cut.c3d", "not a recording");
+    forces(&bench, "cut.c3d", &STILL).refused(&["cut.c3d", "expected the key 80"]);
+}
+
+#[test]
+fn markers_that_were_never_seen_and_recordings_without_frames_are_refused() {
+    let bench = laboratory("never_seen");
+    edit_c3d(&bench, "walk.c3d", "blind.c3d", |c3d| {
+        c3d.points.iter_mut().for_each(|point| point.positions.fill([f64::NAN; 3]));
+    });
+    forces(&bench, "blind.c3d", &STILL).refused(&["blind.c3d", "no marker was seen in any of the 437 frames", "RASI"]);
+    edit_c3d(&bench, "standing.c3d", "blind.c3d", |c3d| {
+        c3d.points.iter_mut().for_each(|point| point.positions.fill([f64::NAN; 3]));
+    });
+    forces(&bench, "walk.c3d", &["--static", "blind.c3d"]).refused(&["blind.c3d", "no marker was seen"]);
+    // Only the pelvis was seen, and only in the walk.
+    edit_c3d(&bench, "walk.c3d", "legless.c3d", |c3d| {
+        c3d.points.retain(|point| ["RASI", "LASI", "RPSI", "LPSI", "SACR"].contains(&point.name.as_str()));
+    });
+    forces(&bench, "legless.c3d", &[]).refused(&[
+        "legless.c3d",
+        "the legs cannot be found",
+        "asis r",
+        "docs/MARKERS.md",
+    ]);
+}
+
+#[test]
+fn names_that_nobody_knows_are_listed_beside_those_that_are_needed() {
+    let bench = laboratory("unknown_names");
+    edit_c3d(&bench, "walk.c3d", "mystery.c3d", |c3d| {
+        c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
+    });
+    let words =
+        ["no marker set fits", "of the 46 markers `Mystery0`", "plug-in-gait", "`RASI`", "at least 4", "hint: "];
+    forces(&bench, "mystery.c3d", &[]).refused(&[&["mystery.c3d"], &words[..]].concat());
+    // The file that is at fault is named, whichever it is.
+    edit_c3d(&bench, "standing.c3d", "mystery.c3d", |c3d| {
+        c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
+    });
+    forces(&bench, "walk.c3d", &["--static", "mystery.c3d"]).refused(&[&["error: mystery.c3d"], &words[..]].concat());
+    let markers = |markers: &str| forces(&bench, "walk.c3d", &[&STILL[..], &["--markers", markers]].concat());
+    markers("helen").refused(&["--markers: no marker set is named `helen`", "plug-in-gait", "a TOML file"]);
+    markers("none.toml").refused(&["none.toml: there is no such file", "hint: "]);
+    bench.write("broken.toml", "name = \"mine\"\n[[marker]\n");
+    markers("broken.toml").refused(&["broken.toml: line 2: this is not TOML", "docs/MARKERS.md"]);
+    bench.write("odd.toml", "name = \"mine\"\ncolour = 3\n");
+    markers("odd.toml").refused(&["odd.toml", "colour"]);
+    markers("rajagopal").refused(&["standing.c3d: the legs cannot be found", "found asis r", "docs/MARKERS.md"]);
+}
+
+#[test]
+fn a_body_needs_a_mass_and_a_stature_that_people_have() {
+    let bench = laboratory("mass");
+    edit_c3d(&bench, "walk.c3d", "light.c3d", without_mass);
+    forces(&bench, "light.c3d", &[]).refused(&["light.c3d: the body mass is not known", "expected --mass KG"]);
+    forces(&bench, "walk.trc", &[]).refused(&["walk.trc: the body mass is not known", "expected --mass KG"]);
+    forces(&bench, "walk.bvh", &[]).refused(&["walk.bvh: a BVH states no body mass", "expected --mass KG"]);
+    for (input, mass) in [("walk.c3d", "-75"), ("walk.c3d", "nan"), ("walk.c3d", "75000"), ("walk.bvh", "-75")] {
+        forces(&bench, input, &["--mass", mass]).refused(&[input, "the body mass is", "expected 2 to 300 kg"]);
+    }
+    let figure = ["--model", "figure.osim", "--grf", "walk_grf.mot"];
+    for mass in ["-2", "0", "nan", "1e9"] {
+        let run = forces(&bench, "walk.trc", &[&figure[..], &["--mass", mass]].concat());
+        run.refused(&["--mass: the body mass is", "expected 2 to 300 kg"]);
+    }
+    forces(&bench, "walk.c3d", &["--mass", "20"]).refused(&["20 kg at 1.75 m", "at this height"]);
+    forces(&bench, "walk.c3d", &["--mass", "heavy"]).refused(&["'heavy' for '--mass <KG>'"]);
+    for (input, mass) in [("walk.c3d", None), ("walk.bvh", Some("75"))] {
+        for height in ["175", "-1.75", "0", "nan"] {
+            let given = mass.map_or(Vec::new(), |mass| vec!["--mass", mass]);
+            let run = forces(&bench, input, &[&given[..], &["--height", height]].concat());
+            run.refused(&[input, "the height is", "expected 0.4 to 2.5 m", "hint: metres, not centimetres"]);
+        }
+    }
+    forces(&bench, "walk.c3d", &["--figure", "nobody"]).refused(&["no figure is named `nobody`", "de-leva-female"]);
+    forces(&bench, "walk.c3d", &["--figure", "faure-1997"]).refused(&["has no pelvis; expected de-leva-male"]);
+}
+
+#[test]
+fn plates_are_named_as_the_file_has_them() {
+    let bench = laboratory("plates");
+    let plate = |plates: &[&str]| {
+        let options: Vec<&str> = plates.iter().flat_map(|plate| ["--plate", plate]).collect();
+        forces(&bench, "walk.c3d", &[&STILL[..], &options].concat())
+    };
+    plate(&["99=r"]).refused(&["--plate 99", "walk.c3d has 9 force plates", "from 1 to 9", "hint: `ambulo info`"]);
+    for words in ["words", "0=r", "1=x", "1.5=r", "=", "1=", "18446744073709551616=r"] {
+        plate(&[words]).refused(&[words, "expected PLATE=FOOT, plates counted from 1", "such as 1=r"]);
+    }
+    plate(&["1=l", "1=r"]).refused(&["--plate 1 is given twice"]);
+    let all: Vec<String> = (1..=9).map(|i| format!("{i}=off")).collect();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let hint = "hint: --no-ground computes";
+    plate(&all).refused(&["walk.c3d: no ground forces", "nobody stands on the file's 9 force plates", hint]);
+    let trc = ["--model", "figure.osim", "--plate", "1=r"];
+    forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with plates"]);
+    forces(&bench, "walk.trc", &trc[..2]).refused(&[
+        "walk.trc: no ground forces",
+        "the file has no force plates",
+        "--grf",
+    ]);
+    // A person who stands with both feet on one plate.
+    let words =
+        ["standing.c3d: no ground forces", "plate 1, 0.000-0.499 s: the right foot stood on it", "is for --static"];
+    forces(&bench, "standing.c3d", &[]).refused(&words);
+    // A trial whose plates nobody hits.
+    edit_c3d(&bench, "walk.c3d", "missed.c3d", |c3d| {
+        c3d.channels.iter_mut().for_each(|channel| channel.samples.fill(0.0));
+    });
+    forces(&bench, "missed.c3d", &STILL).refused(&["missed.c3d: no ground forces", "nobody stands", hint]);
+}
+
+#[test]
+fn a_standing_trial_is_one_of_the_same_person_who_stands() {
+    let bench = laboratory("static");
+    forces(&bench, "walk.c3d", &["--static", "none.c3d"]).refused(&["none.c3d: there is no such file"]);
+    forces(&bench, "walk.c3d", &["--static", "walk.mot"]).refused(&["walk.mot: expected markers, a .c3d or a .trc"]);
+    forces(&bench, "walk.c3d", &["--static", "walk.c3d"]).warned(&[
+        "in the standing trial the markers move",
+        "0 of 437 frames",
+        "hint: give a trial in which the person",
+    ]);
+    // Other names than the walk's: the body that is made has none of its markers.
+    edit_c3d(&bench, "walk.c3d", "prefixed.c3d", |c3d| {
+        c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
+    });
+    let words =
+        ["prefixed.c3d", "have no marker in common", "the model has RASI", "the recording has Mystery0", "hint: "];
+    forces(&bench, "prefixed.c3d", &STILL).refused(&words);
+    // What scales a model must have its markers.
+    let figure = ["--model", "figure.osim", "--grf", "walk_grf.mot"];
+    let run = forces(&bench, "walk.trc", &[&figure[..], &STILL].concat());
+    run.refused(&["standing.c3d", "no marker in common", "sacrum", "RASI"]);
+}
+
+#[test]
+fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() {
+    let bench = laboratory("model");
+    let figure = ["--model", "figure.osim"];
+    forces(&bench, "walk.c3d", &figure).refused(&[
+        "walk.c3d: the model",
+        "have no marker in common",
+        "the model has sacrum",
+        "the recording has RASI",
+        "hint: ",
+    ]);
+    for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
+        let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
+        run.refused(&[&format!("{option} has no use beside --model"), "hint: --static FILE"]);
+    }
+    for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
+        let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());
+        run.refused(&["walk.mot", &format!("{} is for markers (.c3d, .trc)", given[0])]);
+    }
+    let run = forces(&bench, "walk.trc", &["--model", "walk.trc", "--grf", "walk_grf.mot"]);
+    run.refused(&["walk.trc"]);
+}
+
+#[test]
+fn a_trc_that_is_cut_says_where() {
+    let bench = laboratory("cut_trc");
+    let text = bench.text("walk.trc");
+    let cut = |at: usize| {
+        bench.write("cut.trc", &text[..at]);
+        forces(&bench, "cut.trc", &["--model", "figure.osim", "--grf", "walk_grf.mot"])
+    };
+    cut(0).refused(&["cut.trc", "empty"]);
+    cut(150).refused(&["cut.trc: line 3", "expected 8"]);
+    let rows = text.match_indices('\n').nth(4).unwrap().0;
+    cut(rows).refused(&["cut.trc", "expected rows of frame, time and positions", "truncated"]);
+    let middle = text[..text.len() / 2].rfind('\t').unwrap();
+    cut(middle).refused(&["cut.trc: line", "the file ends here", "truncated"]);
+    let (mut trc, _) = Trc::read(text.as_bytes()).unwrap();
+    trc.name = "cut".to_owned();
+    assert_eq!(trc.times().len(), 437);
+}
+
+#[test]
+fn a_skeleton_that_is_cut_or_given_what_it_has_no_use_for_is_refused() {
+    let bench = laboratory("cut_bvh");
+    let text = bench.text("walk.bvh");
+    let motion = text.find("MOTION").unwrap();
+    let cut = |at: usize| {
+        bench.write("cut.bvh", &text[..at]);
+        forces(&bench, "cut.bvh", &["--mass", "75"])
+    };
+    cut(0).refused(&["cut.bvh", "empty"]);
+    cut(motion / 2).refused(&["cut.bvh: line"]);
+    cut(motion).refused(&["cut.bvh: line", "the file ends here", "`MOTION`", "truncated"]);
+    cut(text.len() / 2).refused(&["cut.bvh: line", "the rest of a frame of 45 values", "truncated"]);
+    bench.run(&["events", "cut.bvh"]).refused(&["cut.bvh: line", "truncated"]);
+    for given in [&STILL[..], &["--model", "figure.osim"], &["--grf", "walk_grf.mot"], &["--markers", "cast"]] {
+        let run = forces(&bench, "walk.bvh", &[&["--mass", "75"][..], given].concat());
+        run.refused(&["walk.bvh", &format!("{} has no use for a .bvh", given[0]), "expected --mass and --height"]);
+    }
+}
+
+#[test]
+fn what_is_no_file_of_markers_is_refused_by_its_name() {
+    let bench = laboratory("names");
+    let kinds = "expected .c3d or .trc (markers)";
+    forces(&bench, "-", &[]).refused(&["-: standard input is not read", kinds]);
+    forces(&bench, ".", &[]).refused(&["this is a folder", kinds]);
+    forces(&bench, "walk", &[]).refused(&["walk: its name has no ending", kinds]);
+    forces(&bench, "walk.xyz", &[]).refused(&["unknown kind of recording `.xyz`", kinds]);
+    forces(&bench, "none.c3d", &[]).refused(&["none.c3d: there is no such file", "hint: "]);
+    forces(&bench, "walk.c3d", &["--max-gap", "-1"]).refused(&["'-1' for '--max-gap <S>'", "zero or more"]);
+    forces(&bench, "walk.c3d", &["--from", "50"]).refused(&["walk.c3d: the range from 50 s", "hint: "]);
+    bench.run(&["convert", "walk.c3d", "walk"]).refused(&["no ending that says its format", ".trc, .csv"]);
+}
+
+#[test]
+fn results_never_write_over_markers_or_a_model_that_was_read() {
+    let bench = laboratory("overwrite");
+    // `subject.osim` is what a run writes, and what a later run may be given.
+    forces(&bench, "walk.c3d", &[&STILL[..], &["-o", "out", "--quiet"]].concat()).done();
+    let before = bench.read("out/subject.osim");
+    let run = forces(&bench, "walk.c3d", &["--model", "out/subject.osim", "-o", "out"]);
+    run.refused(&["out/subject.osim: this file was read and would be written over", "hint: choose another folder"]);
+    assert_eq!(bench.read("out/subject.osim"), before);
+    forces(&bench, "walk.c3d", &["--model", "out/subject.osim", "-o", "again", "--quiet"]).done();
+    // A folder that holds the input keeps it.
+    bench.write("out/walk.c3d", bench.read("walk.c3d"));
+    forces(&bench, "out/walk.c3d", &[&STILL[..], &["-o", "out", "--quiet"]].concat()).done();
+    assert_eq!(bench.read("out/walk.c3d"), bench.read("walk.c3d"));
+    forces(&bench, "walk.c3d", &[&STILL[..], &["-o", "walk.trc"]].concat()).refused(&["walk.trc", "expected a folder"]);
+}
+
+#[test]
+fn what_a_person_carries_counts_on_the_built_in_body_too() {
+    let bench = laboratory("carried");
+    let load = ["--add-mass", "torso:5"];
+    let total = |input: &str, given: &[&str]| -> f64 {
+        forces(&bench, input, &[given, &load, &["-o", "out", "--quiet"]].concat());
+        let model = bench.run(&["info", "out/subject.osim", "--json"]).done().stdout;
+        serde_json::from_str::<serde_json::Value>(&model).unwrap()["mass_kg"].as_f64().unwrap()
+    };
+    for (input, given) in [("walk.c3d", &STILL[..]), ("walk.bvh", &["--mass", "75"])] {
+        let found = total(input, given);
+        assert!((found - 80.0).abs() < 1e-6, "{input}: {found}");
+    }
+    let run = forces(&bench, "walk.c3d", &[&STILL[..], &["--add-mass", "rucksack:5"]].concat());
+    run.refused(&["--add-mass: the model has no body `rucksack`; expected one of", "torso"]);
+}
