@@ -12,7 +12,7 @@
 //!
 //! The model's markers never stand exactly where those of the person do, so that a marker pulls the posture even while it
 //! fits best; when it vanishes, the pull does too and the posture leaps. Frames that lack markers are therefore fitted with each
-//! marker at its offset, interpolated from the complete frames around ([`gaps`]). Coordinates that no seen marker determines
+//! marker at its offset, interpolated from the complete frames around (`gaps`). Coordinates that no seen marker determines
 //! are bridged up to a stated length and are not a number beyond it.
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
