@@ -1,9 +1,9 @@
 //! Markers (`.c3d`, `.trc`): the body that is fitted to them, and the plates under its feet.
 
-use super::laboratory_file::{self, LaboratoryFile};
 use super::{Followed, Origin, Reading, Recorded, coordinates, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot};
 use crate::files;
+use crate::laboratory_file::{self, LaboratoryFile};
 use ambulo::analysis::{Body, BodyInMotion, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Measures, Person};
@@ -23,8 +23,10 @@ const MASS_MISMATCH: f64 = 0.03;
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded> {
-    let walk = laboratory_file::read(&args.input, reading)?;
-    let still = args.subject.still.as_deref().map(|path| laboratory_file::read(path, reading)).transpose()?;
+    let walk = laboratory_file::read(&args.input, &mut reading.findings)?;
+    let still = args.subject.still.as_deref();
+    reading.read.extend(still.map(Path::to_owned));
+    let still = still.map(|path| laboratory_file::read(path, &mut reading.findings)).transpose()?;
     reading.clock.lap("read_markers");
     let model = args.model.as_deref().map(|path| read_model(path, args, reading)).transpose()?;
     let walk = without_plates_switched_off(walk, args)?;
