@@ -2,12 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod shared_data;
+
 mod c3d_bytes;
 
 use ambulo_formats::c3d::{C3d, Channel, Event, Point};
 use c3d_bytes::File;
 use proptest::prelude::*;
-use std::path::{Path, PathBuf};
+use shared_data::data;
 use std::time::{Duration, Instant};
 
 /// A small recording with all groups: two points, two channels, a platform, events.
@@ -69,16 +71,6 @@ fn a_file_cut_within_header_or_parameters_is_refused_and_later_keeps_whole_frame
             assert!(remarks.iter().any(|remark| remark.to_string().contains("truncated")), "{length}");
         }
     }
-}
-
-#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
-fn data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
 }
 
 #[test]

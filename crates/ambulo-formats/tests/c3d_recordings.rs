@@ -2,8 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod shared_data;
+
 use ambulo_formats::c3d::{C3d, Processor, Storage};
-use std::path::{Path, PathBuf};
+use shared_data::data;
+use std::path::Path;
 
 /// What ezc3d 1.7.2 (PyPI) reads: points, frames, channels, points that were seen, sum of absolute coordinates of those,
 /// sum of absolute samples. `np.isfinite`, `np.nansum(abs(points[:3]))`, `abs(analogs).sum()`.
@@ -30,16 +33,6 @@ const EZC3D: [Row; 19] = [
     ("c3d-format-variants/type-2a.c3d", 25, 360, 20, 2730, 4236198.4620, 96657141.8456),
     ("c3d-format-variants/type-4a.c3d", 25, 360, 20, 2730, 4236198.4620, 207154.7843),
 ];
-
-#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
-fn data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
-}
 
 #[track_caller]
 fn read(path: &Path) -> (C3d, Vec<String>) {

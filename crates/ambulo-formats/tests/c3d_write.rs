@@ -2,22 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod shared_data;
+
 use ambulo_formats::c3d::{
     C3d, Channel, Encoding, Event, EventPlace, Group, Parameter, Parameters, Platform, Point, Processor, Storage,
     Values,
 };
 use proptest::prelude::*;
-use std::path::{Path, PathBuf};
-
-#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
-fn data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
-}
+use shared_data::data;
 
 /// All of a record but its parameters, to the bit: `Debug` prints every digit, and not-a-number as itself. Only the sign
 /// of zero is dropped, which neither VAX nor integers have.

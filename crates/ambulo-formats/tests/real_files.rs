@@ -2,25 +2,18 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
+mod shared_data;
+
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Trc};
 use ambulo_formats::{Error, Remark};
+use shared_data::data;
 use std::path::{Path, PathBuf};
 
 /// The one file whose header is wrong.
 const COORDINATES_REMARK: &str = "line 9: the header states 40 columns, the file has 32; read 32";
-
-#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
-fn data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
-}
 
 /// All files below the folder whose name ends so, sorted.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {

@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod shared_data;
+
 mod common;
 
 use ambulo::analysis::feasibility::{
@@ -25,7 +27,8 @@ use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use common::assert_near;
-use std::path::{Path, PathBuf};
+use shared_data::data;
+use std::path::Path;
 
 const DOCUMENT: &str = include_str!("../../../docs/FEASIBILITY.md");
 const GRAVITY: f64 = 9.80665;
@@ -621,18 +624,6 @@ struct Subject {
     model: Model,
     motion: Motion,
     plates: Vec<ForceRecording>,
-}
-
-fn data() -> Option<PathBuf> {
-    let folder = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
 }
 
 fn table(path: &Path) -> Table {

@@ -6,6 +6,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --show-output")]
 
+mod shared_data;
+
 use ambulo::analysis::event_agreement;
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
@@ -19,19 +21,8 @@ use ambulo::motion::{
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
-use std::path::{Path, PathBuf};
-
-fn data() -> Option<PathBuf> {
-    let folder = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
-}
+use shared_data::data;
+use std::path::Path;
 
 /// A trial in the world's axes.
 struct Trial {

@@ -6,6 +6,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod shared_data;
+
 use ambulo::analysis::{Agreement, Analysis, Curve, Settings, analyse, compare};
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Posture, body_motion};
@@ -16,7 +18,8 @@ use ambulo::spatial::{Twist, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use std::path::{Path, PathBuf};
+use shared_data::data;
+use std::path::Path;
 
 /// OpenSim's filter of the coordinates, as each reference's setup file has it.
 const SIX_HZ: Smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 6.0 });
@@ -27,18 +30,6 @@ struct Subject {
     motion: Motion,
     plates: Vec<ForceRecording>,
     findings: Findings,
-}
-
-fn data() -> Option<PathBuf> {
-    let folder = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
 }
 
 fn table(path: &Path) -> Table {

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod shared_data;
+
 use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
@@ -12,14 +14,9 @@ use ambulo::motion::filter::LowPass;
 use ambulo::motion::skeleton::{SkeletonRecording, skeleton_from_bvh};
 use ambulo::motion::{Event, EventKind, Smoother, Window, straightened};
 use ambulo_formats::bvh::Bvh;
-use std::path::Path;
 
 fn real(file: &str) -> Option<Bvh> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bvh").join(file);
-    if !path.is_file() {
-        println!("skipped: no data");
-        return None;
-    }
+    let path = shared_data::data()?.join("bvh").join(file);
     Some(Bvh::read(&std::fs::read(path).unwrap()).unwrap().0)
 }
 

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod shared_data;
+
 use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim_bytes;
@@ -10,6 +12,7 @@ use ambulo::motion::{Smoother, Window, coordinates_from_table};
 use ambulo::simulation::scene::{Changes, Frame, Scene, SceneError, SceneFile};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
+use shared_data::data;
 use std::path::{Path, PathBuf};
 
 const G: f64 = 9.80665;
@@ -435,18 +438,6 @@ fn a_figure_that_a_scene_leaves_free_must_have_joints_that_the_simulator_knows()
     let text = "step = 0.001\nduration = 0.1\n[[body]]\nname = \"a\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"j\"\n\
                 kind = \"weld\"\nparent = \"doll/head\"\nchild = \"a\"\n[[figure]]\nname = \"doll\"\nmodel = \"no.osim\"\n";
     assert!(refusal(text).starts_with("line 14, `figure[1].model`: no.osim"));
-}
-
-fn data() -> Option<PathBuf> {
-    let folder = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
 }
 
 /// Largest difference of any force between a scene that drives the recorded figure and inverse dynamics of the recording, by

@@ -3,11 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod shared_data;
+
 use ambulo::findings::Findings;
 use ambulo::motion::skeleton::{REACH, SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use ambulo::spatial::Vec3;
 use ambulo_formats::bvh::Bvh;
-use std::path::Path;
 
 /// Two legs, an arm on the right, no toes on the left; centimetres, y up, facing +z. The right knee bends by 90 degrees in the second frame.
 const FIGURE: &str = "HIERARCHY
@@ -342,11 +343,7 @@ fn values_that_were_not_seen_are_gaps() {
 }
 
 fn real(file: &str) -> Option<Bvh> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bvh").join(file);
-    if !path.is_file() {
-        println!("skipped: no data");
-        return None;
-    }
+    let path = shared_data::data()?.join("bvh").join(file);
     Some(Bvh::read(&std::fs::read(path).unwrap()).unwrap().0)
 }
 

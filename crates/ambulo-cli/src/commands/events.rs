@@ -1,22 +1,18 @@
 //! `ambulo events`: foot strikes and toe-offs, from every source that a recording has.
 
 use crate::args::EventsArgs;
+use crate::laboratory_file::{self, LaboratoryFile};
 use crate::{Verdict, files, printer};
-use ambulo::analysis::{EventAgreement, event_agreement};
+use ambulo::analysis::{EventAgreement, LaboratoryRecording, event_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
 use ambulo::ground::phases::contacts;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
-use ambulo::motion::{
-    Event, EventKind, MarkerRecording, PlateRecording, PlateSettings, events_from_c3d, laboratory, markers_from_c3d,
-    markers_from_trc, plates_from_c3d, straightened,
-};
+use ambulo::motion::{Event, EventKind, MarkerRecording, PlateRecording, straightened};
 use ambulo_formats::bvh::Bvh;
-use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
-use ambulo_formats::trc::Trc;
 use anyhow::{Context, Result, bail};
 use std::fmt::Write;
 use std::fs;
@@ -60,31 +56,27 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
 }
 
 fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
-    let (c3d, remarks) = C3d::read(bytes)?;
-    files::note_remarks(shown, &remarks, findings);
-    let listed = events_from_c3d(&c3d, findings);
-    let plates = plates_from_c3d(&c3d, PlateSettings::default(), findings)?;
-    let markers = markers_from_c3d(&c3d, findings)?;
-    let axes = laboratory(&markers, &plates, &c3d.point_unit, findings);
-    findings.note("laboratory.axes", axes.statement.clone());
-    let plates: Vec<PlateRecording> = plates.iter().map(|plate| axes.plate(plate)).collect();
-    let markers = axes.markers(&markers);
+    let LaboratoryFile { recording, events, .. } = laboratory_file::from_c3d(bytes, shown, findings)?;
+    let LaboratoryRecording { markers, plates, .. } = in_world(&recording, findings);
     let motion = foot_motion(&markers, findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
-    let mut sources =
-        vec![Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates(&feet, &plates) }];
-    sources.push(of_motion(motion));
-    sources.push(Source { word: "file", title: "the file's own list".into(), events: listed });
-    Ok(sources)
+    let of_plates = of_plates(&feet, &plates);
+    Ok(vec![
+        Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates },
+        of_motion(motion),
+        Source { word: "file", title: "the file's own list".into(), events },
+    ])
 }
 
 fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
-    let (trc, remarks) = Trc::read(bytes)?;
-    files::note_remarks(shown, &remarks, findings);
-    let markers = markers_from_trc(&trc, findings)?;
-    let axes = laboratory(&markers, &[], trc.unit.symbol(), findings);
-    findings.note("laboratory.axes", axes.statement.clone());
-    Ok(markers_alone(&axes.markers(&markers), findings))
+    let file = laboratory_file::from_trc(bytes, shown, findings)?;
+    Ok(markers_alone(&in_world(&file.recording, findings).markers, findings))
+}
+
+fn in_world(recording: &LaboratoryRecording, findings: &mut Findings) -> LaboratoryRecording {
+    let (axes, turned) = recording.in_world(findings);
+    findings.note("laboratory.axes", axes.statement);
+    turned
 }
 
 fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {

@@ -31,6 +31,17 @@ pub struct LaboratoryRecording {
     pub unit: String,
 }
 
+impl LaboratoryRecording {
+    /// How its axes lie, and the same recording in the world's.
+    #[must_use]
+    pub fn in_world(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
+        let axes = laboratory(&self.markers, &self.plates, &self.unit, findings);
+        let plates = self.plates.iter().map(|plate| axes.plate(plate)).collect();
+        let turned = LaboratoryRecording { markers: axes.markers(&self.markers), plates, unit: self.unit.clone() };
+        (axes, turned)
+    }
+}
+
 /// Whose body is fitted.
 #[derive(Debug, Clone)]
 pub enum Body<'a> {
@@ -116,12 +127,10 @@ pub fn body_in_motion(
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<BodyInMotion, MarkerTrialError> {
-    let axes = laboratory(&walk.markers, &walk.plates, &walk.unit, findings);
-    let markers = while_seen(&axes.markers(&walk.markers), findings);
-    let plates: Vec<PlateRecording> = walk.plates.iter().map(|plate| axes.plate(plate)).collect();
+    let (axes, LaboratoryRecording { markers, plates, .. }) = walk.in_world(findings);
+    let markers = while_seen(&markers, findings);
     stage("axes");
-    let still =
-        still.map(|still| laboratory(&still.markers, &still.plates, &still.unit, findings).markers(&still.markers));
+    let still = still.map(|still| still.in_world(findings).1.markers);
     let subject = match body {
         Body::Model { model, mass } => Subject::of_model(model, *mass, still.as_ref(), findings)?,
         Body::BuiltIn { person, set } => Subject::built_in(&markers, still.as_ref(), person, *set, findings)?,

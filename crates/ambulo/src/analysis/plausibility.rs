@@ -5,6 +5,7 @@ use crate::findings::Findings;
 use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, MeasuredGround};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateKind, Model, Side};
+use crate::numerics::median;
 use crate::spatial::Vec3;
 
 /// A residual above this share of body weight is said. Walking data with every foot on a plate leave 4 to 7 % (the
@@ -76,11 +77,6 @@ pub(super) fn report_far_feet(
             findings.warn("loads.far_from_foot", message);
         }
     }
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 /// Rotations far outside what the model allows: the motion of another model.

@@ -15,6 +15,7 @@ use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, 
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::{REACH, SkeletonRecording};
 use crate::motion::{MarkerPath, MarkerRecording};
+use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Share of the time in which an ankle is lower than while its foot stands flat: a foot that stands, which is 60 % of a
@@ -145,13 +146,6 @@ impl Measured<'_> {
         let component = |axis: usize| median(places.iter().map(|place| place[axis]));
         Some(Vec3::new(component(0)?, component(1)?, component(2)?))
     }
-}
-
-/// Of the numbers among the values.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 fn sided(name: &str, side: Side) -> String {

@@ -14,6 +14,7 @@ use super::landmarks::Landmarks;
 use super::marker_recording::{MarkerPath, MarkerRecording};
 use crate::findings::Findings;
 use crate::model::Side;
+use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
 
 /// A heading within this of an axis of the laboratory is that axis [deg].
@@ -157,7 +158,7 @@ fn body_axis(markers: &MarkerRecording, landmarks: &Landmarks) -> Option<Vec3> {
 
 /// The axis along which the markers of one frame are spread most.
 fn longest_axis(markers: &MarkerRecording) -> Vec3 {
-    let spread = |axis: &Vec3| median((0..markers.frames()).filter_map(|i| extent(markers, i, *axis)).collect());
+    let spread = |axis: &Vec3| median((0..markers.frames()).filter_map(|i| extent(markers, i, *axis)));
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let spreads = axes.each_ref().map(|a| spread(a).unwrap_or(0.0));
     let longest = (0..3).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b])).unwrap_or(2);
@@ -167,7 +168,7 @@ fn longest_axis(markers: &MarkerRecording) -> Vec3 {
 // ---- unit ----
 
 fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
-    let Some(height) = median((0..markers.frames()).filter_map(|i| extent(markers, i, up)).collect()) else {
+    let Some(height) = median((0..markers.frames()).filter_map(|i| extent(markers, i, up))) else {
         return 1.0;
     };
     let fits = |factor: f64| (HEIGHT_M[0]..=HEIGHT_M[1]).contains(&(height * factor));
@@ -383,9 +384,4 @@ fn mean_of(markers: &MarkerRecording, chosen: &[usize], frame: usize) -> Option<
         return None;
     }
     Some(chosen.iter().map(|&m| markers.markers[m].positions[frame]).sum::<Vec3>() / chosen.len() as f64)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

@@ -7,6 +7,7 @@
 mod band_cholesky;
 mod banded;
 mod least_squares;
+mod median;
 mod natural_spline;
 mod periodic_spline;
 mod spline_fitter;
@@ -14,6 +15,7 @@ mod spline_grid;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
+pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};

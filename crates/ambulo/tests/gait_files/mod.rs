@@ -6,6 +6,9 @@
 #![allow(clippy::print_stdout, reason = "a test that skips says so")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
 
+#[path = "../shared_data/mod.rs"]
+mod shared_data;
+
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Measures, Person};
 use ambulo::model::Side;
@@ -13,7 +16,8 @@ use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::{MarkerRecording, markers_from_c3d};
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::C3d;
-use std::path::{Path, PathBuf};
+pub(crate) use shared_data::data as folder;
+use std::path::Path;
 
 /// A subject: a standing trial and a walk.
 pub(crate) struct Subject {
@@ -32,18 +36,6 @@ pub(crate) struct File {
 /// All three laboratories are z up, walking along +y.
 pub(crate) fn world_from_lab() -> Mat3 {
     Mat3::from_rows(&[Vec3::y().transpose(), Vec3::z().transpose(), Vec3::x().transpose()])
-}
-
-pub(crate) fn folder() -> Option<PathBuf> {
-    let root = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if root.is_dir() {
-        return Some(root);
-    }
-    println!("skipped: no data");
-    None
 }
 
 impl File {

@@ -4,12 +4,16 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::print_stdout, reason = "says when there is no data")]
 
+#[path = "../shared_data/mod.rs"]
+mod shared_data;
+
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim_bytes};
 use ambulo::motion::{ForceRecording, MarkerRecording, force_recordings, markers_from_trc};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
+use shared_data::data;
 use std::path::{Path, PathBuf};
 
 /// A person with a scaled model, a walking trial and a static one.
@@ -26,18 +30,6 @@ impl Subject {
     pub(crate) fn opensim_angles(&self) -> Table {
         table(&self.folder.join("ik_uniform_weights.mot"))
     }
-}
-
-fn data() -> Option<PathBuf> {
-    let folder = match std::env::var_os("AMBULO_DATA") {
-        Some(root) => PathBuf::from(root).join("data"),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no data");
-    None
 }
 
 pub(crate) fn table(path: &Path) -> Table {

@@ -3,6 +3,8 @@
 use super::{Converted, counted, lost};
 use crate::args::{ConvertArgs, What};
 use crate::files;
+use crate::laboratory_file::recording_of_c3d;
+use ambulo::analysis::LaboratoryRecording;
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::feet_on_plates;
@@ -106,12 +108,9 @@ fn analog_table(c3d: &C3d) -> Result<Table> {
 
 /// Ground forces by foot, and how OpenSim's tools apply them.
 fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Result<Converted> {
-    let plates = plates_from_c3d(c3d, PlateSettings::default(), &mut findings)?;
-    let markers = markers_from_c3d(c3d, &mut findings)?;
-    let axes = laboratory(&markers, &plates, &c3d.point_unit, &mut findings);
-    findings.note("convert.axes", axes.statement.clone());
-    let plates: Vec<PlateRecording> = plates.iter().map(|plate| axes.plate(plate)).collect();
-    let markers = axes.markers(&markers);
+    let (axes, recording) = recording_of_c3d(c3d, &mut findings)?.in_world(&mut findings);
+    findings.note("convert.axes", axes.statement);
+    let LaboratoryRecording { markers, plates, .. } = recording;
     let motion = foot_motion(&markers, &mut findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], &mut findings);
     let Some(GroundReactions { table, mut loads, is_level }) = ground_reactions(&plates, &feet)? else {

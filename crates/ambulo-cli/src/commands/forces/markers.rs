@@ -1,9 +1,9 @@
 //! Markers (`.c3d`, `.trc`): the body that is fitted to them, and the plates under its feet.
 
-use super::laboratory_file::{self, LaboratoryFile};
 use super::{Followed, Origin, Reading, Recorded, loaded, marker_ground, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot, SubjectArgs};
 use crate::files;
+use crate::laboratory_file::{self, LaboratoryFile};
 use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion};
 use ambulo::findings::{Finding, Findings};
 use ambulo::kinematics::calibration::{CalibrationError, Measures, Person};
@@ -26,7 +26,7 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded> {
     check_options(args)?;
-    let walk = laboratory_file::read(&args.input, reading)?;
+    let walk = laboratory_file::read(&args.input, &mut reading.findings)?;
     let still = args.subject.still.as_deref().map(|path| read_still(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let model = args.model.as_deref().map(|path| read_model(path, args, reading)).transpose()?;
@@ -80,8 +80,9 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
 
 /// The standing trial. What was odd in the walk already is not said again.
 fn read_still(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
+    reading.read.push(path.to_owned());
     let before = mem::take(&mut reading.findings);
-    let file = laboratory_file::read(path, reading);
+    let file = laboratory_file::read(path, &mut reading.findings);
     let found = mem::replace(&mut reading.findings, before);
     let known = reading.findings.clone();
     for finding in found.as_slice() {

@@ -2,7 +2,6 @@
 
 mod coordinates;
 mod ground_table;
-mod laboratory_file;
 mod marker_ground;
 mod markers;
 mod skeleton;

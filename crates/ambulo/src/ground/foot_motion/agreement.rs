@@ -3,6 +3,7 @@
 use super::EventMethod;
 use crate::model::Side;
 use crate::motion::{Event, EventKind};
+use crate::numerics::median;
 
 /// Two methods saw the same event if they differ by less than this [s].
 const SAME_EVENT_S: f64 = 0.15;
@@ -29,7 +30,7 @@ pub(super) fn agreed(by_method: &[(EventMethod, Vec<Event>)]) -> Vec<Event> {
             };
             let mut seen: Vec<(f64, usize)> = by_method.iter().enumerate().flat_map(of).collect();
             seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-            voiced.extend(groups(&seen).into_iter().filter_map(|group| median(group, side, kind)));
+            voiced.extend(groups(&seen).into_iter().filter_map(|group| consensus(group, side, kind)));
         }
         voiced.retain(|v| v.voices >= needed);
         voiced.sort_by(|a, b| a.event.time_s.total_cmp(&b.event.time_s));
@@ -67,15 +68,9 @@ fn groups(seen: &[(f64, usize)]) -> Vec<&[(f64, usize)]> {
 }
 
 /// Median over the methods, one voice each.
-fn median(group: &[(f64, usize)], side: Side, kind: EventKind) -> Option<Voiced> {
+fn consensus(group: &[(f64, usize)], side: Side, kind: EventKind) -> Option<Voiced> {
     let voice = |m: usize| group.iter().find(|(_, by)| *by == m).map(|(t, _)| *t);
-    let mut times: Vec<f64> = (0..EventMethod::ALL.len()).filter_map(voice).collect();
-    times.sort_by(f64::total_cmp);
-    let (voices, middle) = (times.len(), times.len() / 2);
-    let time_s = match voices {
-        0 => return None,
-        n if n % 2 == 1 => times[middle],
-        _ => 0.5 * (times[middle - 1] + times[middle]),
-    };
-    Some(Voiced { event: Event { side, kind, time_s }, voices })
+    let times: Vec<f64> = (0..EventMethod::ALL.len()).filter_map(voice).collect();
+    let voices = times.len();
+    Some(Voiced { event: Event { side, kind, time_s: median(times)? }, voices })
 }

@@ -3,6 +3,7 @@
 use crate::model::Side;
 use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::{Landmarks, MarkerRecording};
+use crate::numerics::median;
 use crate::spatial::Vec3;
 
 /// Low-pass of the markers.
@@ -104,6 +105,5 @@ pub(super) fn floor_speed(markers: &MarkerRecording, feet: &[Foot]) -> f64 {
         let low = (0..path.len()).filter(|&i| heights[i] <= lowest + ON_FLOOR_M && speed[i].is_finite());
         speeds.extend(low.map(|i| speed[i]));
     }
-    speeds.sort_by(f64::total_cmp);
-    speeds.get(speeds.len() / 2).copied().unwrap_or(0.0)
+    median(speeds).unwrap_or(0.0)
 }

@@ -5,6 +5,7 @@ use super::{ContactQuality, PlateContact};
 use crate::ground::phases::{Contact, contacts};
 use crate::model::Side;
 use crate::motion::PlateRecording;
+use crate::numerics::median;
 
 /// A foot further than this from the centre of pressure does not carry it [m].
 const FARTHEST_M: f64 = 0.2;
@@ -135,10 +136,8 @@ fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side
     let middle = [span[0] + 0.3 * length, span[0] + 0.6 * length];
     let times = || feet.markers.times.iter().filter(|t| (middle[0]..=middle[1]).contains(*t));
     for (k, part) in ["heel", "toe"].into_iter().enumerate() {
-        let mut depths: Vec<f64> =
-            times().filter_map(|&t| feet.line(side, t)).map(|l| plate.depth_inside(l[k])).collect();
-        depths.sort_by(f64::total_cmp);
-        let depth = depths.get(depths.len() / 2).copied().unwrap_or(0.0);
+        let depths = times().filter_map(|&t| feet.line(side, t)).map(|l| plate.depth_inside(l[k]));
+        let depth = median(depths).unwrap_or(0.0);
         if depth < -OVER_EDGE_M {
             return Some(format!("the {part} stood {:.0} mm beyond the edge", -1000.0 * depth));
         }

@@ -1,5 +1,6 @@
 //! Axes from directions, and medians.
 
+use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Shorter than this, two points give no direction [m].
@@ -75,16 +76,6 @@ pub(super) fn angles_zxy(r: &Mat3) -> [f64; 3] {
     [(-r.m12).atan2(r.m22), r.m32.clamp(-1.0, 1.0).asin(), (-r.m31).atan2(r.m33)]
 }
 
-/// The middle of some numbers; `None` of none. Numbers that are none are left out.
-pub(super) fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let mut list: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
-    list.sort_by(f64::total_cmp);
-    let count = list.len();
-    let upper = *list.get(count / 2)?;
-    let lower = *list.get(count.saturating_sub(1) / 2)?;
-    Some(0.5 * (lower + upper))
-}
-
 /// The middle of some points, coordinate by coordinate [m].
 pub(super) fn median_point(points: &[Vec3]) -> Option<Vec3> {
     let one = |axis: usize| median(points.iter().map(|p| p[axis]));
@@ -152,12 +143,5 @@ mod tests {
         }
         let line: Vec<Vec3> = (0..4).map(|i| Vec3::x() * f64::from(i)).collect();
         assert!(fitted(&line, &line).is_none());
-    }
-
-    #[test]
-    fn medians_pass_over_what_is_no_number() {
-        assert_eq!(median([3.0, f64::NAN, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median([3.0, 1.0]), Some(2.0));
-        assert_eq!(median([f64::NAN]), None);
     }
 }

@@ -1,6 +1,6 @@
 //! Feet that stand flat: ankle joints, sizes, soles.
 
-use super::axes::{about_x, about_y, angles_zxy, from_y_z, inside, median, median_point};
+use super::axes::{about_x, about_y, angles_zxy, from_y_z, inside, median_point};
 use super::legs::{Leg, Legs};
 use super::person::index;
 use super::reference::Trial;
@@ -9,6 +9,7 @@ use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::full_body::FootPrint;
 use crate::model::marker_set::Landmark;
+use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// A foot in a walk lies flat where heel and toe markers are no higher than this above their lowest [m].

@@ -1,13 +1,14 @@
 //! Thighs and shanks: joint centres, lengths, axes.
 
 use super::CalibrationError;
-use super::axes::{angles_zxy, beside, direction, from_y_z, median};
+use super::axes::{angles_zxy, beside, direction, from_y_z};
 use super::pelvis::Pelvis;
 use super::person::{Person, of};
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
 use crate::model::marker_set::Landmark;
+use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
 /// Breadths as shares of stature, where nobody measured: those of the adult of BTKData's Plug-in-Gait sample (102 and 70 mm at

@@ -1,11 +1,12 @@
 //! The pelvis, and the hip centres in it.
 
 use super::CalibrationError;
-use super::axes::{about_z, direction, from_z_x, from_z_y, median};
+use super::axes::{about_z, direction, from_z_x, from_z_y};
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::full_body::STANDING_TILT;
 use crate::model::marker_set::Landmark;
+use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
 /// Frames in which the pelvis must be seen, at least.

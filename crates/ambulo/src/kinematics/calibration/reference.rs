@@ -1,8 +1,8 @@
 //! Which frames a body is measured on.
 
-use super::axes::median;
 use super::sight::Sight;
 use crate::findings::Findings;
+use crate::numerics::median;
 
 /// What the person does in the recording that the body is measured on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,12 +1,13 @@
 //! Trunk and arms.
 
-use super::axes::{about_z, direction, fitted, from_y_x, from_y_z, inside, median, median_point};
+use super::axes::{about_z, direction, fitted, from_y_x, from_y_z, inside, median_point};
 use super::pelvis::Pelvis;
 use super::person::{Person, of};
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::marker_set::{Landmark, Segment};
+use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
 /// Breadth of the elbow as a share of stature where nobody measured: 67 mm at 1.45 m in biomechzoo's HC002D.

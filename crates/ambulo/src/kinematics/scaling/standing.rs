@@ -5,6 +5,7 @@ use crate::findings::Findings;
 use crate::kinematics::body_motion::{Posture, body_motion};
 use crate::model::{Drive, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
+use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
 /// A marker that strays from its middle by more than this [m], root mean square, is not standing still.
@@ -18,7 +19,7 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
     let mut markers = Vec::new();
     for path in &recording.markers {
         let seen: Vec<&Vec3> = path.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())).collect();
-        let middle = Vec3::from_fn(|k, _| median(seen.iter().map(|p| p[k])));
+        let middle = Vec3::from_fn(|k, _| median(seen.iter().map(|p| p[k])).unwrap_or(f64::NAN));
         let stray = seen.iter().map(|p| (*p - middle).norm_squared()).sum::<f64>() / seen.len() as f64;
         if stray > STILL * STILL {
             moving.push(format!("{} ({:.0} mm)", path.name, 1000.0 * stray.sqrt()));
@@ -40,17 +41,6 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
     }
     let times = vec![recording.times.first().copied().unwrap_or(0.0)];
     MarkerRecording { name: recording.name.clone(), rate_hz: recording.rate_hz, times, markers }
-}
-
-/// Not a number for an empty list.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[n / 2],
-        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-    }
 }
 
 /// Values of all coordinates: those given, defaults elsewhere, followers as their coupler has them.

@@ -1,8 +1,8 @@
 //! What a laboratory's file holds: markers, plates, events, and what it states of the person.
 
-use super::Reading;
 use crate::files;
 use ambulo::analysis::LaboratoryRecording;
+use ambulo::findings::Findings;
 use ambulo::motion::force_plate::{PlateSettings, plates_from_c3d};
 use ambulo::motion::{Event, SubjectParameters, events_from_c3d, markers_from_c3d, markers_from_trc, subject_from_c3d};
 use ambulo_formats::c3d::C3d;
@@ -11,24 +11,22 @@ use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 /// One file of markers, in the laboratory's axes.
-pub(super) struct LaboratoryFile {
+pub(crate) struct LaboratoryFile {
     /// Markers and force plates; a TRC has none of these.
-    pub(super) recording: LaboratoryRecording,
+    pub(crate) recording: LaboratoryRecording,
     /// Foot strikes and toe-offs that it lists.
-    pub(super) events: Vec<Event>,
+    pub(crate) events: Vec<Event>,
     /// What it states of the person.
-    pub(super) subject: SubjectParameters,
+    pub(crate) subject: SubjectParameters,
 }
 
 /// Reads a `.c3d` or a `.trc`.
-pub(super) fn read(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
+pub(crate) fn read(path: &Path, findings: &mut Findings) -> Result<LaboratoryFile> {
     let bytes = files::read(path)?;
-    reading.read.push(path.to_owned());
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let shown = path.display().to_string();
-    let read = match ending.as_str() {
-        "c3d" => from_c3d(&bytes, &shown, reading),
-        "trc" => from_trc(&bytes, &shown, reading),
+    let read = match files::ending(path).as_str() {
+        "c3d" => from_c3d(&bytes, &shown, findings),
+        "trc" => from_trc(&bytes, &shown, findings),
         _ => bail!("{shown}: expected markers, a .c3d or a .trc"),
     };
     let mut file = read.with_context(|| shown.clone())?;
@@ -36,31 +34,37 @@ pub(super) fn read(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile>
     Ok(file)
 }
 
-fn from_c3d(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<LaboratoryFile> {
+/// From the bytes of a C3D; `shown` is its name in findings.
+pub(crate) fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<LaboratoryFile> {
     let (c3d, remarks) = C3d::read(bytes)?;
-    let findings = &mut reading.findings;
     files::note_remarks(shown, &remarks, findings);
     if c3d.frames() == 0 {
         let odd = remarks.last().map_or_else(String::new, |remark| format!(" ({remark})"));
         bail!("the file holds no frames{odd}; expected a recorded trial. hint: export it again");
     }
     Ok(LaboratoryFile {
-        recording: LaboratoryRecording {
-            markers: markers_from_c3d(&c3d, findings)?,
-            plates: plates_from_c3d(&c3d, PlateSettings::default(), findings)?,
-            unit: c3d.point_unit.clone(),
-        },
+        recording: recording_of_c3d(&c3d, findings)?,
         events: events_from_c3d(&c3d, findings),
         subject: subject_from_c3d(&c3d),
     })
 }
 
-fn from_trc(bytes: &[u8], shown: &str, reading: &mut Reading) -> Result<LaboratoryFile> {
+/// Markers and plates of a C3D.
+pub(crate) fn recording_of_c3d(c3d: &C3d, findings: &mut Findings) -> Result<LaboratoryRecording> {
+    Ok(LaboratoryRecording {
+        markers: markers_from_c3d(c3d, findings)?,
+        plates: plates_from_c3d(c3d, PlateSettings::default(), findings)?,
+        unit: c3d.point_unit.clone(),
+    })
+}
+
+/// From the bytes of a TRC; `shown` is its name in findings.
+pub(crate) fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<LaboratoryFile> {
     let (trc, remarks) = Trc::read(bytes)?;
-    files::note_remarks(shown, &remarks, &mut reading.findings);
+    files::note_remarks(shown, &remarks, findings);
     Ok(LaboratoryFile {
         recording: LaboratoryRecording {
-            markers: markers_from_trc(&trc, &mut reading.findings)?,
+            markers: markers_from_trc(&trc, findings)?,
             plates: Vec::new(),
             unit: trc.unit.symbol().to_owned(),
         },

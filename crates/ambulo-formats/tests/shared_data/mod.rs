@@ -1,0 +1,14 @@
+//! Where recordings lie that are not part of the repository: `shared/data` beside it.
+
+use std::path::{Path, PathBuf};
+
+/// The folder; `None`, and said so, where there is none.
+#[expect(clippy::print_stdout, reason = "a test that was skipped has to say so")]
+pub(crate) fn data() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no data");
+    None
+}
