@@ -135,8 +135,8 @@ pub fn body_in_motion(
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     stage("markers");
-    let feet = foot_motion(&markers, findings);
-    let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
+    let feet = foot_motion(&fit.followed, findings);
+    let on_plates = feet_on_plates(&fit.followed, &plates, &feet, told, findings);
     stage("feet");
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
 }
