@@ -1,7 +1,8 @@
 //! Frames that lack markers.
 //!
 //! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that lack
-//! markers the offsets go straight from those of the complete frame before to those of the one after. The frames are fitted twice:
+//! markers the offsets are what the posture makes of them ([`Sliding`]), and the rest goes straight from the complete frame before to the
+//! one after. The frames are fitted twice:
 //!
 //! 1. to the markers that are seen, at their offsets: these agree with each other, so that one more or less moves the posture
 //!    only by what the offsets changed meanwhile. Each counts by how far its offset strays ([`Strays`]). Fitted without offsets,
@@ -18,6 +19,7 @@
 use super::bridge;
 use super::frames::Frames;
 use super::problem::Problem;
+use super::sliding::Sliding;
 use super::solve::Outcome;
 use super::strays::{self, Strays};
 use crate::spatial::Vec3;
@@ -30,6 +32,10 @@ const UNSEEN: f64 = 100.0;
 const LOSS: f64 = 3.0;
 /// How far a marker's offset strays from a straight line in time [m].
 const STRAY: f64 = strays::LEAST;
+/// Fits of a frame at most, each with the offsets of the posture found before.
+const PASSES: usize = 30;
+/// The posture rests when no unknown moves by more from one to the next [rad or m].
+const REST: f64 = 1e-7;
 /// Third derivative of a joint's angle [rad/s³]: 0.3 rad at 2 Hz have 0.3 (4π)³.
 const JERK: f64 = 600.0;
 
@@ -58,6 +64,7 @@ pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f
         }
         refit_complete(problem, frames, frame);
     }
+    let sliding = Sliding::learn(problem, frames, &complete);
     let mut strays = Strays::default();
     // Weight of each marker in frames that lack some.
     let mut weights = vec![0.0; frames.count() * frames.markers()];
@@ -65,11 +72,11 @@ pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f
     while frame < frames.count() {
         let end = (frame..frames.count()).find(|&f| complete[f]).unwrap_or(frames.count());
         if end > frame {
-            let own = gap_weights(problem, strays.in_gap(frames, &complete, end + 1 - frame));
+            let own = gap_weights(problem, strays.in_gap(frames, &sliding, &complete, end + 1 - frame));
             for slots in weights.chunks_mut(frames.markers()).skip(frame).take(end - frame) {
                 slots.copy_from_slice(&own);
             }
-            refit_run(problem, frames, (frame, end), &own, &mut states);
+            refit_run(problem, frames, &sliding, (frame, end), &own, &mut states);
         }
         frame = end + 1;
     }
@@ -115,6 +122,7 @@ fn nearby(frames: &Frames, frame: usize) -> Option<Vec<f64>> {
 fn refit_run(
     problem: &mut Problem<'_>,
     frames: &mut Frames,
+    sliding: &Sliding,
     (start, end): (usize, usize),
     weights: &[f64],
     states: &mut [State],
@@ -136,29 +144,40 @@ fn refit_run(
     problem.uncertainty(&mut usual);
     let mut offsets = vec![Vec3::zeros(); frames.markers()];
     for frame in start..end {
-        load_weighted(problem, frames, frame, weights);
-        interpolate_offsets(problem, frames, [before, after], frame, &mut offsets);
-        frames.aim(frame, &offsets);
         let Some(mut x) = nearby(frames, frame) else { continue };
-        let known = known_offsets(problem, frames, frame);
-        let outcome = problem.fit_with_offsets(&known, &mut x);
+        let mut outcome = None;
+        // How far markers slid depends on the posture that is sought.
+        for _ in 0..PASSES {
+            load_weighted(problem, frames, frame, weights);
+            interpolate_offsets(problem, frames, sliding, [before, after], (frame, &x), &mut offsets);
+            frames.aim(frame, &offsets);
+            let known = known_offsets(problem, frames, frame);
+            let before = x.clone();
+            outcome = Some(problem.fit_with_offsets(&known, &mut x));
+            if x.iter().zip(&before).all(|(now, before)| (now - before).abs() < REST) {
+                break;
+            }
+        }
+        let Some(outcome) = outcome else { continue };
         frames.keep(frame, problem, &x, outcome, false);
         judge_loaded(problem, frame, &usual, states);
     }
 }
 
-/// Offsets on a straight line in time between two frames; not a number for markers without any.
+/// What the posture `x` makes of each marker's offset, and the rest on a straight line in time between two frames; not a number for
+/// markers without any.
 fn interpolate_offsets(
     problem: &Problem<'_>,
     frames: &Frames,
+    sliding: &Sliding,
     ends: [Option<usize>; 2],
-    frame: usize,
+    (frame, x): (usize, &[f64]),
     offsets: &mut [Vec3],
 ) {
     for (i, offset) in offsets.iter_mut().enumerate() {
         let at = |end: Option<usize>| {
             let end = end?;
-            let offset = frames.offsets(end)[i];
+            let offset = frames.offsets(end)[i] - sliding.at(i, frames.posture(end)) + sliding.at(i, x);
             offset.iter().all(|x| x.is_finite()).then_some((problem.times[end], offset))
         };
         *offset = match (at(ends[0]), at(ends[1])) {

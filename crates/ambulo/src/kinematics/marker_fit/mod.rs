@@ -33,6 +33,7 @@ mod result;
 pub(crate) mod rows;
 mod sequence;
 mod settings;
+mod sliding;
 mod smoothing;
 mod solve;
 mod start;
