@@ -145,8 +145,8 @@ pub fn body_in_motion(
     }
     hold_what_no_marker_shows(&subject.model, &mut fit.motion, findings);
     stage("markers");
-    let feet = foot_motion(&markers, findings);
-    let on_plates = feet_on_plates(&markers, &plates, &feet, told, findings);
+    let feet = foot_motion(&fit.followed, findings);
+    let on_plates = feet_on_plates(&fit.followed, &plates, &feet, told, findings);
     stage("feet");
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
 }

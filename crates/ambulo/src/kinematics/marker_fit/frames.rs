@@ -113,6 +113,11 @@ impl Frames {
         self.path[frame * self.markers + marker]
     }
 
+    /// Whose path each marker took.
+    pub(super) fn paths(&self, frame: usize) -> &[usize] {
+        &self.path[frame * self.markers..(frame + 1) * self.markers]
+    }
+
     /// Believes a marker or not.
     pub(super) fn believe(&mut self, frame: usize, marker: usize, believed: bool) {
         let i = frame * self.markers + marker;

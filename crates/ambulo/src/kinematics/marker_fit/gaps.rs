@@ -1,10 +1,12 @@
 //! Frames that lack markers.
 //!
 //! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that lack
-//! markers the offsets go straight from those of the complete frame before to those of the one after. The frames are fitted twice:
+//! markers the offsets are what the posture makes of them ([`Sliding`]), and the rest goes straight from the complete frame before to the
+//! one after. The frames are fitted twice:
 //!
 //! 1. to the markers that are seen, at their offsets: these agree with each other, so that one more or less moves the posture
-//!    only by what the offsets changed meanwhile. Fitted without offsets, the posture leaps by the pull of what is missing;
+//!    only by what the offsets changed meanwhile. Each counts by how far its offset strays ([`Strays`]). Fitted without offsets,
+//!    the posture leaps by the pull of what is missing;
 //! 2. to the markers that are seen, as they are, and to the missing ones where the first posture has them at their offsets. So parts
 //!    of the body that miss nothing are fitted as ever, and all is continuous where the run begins and ends.
 //!
@@ -17,7 +19,9 @@
 use super::bridge;
 use super::frames::Frames;
 use super::problem::Problem;
+use super::sliding::Sliding;
 use super::solve::Outcome;
+use super::strays::{self, Strays};
 use crate::spatial::Vec3;
 
 /// Gain above which a curve helps [rad/m]: 5 mm make 7 degrees.
@@ -27,7 +31,11 @@ const UNSEEN: f64 = 100.0;
 /// Both count only above this multiple of the gain in the complete frame.
 const LOSS: f64 = 3.0;
 /// How far a marker's offset strays from a straight line in time [m].
-const STRAY: f64 = 0.005;
+const STRAY: f64 = strays::LEAST;
+/// Fits of a frame at most, each with the offsets of the posture found before.
+const PASSES: usize = 30;
+/// The posture rests when no unknown moves by more from one to the next [rad or m].
+const REST: f64 = 1e-7;
 /// Third derivative of a joint's angle [rad/s³]: 0.3 rad at 2 Hz have 0.3 (4π)³.
 const JERK: f64 = 600.0;
 
@@ -56,21 +64,43 @@ pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f
         }
         refit_complete(problem, frames, frame);
     }
+    let sliding = Sliding::learn(problem, frames, &complete);
+    let mut strays = Strays::default();
+    // Weight of each marker in frames that lack some.
+    let mut weights = vec![0.0; frames.count() * frames.markers()];
     let mut frame = 0;
     while frame < frames.count() {
         let end = (frame..frames.count()).find(|&f| complete[f]).unwrap_or(frames.count());
         if end > frame {
-            refit_run(problem, frames, frame, end, &mut states);
+            let own = gap_weights(problem, strays.in_gap(frames, &sliding, &complete, end + 1 - frame));
+            for slots in weights.chunks_mut(frames.markers()).skip(frame).take(end - frame) {
+                slots.copy_from_slice(&own);
+            }
+            refit_run(problem, frames, &sliding, (frame, end), &own, &mut states);
         }
         frame = end + 1;
     }
-    bridge_all(problem, frames, longest_s, &mut states);
+    bridge_all(problem, frames, longest_s, &weights, &mut states);
     for frame in (0..frames.count()).filter(|&frame| !complete[frame]) {
         if !states[frame * unknowns..(frame + 1) * unknowns].contains(&State::Gap) {
             fit_as_if_seen(problem, frames, frame);
         }
     }
     states
+}
+
+/// The inverse square of what each marker strays, 1 for [`STRAY`]; its own weight where that is not known.
+fn gap_weights(problem: &Problem<'_>, strays: &[f64]) -> Vec<f64> {
+    let weight = |(stray, own): (&f64, &f64)| if stray.is_finite() { (STRAY / stray).powi(2) } else { *own };
+    strays.iter().zip(&problem.weights).map(weight).collect()
+}
+
+/// Loads what is believed in a frame, with these weights.
+fn load_weighted(problem: &mut Problem<'_>, frames: &Frames, frame: usize, weights: &[f64]) {
+    frames.load(frame, problem);
+    for (loaded, weight) in problem.frame_weights.iter_mut().zip(weights).filter(|(loaded, _)| **loaded > 0.0) {
+        *loaded = *weight;
+    }
 }
 
 fn refit_complete(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) {
@@ -89,7 +119,14 @@ fn nearby(frames: &Frames, frame: usize) -> Option<Vec<f64>> {
 }
 
 /// Frames `start..end` lack markers of the core; those beside them do not.
-fn refit_run(problem: &mut Problem<'_>, frames: &mut Frames, start: usize, end: usize, states: &mut [State]) {
+fn refit_run(
+    problem: &mut Problem<'_>,
+    frames: &mut Frames,
+    sliding: &Sliding,
+    (start, end): (usize, usize),
+    weights: &[f64],
+    states: &mut [State],
+) {
     let unknowns = problem.tree.unknowns();
     let before = start.checked_sub(1);
     let after = (end < frames.count()).then_some(end);
@@ -101,35 +138,46 @@ fn refit_run(problem: &mut Problem<'_>, frames: &mut Frames, start: usize, end: 
         }
         return;
     };
-    frames.load(reference, problem);
+    load_weighted(problem, frames, reference, weights);
     let posture = frames.posture(reference).to_vec();
     problem.pose_at(&posture);
     problem.uncertainty(&mut usual);
     let mut offsets = vec![Vec3::zeros(); frames.markers()];
     for frame in start..end {
-        frames.load(frame, problem);
-        interpolate_offsets(problem, frames, [before, after], frame, &mut offsets);
-        frames.aim(frame, &offsets);
         let Some(mut x) = nearby(frames, frame) else { continue };
-        let known = known_offsets(problem, frames, frame);
-        let outcome = problem.fit_with_offsets(&known, &mut x);
+        let mut outcome = None;
+        // How far markers slid depends on the posture that is sought.
+        for _ in 0..PASSES {
+            load_weighted(problem, frames, frame, weights);
+            interpolate_offsets(problem, frames, sliding, [before, after], (frame, &x), &mut offsets);
+            frames.aim(frame, &offsets);
+            let known = known_offsets(problem, frames, frame);
+            let before = x.clone();
+            outcome = Some(problem.fit_with_offsets(&known, &mut x));
+            if x.iter().zip(&before).all(|(now, before)| (now - before).abs() < REST) {
+                break;
+            }
+        }
+        let Some(outcome) = outcome else { continue };
         frames.keep(frame, problem, &x, outcome, false);
         judge_loaded(problem, frame, &usual, states);
     }
 }
 
-/// Offsets on a straight line in time between two frames; not a number for markers without any.
+/// What the posture `x` makes of each marker's offset, and the rest on a straight line in time between two frames; not a number for
+/// markers without any.
 fn interpolate_offsets(
     problem: &Problem<'_>,
     frames: &Frames,
+    sliding: &Sliding,
     ends: [Option<usize>; 2],
-    frame: usize,
+    (frame, x): (usize, &[f64]),
     offsets: &mut [Vec3],
 ) {
     for (i, offset) in offsets.iter_mut().enumerate() {
         let at = |end: Option<usize>| {
             let end = end?;
-            let offset = frames.offsets(end)[i];
+            let offset = frames.offsets(end)[i] - sliding.at(i, frames.posture(end)) + sliding.at(i, x);
             offset.iter().all(|x| x.is_finite()).then_some((problem.times[end], offset))
         };
         *offset = match (at(ends[0]), at(ends[1])) {
@@ -166,7 +214,8 @@ fn judge_loaded(problem: &mut Problem<'_>, frame: usize, usual: &[f64], states: 
 }
 
 /// Leads curves across stretches in which an unknown is badly determined, and fits those frames once more on springs.
-fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, states: &mut [State]) {
+fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, weights: &[f64], states: &mut [State]) {
+    let markers = frames.markers();
     let (count, unknowns) = (frames.count(), problem.tree.unknowns());
     let step_s = (problem.times[count - 1] - problem.times[0]) / (count.max(2) - 1) as f64;
     let mut touched = vec![false; count];
@@ -191,7 +240,8 @@ fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, st
         }
     }
     for frame in (0..count).filter(|&frame| touched[frame]) {
-        fit_on_springs(problem, frames, frame, &springs[frame * unknowns..(frame + 1) * unknowns]);
+        let springs = &springs[frame * unknowns..(frame + 1) * unknowns];
+        fit_on_springs(problem, frames, frame, &weights[frame * markers..(frame + 1) * markers], springs);
     }
 }
 
@@ -245,13 +295,19 @@ fn draw(values: &mut [f64], start: usize, end: usize) {
 }
 
 /// Fits a frame with springs that draw some unknowns to their curves.
-fn fit_on_springs(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize, springs: &[(f64, f64)]) {
+fn fit_on_springs(
+    problem: &mut Problem<'_>,
+    frames: &mut Frames,
+    frame: usize,
+    weights: &[f64],
+    springs: &[(f64, f64)],
+) {
     let Some(mut x) = nearby(frames, frame) else { return };
     for (u, (value, stiffness)) in springs.iter().enumerate().filter(|(_, (value, _))| value.is_finite()) {
         (problem.bounds.stiffness[u], problem.bounds.anchor[u]) = (*stiffness, *value);
         x[u] = *value;
     }
-    frames.load(frame, problem);
+    load_weighted(problem, frames, frame, weights);
     let offsets = known_offsets(problem, frames, frame);
     let outcome: Outcome = problem.fit_with_offsets(&offsets, &mut x);
     problem.bounds.stiffness.fill(0.0);

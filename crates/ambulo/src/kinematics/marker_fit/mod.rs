@@ -18,12 +18,14 @@
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: some 10 µs a step, three or four steps a frame; `cargo xtask bench-markers`.
 //! Not handled: markers fixed to ground; weights that change in time.
-//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
+//! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
 
 mod bridge;
 mod cholesky;
+mod followed;
 mod frames;
 mod gaps;
+mod misplaced;
 mod normal;
 mod problem;
 mod report;
@@ -31,9 +33,11 @@ mod result;
 pub(crate) mod rows;
 mod sequence;
 mod settings;
+mod sliding;
 mod smoothing;
 mod solve;
 mod start;
+mod strays;
 mod tree;
 
 pub use result::{FitError, MarkerError, MarkerFit};
@@ -68,11 +72,17 @@ pub fn fit_markers(
     let default: Vec<f64> =
         (0..problem.tree.unknowns()).map(|u| model.coordinates()[problem.tree.coordinate(u)].default_value).collect();
     sequence::run(&mut problem, &mut frames, settings.guard, &default);
+    let mut elsewhere = Vec::new();
+    if settings.guard == Guard::On {
+        misplaced::exchange_back(&mut problem, &mut frames);
+        elsewhere = misplaced::weigh_less(&mut problem, &mut frames);
+    }
     let states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
     if let Some(smoothing) = settings.smoothing {
         smoothing::smooth(model, &mut problem, &mut frames, &states, smoothing);
     }
     report::markers(&problem, &frames, findings);
+    report::misplaced(&problem, &elsewhere, findings);
     report::coordinates(model, &problem, &frames, &states, settings.longest_gap_s, findings);
-    Ok(report::fit(model, &markers.name, &mut problem, &frames, &states))
+    Ok(report::fit(model, markers, &mut problem, &frames, &states))
 }

@@ -1,12 +1,14 @@
 //! The fit as a recording of coordinates with the markers' distances, and what a person should know of it.
 
+use super::followed::followed;
 use super::frames::Frames;
 use super::gaps::State;
+use super::misplaced::Misplaced;
 use super::problem::{Problem, listed};
 use super::result::{MarkerError, MarkerFit};
 use crate::findings::Findings;
 use crate::model::{Drive, Model};
-use crate::motion::Motion;
+use crate::motion::{MarkerRecording, Motion};
 
 /// Stretches of time listed in a message at most.
 const MOST_SPANS: usize = 6;
@@ -14,7 +16,7 @@ const MOST_SPANS: usize = 6;
 /// The postures as a recording of coordinates, and the markers' distances.
 pub(super) fn fit(
     model: &Model,
-    recording: &str,
+    recording: &MarkerRecording,
     problem: &mut Problem<'_>,
     frames: &Frames,
     states: &[State],
@@ -39,9 +41,10 @@ pub(super) fn fit(
     }
     let errors = distances.iter().enumerate().map(|(i, d)| d.error(i, problem, frames)).collect();
     MarkerFit {
-        motion: Motion { origin: format!("markers of {recording}"), times: problem.times.to_vec(), columns },
+        motion: Motion { origin: format!("markers of {}", recording.name), times: problem.times.to_vec(), columns },
         errors,
         rms_m,
+        followed: followed(recording, problem, frames, states),
         iterations: frames.outcomes.iter().map(|o| o.map_or(0, |o| o.steps)).collect(),
         converged: frames.outcomes.iter().map(|o| o.is_none_or(|o| o.converged)).collect(),
     }
@@ -140,6 +143,20 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
                 findings.warn("markers.swap", message);
             }
         }
+    }
+}
+
+/// Says which markers stand elsewhere than they should.
+pub(super) fn misplaced(problem: &Problem<'_>, markers: &[Misplaced], findings: &mut Findings) {
+    for Misplaced { marker, rms_m, usual_m } in markers {
+        let name = &problem.paths[*marker].name;
+        let message = format!(
+            "marker `{name}` was {:.0} mm from its place on the body throughout, those beside it {:.0} mm; it counts less by {:.0} times. hint: it stood elsewhere in the standing trial, or bears another marker's label",
+            1e3 * rms_m,
+            1e3 * usual_m,
+            (rms_m / usual_m).powi(2)
+        );
+        findings.warn("markers.misplaced", message);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the fit gives, and why it may give nothing.
 
-use crate::motion::Motion;
+use crate::motion::{MarkerRecording, Motion};
 
 /// Coordinates that bring the model's markers closest to the recorded ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +12,9 @@ pub struct MarkerFit {
     pub errors: Vec<MarkerError>,
     /// Root mean square of the distances of the markers used in each frame [m]; not a number where none was seen.
     pub rms_m: Vec<f64>,
+    /// The recording as the body followed it: exchanged labels put back, markers that were not believed left out, missing ones where
+    /// the body has them, as far as its posture is known.
+    pub followed: MarkerRecording,
     /// Steps of the iteration in each frame.
     pub iterations: Vec<usize>,
     /// Whether the iteration came to rest in each frame.

@@ -16,7 +16,7 @@ pub struct FitSettings {
     /// Coordinates that no seen marker determines are bridged up to this long [s], 0.35 by default; longer stretches, and
     /// those at the ends of the recording, stay gaps.
     pub longest_gap_s: f64,
-    /// Whether swapped labels and jumping markers are looked for.
+    /// Whether swapped labels, jumping markers and markers that stand elsewhere are looked for.
     pub guard: Guard,
     /// All frames fitted together; `None` fits each frame by itself.
     pub smoothing: Option<Smoothing>,
