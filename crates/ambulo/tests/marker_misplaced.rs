@@ -2,6 +2,7 @@
 //! standing trial.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
+#![allow(clippy::duplicate_mod, reason = "both readers of recordings look for the folder")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 mod gait_files;
