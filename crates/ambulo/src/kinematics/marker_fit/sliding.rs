@@ -30,9 +30,11 @@ struct Slide {
 }
 
 impl Sliding {
-    /// From frames that are fitted to the model's own markers.
+    /// From frames that are fitted to the model's own markers. Where no frame lacks any, nothing is learnt: nobody will ask.
     pub(super) fn learn(problem: &Problem<'_>, frames: &Frames, complete: &[bool]) -> Sliding {
-        let known: Vec<usize> = (0..frames.count()).filter(|&f| complete[f] && frames.outcomes[f].is_some()).collect();
+        let is_asked = complete.contains(&false);
+        let is_known = |f: &usize| is_asked && complete[*f] && frames.outcomes[*f].is_some();
+        let known: Vec<usize> = (0..frames.count()).filter(is_known).collect();
         Sliding { markers: (0..frames.markers()).map(|i| Slide::learn(problem, frames, &known, i)).collect() }
     }
 
@@ -70,8 +72,10 @@ impl Slide {
         let mut matrix = vec![0.0; terms * terms];
         let mut right = [vec![0.0; terms], vec![0.0; terms], vec![0.0; terms]];
         (0..terms).for_each(|k| matrix[k * terms + k] = COST);
+        let mut row = Vec::with_capacity(terms);
         for &f in &known {
-            let row: Vec<f64> = slide.terms(frames.posture(f)).zip(&means).map(|(term, mean)| term - mean).collect();
+            row.clear();
+            row.extend(slide.terms(frames.posture(f)).zip(&means).map(|(term, mean)| term - mean));
             let offset = frames.offsets(f)[marker] - middle;
             for a in 0..terms {
                 (0..3).for_each(|axis| right[axis][a] += row[a] * offset[axis]);
