@@ -146,7 +146,8 @@ fn lost_markers_change_the_moments_of_the_child_little() {
     assert_losses_change_little(trial(child(), [1.87, 2.74]), 0.10);
 }
 
-/// Two markers on each thigh: without the knee's for 0.3 s its moment changes by up to 13 % of its size.
+/// Two markers on each thigh: without the knee's for 0.3 s its moment changes by up to 13 % of its size. A tenth is the aim and is
+/// missed here; the bound keeps what was reached.
 #[test]
 fn lost_markers_change_the_moments_of_the_adult_with_sixteen_markers_little() {
     assert_losses_change_little(trial(adult(), [7.97, 9.46]), 0.15);
