@@ -6,4 +6,4 @@ pub mod phases;
 pub mod plates;
 
 pub(crate) use measured::upward;
-pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, MeasuredGround, feet, measured};
+pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};
