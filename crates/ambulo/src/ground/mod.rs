@@ -5,6 +5,7 @@ pub mod footfalls;
 mod measured;
 pub mod phases;
 pub mod plates;
+pub mod predict;
 pub mod sole;
 
 pub(crate) use measured::upward;
