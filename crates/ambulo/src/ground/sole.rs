@@ -99,11 +99,11 @@ pub(crate) fn at_rest(model: &Model) -> Vec<BodyMotion> {
 }
 
 /// The body whose joint a coordinate moves.
-fn moved_by(model: &Model, coordinate: &str) -> Option<BodyId> {
+pub(super) fn moved_by(model: &Model, coordinate: &str) -> Option<BodyId> {
     let id = model.coordinate(coordinate)?;
     model.body_ids().find(|body| model.bodies()[body.index()].joint.coordinates().contains(&id))
 }
 
-fn joint_center(model: &Model, bodies: &[BodyMotion], body: BodyId) -> Vec3 {
+pub(super) fn joint_center(model: &Model, bodies: &[BodyMotion], body: BodyId) -> Vec3 {
     bodies[body.index()].pose.place(model.bodies()[body.index()].joint.child_from_joint.translation)
 }

@@ -39,6 +39,13 @@ impl BandMatrix {
         row * (self.width + 1) + self.width + column - row
     }
 
+    /// The entry at (`row`, `column`); zero outside of the band.
+    #[must_use]
+    pub fn value(&self, row: usize, column: usize) -> f64 {
+        let (low, high) = (row.min(column), row.max(column));
+        if high - low > self.width { 0.0 } else { self.rows[self.at(high, low)] }
+    }
+
     /// Adds to the entry at (`row`, `column`) and its mirror; `column <= row <= column + width`.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let place = self.at(row, column);
@@ -95,6 +102,37 @@ impl BandFactor {
     }
 }
 
+impl BandFactor {
+    /// The entries of A⁻¹ that lie inside the band of A, without the others.
+    ///
+    /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w (Takahashi,
+    /// Fagan, Chen 1973; unverified). Cost: rows times w².
+    #[must_use]
+    pub fn inverse_in_band(&self) -> BandMatrix {
+        let BandMatrix { size, width: w, rows } = &self.0;
+        let (stride, mut inverse) = (w + 1, BandMatrix::zeros(*size, *w));
+        let mut column = vec![0.0; *w];
+        // Column j of Z from row j to j + w, by columns of L from the last to the first.
+        for j in (0..*size).rev() {
+            let reach = (*size - 1 - j).min(*w);
+            for (k, l) in column[..reach].iter_mut().enumerate() {
+                let row = j + 1 + k;
+                *l = rows[row * stride + w + j - row];
+            }
+            let pivot = rows[j * stride + w];
+            for i in (j + 1..=j + reach).rev() {
+                let sum: f64 = (0..reach).map(|k| inverse.value(i, j + 1 + k) * column[k]).sum();
+                let place = inverse.at(i, j);
+                inverse.rows[place] = -sum / pivot;
+            }
+            let sum: f64 = (0..reach).map(|k| inverse.value(j + 1 + k, j) * column[k]).sum();
+            let place = inverse.at(j, j);
+            inverse.rows[place] = (1.0 / pivot - sum) / pivot;
+        }
+        inverse
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,6 +156,29 @@ mod tests {
             let back = dense * DVector::from_vec(x);
             for (found, expected) in back.iter().zip(&right) {
                 assert!((found - expected).abs() < 1e-12, "size {size}, width {width}: {found} for {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_inside_the_band_is_that_of_the_dense_matrix() {
+        for (size, width) in [(1, 0), (6, 2), (12, 4), (7, 9)] {
+            let mut band = BandMatrix::zeros(size, width);
+            let mut dense = DMatrix::<f64>::zeros(size, size);
+            for i in 0..size {
+                for j in i.saturating_sub(width)..=i {
+                    let value = if i == j { 9.0 + i as f64 } else { ((3 * i + 7 * j) % 5) as f64 / 5.0 - 0.4 };
+                    band.add(i, j, value);
+                    (dense[(i, j)], dense[(j, i)]) = (value, value);
+                }
+            }
+            let inverse = band.factor().unwrap().inverse_in_band();
+            let expected = dense.try_inverse().unwrap();
+            for i in 0..size {
+                for j in i.saturating_sub(width)..=i {
+                    let (found, expected) = (inverse.value(i, j), expected[(i, j)]);
+                    assert!((found - expected).abs() < 1e-12, "({i}, {j}) of {size}: {found} for {expected}");
+                }
             }
         }
     }

@@ -5,20 +5,35 @@
 //! divides ([`hand_over`]): its name goes with every result.
 //! Pinned by: tests/ground_predict.rs
 
-mod hand_over;
+mod center_path;
+mod estimate;
+mod expected;
+mod geometry;
 mod known;
+mod stance_curves;
+mod stances;
+mod unknowns;
+mod weights;
 mod total;
 
 use super::footfalls::{Footfalls, footfalls};
 use super::plates::foot_bodies;
-use super::sole::Sole;
-use super::{GroundForces, upward};
+use super::sole::{Sole, Stature, at_rest};
+use super::{BodyForces, GroundForces, upward};
+use estimate::{Evidence, FootLoads, estimate};
+use geometry::Geometry;
+use stance_curves::StanceCurves;
+use stances::{Measure, stances};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
 pub use known::Known;
 pub use total::total_wrench;
+pub use weights::Weights;
+
+/// The name of the rule that divides double support.
+const RULE: &str = "likeliest curves of all stances: lever rule, curves of people by speed, smoothness";
 
 /// Forces under the feet that no plate measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +68,8 @@ pub struct FootDeviation {
 pub struct PredictSettings {
     /// What is known from elsewhere and need not be found.
     pub known: Known,
+    /// How much each piece of evidence counts.
+    pub weights: Weights,
 }
 
 /// Why no forces can be predicted.
@@ -77,6 +94,15 @@ pub enum PredictError {
         /// Which foot.
         side: Side,
     },
+    /// The crate's own curves.
+    #[error("the curves of stances cannot be read: {message}")]
+    Curves {
+        /// Why.
+        message: String,
+    },
+    /// The motion's numbers.
+    #[error("the equations of the forces have no solution; expected finite numbers in the motion")]
+    NoSolution,
     /// What is known has another number of frames than the motion.
     #[error("the known {what} has {found} frames; expected {expected}, as many as the motion")]
     Shape {
@@ -87,6 +113,29 @@ pub enum PredictError {
         /// How many it should have.
         expected: usize,
     },
+}
+
+/// Nothing pulls a foot down: what would pull is taken from the other foot, if it stands. Where the share of the feet is known it
+/// decides.
+fn keep_on_the_ground(feet: &mut [FootLoads; 2], up: Vec3, known: &Known) {
+    for frame in 0..feet[0].force.len() {
+        let vertical = [feet[0].force[frame].dot(&up), feet[1].force[frame].dot(&up)];
+        if let Some(share) = known.right_share_at(frame) {
+            let whole = vertical[0] + vertical[1];
+            feet[0].force[frame] += up * (share * whole - vertical[0]);
+            feet[1].force[frame] += up * ((1.0 - share) * whole - vertical[1]);
+            continue;
+        }
+        for (pulled, other) in [(0, 1), (1, 0)] {
+            if vertical[pulled] < 0.0 {
+                let pull = std::mem::take(&mut feet[pulled].force[frame]);
+                feet[pulled].free_moment[frame] = 0.0;
+                if vertical[other] > 0.0 {
+                    feet[other].force[frame] += pull;
+                }
+            }
+        }
+    }
 }
 
 /// Predicts the forces under both feet. `soles` are those of the right and the left foot.
@@ -110,11 +159,38 @@ pub fn predict(
         None => footfalls(model, trajectory, &soles.map(Some), findings),
     };
     let total = settings.known.total(total_wrench(model, trajectory));
-    let divided = hand_over::divide(model, trajectory, &soles, &footfalls, &total, &settings.known);
     let up = upward(model);
-    let ground = bodies.into_iter().zip(&divided).map(|(body, foot)| foot.on(body, up));
+    let stature = Stature::of_model(model, &at_rest(model));
+    let gravity = model.gravity().norm();
+    let measure = Measure {
+        up,
+        weight_n: model.mass() * gravity,
+        leg_time_s: (stature.leg_length_m / gravity).sqrt(),
+        leg_speed_m_s: (stature.leg_length_m * gravity).sqrt(),
+        height_m: stature.height_m,
+    };
+    let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
+    let geometry = Geometry::new(model, trajectory, &soles);
+    let stances = stances(&footfalls, trajectory.grid(), &geometry, &measure, curves);
+    let evidence = Evidence {
+        grid: trajectory.grid(),
+        geometry: &geometry,
+        stances: &stances,
+        total: &total,
+        measure: &measure,
+        weights: &settings.weights,
+        known: &settings.known,
+    };
+    let estimate = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
+    let mut feet = estimate.feet;
+    keep_on_the_ground(&mut feet, up, &settings.known);
+    let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
+    let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {
+        let moment: Vec<Vec3> = (0..foot.force.len())
+            .map(|i| foot.center[i].cross(&foot.force[i]) + up * foot.free_moment[i])
+            .collect();
+        BodyForces::on_ground(body, &foot.force, &moment, up, &foot.height)
+    });
     let ground = GroundForces { bodies: ground.collect() };
-    let deviations = Side::BOTH.into_iter().zip(&ground.bodies);
-    let deviations = deviations.map(|(side, foot)| hand_over::deviation(model, side, foot)).collect();
-    Ok(Prediction { ground, deviations, footfalls, total, rule: hand_over::RULE })
+    Ok(Prediction { ground, deviations, footfalls, total, rule: RULE })
 }

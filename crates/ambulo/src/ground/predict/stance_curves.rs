@@ -1,0 +1,163 @@
+//! What people's feet carry over a stance, by walking speed: what a prediction starts from.
+//!
+//! Walking: mean and deviation of Schwartz, Rozumalski, Trost 2008 at five speeds, between strike and foot off; the file's header
+//! tells source, licence and form (`cargo xtask fit-ground` writes it). Between the speeds values are read on straight lines, outside
+//! of them at the nearest.
+
+use crate::toml_reader::{Source, Table, TomlError, Value};
+use std::sync::LazyLock;
+
+const CURVES: &str = include_str!("../../../data/ground/stance_curves.toml");
+const DOCUMENT: &str = "docs/GROUND_FORCES.md";
+const SPEEDS: usize = 5;
+const SAMPLES: usize = 26;
+
+/// Mean and standard deviation [body weights].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Expected {
+    pub(super) mean: f64,
+    pub(super) deviation: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Curve {
+    mean: [f64; SAMPLES],
+    deviation: [f64; SAMPLES],
+}
+
+/// Shares of a stance at which the other foot leaves and meets the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Landmarks {
+    pub(super) other_off: f64,
+    pub(super) other_strike: f64,
+}
+
+/// The curves of the crate.
+#[derive(Debug, Clone)]
+pub(super) struct StanceCurves {
+    speeds: [f64; SPEEDS],
+    landmarks: [Landmarks; SPEEDS],
+    vertical: [Curve; SPEEDS],
+    fore_aft: [Curve; SPEEDS],
+}
+
+/// A speed between two of the table's: index of the lower one, and the share of the way to the upper one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AtSpeed<'c> {
+    curves: &'c StanceCurves,
+    index: usize,
+    share: f64,
+}
+
+impl StanceCurves {
+    /// The curves of the crate.
+    ///
+    /// # Errors
+    /// None; a test reads the file.
+    pub(super) fn built_in() -> Result<&'static StanceCurves, &'static TomlError> {
+        static CURVES_READ: LazyLock<Result<StanceCurves, TomlError>> =
+            LazyLock::new(|| StanceCurves::from_toml(CURVES));
+        CURVES_READ.as_ref()
+    }
+
+    fn from_toml(text: &str) -> Result<StanceCurves, TomlError> {
+        let source = Source::new(text, DOCUMENT);
+        let parsed = source.parse()?;
+        let root = Table::root(&source, &parsed);
+        root.only(&[&["speeds", "foot_off", "other_off", "other_strike", "vertical", "fore_aft"]])?;
+        let list = |key: &str| root.need(key, "one number a speed")?.numbers::<SPEEDS>("five numbers");
+        let (off, other_off, other_strike) = (list("foot_off")?, list("other_off")?, list("other_strike")?);
+        let landmarks = std::array::from_fn(|i| Landmarks {
+            other_off: other_off[i] / off[i],
+            other_strike: other_strike[i] / off[i],
+        });
+        Ok(StanceCurves {
+            speeds: list("speeds")?,
+            landmarks,
+            vertical: curves(&root, "vertical")?,
+            fore_aft: curves(&root, "fore_aft")?,
+        })
+    }
+
+    /// The curves at a dimensionless speed V / √(g L).
+    pub(super) fn at_speed(&self, speed: f64) -> AtSpeed<'_> {
+        let speed = speed.clamp(self.speeds[0], self.speeds[SPEEDS - 1]);
+        let index = self.speeds[1..SPEEDS - 1].partition_point(|s| *s < speed);
+        let [low, high] = [self.speeds[index], self.speeds[index + 1]];
+        AtSpeed { curves: self, index, share: (speed - low) / (high - low) }
+    }
+}
+
+impl AtSpeed<'_> {
+    pub(super) fn landmarks(&self) -> Landmarks {
+        let [low, high] = [self.curves.landmarks[self.index], self.curves.landmarks[self.index + 1]];
+        Landmarks {
+            other_off: mix(low.other_off, high.other_off, self.share),
+            other_strike: mix(low.other_strike, high.other_strike, self.share),
+        }
+    }
+
+    /// Upward force at a share of the stance.
+    pub(super) fn vertical(&self, phase: f64) -> Expected {
+        self.expected(&self.curves.vertical, phase)
+    }
+
+    /// Forward force at a share of the stance.
+    pub(super) fn fore_aft(&self, phase: f64) -> Expected {
+        self.expected(&self.curves.fore_aft, phase)
+    }
+
+    fn expected(&self, curves: &[Curve; SPEEDS], phase: f64) -> Expected {
+        let [low, high] = [&curves[self.index], &curves[self.index + 1]];
+        let read = |of: fn(&Curve) -> &[f64; SAMPLES]| mix(sample(of(low), phase), sample(of(high), phase), self.share);
+        Expected { mean: read(|c| &c.mean), deviation: read(|c| &c.deviation) }
+    }
+}
+
+fn mix(a: f64, b: f64, share: f64) -> f64 {
+    a + (b - a) * share
+}
+
+fn sample(curve: &[f64; SAMPLES], phase: f64) -> f64 {
+    let place = phase.clamp(0.0, 1.0) * (SAMPLES - 1) as f64;
+    let index = (place as usize).min(SAMPLES - 2);
+    mix(curve[index], curve[index + 1], place - index as f64)
+}
+
+fn curves(root: &Table<'_>, key: &str) -> Result<[Curve; SPEEDS], TomlError> {
+    let read = |table: &Table<'_>| -> Result<Curve, TomlError> {
+        table.only(&[&["mean", "deviation"]])?;
+        let samples = |value: Value<'_>| value.numbers::<SAMPLES>("26 numbers [body weights]");
+        Ok(Curve {
+            mean: samples(table.need("mean", "the mean curve")?)?,
+            deviation: samples(table.need("deviation", "standard deviations")?)?,
+        })
+    };
+    let found = root.tables(key)?.iter().map(read).collect::<Result<Vec<_>, TomlError>>()?;
+    found.try_into().map_err(|found: Vec<Curve>| root.wrong(format!("`{key}` has {} curves; expected 5", found.len())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_is_read_and_its_curves_are_those_of_walking() {
+        let curves = StanceCurves::built_in().unwrap();
+        let free = curves.at_speed(0.429);
+        let peak = (0..=100).map(|i| free.vertical(f64::from(i) / 100.0).mean).fold(0.0, f64::max);
+        assert!((1.05..1.2).contains(&peak), "{peak}");
+        assert!(free.vertical(0.0).mean.abs() < 1e-12 && free.vertical(1.0).mean.abs() < 1e-12);
+        assert!(free.fore_aft(0.2).mean < -0.1 && free.fore_aft(0.85).mean > 0.1);
+        assert!((free.landmarks().other_off - 0.10 / 0.59).abs() < 1e-9);
+    }
+
+    #[test]
+    fn outside_of_the_speeds_the_nearest_is_taken() {
+        let curves = StanceCurves::built_in().unwrap();
+        for (outside, nearest) in [(0.0, 0.172), (2.0, 0.694)] {
+            let (a, b) = (curves.at_speed(outside).vertical(0.3), curves.at_speed(nearest).vertical(0.3));
+            assert!((a.mean - b.mean).abs() < 1e-12 && (a.deviation - b.deviation).abs() < 1e-12);
+        }
+    }
+}
