@@ -1,7 +1,10 @@
 //! Which foot stands when, from the motion alone.
 
+mod belt;
+mod floor;
+mod instants;
 mod signals;
-mod standing;
+mod still;
 
 use crate::findings::Findings;
 use crate::ground::phases::Contact;
@@ -10,7 +13,9 @@ use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
 use crate::motion::{Event, EventKind};
 use crate::spatial::Vec3;
-use signals::foot_paths;
+use belt::Belt;
+use instants::Search;
+use signals::Signals;
 
 /// One stance of one foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,16 +77,30 @@ pub fn footfalls(
     soles: &[Option<Sole>; 2],
     findings: &mut Findings,
 ) -> Footfalls {
-    let paths = foot_paths(model, trajectory, soles);
-    let mut falls: Vec<Footfall> = paths.iter().flat_map(|path| standing::stances(path, trajectory.grid())).collect();
+    let signals = Signals::new(model, trajectory, soles);
+    let belt = Belt::new(&signals);
+    let walking = still::walking_speed(&signals, &belt);
+    let mut runs: Vec<_> = signals.feet.iter().map(|foot| still::still(&signals, &belt, &walking, foot)).collect();
+    still::keep_loaded(&signals, &mut runs);
+    let mut falls = Vec::new();
+    for (foot, runs) in signals.feet.iter().zip(&runs) {
+        let search = Search { signals: &signals, belt: &belt, walking: &walking, foot };
+        for (i, run) in runs.iter().enumerate() {
+            let before = i.checked_sub(1).map(|j| runs[j].end);
+            falls.push(Footfall {
+                side: foot.side,
+                strike_s: search.strike(run, before),
+                off_s: search.off(run, runs.get(i + 1).map(|next| next.start)),
+                floor_height_m: floor::height(&signals, foot, run),
+                floor_velocity: belt.velocity((run.start + run.end) / 2),
+            });
+        }
+    }
+    floor::share_floors(&mut falls);
     let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
     falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
     if falls.is_empty() {
         findings.warn("footfalls.none", "no foot was seen to stand: the ground carries nobody in this motion");
     }
-    let floor_velocity = standing::common_velocity(&falls);
-    for fall in &mut falls {
-        fall.floor_velocity = floor_velocity;
-    }
-    Footfalls { falls, floor_velocity }
+    Footfalls { falls, floor_velocity: belt.overall }
 }
