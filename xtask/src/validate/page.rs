@@ -269,7 +269,6 @@ fn budget(trials: &[Trial]) -> String {
             mean(Figure::Moment(2), 3),
         ]);
     };
-    row("nothing", &|trial| Some(&trial.agreement));
     let mut sources: Vec<&str> = Vec::new();
     for (source, _) in trials.iter().flat_map(|trial| &trial.budget) {
         if !sources.contains(source) {
@@ -280,8 +279,8 @@ fn budget(trials: &[Trial]) -> String {
         row(source, &|trial| trial.budget.iter().find(|(name, _)| *name == source).map(|(_, agreement)| agreement));
     }
     format!(
-        "{}\nMeans over subjects, walking. The total wrench and the split are known while plates measured every foot, centres of \
-         pressure and events wherever a plate saw them. Moments in N.m/kg; centres of pressure are force-weighted.\n",
+        "{}\nMeans over subjects, walking, over the part of the stances in which plates measured every foot: only there can every source \
+         be replaced. Moments in N.m/kg; centres of pressure are force-weighted.\n",
         table.text()
     )
 }

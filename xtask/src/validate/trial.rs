@@ -36,7 +36,7 @@ pub(super) struct Trial {
     /// Time without a loaded foot while plates measured every foot: predicted, measured [s].
     pub(super) flight_s: [f64; 2],
     pub(super) agreement: GroundAgreement,
-    /// The agreement with something known: what, how.
+    /// The agreement while plates measured every foot, with something known: what, how.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
 }
 
@@ -45,10 +45,12 @@ impl Trial {
         let (predicted, seen) = predicted(loaded, Known::default())?;
         let agreement = predicted.agreement(&loaded.model, &seen).ok_or("plates saw no foot in full")?;
         let measured = predicted.measured.as_ref().ok_or("no plates")?;
+        let judged = inside_window(&seen);
         let mut budget = Vec::new();
+        budget.extend(predicted.agreement(&loaded.model, &judged).map(|agreement| ("nothing", agreement)));
         for (source, known) in truths(loaded, &predicted, measured, &seen) {
-            let (again, seen) = self::predicted(loaded, known)?;
-            budget.push((source, again.agreement(&loaded.model, &seen).ok_or("plates saw no foot in full")?));
+            let (again, _) = self::predicted(loaded, known)?;
+            budget.extend(again.agreement(&loaded.model, &judged).map(|agreement| (source, agreement)));
         }
         let trajectory = &predicted.analysis.trajectory;
         Ok(Trial {
@@ -86,7 +88,7 @@ fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen),
     };
     let order = PredictOrder {
         soles: &person.soles,
-        settings: &PredictSettings { known, ..PredictSettings::default() },
+        settings: &PredictSettings { known },
         plates_filter: Some(PLATES_LOW_PASS),
     };
     let mut findings = Findings::default();
@@ -99,16 +101,16 @@ fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen),
     };
     if let Some(body) = on_plates {
         measured.take_events(&body.measured_events(), &body.events(&body.feet.events));
-        if let Some([from, to]) = seen.window {
-            let gravity = model.gravity();
-            let window = Window { from_s: Some(from), to_s: Some(to) };
-            measured.weigh_within(window, -gravity.normalize(), gravity.norm());
-        }
     }
-    if let Some(kg) = standing_kg {
-        measured.weigh_standing(*kg);
-    }
+    predicted.weigh(model, seen.window, *standing_kg);
     Ok((predicted, seen))
+}
+
+/// Only what happened while plates measured every foot: there each source of error can be replaced in full.
+fn inside_window(seen: &Seen) -> Seen {
+    let Some([from, to]) = seen.window else { return Seen { stances: Vec::new(), ..seen.clone() } };
+    let clipped = seen.stances.iter().map(|(side, [start, end])| (*side, [start.max(from), end.min(to)]));
+    Seen { stances: clipped.filter(|(_, [start, end])| end > start).collect(), ..seen.clone() }
 }
 
 /// What plates know of each source of error.
