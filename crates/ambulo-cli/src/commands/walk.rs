@@ -84,6 +84,8 @@ impl Made<'_> {
             read: self.read,
             walk: Some(WalkSummary::new(model, report)),
             subject: None,
+            comparison: None,
+            mass_is_stated: true,
             files: self.files()?,
         };
         outcome.write(analysis, findings, clock, output, voice)

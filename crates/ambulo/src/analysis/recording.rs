@@ -7,6 +7,7 @@ use super::plausibility;
 use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
+use crate::ground::predict::PredictError;
 use crate::ground::{self, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
@@ -86,6 +87,9 @@ pub enum AnalysisError {
     /// Its completion to a trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
+    /// Forces that no plate measured.
+    #[error(transparent)]
+    Prediction(#[from] PredictError),
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
@@ -108,10 +112,7 @@ pub fn analyse(
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
-    let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
-    let smoothed = smooth(model, motion, smoothing, findings)
-        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
-    let trajectory = Trajectory::complete(model, &smoothed, findings)?;
+    let trajectory = trajectory_within(model, motion, plates, settings, window, findings)?;
     stage("smooth");
     analyse_trajectory(
         model,
@@ -121,6 +122,21 @@ pub fn analyse(
         findings,
         stage,
     )
+}
+
+/// The motion smoothed and completed inside a window; `plates` bound what can be asked for.
+pub(super) fn trajectory_within(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: Settings,
+    window: Window,
+    findings: &mut Findings,
+) -> Result<Trajectory, AnalysisError> {
+    let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
+    let smoothed = smooth(model, motion, smoothing, findings)
+        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
+    Ok(Trajectory::complete(model, &smoothed, findings)?)
 }
 
 /// How the forces under the feet are known.
@@ -194,7 +210,7 @@ fn in_the_users_words(error: MotionError, asked: Window, motion: &Motion, plates
     MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
 }
 
-fn recorded(plate: &ForceRecording) -> Window {
+pub(super) fn recorded(plate: &ForceRecording) -> Window {
     Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() }
 }
 

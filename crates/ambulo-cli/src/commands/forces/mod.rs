@@ -4,6 +4,7 @@ mod coordinates;
 mod ground_table;
 mod marker_ground;
 mod markers;
+mod prediction;
 mod skeleton;
 
 use super::outcome::{Outcome, read_thresholds};
@@ -11,7 +12,9 @@ use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{Analysis, AnalysisError, BodyInMotion, Event, Settings, analyse};
+use ambulo::analysis::{
+    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, PredictedAnalysis, Settings, analyse,
+};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
@@ -86,6 +89,16 @@ struct Recorded {
     input: Input,
     /// What else is known of it.
     origin: Origin,
+    /// Whether somebody states the body mass, rather than the model alone.
+    mass_is_stated: bool,
+}
+
+/// What came out of it.
+struct Computed {
+    analysis: Analysis,
+    subject: Option<SubjectSummary>,
+    comparison: Option<GroundAgreement>,
+    files: Vec<OutputFile>,
 }
 
 /// What a recording was made with.
@@ -137,6 +150,26 @@ impl Origin {
         }
     }
 
+    /// How markers became a body, where there are any, and what completes the forces that plates measured beside a prediction.
+    fn complete_prediction(&self, predicted: &mut PredictedAnalysis) -> Option<SubjectSummary> {
+        match (&mut predicted.measured, self) {
+            (Some(measured), _) => self.complete(measured),
+            (None, Origin::Coordinates) => None,
+            (None, Origin::Skeleton(summary)) => Some(*summary.clone()),
+            (None, Origin::Markers(followed)) => {
+                Some(SubjectSummary::of_markers(&followed.body, &followed.listed, &[]))
+            }
+        }
+    }
+
+    /// What plates carried in a standing trial [kg].
+    fn standing_kg(&self) -> Option<f64> {
+        match self {
+            Origin::Markers(followed) => followed.standing_kg,
+            Origin::Coordinates | Origin::Skeleton(_) => None,
+        }
+    }
+
     /// The time to analyse when nobody says: all of it, or the longest time without a gap in what the markers tell.
     fn known(&self, findings: &mut Findings) -> Window {
         let Origin::Markers(followed) = self else { return Window::default() };
@@ -180,20 +213,26 @@ impl Origin {
 
 fn compute(
     args: &ForcesArgs,
-    recorded: Recorded,
+    mut recorded: Recorded,
     device: Option<DeviceRecording>,
     thresholds: &Thresholds,
     reading: Reading,
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
-    let Recorded { model, motion, plates, person, input, origin } = recorded;
-    let mut settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
+    let mut settings = Settings { instrumented: recorded.origin.instrumented(), ..settings(args) };
     if settings.window == Window::default() {
-        settings.window = origin.known(&mut findings);
+        settings.window = recorded.origin.known(&mut findings);
     }
-    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
-        .map_err(|error| name_the_file(error, &input))?;
-    let subject = origin.complete(&mut analysis);
+    let computed = if prediction::is_wanted(args, &recorded) {
+        settings.force_filter = prediction::plates_filter(args).filter(|_| !recorded.plates.is_empty());
+        prediction::compute(&mut recorded, settings, &mut findings, &mut clock)
+    } else {
+        by_plates(&recorded, settings, &mut findings, &mut clock)
+    };
+    let Recorded { model, person, input, origin, mass_is_stated, .. } = recorded;
+    let Computed { analysis, subject, comparison, mut files } =
+        computed.map_err(|error| name_the_file(error, &input))?;
+    files.extend(origin.files(&model, &mut findings));
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
@@ -208,9 +247,24 @@ fn compute(
         read: &read,
         walk: None,
         subject,
-        files: origin.files(&model, &mut findings),
+        comparison,
+        mass_is_stated,
+        files,
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
+}
+
+/// With the forces that plates measured, or with none.
+fn by_plates(
+    recorded: &Recorded,
+    settings: Settings,
+    findings: &mut Findings,
+    clock: &mut Stopwatch,
+) -> Result<Computed, AnalysisError> {
+    let Recorded { model, motion, plates, origin, .. } = recorded;
+    let mut analysis = analyse(model, motion, plates, settings, findings, &mut |stage| clock.lap(stage))?;
+    let subject = origin.complete(&mut analysis);
+    Ok(Computed { analysis, subject, comparison: None, files: Vec::new() })
 }
 
 /// The error with the file that it is about.

@@ -217,7 +217,7 @@ impl System<'_> {
     /// Lowest and highest number that an instant's taps reach.
     fn range(&self, frame: usize) -> Option<[usize; 2]> {
         let (grid, reach) = (self.evidence.grid, self.taps.reach_s(self.evidence.grid));
-        let [from, to] = [grid.time(frame) - reach, grid.time(frame) + reach];
+        let [from, to] = [grid.time(frame) - reach - grid.step_s, grid.time(frame) + reach + grid.step_s];
         let mut range: Option<[usize; 2]> = None;
         for (stance, curves) in self.evidence.stances.iter().zip(&self.unknowns.curves) {
             if stance.end_s < from || stance.start_s > to {
