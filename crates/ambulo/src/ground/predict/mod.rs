@@ -10,8 +10,12 @@ mod estimate;
 mod expected;
 mod geometry;
 mod known;
+mod loads;
+mod samples;
 mod stance_curves;
 mod stances;
+mod system;
+mod taps;
 mod unknowns;
 mod weights;
 mod total;
@@ -20,8 +24,9 @@ use super::footfalls::{Footfalls, footfalls};
 use super::plates::foot_bodies;
 use super::sole::{Sole, Stature, at_rest};
 use super::{BodyForces, GroundForces, upward};
-use estimate::{Evidence, FootLoads, estimate};
+use estimate::{Evidence, estimate};
 use geometry::Geometry;
+use loads::FootLoads;
 use stance_curves::StanceCurves;
 use stances::{Measure, stances};
 use crate::findings::Findings;
@@ -181,8 +186,7 @@ pub fn predict(
         weights: &settings.weights,
         known: &settings.known,
     };
-    let estimate = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
-    let mut feet = estimate.feet;
+    let mut feet = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
     keep_on_the_ground(&mut feet, up, &settings.known);
     let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
     let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {
