@@ -144,6 +144,13 @@ pub fn footfalls(
     if falls.is_empty() {
         findings.warn("footfalls.none", "no foot was seen to stand: the ground carries nobody in this motion");
     }
+    let speed = belt.overall.norm();
+    if speed > 0.0 {
+        let message = format!(
+            "the floor moves at {speed:.2} m/s under the feet: speeds of feet are counted from a treadmill's belt"
+        );
+        findings.note("footfalls.belt", message);
+    }
     Footfalls { falls, floor_velocity: belt.overall }
 }
 
