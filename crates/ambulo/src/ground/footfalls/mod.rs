@@ -156,7 +156,13 @@ pub fn footfalls_at(
     let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
     falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
     if falls.is_empty() {
-        findings.warn("footfalls.none", "no foot was seen to stand: the ground carries nobody in this motion");
+        let why = if signals.feet.is_empty() {
+            "no sole is known: the ground can carry nobody. hint: soles are looked for under bodies `calcn_r` and `calcn_l` that \
+             `ankle_angle_r` and `ankle_angle_l` move"
+        } else {
+            "no foot was seen to stand: the ground carries nobody in this motion"
+        };
+        findings.warn("footfalls.none", why);
     }
     let speed = belt.overall.norm();
     if speed > 0.0 {
