@@ -45,8 +45,7 @@ pub(super) fn loads(
         let stance = expectation.stance;
         for frame in frames_of(evidence, stance) {
             let at = sample(evidence, expectation, curves, frame);
-            let estimates: [Estimate; 6] =
-                std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+            let estimates: [Estimate; 6] = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
             let [forward, up, right, about_forward, about_up, about_right] = estimates;
             let axes = [stance.forward, evidence.measure.up, stance.right];
             let vertical = up.value.max(LEAST_LOAD * evidence.measure.weight_n);
@@ -86,7 +85,10 @@ impl Estimate {
                 variance += 2.0 * a * b * solution.covariances.value(*n, *m);
             }
         }
-        Estimate { value: part.mean + part.deviation * z, variance: part.deviation * part.deviation * variance.max(0.0) }
+        Estimate {
+            value: part.mean + part.deviation * z,
+            variance: part.deviation * part.deviation * variance.max(0.0),
+        }
     }
 }
 
