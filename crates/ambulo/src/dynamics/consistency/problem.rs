@@ -76,6 +76,12 @@ impl Problem<'_> {
         [-most - at, most - at]
     }
 
+    /// What a number of the body costs. What is wrong with a motion hardly varies along a trial (skin, places of markers, lengths), and a
+    /// number of the body is wrong in every frame: it counts like an equal offset of a coordinate throughout the window.
+    fn trust(&self, number: usize) -> f64 {
+        self.region.window.len() as f64 * self.body.tolerance_and_most(number)[0].powi(-2)
+    }
+
     /// The first point along a step that costs less, with its cost.
     fn along(
         &self,
@@ -118,7 +124,7 @@ impl Problem<'_> {
                 cost += (change / value).powi(2) + (second / acceleration).powi(2);
             }
         }
-        let prior = |(k, x): (usize, &f64)| (x / self.body.tolerance_and_most(k)[0]).powi(2);
+        let prior = |(k, x): (usize, &f64)| self.trust(k) * x * x;
         Ok(cost + at.numbers.iter().enumerate().map(prior).sum::<f64>())
     }
 
@@ -177,7 +183,7 @@ impl Problem<'_> {
             local.spread(spline.first * self.curves.coordinates.len(), &mut equations);
         }
         for (k, x) in at.numbers.iter().enumerate() {
-            let weight = self.body.tolerance_and_most(k)[0].powi(-2);
+            let weight = self.trust(k);
             equations.corner[(k, k)] += weight;
             equations.corner_right[k] -= weight * x;
         }

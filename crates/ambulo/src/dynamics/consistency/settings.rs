@@ -17,9 +17,9 @@ pub struct ConsistencySettings {
     /// Changes that vary faster than this are dearer than slow ones: the noise of an acceleration is that of the value times
     /// (2π f)² [Hz].
     pub bandwidth_hz: f64,
-    /// Force that may remain at the root [body weights].
+    /// Force that may remain at the root [body weights]: what plates are exact to.
     pub residual_force_bw: f64,
-    /// Moment that may remain at the root, about its joint [body weights times metres].
+    /// Moment that may remain at the root, about its joint [body weights times metres]: how well centres of pressure are known [m].
     pub residual_moment_bw_m: f64,
     /// Whether the body's mass may change too, by [`MASS_TOLERANCE`], [`MOST_MASS_SHARE`] at most.
     pub adjust_mass: bool,
@@ -34,8 +34,8 @@ pub struct ConsistencySettings {
 pub const MASS_TOLERANCE: f64 = 0.02;
 /// The mass is changed by no more, as a share.
 pub const MOST_MASS_SHARE: f64 = 0.05;
-/// How far the trunk's mass centre may be off along each axis [m].
-pub const CENTER_TOLERANCE_M: f64 = 0.010;
+/// How far the trunk's mass centre may be off along each axis [m]: about as far as tables of body segments disagree.
+pub const CENTER_TOLERANCE_M: f64 = 0.020;
 /// The trunk's mass centre is changed by no more along each axis [m].
 pub const MOST_CENTER_M: f64 = 0.030;
 
@@ -47,8 +47,8 @@ impl Default for ConsistencySettings {
             tolerance_m: 0.010,
             tolerance_foot_m: 0.005,
             bandwidth_hz: 6.0,
-            residual_force_bw: 0.001,
-            residual_moment_bw_m: 0.001,
+            residual_force_bw: 0.002,
+            residual_moment_bw_m: 0.003,
             adjust_mass: false,
             adjust_trunk_center: false,
             most_iterations: 15,
