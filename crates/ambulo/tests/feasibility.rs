@@ -16,7 +16,7 @@ use ambulo::analysis::feasibility::{
 use ambulo::analysis::{Settings, analyse};
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;
-use ambulo::ground::{BodyForces, MeasuredGround};
+use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::{BodyMotion, Posture, Trajectory, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Model, Side, from_osim};
@@ -375,7 +375,7 @@ fn judged_with(
         let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
         BodyForces::on_level_ground(body, &forces, &moments, Vec3::y(), 0.0)
     });
-    let ground = MeasuredGround { bodies: bodies.to_vec() };
+    let ground = GroundForces { bodies: bodies.to_vec() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
     let evidence = Evidence { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
     let mut findings = Findings::default();

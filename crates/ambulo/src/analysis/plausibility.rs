@@ -2,7 +2,7 @@
 
 use super::residual::Residual;
 use crate::findings::Findings;
-use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, MeasuredGround};
+use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, GroundForces};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateKind, Model, Side};
 use crate::numerics::median;
@@ -28,7 +28,7 @@ pub(super) fn report_residual(residual: Option<Residual>, weight_n: f64, measure
 }
 
 /// Forces that pull a foot down: the force on the plate in place of the force on the foot.
-pub(super) fn report_downward(model: &Model, ground: &MeasuredGround, up: Vec3, findings: &mut Findings) {
+pub(super) fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
     for body in &ground.bodies {
         let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
         if mean < -CENTER_OF_PRESSURE_LOAD_N {
@@ -42,12 +42,7 @@ pub(super) fn report_downward(model: &Model, ground: &MeasuredGround, up: Vec3, 
 }
 
 /// Centres of pressure that lie nearer to the other foot: right and left exchanged.
-pub(super) fn report_far_feet(
-    model: &Model,
-    trajectory: &Trajectory,
-    ground: &MeasuredGround,
-    findings: &mut Findings,
-) {
+pub(super) fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
     let side_of = |i: usize| Side::of_name(&model.bodies()[i].name);
     let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b.body.index()).is_some()).collect();
     let mut own: Vec<Vec<f64>> = vec![Vec::new(); feet.len()];

@@ -7,7 +7,7 @@ use super::plausibility;
 use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
-use crate::ground::{self, MeasuredGround};
+use crate::ground::{self, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
@@ -36,7 +36,7 @@ pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
     /// The measured ground forces on its instants.
-    pub ground: MeasuredGround,
+    pub ground: GroundForces,
     /// Joint forces, powers and reactions.
     pub forces: Forces,
     /// Strikes and toe-offs inside the trajectory, in order of time.
@@ -199,7 +199,7 @@ fn recorded(plate: &ForceRecording) -> Window {
 }
 
 /// What `grf.mot`, which has one foot a side, cannot show as it was measured.
-fn report_sides(model: &Model, ground: &MeasuredGround, findings: &mut Findings) {
+fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
     let names = ground.bodies.iter().map(|b| model.bodies()[b.body.index()].name.as_str());
     let (sided, other): (Vec<&str>, Vec<&str>) = names.partition(|name| Side::of_name(name).is_some());
     for name in other {

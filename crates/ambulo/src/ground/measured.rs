@@ -46,14 +46,14 @@ pub struct BodyForces {
     surface_height: Vec<f64>,
 }
 
-/// Everything that was measured, by body.
+/// What the ground does, by body, whoever found it: plates, a simulation or a prediction.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeasuredGround {
+pub struct GroundForces {
     /// One entry for each body that was pushed.
     pub bodies: Vec<BodyForces>,
 }
 
-impl MeasuredGround {
+impl GroundForces {
     /// As loads for [`crate::dynamics::inverse`].
     #[must_use]
     pub fn loads(&self) -> Vec<LoadSeries> {
@@ -63,7 +63,7 @@ impl MeasuredGround {
 
 /// What the ground does to each side's foot: the sum over the bodies of that side, on the one that carried most.
 #[must_use]
-pub fn feet(model: &Model, ground: &MeasuredGround) -> Vec<(Side, BodyForces)> {
+pub fn feet(model: &Model, ground: &GroundForces) -> Vec<(Side, BodyForces)> {
     let up = upward(model);
     let side_of = |b: &BodyForces| Side::of_name(&model.bodies()[b.body.index()].name);
     let sum = |side: Side| {
@@ -81,8 +81,14 @@ impl BodyForces {
     /// `surface_height` along `up` [m]. Series of different length are cut to the shorter.
     #[must_use]
     pub fn on_level_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: f64) -> BodyForces {
-        let frames = force.len().min(moment.len());
-        combine(body, &[(&force[..frames], &moment[..frames], &vec![surface_height; frames])], up)
+        BodyForces::on_ground(body, force, moment, up, &vec![surface_height; force.len()])
+    }
+
+    /// The same on ground whose height changes from frame to frame, as on steps [m].
+    #[must_use]
+    pub fn on_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: &[f64]) -> BodyForces {
+        let frames = force.len().min(moment.len()).min(surface_height.len());
+        combine(body, &[(&force[..frames], &moment[..frames], &surface_height[..frames])], up)
     }
 
     fn load(&self) -> LoadSeries {
@@ -118,7 +124,7 @@ pub fn measured(
     recordings: &[ForceRecording],
     filter: Option<LowPass>,
     findings: &mut Findings,
-) -> Result<MeasuredGround, MotionError> {
+) -> Result<GroundForces, MotionError> {
     let up = upward(model);
     let mut series = Vec::new();
     for recording in recordings {
@@ -134,7 +140,7 @@ pub fn measured(
             bodies.push(combine(body, &parts, up));
         }
     }
-    Ok(MeasuredGround { bodies })
+    Ok(GroundForces { bodies })
 }
 
 /// The recording as far around the trajectory as it has its numbers.

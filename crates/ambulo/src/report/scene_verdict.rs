@@ -3,7 +3,7 @@
 use crate::analysis::feasibility::{Evidence, Person, Thresholds, Verdict, check};
 use crate::dynamics::{Forces, JointReaction};
 use crate::findings::Findings;
-use crate::ground::{BodyForces, MeasuredGround, upward};
+use crate::ground::{BodyForces, GroundForces, upward};
 use crate::kinematics::{TrajectoryError, each_body_motion};
 use crate::model::{CoordinateKind, Model};
 use crate::simulation::scene::{FigureWalk, Scene};
@@ -63,13 +63,13 @@ fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -
 }
 
 /// What the ground does to the feet; points do not twist, so it has no moment about the centre of pressure.
-fn ground(recording: &WalkRecording) -> MeasuredGround {
+fn ground(recording: &WalkRecording) -> GroundForces {
     let up = upward(&recording.model);
     let bodies = recording.feet.iter().map(|foot| {
         let moments: Vec<Vec3> = foot.point.iter().zip(&foot.force).map(|(point, force)| point.cross(force)).collect();
         BodyForces::on_level_ground(foot.body, &foot.force, &moments, up, 0.0)
     });
-    MeasuredGround { bodies: bodies.collect() }
+    GroundForces { bodies: bodies.collect() }
 }
 
 /// Drives as generalised forces. Of the root's reaction only what holds the trunk's turn counts: the rest keeps the figure in its

@@ -1,6 +1,6 @@
 //! How fast the ground goes by: zero on a floor, the belt's velocity on a treadmill.
 
-use crate::ground::MeasuredGround;
+use crate::ground::GroundForces;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
 use crate::spatial::Vec3;
@@ -22,7 +22,7 @@ pub(in crate::analysis) struct OverGround {
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,
-    ground: &MeasuredGround,
+    ground: &GroundForces,
     up: Vec3,
 ) -> Option<OverGround> {
     let weight = model.mass() * model.gravity().norm();

@@ -8,7 +8,7 @@ use super::thresholds::Thresholds;
 use super::verdict::{Check, Closest, NotJudged, Reason, Verdict};
 use crate::dynamics::{Forces, Roots};
 use crate::findings::Findings;
-use crate::ground::{BodyForces, MeasuredGround, feet, upward};
+use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
@@ -24,7 +24,7 @@ pub struct Evidence<'a> {
     /// The forces of inverse dynamics or of a simulation.
     pub forces: &'a Forces,
     /// What the ground does; without bodies where it is not known.
-    pub ground: &'a MeasuredGround,
+    pub ground: &'a GroundForces,
     /// What a worn device gives of the generalised forces: one column a coordinate [N.m or N].
     pub device: Option<&'a [Vec<f64>]>,
 }

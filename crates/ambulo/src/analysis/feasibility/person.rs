@@ -1,10 +1,10 @@
 //! Whose motion it is: size, and where the soles are.
 
-use crate::kinematics::{BodyMotion, Posture, body_motion};
-use crate::model::anthropometry::foot::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
-use crate::model::anthropometry::{ContactSphere, Human};
-use crate::model::{BodyId, Model, Side};
-use crate::spatial::Vec3;
+pub use crate::ground::sole::{Sole, SolePoint};
+use crate::ground::sole::{at_rest, thigh_and_shank};
+use crate::model::anthropometry::Human;
+use crate::model::anthropometry::foot::ANKLE_HEIGHT;
+use crate::model::{Model, Side};
 
 /// Thigh and shank of a model, joint centre to joint centre, over stature: Gait2392 and Rajagopal's model as scaled to people of known
 /// stature have 0.488 and 0.470, Drillis and Contini 0.491.
@@ -27,25 +27,6 @@ pub struct Person {
     pub estimated: bool,
 }
 
-/// The sole of one foot: three points along its middle. What lies within `half_width` of the line through them, seen from above,
-/// is on the sole.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sole {
-    /// Rear, ball and tip, half a width inside the ends of the foot.
-    pub points: [SolePoint; 3],
-    /// Half the breadth of the foot [m].
-    pub half_width: f64,
-}
-
-/// A point under a foot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolePoint {
-    /// The body that it is fixed to.
-    pub body: BodyId,
-    /// Place in that body's frame [m].
-    pub place: Vec3,
-}
-
 impl Person {
     /// The person of a built figure.
     #[must_use]
@@ -66,13 +47,7 @@ impl Person {
     pub fn of_model(model: &Model) -> Person {
         let bodies = at_rest(model);
         let mass_kg = model.mass();
-        let thigh_and_shank = Side::BOTH.into_iter().filter_map(|side| {
-            let [hip, knee, ankle] = ["hip_flexion", "knee_angle", "ankle_angle"].map(|stem| {
-                moved_by(model, &format!("{stem}_{}", side.letter())).map(|b| joint_center(model, &bodies, b))
-            });
-            Some((hip? - knee?).norm() + (knee? - ankle?).norm())
-        });
-        let legs: Vec<f64> = thigh_and_shank.collect();
+        let legs = thigh_and_shank(model, &bodies);
         let (height_m, leg) = if legs.is_empty() {
             let height = REFERENCE.1 * (mass_kg / REFERENCE.0).cbrt();
             (height, THIGH_AND_SHANK * height)
@@ -88,51 +63,4 @@ impl Person {
             estimated: true,
         }
     }
-}
-
-impl Sole {
-    /// Heel and toe spheres; the ends of the sole are those of the outermost spheres.
-    fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
-        let of_side = || spheres.iter().filter(|s| s.side == side);
-        let named = |stem: &str| of_side().find(|s| s.name.starts_with(stem));
-        let (heel, ball, toe) = (named("heel")?, named("ball")?, named("toe")?);
-        let under = |sphere: &ContactSphere, forward: f64| SolePoint {
-            body: sphere.body,
-            place: sphere.center + Vec3::new(forward, -sphere.radius, 0.0),
-        };
-        let points = [under(heel, half_width - heel.radius), under(ball, 0.0), under(toe, toe.radius - half_width)];
-        Some(Sole { points, half_width })
-    }
-
-    /// A foot of usual proportions under the ankle, along x of the body `calcn_s`.
-    fn estimated(model: &Model, bodies: &[BodyMotion], side: Side, height: f64) -> Option<Sole> {
-        let body = model.body(&format!("calcn_{}", side.letter()))?;
-        let shank_end = moved_by(model, &format!("ankle_angle_{}", side.letter()))?;
-        let ankle = joint_center(model, bodies, shank_end);
-        let ankle = bodies[body.index()].pose.inverse().place(ankle);
-        let (length, half_width) = (FOOT_LENGTH * height, 0.5 * FOOT_WIDTH * height);
-        let point = |from_heel: f64| SolePoint {
-            body,
-            place: ankle + Vec3::new(from_heel - HEEL_TO_ANKLE * length, -ANKLE_HEIGHT * height, 0.0),
-        };
-        let points = [point(half_width), point(HEEL_TO_BALL * length), point(length - half_width)];
-        Some(Sole { points, half_width })
-    }
-}
-
-/// Bodies with every coordinate at its default.
-fn at_rest(model: &Model) -> Vec<BodyMotion> {
-    let q: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
-    let rest = vec![0.0; q.len()];
-    body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest })
-}
-
-/// The body whose joint a coordinate moves.
-pub(super) fn moved_by(model: &Model, coordinate: &str) -> Option<BodyId> {
-    let id = model.coordinate(coordinate)?;
-    model.body_ids().find(|body| model.bodies()[body.index()].joint.coordinates().contains(&id))
-}
-
-fn joint_center(model: &Model, bodies: &[BodyMotion], body: BodyId) -> Vec3 {
-    bodies[body.index()].pose.place(model.bodies()[body.index()].joint.child_from_joint.translation)
 }

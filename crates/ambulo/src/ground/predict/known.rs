@@ -1,0 +1,52 @@
+//! What is known of the ground's forces from elsewhere, so that the rest can be judged: each source of error in turn.
+
+use super::PredictError;
+use crate::ground::footfalls::Footfalls;
+use crate::spatial::{Vec3, Wrench};
+
+/// What is known and need not be found. Series have one entry a frame of the motion; not a number where nothing is known.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Known {
+    /// When the feet stand.
+    pub footfalls: Option<Footfalls>,
+    /// Of the ground on the body: force [N] and moment about the world's origin [N.m].
+    pub total: Option<Vec<Wrench>>,
+    /// The right foot's share of the vertical force, 0 to 1.
+    pub right_share: Option<Vec<f64>>,
+    /// Centres of pressure of the right and the left foot [m].
+    pub centers: Option<[Vec<Vec3>; 2]>,
+}
+
+impl Known {
+    /// Whether every series is as long as the motion.
+    pub(super) fn check(&self, frames: usize) -> Result<(), PredictError> {
+        let centers = |foot: usize| self.centers.as_ref().map(|c| c[foot].len());
+        let series = [
+            ("total wrench", self.total.as_ref().map(Vec::len)),
+            ("share of the right foot", self.right_share.as_ref().map(Vec::len)),
+            ("centre of pressure of the right foot", centers(0)),
+            ("centre of pressure of the left foot", centers(1)),
+        ];
+        match series.into_iter().find_map(|(what, length)| Some((what, length.filter(|found| *found != frames)?))) {
+            Some((what, found)) => Err(PredictError::Shape { what, found, expected: frames }),
+            None => Ok(()),
+        }
+    }
+
+    /// The total wrench: known where it is a number, found elsewhere.
+    pub(super) fn total(&self, found: Vec<Wrench>) -> Vec<Wrench> {
+        let Some(known) = &self.total else { return found };
+        let is_known = |w: &Wrench| w.force.iter().chain(w.moment.iter()).all(|x| x.is_finite());
+        known.iter().zip(found).map(|(known, found)| if is_known(known) { *known } else { found }).collect()
+    }
+
+    /// The right foot's share of the vertical force in a frame.
+    pub(super) fn right_share_at(&self, frame: usize) -> Option<f64> {
+        self.right_share.as_ref().map(|share| share[frame]).filter(|share| share.is_finite())
+    }
+
+    /// A foot's centre of pressure in a frame [m].
+    pub(super) fn center_at(&self, foot: usize, frame: usize) -> Option<Vec3> {
+        self.centers.as_ref().map(|c| c[foot][frame]).filter(|center| center.iter().all(|x| x.is_finite()))
+    }
+}
