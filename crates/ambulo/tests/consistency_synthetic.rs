@@ -9,11 +9,13 @@ use ambulo::dynamics::consistency::{
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
+use ambulo::ground::measured;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Body, CoordinateKind, Drive, Model};
 use ambulo::motion::{TimeGrid, Window};
+use ambulo::simulation::synthetic::{Mode, WalkOrder, synthesise};
 use ambulo::spatial::{Inertia, Vec3, Wrench};
 use std::f64::consts::TAU;
 
@@ -207,7 +209,7 @@ fn a_change_is_one_smooth_curve_and_fades_outside_of_the_window() {
     let [value, rate, acceleration] =
         [change(Trajectory::values), change(Trajectory::rates), change(Trajectory::accelerations)];
     assert!(value[60..121].iter().any(|x| x.abs() > 0.1 * DEGREE));
-    for frame in (0..=30).chain(150..FRAMES) {
+    for frame in (0..=10).chain(170..FRAMES) {
         assert!(value[frame].abs() < 1e-15 && acceleration[frame].abs() < 1e-15, "frame {frame}");
     }
     // A cubic between frames: its acceleration is a line, so from frame to frame it moves by h (v0 + h (2 a0 + a1) / 6).
@@ -359,4 +361,21 @@ fn what_cannot_be_used_is_refused_with_reasons() {
         let error = attempt(&t.loads, ConsistencySettings { tolerance_rad: bad, ..usual() });
         assert!(matches!(error, ConsistencyError::Setting { name: "tolerance_rad", .. }), "{error}");
     }
+}
+
+#[test]
+fn a_simulated_walk_in_a_plane_hardly_changes() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
+    let gait = Gait::named("free").unwrap();
+    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    let mut findings = Findings::default();
+    let walk = synthesise(&order, &mut findings).unwrap();
+    let model = &walk.human.model;
+    let loads = measured(model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap().loads();
+    let (done, _) = run(model, &walk.trajectory, &loads, ConsistencySettings::default());
+    println!("{:?} -> {:?}: {} deg", done.residual_before, done.residual_after, done.largest_angle() / DEGREE);
+    // The simulator lacks 2 N and 3 N.m rms (tests/synthetic_walk.rs); the trunk of 30 kg answers 3 N.m at 1 Hz by 0.2 degrees.
+    assert!(done.residual_before.force_rms_bw < 0.005 && done.residual_before.moment_rms_nm < 4.0);
+    assert!(done.largest_angle() < 0.4 * DEGREE, "{}", done.largest_angle() / DEGREE);
+    assert!(done.obeys(0.003), "{:?}", done.residual_after);
 }

@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
+mod consistency;
 mod forces;
 mod reproduce;
 mod simulate;

@@ -1,5 +1,6 @@
 //! What a reader wants to know of a motion and its forces: events, cycles, peaks, agreement.
 
+mod agreed_motion;
 mod comparison;
 mod cycles;
 mod event_agreement;
@@ -12,11 +13,14 @@ mod plausibility;
 mod recording;
 mod residual;
 
+pub use agreed_motion::{Adjustable, agreed_motion};
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
 pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};
-pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
+pub use recording::{
+    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory, complete_motion,
+};
 pub use residual::{Residual, residual, residual_within};

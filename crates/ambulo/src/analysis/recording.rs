@@ -5,6 +5,7 @@ use super::events::{Contact, Event, EventKind, contacts, events};
 use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::residual::{Residual, residual_within};
+use crate::dynamics::consistency::ConsistencyError;
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
 use crate::ground::{self, GroundForces};
@@ -35,6 +36,8 @@ pub struct Settings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
+    /// Whether it was changed to agree with the forces; whoever does that says so.
+    pub adjusted: bool,
     /// The measured ground forces on its instants.
     pub ground: GroundForces,
     /// Joint forces, powers and reactions.
@@ -86,6 +89,9 @@ pub enum AnalysisError {
     /// Its completion to a trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
+    /// Its agreement with the forces.
+    #[error(transparent)]
+    Consistency(#[from] ConsistencyError),
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
@@ -107,11 +113,7 @@ pub fn analyse(
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
-    let window = covered(motion, plates, settings.window, findings);
-    let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
-    let smoothed = smooth(model, motion, smoothing, findings)
-        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
-    let trajectory = Trajectory::complete(model, &smoothed, findings)?;
+    let trajectory = complete_motion(model, motion, plates, &settings, findings)?;
     stage("smooth");
     analyse_trajectory(
         model,
@@ -121,6 +123,24 @@ pub fn analyse(
         findings,
         stage,
     )
+}
+
+/// A recorded motion smoothed and complete, over the time that the force recordings cover: what [`analyse`] begins with.
+///
+/// # Errors
+/// Recordings that cannot be used: see [`MotionError`], [`TrajectoryError`].
+pub fn complete_motion(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: &Settings,
+    findings: &mut Findings,
+) -> Result<Trajectory, AnalysisError> {
+    let window = covered(motion, plates, settings.window, findings);
+    let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
+    let smoothed = smooth(model, motion, smoothing, findings)
+        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
+    Ok(Trajectory::complete(model, &smoothed, findings)?)
 }
 
 /// How the forces under the feet are known.
@@ -181,7 +201,18 @@ pub fn analyse_trajectory(
     plausibility::report_far_feet(model, &trajectory, &ground, findings);
     plausibility::report_ranges(model, &trajectory, findings);
     stage("analysis");
-    Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual, verdict: None })
+    Ok(Analysis {
+        trajectory,
+        adjusted: false,
+        ground,
+        forces,
+        events,
+        cycles,
+        mass,
+        speed_m_s,
+        residual,
+        verdict: None,
+    })
 }
 
 /// A range that holds too little is named as the user gave it, beside what motion and forces cover together.

@@ -98,7 +98,7 @@ mod tests {
         let splines = UniformSplines::new(21, 2, [true; 2]);
         let coefficients: Vec<f64> = (0..splines.count()).map(|k| 1.0 + (1.7 * k as f64).sin()).collect();
         for sample in [0, 20] {
-            assert_eq!(sum(splines, &coefficients, sample), [0.0; 3], "sample {sample}");
+            assert!(sum(splines, &coefficients, sample).iter().all(|x| x.abs() < 1e-15), "sample {sample}");
         }
         assert!(sum(splines, &coefficients, 10)[0].abs() > 0.1);
         assert_eq!(splines.count(), 10 + 3 - 6);

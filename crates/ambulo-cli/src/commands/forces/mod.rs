@@ -1,5 +1,6 @@
 //! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
 
+mod agreed;
 mod coordinates;
 mod ground_table;
 mod marker_ground;
@@ -10,8 +11,11 @@ use super::outcome::{Outcome, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
+use agreed::Agreed;
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{Analysis, AnalysisError, BodyInMotion, Event, Settings, analyse};
+use ambulo::analysis::{
+    Analysis, AnalysisError, BodyInMotion, Event, ForceSource, Settings, analyse_trajectory, complete_motion,
+};
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
@@ -155,10 +159,11 @@ impl Origin {
         Some(Window { from_s: Some(from), to_s: Some(to) })
     }
 
-    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. What cannot be written
-    /// is noted.
-    fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
+    /// Files of its own: the body that was made for the person, or changed, for OpenSim and for later runs. What cannot be
+    /// written is noted.
+    fn files(&self, model: &Model, is_changed: bool, findings: &mut Findings) -> Vec<OutputFile> {
         let is_made = match self {
+            _ if is_changed => true,
             Origin::Coordinates => false,
             Origin::Skeleton(_) => true,
             Origin::Markers(followed) => {
@@ -191,8 +196,17 @@ fn compute(
     if settings.window == Window::default() {
         settings.window = origin.known(&mut findings);
     }
-    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |stage| clock.lap(stage))
-        .map_err(|error| name_the_file(error, &input))?;
+    let named = |error: AnalysisError| name_the_file(error, &input);
+    let trajectory = complete_motion(&model, &motion, &plates, &settings, &mut findings).map_err(named)?;
+    clock.lap("smooth");
+    let Agreed { model, trajectory, summary: consistency } =
+        agreed::agreed(args, model, trajectory, &plates, &settings, &mut findings).map_err(named)?;
+    clock.lap("consistency");
+    let within = consistency.as_ref().map_or(settings.instrumented, |c| Some(agreed::window(c)));
+    let source = ForceSource::Measured { filter: settings.force_filter, within };
+    let stage = &mut |stage| clock.lap(stage);
+    let mut analysis = analyse_trajectory(&model, trajectory, &plates, source, &mut findings, stage).map_err(named)?;
+    analysis.adjusted = consistency.is_some();
     let subject = origin.complete(&mut analysis);
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
@@ -207,8 +221,9 @@ fn compute(
         device: device.as_deref(),
         read: &read,
         walk: None,
+        files: origin.files(&model, consistency.is_some(), &mut findings),
+        consistency,
         subject,
-        files: origin.files(&model, &mut findings),
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
 }

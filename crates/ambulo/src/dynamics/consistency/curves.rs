@@ -10,7 +10,10 @@ use std::ops::Range;
 /// Knots are no closer than this [s]: forces and motions of people hold little above 50 Hz.
 const KNOT_STEP_S: f64 = 0.010;
 /// Time on each side of the window in which the change fades [s].
-const FADING_S: f64 = 0.3;
+const FADING_S: f64 = 0.5;
+/// Outside of the window, where no law asks for it, a change that varies faster than this is dear [Hz]: what is left of it at the edge
+/// fades in a tenth of a second or two, so that it hardly adds to accelerations.
+const FADING_HZ: f64 = 1.5;
 /// Fewer frames than this in the window make no problem.
 const FEWEST_FRAMES: usize = 8;
 
@@ -28,8 +31,11 @@ pub(super) struct Region {
 pub(super) struct Curves {
     /// Numbers of the coordinates that may change.
     pub(super) coordinates: Vec<usize>,
-    /// How far each may be off [rad or m], and how far its acceleration [rad/s² or m/s²].
-    pub(super) tolerances: Vec<[f64; 2]>,
+    /// How far each may be off [rad or m].
+    tolerances: Vec<f64>,
+    /// How far accelerations may be off, as multiples of that, inside the window and outside [1/s²].
+    sharpness: [f64; 2],
+    window: Range<usize>,
     followers: Vec<(usize, usize, Function)>,
     splines: UniformSplines,
     first_frame: usize,
@@ -79,14 +85,14 @@ fn stride(grid: TimeGrid) -> usize {
 impl Curves {
     pub(super) fn new(model: &Model, grid: TimeGrid, region: &Region, settings: &ConsistencySettings) -> Curves {
         let frames = &region.frames;
-        let omega = std::f64::consts::TAU * settings.bandwidth_hz;
+        let sharpness = [settings.bandwidth_hz, settings.bandwidth_hz.min(FADING_HZ)];
         let is_free = |&c: &usize| matches!(model.coordinates()[c].drive, Drive::Free);
         let coordinates: Vec<usize> = (0..model.coordinates().len()).filter(is_free).collect();
         let tolerance = |&c: &usize| match model.coordinates()[c].kind {
             CoordinateKind::Translation => settings.tolerance_m,
             CoordinateKind::Rotation | CoordinateKind::Coupled => settings.tolerance_rad,
         };
-        let tolerances = coordinates.iter().map(tolerance).map(|t| [t, t * omega * omega]).collect();
+        let tolerances = coordinates.iter().map(tolerance).collect();
         let follower = |(c, coordinate): (usize, &crate::model::Coordinate)| match &coordinate.drive {
             Drive::Coupled(leader, function) => Some((c, leader.index(), function.clone())),
             _ => None,
@@ -95,6 +101,8 @@ impl Curves {
         Curves {
             coordinates,
             tolerances,
+            sharpness: sharpness.map(|hz| (std::f64::consts::TAU * hz).powi(2)),
+            window: region.window.clone(),
             followers: model.coordinates().iter().enumerate().filter_map(follower).collect(),
             splines: UniformSplines::new(frames.len(), stride(grid), closed),
             first_frame: frames.start,
@@ -122,6 +130,12 @@ impl Curves {
             }
         }
         AtFrame { first, count: which.len(), weights }
+    }
+
+    /// How far each coordinate [rad or m] and its acceleration [rad/s² or m/s²] may be off at a frame.
+    pub(super) fn tolerances(&self, frame: usize) -> impl Iterator<Item = [f64; 2]> {
+        let sharpness = self.sharpness[usize::from(!self.window.contains(&frame))];
+        self.tolerances.iter().map(move |tolerance| [*tolerance, tolerance * sharpness])
     }
 
     /// What is added to a coordinate that may change, by its place among them: value, rate, acceleration.

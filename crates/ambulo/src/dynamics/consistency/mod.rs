@@ -52,6 +52,8 @@ use result::rms_and_largest;
 const SMALL_RESIDUAL: f64 = 0.01;
 /// A change of an angle above this is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// Forces that miss this share of body weight, or make up as much too many, were not all measured.
+const INCOMPLETE_LOADS: f64 = 0.5;
 /// The band matrix takes no more than this [bytes].
 const MOST_BYTES: f64 = 2e9;
 
@@ -205,6 +207,15 @@ impl Problem<'_> {
 
 fn report(consistent: &Consistent, findings: &mut Findings) {
     let after = consistent.residual_after;
+    if consistent.residual_before.force_peak_bw > INCOMPLETE_LOADS {
+        let message = format!(
+            "motion and forces disagreed by up to {:.0} % of body weight between {:.3} and {:.3} s: a foot may have stood where nothing measures, and the motion was bent for it. hint: choose the time in which all forces are known",
+            100.0 * consistent.residual_before.force_peak_bw,
+            consistent.window_s[0],
+            consistent.window_s[1]
+        );
+        findings.warn("consistency.incomplete_forces", message);
+    }
     if !consistent.obeys(SMALL_RESIDUAL) {
         let message = format!(
             "within its tolerances the motion cannot obey the forces: {:.1} % of body weight and {:.1} N.m rms are left at the root. hint: wider tolerances, another mass, or forces that were not measured",

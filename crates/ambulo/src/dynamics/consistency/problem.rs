@@ -119,7 +119,7 @@ impl Problem<'_> {
                 cost += squares(&place.away_from(before), &self.foot_scale);
             }
             let spline = self.curves.at(frame);
-            for (k, [value, acceleration]) in self.curves.tolerances.iter().enumerate() {
+            for (k, [value, acceleration]) in self.curves.tolerances(frame).enumerate() {
                 let [change, _, second] = self.curves.change(&spline, &at.coefficients, k);
                 cost += (change / value).powi(2) + (second / acceleration).powi(2);
             }
@@ -176,9 +176,9 @@ impl Problem<'_> {
             for (foot, (place, before)) in slopes.feet.iter().zip(sight.feet.iter().zip(stood)) {
                 local.add_foot(&spline, &place.away_from(before), foot, &self.foot_scale);
             }
-            for (k, tolerances) in self.curves.tolerances.iter().enumerate() {
+            for (k, tolerances) in self.curves.tolerances(frame).enumerate() {
                 let change = self.curves.change(&spline, &at.coefficients, k);
-                local.add_change(&spline, change, *tolerances, k, self.curves.coordinates.len());
+                local.add_change(&spline, change, tolerances, k, self.curves.coordinates.len());
             }
             local.spread(spline.first * self.curves.coordinates.len(), &mut equations);
         }
