@@ -53,13 +53,15 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 44] = [
+const RESULTS: [&str; 46] = [
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
     "powers.sto",
     "reactions.sto",
     "grf.mot",
+    "grf_measured.mot",
+    "grf_sd.mot",
     "external_loads.xml",
     "events.csv",
     "cycles.csv",

@@ -195,9 +195,13 @@ fn a_load_whose_columns_do_not_exist_is_refused_with_the_columns_that_do() {
 }
 
 #[test]
-fn without_ground_forces_the_user_is_told_what_to_give() {
+fn without_ground_forces_they_are_predicted_and_the_user_is_told_what_else_there_is() {
     let bench = Workbench::new("no_ground");
-    bench.run(&FORCES[..4]).refused(&["no ground forces were given", "--grf", "hint: --no-ground"]);
+    let run = bench.run(&FORCES[..4]);
+    assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
+    run.says(&["note: no ground forces were given; they are predicted", "hint: --grf", "--no-ground"]);
+    assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
+    bench.run(&[&FORCES[..4], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
     bench.run(&[&FORCES[..4], &["--no-ground"], &RAW].concat()).done();
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "none");
     assert!(!bench.folder.join("out/grf.mot").exists(), "forces that nobody measured were written");

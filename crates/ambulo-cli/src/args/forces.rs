@@ -9,14 +9,16 @@ use std::path::PathBuf;
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
   ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 -o out
   ambulo forces demo/input/walk.trc --model demo/input/figure.osim --loads demo/input/walk_grf.xml -o out
+  ambulo forces demo/input/walk.mot --model demo/input/figure.osim -o out
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
 Markers (.c3d, .trc) are fitted with the built-in body, calibrated from --static or, without one, from the trial itself, or with an
 OpenSim model, which --static scales. Plates inside a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names.
+Without measured ground forces they are predicted from the motion; with --predict they are predicted and compared.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, cycles.csv, summary.json, figures/moments.svg; from markers also subject.osim (the body that was fitted);
-with --device moments_biological.sto. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
+with --device moments_biological.sto; with predicted forces grf_sd.mot and, with --predict beside plates, grf_measured.mot. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
 
 Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
 forces that nothing supplies; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
@@ -40,6 +42,9 @@ pub(crate) struct ForcesArgs {
     /// Left foot: body and column prefix, such as calcn_l:1_ground_force_
     #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
     pub(crate) left: Option<FootColumns>,
+    /// Predict the ground forces from the motion even if they were measured, and compare [default where none were measured].
+    #[arg(long, conflicts_with = "no_ground")]
+    pub(crate) predict: bool,
     /// Compute without ground forces (a swinging leg, a flight); the whole weight then stands in the root's residual.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,
@@ -55,7 +60,7 @@ pub(crate) struct ForcesArgs {
     /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
     #[arg(long, value_name = "HZ|off", default_value = "6", allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
-    /// Low-pass of the measured forces [default: the same as the motion's].
+    /// Low-pass of the measured forces [default: the same as the motion's; beside a prediction 20 Hz, order 2].
     #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<Cutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).

@@ -4,11 +4,11 @@ use super::stopwatch::Stopwatch;
 use crate::args::Voice;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
-use ambulo::analysis::{Analysis, Settings};
+use ambulo::analysis::{Analysis, GroundAgreement, Settings};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::report::{
-    ConsistencySummary, Input, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary,
+    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -30,6 +30,10 @@ pub(super) struct Outcome<'a> {
     pub(super) consistency: Option<ConsistencySummary>,
     /// How markers became a body in motion.
     pub(super) subject: Option<SubjectSummary>,
+    /// Prediction against plates.
+    pub(super) comparison: Option<GroundAgreement>,
+    /// Whether somebody states the mass.
+    pub(super) mass_is_stated: bool,
     /// Files that only this kind of run has.
     pub(super) files: Vec<OutputFile>,
 }
@@ -59,6 +63,10 @@ impl Outcome<'_> {
         summary.walk = self.walk;
         summary.subject = self.subject;
         summary.consistency = self.consistency;
+        summary.comparison = self.comparison;
+        if self.mass_is_stated {
+            summary.mass = MassKnowledge::Verified;
+        }
         summary.timing_ms = clock.into_laps();
         write_summary(output, &summary)?;
         printer::forces(&summary, output, voice)?;

@@ -85,6 +85,8 @@ impl Made<'_> {
             consistency: None,
             walk: Some(WalkSummary::new(model, report)),
             subject: None,
+            comparison: None,
+            mass_is_stated: true,
             files: self.files()?,
         };
         outcome.write(analysis, findings, clock, output, voice)

@@ -1,8 +1,8 @@
 //! The outcome of `forces`, `walk` and `demo`.
 
-use super::{consistency, print_findings, print_verdict, say, subject};
+use super::{comparison, consistency, print_findings, print_verdict, say, subject};
 use crate::args::Voice;
-use ambulo::report::{FilterSummary, Ground, Summary, WalkSummary};
+use ambulo::report::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
 
@@ -17,7 +17,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         return Ok(());
     }
     say(&format!("{}, {}", summary.model, summary.input.motion))?;
-    say(&format!("  mass      {:.2} kg ({})", summary.mass_kg, summary.mass_source))?;
+    let unverified = summary.mass == MassKnowledge::Unverified && summary.ground.source == "predicted";
+    let unverified = if unverified { ", unverified" } else { "" };
+    say(&format!("  mass      {:.2} kg ({}{unverified})", summary.mass_kg, summary.mass_source))?;
     if let Some(subject) = &summary.subject {
         subject::print(subject)?;
     }
@@ -44,6 +46,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         consistency::print(agreed)?;
     }
     print_peaks(summary)?;
+    if let Some(comparison) = &summary.comparison {
+        comparison::print(comparison)?;
+    }
     if let Some(verdict) = &summary.verdict {
         print_verdict(verdict)?;
     }
@@ -88,7 +93,8 @@ fn print_ground(summary: &Summary) -> Result<()> {
         return say(&format!("  filter    motion {motion}\n  ground    none"));
     }
     say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
-    say(&format!("  ground    {source} (a foot counts as unloaded below {threshold_n} N)"))
+    let rule = summary.ground.rule.filter(|_| source == "predicted").map_or(String::new(), |rule| format!(", {rule}"));
+    say(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
 }
 
 fn print_peaks(summary: &Summary) -> Result<()> {

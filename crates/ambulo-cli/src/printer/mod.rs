@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
+mod comparison;
 mod consistency;
 mod forces;
 mod reproduce;
@@ -36,6 +37,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo demo -o demo                                        try it, no file needed
   ambulo walk --speed 1.2                                    a figure that walks: the same results, no file needed
   ambulo forces WALK.c3d --static STANDING.c3d               joint moments, powers, ground forces, from markers and plates
+  ambulo forces MOTION.trc --mass 70                         the same without plates: ground forces predicted from motion
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same, from coordinates of an OpenSim model
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed

@@ -1,13 +1,13 @@
-//! A recorded motion made to agree with measured forces before it is analysed.
+//! A motion made to agree with the forces under its feet.
 
-use super::recording::{AnalysisError, Settings};
-use crate::dynamics::consistency::{ConsistencySettings, Consistent, make_consistent};
+use super::recording::{Analysis, MassSource, Settings};
+use super::residual::residual_within;
+use crate::dynamics::consistency::{ConsistencyError, ConsistencySettings, Consistent, make_consistent};
+use crate::dynamics::{Workspace, inverse};
 use crate::findings::Findings;
-use crate::ground;
-use crate::kinematics::Trajectory;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
-use crate::motion::{ForceRecording, Smoother, TimeGrid, Window};
+use crate::motion::{Smoother, TimeGrid, Window};
 
 /// What may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,30 +21,37 @@ pub enum Adjustable {
 /// A filter with this cut-off mixes what lies within half its period, so laws hold only so far inside of the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
-/// Changes a motion within its noise until it obeys the measured forces, in the time in which they were complete.
+/// Changes the motion of an analysis within its noise until it obeys the forces under the feet, in the time in which they are
+/// complete; its joint forces and residual become those of the changed motion and body.
 ///
 /// # Errors
-/// Forces that cannot be used, a window that is too short: see [`AnalysisError`].
-pub fn agreed_motion(
+/// A motion without forces, a window that is too short: see [`ConsistencyError`].
+pub fn agree(
     model: &Model,
-    trajectory: &Trajectory,
-    plates: &[ForceRecording],
+    analysis: &mut Analysis,
     settings: &Settings,
     adjustable: Adjustable,
     findings: &mut Findings,
-) -> Result<Consistent, AnalysisError> {
-    // The analysis that follows says the same of the forces.
-    let mut unsaid = Findings::default();
-    let measured = ground::measured(model, trajectory, plates, settings.force_filter, &mut unsaid);
-    let loads = measured.map_err(AnalysisError::Ground)?.loads();
+) -> Result<Consistent, ConsistencyError> {
+    let loads = analysis.ground.loads();
     let body = adjustable == Adjustable::MotionAndBody;
     let asked = ConsistencySettings {
-        within: inside(trajectory.grid(), settings),
+        within: inside(analysis.trajectory.grid(), settings),
         adjust_mass: body,
         adjust_trunk_center: body,
         ..ConsistencySettings::default()
     };
-    Ok(make_consistent(model, trajectory, &loads, &asked, findings)?)
+    let done = make_consistent(model, &analysis.trajectory, &loads, &asked, findings)?;
+    let [from, to] = done.window_s;
+    let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
+    analysis.forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);
+    analysis.residual = residual_within(&done.model, &analysis.forces, first..first + frames);
+    analysis.trajectory = done.trajectory.clone();
+    analysis.adjusted = true;
+    if analysis.mass.source == MassSource::Model {
+        analysis.mass.kg = done.model.mass();
+    }
+    Ok(done)
 }
 
 /// The time in which plates saw every foot, or else all of it, without the ends in which the filters mix in what was not measured.

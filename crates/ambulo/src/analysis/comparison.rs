@@ -96,7 +96,8 @@ pub fn compare(a: Curve<'_>, b: Curve<'_>) -> Result<Agreement, ComparisonError>
     Ok(agreement(&pairs))
 }
 
-fn agreement(pairs: &[(f64, f64)]) -> Agreement {
+/// Agreement of values in pairs.
+pub(super) fn agreement(pairs: &[(f64, f64)]) -> Agreement {
     let n = pairs.len() as f64;
     let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
     let (mean_a, mean_b) = (mean(&|p| p.0), mean(&|p| p.1));

@@ -4,6 +4,7 @@
 //! its coordinates are fitted to the markers, and what plates measured is given to the feet that stood on them.
 
 use super::feasibility::Person;
+use super::ground_agreement::Seen;
 use crate::findings::Findings;
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
@@ -184,6 +185,21 @@ impl BodyInMotion {
     pub fn events(&self, seen: &[Event]) -> Vec<Event> {
         let seen = FootMotion { events: seen.to_vec(), ..self.feet.clone() };
         self.on_plates.events(&seen, self.recorded_s())
+    }
+
+    /// What plates saw in full: stances that the recording does not cut, and the longest time in which every foot stood on a plate.
+    #[must_use]
+    pub fn seen(&self) -> Seen {
+        let [first, last] = self.recorded_s();
+        let stances = Side::BOTH.into_iter().flat_map(|side| {
+            let whole = move |s: &[f64; 2]| s[0] > first && s[1] < last;
+            self.on_plates.measured_stances(side).into_iter().filter(whole).map(move |s| (side, s))
+        });
+        Seen {
+            stances: stances.collect(),
+            window: self.on_plates.windows.first().copied(),
+            events: self.measured_events(),
+        }
     }
 
     /// The longest time without a gap in any coordinate that markers move: first and last instant [s]. `None` if there is none, or if no

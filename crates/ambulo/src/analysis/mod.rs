@@ -6,21 +6,29 @@ mod cycles;
 mod event_agreement;
 mod events;
 pub mod feasibility;
+mod ground_agreement;
 mod marker_trial;
 mod measured_cycles;
 mod peaks;
 mod plausibility;
+mod predicted;
 mod recording;
 mod residual;
+mod walking_direction;
 
-pub use agreed_motion::{Adjustable, agreed_motion};
+pub use agreed_motion::{Adjustable, agree};
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
+pub use ground_agreement::{
+    BandAgreement, CenterAgreement, Compared, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement, Seen,
+    ground_agreement,
+};
 pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};
-pub use recording::{
-    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory, complete_motion,
+pub use predicted::{
+    PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, analyse_predicted, analyse_predicted_trajectory,
 };
+pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_within};

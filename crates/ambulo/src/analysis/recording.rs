@@ -5,9 +5,9 @@ use super::events::{Contact, Event, EventKind, contacts, events};
 use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::residual::{Residual, residual_within};
-use crate::dynamics::consistency::ConsistencyError;
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::Findings;
+use crate::ground::predict::PredictError;
 use crate::ground::{self, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
@@ -36,7 +36,7 @@ pub struct Settings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether it was changed to agree with the forces; whoever does that says so.
+    /// Whether it was changed to agree with the forces ([`super::agree`]).
     pub adjusted: bool,
     /// The measured ground forces on its instants.
     pub ground: GroundForces,
@@ -89,9 +89,9 @@ pub enum AnalysisError {
     /// Its completion to a trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// Its agreement with the forces.
+    /// Forces that no plate measured.
     #[error(transparent)]
-    Consistency(#[from] ConsistencyError),
+    Prediction(#[from] PredictError),
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
@@ -113,7 +113,8 @@ pub fn analyse(
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
-    let trajectory = complete_motion(model, motion, plates, &settings, findings)?;
+    let window = covered(motion, plates, settings.window, findings);
+    let trajectory = trajectory_within(model, motion, plates, settings, window, findings)?;
     stage("smooth");
     analyse_trajectory(
         model,
@@ -125,18 +126,15 @@ pub fn analyse(
     )
 }
 
-/// A recorded motion smoothed and complete, over the time that the force recordings cover: what [`analyse`] begins with.
-///
-/// # Errors
-/// Recordings that cannot be used: see [`MotionError`], [`TrajectoryError`].
-pub fn complete_motion(
+/// The motion smoothed and completed inside a window; `plates` bound what can be asked for.
+pub(super) fn trajectory_within(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: &Settings,
+    settings: Settings,
+    window: Window,
     findings: &mut Findings,
 ) -> Result<Trajectory, AnalysisError> {
-    let window = covered(motion, plates, settings.window, findings);
     let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
     let smoothed = smooth(model, motion, smoothing, findings)
         .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
@@ -225,7 +223,7 @@ fn in_the_users_words(error: MotionError, asked: Window, motion: &Motion, plates
     MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
 }
 
-fn recorded(plate: &ForceRecording) -> Window {
+pub(super) fn recorded(plate: &ForceRecording) -> Window {
     Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() }
 }
 

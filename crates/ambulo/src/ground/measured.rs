@@ -204,13 +204,23 @@ fn bring(
     if let Some(filter) = filter {
         low_pass_all(recording, &mut columns, filter)?;
     }
+    let covered = covered(recording, grid);
     for column in &mut columns {
-        *column = (0..grid.frames).map(|i| interpolate(&recording.times, column, grid.time(i))).collect();
+        let at = |i: usize| if covered(i) { interpolate(&recording.times, column, grid.time(i)) } else { 0.0 };
+        *column = (0..grid.frames).map(at).collect();
     }
     let vector =
         |k: usize| (0..grid.frames).map(|i| Vec3::new(columns[k][i], columns[k + 1][i], columns[k + 2][i])).collect();
     let surface_height = vec![surface_height(recording, up); grid.frames];
     Ok(Series { body: recording.body, force: vector(0), moment: vector(3), surface_height })
+}
+
+/// Whether a frame lies inside the recording, give or take one of its samples: beyond, nothing was measured.
+fn covered(recording: &ForceRecording, grid: TimeGrid) -> impl Fn(usize) -> bool + use<> {
+    let step_s = TimeGrid::spanning(&recording.times).map_or(0.0, |own| own.step_s);
+    let from_s = recording.times.first().map_or(f64::INFINITY, |t| t - step_s);
+    let to_s = recording.times.last().map_or(f64::NEG_INFINITY, |t| t + step_s);
+    move |frame: usize| (from_s..=to_s).contains(&grid.time(frame))
 }
 
 /// M₀ = p × F + T, beside F.

@@ -7,6 +7,7 @@ mod figure;
 mod files;
 mod gait_figure;
 mod paper_figure;
+mod prediction_files;
 mod reproduction;
 mod scene_figures;
 mod scene_summary;
@@ -27,6 +28,7 @@ pub use figure::{FigureError, Mark, moments_figure};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
+pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
@@ -38,6 +40,6 @@ pub use subject_summary::{
     EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterSummary, Filters, Ground, GroundSource, Input, PeakSummary, ResidualSummary, Summary, summary,
+    FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,
 };
 pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};

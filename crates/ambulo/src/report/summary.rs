@@ -5,7 +5,7 @@ use super::subject_summary::SubjectSummary;
 use super::tables::UNLOADED_N;
 use super::walk_summary::WalkSummary;
 use crate::analysis::feasibility::Verdict;
-use crate::analysis::{Analysis, MassSource, Settings, peak};
+use crate::analysis::{Analysis, GroundAgreement, MassSource, Settings, peak};
 use crate::findings::{Finding, Findings};
 use crate::model::Model;
 use crate::motion::Smoother;
@@ -28,6 +28,8 @@ pub struct Summary {
     pub mass_model_kg: f64,
     /// `plates` (whole gait cycles), `standing` (plates in the standing trial) or `model`.
     pub mass_source: &'static str,
+    /// Whether anything but the model vouches for the mass.
+    pub mass: MassKnowledge,
     /// Stature [m], where it was given.
     pub height_m: Option<f64>,
     /// Walking speed over the ground or the belt [m/s].
@@ -54,8 +56,8 @@ pub struct Summary {
     pub findings: Vec<Finding>,
     /// Whether a person could do this.
     pub verdict: Option<Verdict>,
-    /// Prediction against plates; filled when forces are predicted.
-    pub comparison: Option<()>,
+    /// Prediction against plates; filled when forces are predicted and plates saw something in full.
+    pub comparison: Option<GroundAgreement>,
     /// How markers became a body in motion; `null` where coordinates were given.
     pub subject: Option<SubjectSummary>,
     /// How the motion was changed to obey the forces; `null` where it was not.
@@ -95,12 +97,28 @@ pub enum GroundSource {
     /// By force plates or other sensors.
     Measured,
     /// From the motion itself; `rule` says how double support was split.
+    Predicted {
+        /// The rule, in words.
+        rule: &'static str,
+    },
+    /// By a simulation of the motion; `rule` says how double support was split.
     Simulated {
         /// The rule, in words.
         rule: &'static str,
     },
     /// There are none.
     None,
+}
+
+/// Whether a mass is known from more than a model. From motion alone every force scales with the mass, so that a wrong one shows only
+/// against plates, a standing trial or what somebody states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MassKnowledge {
+    /// Weighed by plates, or stated.
+    Verified,
+    /// The model's own.
+    Unverified,
 }
 
 /// The filters in words and numbers.
@@ -172,6 +190,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
     let grid = analysis.trajectory.grid();
     let (source, rule) = match input.ground_source {
         GroundSource::Measured => ("measured", None),
+        GroundSource::Predicted { rule } => ("predicted", Some(rule)),
         GroundSource::Simulated { rule } => ("simulated", Some(rule)),
         GroundSource::None => ("none", None),
     };
@@ -185,6 +204,10 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
             MassSource::Plates => "plates",
             MassSource::Standing => "standing",
             MassSource::Model => "model",
+        },
+        mass: match analysis.mass.source {
+            MassSource::Plates | MassSource::Standing => MassKnowledge::Verified,
+            MassSource::Model => MassKnowledge::Unverified,
         },
         height_m: None,
         speed_m_s: analysis.speed_m_s,

@@ -10,7 +10,7 @@ use ambulo_formats::table::Table;
 
 pub(super) type Column = (String, Vec<f64>);
 
-fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Result<Table, Error> {
+pub(super) fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Result<Table, Error> {
     let time = ("time".to_owned(), analysis.trajectory.grid().times());
     let mut table = Table::new(name, std::iter::once(time).chain(columns).collect())?;
     table.in_degrees = Some(false);

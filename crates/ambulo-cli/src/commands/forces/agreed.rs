@@ -1,40 +1,31 @@
 //! The motion changed to obey the forces, if the user asked for it.
 
 use crate::args::{Consistency, ForcesArgs};
-use ambulo::analysis::{Adjustable, AnalysisError, Settings, agreed_motion};
+use ambulo::analysis::{Adjustable, Analysis, Settings};
 use ambulo::findings::Findings;
-use ambulo::kinematics::Trajectory;
 use ambulo::model::Model;
-use ambulo::motion::{ForceRecording, Window};
-use ambulo::report::ConsistencySummary;
+use ambulo::report::{ConsistencySummary, GroundSource, Input};
+use anyhow::{Context, Result};
 
-/// Body and motion to analyse, and how they were changed.
-pub(super) struct Agreed {
-    pub(super) model: Model,
-    pub(super) trajectory: Trajectory,
-    pub(super) summary: Option<ConsistencySummary>,
-}
-
-pub(super) fn agreed(
+/// Changes motion and body; says how. Predicted forces grow with the mass, so they tell nothing of it.
+pub(super) fn agree(
     args: &ForcesArgs,
-    model: Model,
-    trajectory: Trajectory,
-    plates: &[ForceRecording],
+    model: &mut Model,
+    analysis: &mut Analysis,
+    input: &Input,
     settings: &Settings,
     findings: &mut Findings,
-) -> Result<Agreed, AnalysisError> {
+) -> Result<Option<ConsistencySummary>> {
+    let is_predicted = matches!(input.ground_source, GroundSource::Predicted { .. });
     let adjustable = match args.consistent {
-        None => return Ok(Agreed { model, trajectory, summary: None }),
+        None => return Ok(None),
         Some(Consistency::Motion) => Adjustable::Motion,
+        Some(Consistency::Body) if is_predicted => Adjustable::Motion,
         Some(Consistency::Body) => Adjustable::MotionAndBody,
     };
-    let done = agreed_motion(&model, &trajectory, plates, settings, adjustable, findings)?;
-    let summary = Some(ConsistencySummary::of(&done));
-    Ok(Agreed { model: done.model, trajectory: done.trajectory, summary })
-}
-
-/// The time in which the laws were enforced.
-pub(super) fn window(summary: &ConsistencySummary) -> Window {
-    let [from, to] = summary.window_s;
-    Window { from_s: Some(from), to_s: Some(to) }
+    let settings = Settings { instrumented: settings.instrumented.filter(|_| !is_predicted), ..*settings };
+    let done = ambulo::analysis::agree(model, analysis, &settings, adjustable, findings).context("--consistent")?;
+    let summary = ConsistencySummary::of(&done);
+    *model = done.model;
+    Ok(Some(summary))
 }

@@ -28,8 +28,11 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("read_forces");
     let input = input(args, ground.as_ref());
     let person = Person::of_model(&model);
-    Ok(Recorded { model, motion, plates, person, input, origin: Origin::Coordinates })
+    Ok(Recorded { model, motion, plates, person, input, origin: Origin::Coordinates, mass_is_stated: false })
 }
+
+/// What is said where nothing was measured.
+pub(super) const NO_FORCES: &str = "no ground forces were given; they are predicted from the motion. hint: --grf gives measured ones, --no-ground computes a motion without contact";
 
 fn refuse_what_is_for_markers(args: &ForcesArgs) -> Result<()> {
     let given = [
@@ -78,6 +81,10 @@ pub(super) fn read_ground(
     reading: &mut Reading,
 ) -> Result<(Option<GroundTable>, Vec<ForceRecording>)> {
     if args.no_ground {
+        return Ok((None, Vec::new()));
+    }
+    if args.grf.is_none() && args.loads.is_none() {
+        reading.findings.note("ground.predicted", NO_FORCES);
         return Ok((None, Vec::new()));
     }
     let ground = ground_table::read(args, model, &mut reading.findings)?;

@@ -31,9 +31,9 @@ pub(super) fn read(args: &ForcesArgs, model: &Model, findings: &mut Findings) ->
     let path = match (&args.grf, &loads) {
         (Some(path), _) => path.clone(),
         (None, Some(loads)) => data_file(args.loads.as_deref(), loads)?,
-        (None, None) => bail!(
-            "no ground forces were given, and they are not predicted from the motion yet; expected --grf FILE with --loads XML or --right and --left. hint: --no-ground computes a motion without contact"
-        ),
+        (None, None) => {
+            bail!("no ground forces were given; expected --grf FILE with --loads XML or --right and --left")
+        }
     };
     let (table, remarks) = files::read_table(&path)?;
     files::note_remarks(&path.display().to_string(), &remarks, findings);

@@ -8,7 +8,7 @@ use ambulo::ground::plates::{PlateContact, foot_bodies};
 use ambulo::motion::ForceRecording;
 use ambulo::report::Input;
 use ambulo::spatial::{Mat3, Vec3};
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 
 /// The forces under the feet: from a table if one was given, else from the plates of the file.
 pub(super) fn read(
@@ -26,7 +26,8 @@ pub(super) fn read(
     }
     let plates = body.plate_forces();
     if plates.is_empty() {
-        return Err(without_forces(args, body));
+        reading.findings.note("ground.predicted", without_forces(body));
+        return Ok((plates, coordinates::input(args, None)));
     }
     let input = Input { ground: Some(args.input.display().to_string()), ..coordinates::input(args, None) };
     Ok((plates, input))
@@ -49,11 +50,13 @@ fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings:
 }
 
 /// Why there are no forces under the feet, and what can be done.
-fn without_forces(args: &ForcesArgs, body: &BodyInMotion) -> anyhow::Error {
-    let shown = args.input.display();
+fn without_forces(body: &BodyInMotion) -> String {
     let contacts = &body.on_plates.contacts;
     let (found, hint) = if body.plates.is_empty() {
-        ("the file has no force plates".to_owned(), "--no-ground computes a motion without contact")
+        (
+            "the file has no force plates".to_owned(),
+            "--grf gives measured ones, --no-ground computes a motion without contact",
+        )
     } else if contacts.is_empty() {
         let found = format!("nobody stands on the file's {}", counted(body.plates.len(), "force plate"));
         (found, "--no-ground computes a motion without contact")
@@ -70,9 +73,7 @@ fn without_forces(args: &ForcesArgs, body: &BodyInMotion) -> anyhow::Error {
             "--plate 1=r says whose foot a plate carries; a person who stands is for --static, beside a trial that walks",
         )
     };
-    anyhow!(
-        "{shown}: no ground forces: {found}, and forces are not predicted from the motion yet; expected --grf FILE, or a trial that hits a plate. hint: {hint}"
-    )
+    format!("{found}: the ground forces are predicted from the motion. hint: {hint}")
 }
 
 fn counted(count: usize, one: &str) -> String {

@@ -42,6 +42,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
         motion: body.fit.motion.clone(),
         model: body.subject.model.clone(),
         person: body.subject.person.clone(),
+        mass_is_stated: args.model.is_none() || args.subject.mass.is_some(),
         origin: Origin::Markers(Box::new(Followed {
             body,
             listed: walk.events,

@@ -5,16 +5,16 @@ mod coordinates;
 mod ground_table;
 mod marker_ground;
 mod markers;
+mod prediction;
 mod skeleton;
 
 use super::outcome::{Outcome, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
-use agreed::Agreed;
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::analysis::{
-    Analysis, AnalysisError, BodyInMotion, Event, ForceSource, Settings, analyse_trajectory, complete_motion,
+    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, MassSource, PredictedAnalysis, Settings, analyse,
 };
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim, to_osim};
@@ -90,6 +90,16 @@ struct Recorded {
     input: Input,
     /// What else is known of it.
     origin: Origin,
+    /// Whether somebody states the body mass, rather than the model alone.
+    mass_is_stated: bool,
+}
+
+/// What came out of it.
+struct Computed {
+    analysis: Analysis,
+    subject: Option<SubjectSummary>,
+    comparison: Option<GroundAgreement>,
+    files: Vec<OutputFile>,
 }
 
 /// What a recording was made with.
@@ -141,6 +151,31 @@ impl Origin {
         }
     }
 
+    /// Adds to a prediction what is known besides the motion: the body mass, if plates or a standing trial weigh it.
+    fn complete_prediction(&self, predicted: &mut PredictedAnalysis) -> Option<SubjectSummary> {
+        let PredictedAnalysis { analysis, measured, .. } = predicted;
+        let subject = match (measured, self) {
+            (Some(measured), _) => {
+                let subject = self.complete(measured);
+                if measured.mass.source != MassSource::Model {
+                    analysis.mass = measured.mass;
+                }
+                subject
+            }
+            (None, Origin::Coordinates) => None,
+            (None, Origin::Skeleton(summary)) => Some(*summary.clone()),
+            (None, Origin::Markers(followed)) => {
+                Some(SubjectSummary::of_markers(&followed.body, &followed.listed, &[]))
+            }
+        };
+        if let Origin::Markers(followed) = self
+            && let Some(standing_kg) = followed.standing_kg
+        {
+            analysis.weigh_standing(standing_kg);
+        }
+        subject
+    }
+
     /// The time to analyse when nobody says: all of it, or the longest time without a gap in what the markers tell.
     fn known(&self, findings: &mut Findings) -> Window {
         let Origin::Markers(followed) = self else { return Window::default() };
@@ -185,29 +220,28 @@ impl Origin {
 
 fn compute(
     args: &ForcesArgs,
-    recorded: Recorded,
+    mut recorded: Recorded,
     device: Option<DeviceRecording>,
     thresholds: &Thresholds,
     reading: Reading,
 ) -> Result<Verdict> {
     let Reading { mut findings, mut clock, read } = reading;
-    let Recorded { model, motion, plates, person, input, origin } = recorded;
-    let mut settings = Settings { instrumented: origin.instrumented(), ..settings(args) };
+    let mut settings = Settings { instrumented: recorded.origin.instrumented(), ..settings(args) };
     if settings.window == Window::default() {
-        settings.window = origin.known(&mut findings);
+        settings.window = recorded.origin.known(&mut findings);
     }
-    let named = |error: AnalysisError| name_the_file(error, &input);
-    let trajectory = complete_motion(&model, &motion, &plates, &settings, &mut findings).map_err(named)?;
-    clock.lap("smooth");
-    let Agreed { model, trajectory, summary: consistency } =
-        agreed::agreed(args, model, trajectory, &plates, &settings, &mut findings).map_err(named)?;
+    let computed = if prediction::is_wanted(args, &recorded) {
+        settings.force_filter = prediction::plates_filter(args).filter(|_| !recorded.plates.is_empty());
+        prediction::compute(&mut recorded, settings, &mut findings, &mut clock)
+    } else {
+        by_plates(&recorded, settings, &mut findings, &mut clock)
+    };
+    let Recorded { mut model, person, input, origin, mass_is_stated, .. } = recorded;
+    let Computed { mut analysis, subject, comparison, mut files } =
+        computed.map_err(|error| name_the_file(error, &input))?;
+    let consistency = agreed::agree(args, &mut model, &mut analysis, &input, &settings, &mut findings)?;
     clock.lap("consistency");
-    let within = consistency.as_ref().map_or(settings.instrumented, |c| Some(agreed::window(c)));
-    let source = ForceSource::Measured { filter: settings.force_filter, within };
-    let stage = &mut |stage| clock.lap(stage);
-    let mut analysis = analyse_trajectory(&model, trajectory, &plates, source, &mut findings, stage).map_err(named)?;
-    analysis.adjusted = consistency.is_some();
-    let subject = origin.complete(&mut analysis);
+    files.extend(origin.files(&model, consistency.is_some(), &mut findings));
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
@@ -221,11 +255,26 @@ fn compute(
         device: device.as_deref(),
         read: &read,
         walk: None,
-        files: origin.files(&model, consistency.is_some(), &mut findings),
         consistency,
         subject,
+        comparison,
+        mass_is_stated,
+        files,
     };
     outcome.write(analysis, findings, clock, &args.output, args.voice)
+}
+
+/// With the forces that plates measured, or with none.
+fn by_plates(
+    recorded: &Recorded,
+    settings: Settings,
+    findings: &mut Findings,
+    clock: &mut Stopwatch,
+) -> Result<Computed, AnalysisError> {
+    let Recorded { model, motion, plates, origin, .. } = recorded;
+    let mut analysis = analyse(model, motion, plates, settings, findings, &mut |stage| clock.lap(stage))?;
+    let subject = origin.complete(&mut analysis);
+    Ok(Computed { analysis, subject, comparison: None, files: Vec::new() })
 }
 
 /// The error with the file that it is about.

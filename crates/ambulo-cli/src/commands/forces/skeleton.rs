@@ -7,7 +7,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anthropometry::Build;
 use ambulo::motion::skeleton::skeleton_from_bvh;
-use ambulo::report::{GroundSource, Input, SubjectSummary};
+use ambulo::report::SubjectSummary;
 use ambulo_formats::bvh::Bvh;
 use anyhow::{Context, Result, bail};
 
@@ -26,14 +26,15 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let build = Build { table, mass, height: skeleton.height_m, toe_joint: true };
     let body = retarget(&build, &skeleton, &mut reading.findings).with_context(|| shown.clone())?;
     reading.clock.lap("markers");
-    reading.findings.warn(
-        "ground.none",
-        "a BVH has no ground forces and they are not predicted yet: the whole support stands in the root's residual, and moments of legs that stand are those of legs that swing",
-    );
+    if !args.no_ground {
+        let message = "a BVH has no ground forces; they are predicted from the motion. hint: --no-ground computes a motion without contact";
+        reading.findings.note("ground.predicted", message);
+    }
     Ok(Recorded {
         origin: Origin::Skeleton(Box::new(SubjectSummary::of_skeleton(&skeleton.statement, &body.fit))),
         plates: Vec::new(),
-        input: Input { ground_source: GroundSource::None, ..coordinates::input(args, None) },
+        mass_is_stated: true,
+        input: coordinates::input(args, None),
         person: Person::of_human(&body.human),
         motion: body.fit.motion,
         model: loaded(body.human.model, args)?,
@@ -51,7 +52,7 @@ fn refuse_what_has_no_use(args: &ForcesArgs) -> Result<()> {
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
-            "{}: {option} has no use for a .bvh, whose skeleton goes onto the built-in body without forces; expected --mass and --height",
+            "{}: {option} has no use for a .bvh, whose skeleton goes onto the built-in body and has no measured forces; expected --mass and --height",
             args.input.display()
         ),
         None => Ok(()),

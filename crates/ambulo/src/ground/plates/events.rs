@@ -40,7 +40,8 @@ impl FeetOnPlates {
     }
 
     /// Times during which plates saw all of a foot's load [s]; plates under one foot count as one.
-    fn measured_stances(&self, side: Side) -> Vec<[f64; 2]> {
+    #[must_use]
+    pub fn measured_stances(&self, side: Side) -> Vec<[f64; 2]> {
         let whole = |c: &&PlateContact| {
             c.side == Some(side) && matches!(c.quality, ContactQuality::Clean | ContactQuality::Shared)
         };

@@ -1,0 +1,74 @@
+//! Ground forces from the motion alone, and how they agree with plates where there are any.
+
+use super::{Computed, Origin, Recorded};
+use crate::args::ForcesArgs;
+use crate::commands::stopwatch::Stopwatch;
+use ambulo::analysis::{
+    AnalysisError, MassSource, PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, Seen, Settings, analyse_predicted,
+};
+use ambulo::findings::Findings;
+use ambulo::ground::predict::PredictSettings;
+use ambulo::motion::filter::LowPass;
+use ambulo::report::{GroundSource, prediction_files};
+use anyhow::Result;
+
+/// Whether forces are predicted: if that is asked for, or if nothing measured them.
+pub(super) fn is_wanted(args: &ForcesArgs, recorded: &Recorded) -> bool {
+    !args.no_ground && (args.predict || recorded.plates.is_empty())
+}
+
+/// The low-pass of plates beside a prediction: not the motion's, but one that keeps what plates measure.
+pub(super) fn plates_filter(args: &ForcesArgs) -> Option<LowPass> {
+    match args.force_cutoff {
+        Some(cutoff) => cutoff.0.map(|cutoff_hz| LowPass { order: args.order, cutoff_hz }),
+        None => Some(PLATES_LOW_PASS),
+    }
+}
+
+/// Predicts, and compares with the plates.
+pub(super) fn compute(
+    recorded: &mut Recorded,
+    settings: Settings,
+    findings: &mut Findings,
+    clock: &mut Stopwatch,
+) -> Result<Computed, AnalysisError> {
+    let Recorded { model, motion, plates, person, input, origin, mass_is_stated } = recorded;
+    let order = PredictOrder {
+        soles: &person.soles,
+        settings: &PredictSettings::default(),
+        plates_filter: settings.force_filter,
+    };
+    let mut predicted =
+        analyse_predicted(model, motion, plates, settings, &order, findings, &mut |stage| clock.lap(stage))?;
+    input.ground_source = GroundSource::Predicted { rule: predicted.prediction.rule };
+    let seen = seen(origin, &predicted, plates);
+    let subject = origin.complete_prediction(&mut predicted);
+    let comparison = seen.and_then(|seen| predicted.agreement(model, &seen));
+    if comparison.is_none() && predicted.measured.is_some() {
+        findings.warn(
+            "comparison.none",
+            "plates are there, but no foot stood wholly on its own one: the prediction was compared with nothing",
+        );
+    }
+    if predicted.analysis.mass.source == MassSource::Model && !*mass_is_stated {
+        let message = format!(
+            "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: --mass KG or a standing trial on plates with --static; of a model, scale it to this person",
+            model.mass()
+        );
+        findings.warn("mass.unverified", message);
+    }
+    let files = prediction_files(model, &predicted).unwrap_or_else(|error| {
+        findings.warn("prediction.not_written", format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
+        Vec::new()
+    });
+    Ok(Computed { analysis: predicted.analysis, subject, comparison, files })
+}
+
+/// What plates saw in full; `None` without plates.
+fn seen(origin: &Origin, predicted: &PredictedAnalysis, plates: &[ambulo::motion::ForceRecording]) -> Option<Seen> {
+    let measured = predicted.measured.as_ref()?;
+    match origin {
+        Origin::Markers(followed) if !followed.body.on_plates.contacts.is_empty() => Some(followed.body.seen()),
+        _ => Some(Seen::by_load(measured, plates, &predicted.prediction.footfalls)),
+    }
+}

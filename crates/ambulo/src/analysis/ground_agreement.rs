@@ -1,0 +1,383 @@
+//! Predicted forces against plates.
+//!
+//! | what | over which samples |
+//! |---|---|
+//! | force of a foot: RMSE in body weights, rRMSE, r | its whole stances: the plate's vertical force above 20 N |
+//! | centre of pressure: RMS distance, plain and weighted by the vertical force | of those, where the plate's vertical force exceeds 5 % of body weight |
+//! | sagittal moments of a leg: RMSE, r | the time in which plates measured every foot, swing included, and that leg's whole stances |
+//! | foot strikes and toe-offs: mean absolute error | those that plates saw |
+//!
+//! Stances shorter than 0.2 s are left out. Vertical is against gravity; fore-aft and lateral follow [`super::walking_direction`].
+//! rRMSE and r: [`super::comparison`]. Bands: how many samples lie within 1.645 standard deviations, which would be 90 % of a normal
+//! distribution, and how wide that band is over the RMSE.
+//! Pinned by: tests/ground_agreement.rs
+
+use super::comparison::agreement;
+use super::event_agreement::{EventAgreement, event_agreement};
+use super::events::{Contact, Event};
+use super::predicted::PredictedAnalysis;
+use super::recording::{Analysis, Mass};
+use super::walking_direction::WalkingDirection;
+use crate::ground::footfalls::Footfalls;
+use crate::ground::phases::contacts_of_events;
+use crate::ground::predict::{FootDeviation, Prediction};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet, upward};
+use crate::model::{Model, Side};
+use crate::motion::{ForceRecording, TimeGrid, Window};
+use crate::spatial::Vec3;
+use serde::Serialize;
+
+/// Shorter stances are left out [s].
+const SHORTEST_STANCE_S: f64 = 0.2;
+/// A centre of pressure counts above this share of body weight.
+const CENTER_LOAD_BW: f64 = 0.05;
+/// Standard deviations on either side that hold 90 % of a normal distribution.
+const BAND_90: f64 = 1.645;
+/// Coordinates whose moments are compared, without their side.
+const MOMENTS: [&str; 3] = ["hip_flexion", "knee_angle", "ankle_angle"];
+/// A stance that motion sees is measured if plates saw at least this share of it.
+const MEASURED_SHARE: f64 = 0.5;
+
+/// What plates saw in full.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// Whole stances of feet that stood wholly on their own plates [s].
+    pub stances: Vec<(Side, [f64; 2])>,
+    /// The longest time in which every foot on the ground stood on a plate [s].
+    pub window: Option<[f64; 2]>,
+    /// Foot strikes and toe-offs.
+    pub events: Vec<Event>,
+}
+
+/// Agreement of predicted with measured forces.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GroundAgreement {
+    /// Body mass that body weights are made of [kg].
+    pub mass_kg: f64,
+    /// The time in which plates measured every foot [s].
+    pub window_s: Option<[f64; 2]>,
+    /// Each foot that stood wholly on its own plate.
+    pub feet: Vec<FootAgreement>,
+    /// Sagittal moments of the legs.
+    pub moments: Vec<MomentAgreement>,
+    /// Strikes, then offs.
+    pub events: [EventAgreement; 2],
+}
+
+/// Agreement of one foot over its stances.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FootAgreement {
+    /// `r` or `l`.
+    pub side: &'static str,
+    /// From strike to off [s].
+    pub stances_s: Vec<[f64; 2]>,
+    /// Samples.
+    pub samples: usize,
+    /// Against gravity.
+    pub vertical: ForceAgreement,
+    /// Along the walking direction.
+    pub fore_aft: ForceAgreement,
+    /// Across it.
+    pub lateral: ForceAgreement,
+    /// Centre of pressure.
+    pub center_of_pressure: CenterAgreement,
+}
+
+/// Agreement of one component of a force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ForceAgreement {
+    /// Root-mean-square difference in body weights.
+    pub rmse_bw: f64,
+    /// RMSE over the mean of the two ranges.
+    pub rrmse: f64,
+    /// Pearson's correlation.
+    pub r: f64,
+    /// How honest the standard deviations are.
+    pub band: BandAgreement,
+}
+
+/// A band of 1.645 standard deviations about the prediction.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BandAgreement {
+    /// Share of the measured samples inside it.
+    pub holds: f64,
+    /// Its mean half-width over the RMSE.
+    pub half_width_over_rmse: f64,
+}
+
+/// Agreement of the centre of pressure [mm].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CenterAgreement {
+    /// Samples in which both have one.
+    pub samples: usize,
+    /// Samples in which the plate has one and the prediction does not.
+    pub missing: usize,
+    /// RMS along the walking direction.
+    pub fore_aft_mm: f64,
+    /// RMS across it.
+    pub lateral_mm: f64,
+    /// RMS along the walking direction, samples weighted by the measured vertical force.
+    pub fore_aft_weighted_mm: f64,
+    /// RMS across it, weighted likewise.
+    pub lateral_weighted_mm: f64,
+}
+
+/// Agreement of one joint moment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MomentAgreement {
+    /// Column of `moments.sto`.
+    pub quantity: String,
+    /// `r` or `l`.
+    pub side: &'static str,
+    /// Samples.
+    pub samples: usize,
+    /// Root-mean-square difference [N.m].
+    pub rmse_nm: f64,
+    /// The same over body mass [N.m/kg].
+    pub rmse_nm_kg: f64,
+    /// Pearson's correlation.
+    pub r: f64,
+}
+
+impl Seen {
+    /// What plates saw of a motion that has no markers to say whose foot stood where: stances are the times in which a foot's sensor was
+    /// loaded; a stance that the motion sees and no sensor bars its time from the window.
+    #[must_use]
+    pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> Seen {
+        let grid = measured.trajectory.grid();
+        let ends =
+            |plate: &ForceRecording| Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() };
+        let whole = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
+        let both = plates.iter().fold(whole, |window, plate| window.overlap(ends(plate)));
+        let [from, to] = [both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN)];
+        let mut seen = Seen { stances: Vec::new(), window: None, events: measured.events.clone() };
+        let mut free = if to > from { vec![[from, to]] } else { Vec::new() };
+        for side in Side::BOTH {
+            let contacts = contacts_of_events(&measured.events, side);
+            seen.stances.extend(contacts.iter().filter_map(|c| Some((side, [c.strike_s?, c.off_s?]))));
+            let spans: Vec<[f64; 2]> = contacts.iter().map(|c: &Contact| c.span(from, to)).collect();
+            for fall in footfalls.of(side) {
+                let span = [fall.strike_s.unwrap_or(from).max(from), fall.off_s.unwrap_or(to).min(to)];
+                let covered: f64 = spans.iter().map(|s| (s[1].min(span[1]) - s[0].max(span[0])).max(0.0)).sum();
+                if covered < MEASURED_SHARE * (span[1] - span[0]) {
+                    free = free.iter().flat_map(|stretch| without(*stretch, span)).collect();
+                }
+            }
+        }
+        seen.window = free.into_iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        seen
+    }
+}
+
+/// What is left of a stretch of time.
+fn without([from, to]: [f64; 2], bar: [f64; 2]) -> Vec<[f64; 2]> {
+    let parts = [[from, to.min(bar[0])], [from.max(bar[1]), to]];
+    if bar[1] <= from || bar[0] >= to { vec![[from, to]] } else { parts.into_iter().filter(|s| s[1] > s[0]).collect() }
+}
+
+/// Two analyses of one motion, by predicted and by measured forces.
+#[derive(Debug, Clone, Copy)]
+pub struct Compared<'a> {
+    /// The body.
+    pub model: &'a Model,
+    /// By prediction.
+    pub predicted: &'a Analysis,
+    /// The prediction.
+    pub prediction: &'a Prediction,
+    /// By plates.
+    pub measured: &'a Analysis,
+}
+
+impl PredictedAnalysis {
+    /// How prediction and plates agree; `None` without plates, or if they saw nothing in full.
+    #[must_use]
+    pub fn agreement(&self, model: &Model, seen: &Seen) -> Option<GroundAgreement> {
+        let PredictedAnalysis { analysis, prediction, measured } = self;
+        let measured = measured.as_ref()?;
+        let found = ground_agreement(&Compared { model, predicted: analysis, prediction, measured }, seen);
+        (!found.feet.is_empty() || !found.moments.is_empty()).then_some(found)
+    }
+}
+
+/// How prediction and plates agree on what plates saw in full.
+#[must_use]
+pub fn ground_agreement(compared: &Compared<'_>, seen: &Seen) -> GroundAgreement {
+    let Compared { model, predicted, prediction, measured } = *compared;
+    let Mass { kg, .. } = measured.mass;
+    let judge = Judge {
+        grid: predicted.trajectory.grid(),
+        up: upward(model),
+        weight: kg * model.gravity().norm(),
+        direction: WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls),
+    };
+    let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
+    let of = |list: &[(Side, BodyForces)], side: Side| list.iter().position(|(s, _)| *s == side);
+    let of_foot = |side: Side| {
+        let (found, truth) = (&found[of(&found, side)?].1, &truth[of(&truth, side)?].1);
+        let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side);
+        judge.foot(side, found, truth, deviation, &stances(seen, side))
+    };
+    let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
+    let moments = Side::BOTH.into_iter().flat_map(|side| {
+        let frames = judge.measured_frames(side, seen, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| f));
+        MOMENTS.into_iter().filter_map(move |stem| moment(compared, side, stem, &frames)).collect::<Vec<_>>()
+    });
+    let grid = judge.grid;
+    let inside = |event: &&Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
+    let events: Vec<Event> = seen.events.iter().filter(inside).copied().collect();
+    GroundAgreement {
+        mass_kg: kg,
+        window_s: seen.window,
+        feet,
+        moments: moments.collect(),
+        events: event_agreement(&events, &prediction.footfalls.events()),
+    }
+}
+
+fn stances(seen: &Seen, side: Side) -> Vec<[f64; 2]> {
+    let long = |s: &[f64; 2]| s[1] - s[0] >= SHORTEST_STANCE_S;
+    seen.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s).filter(long).collect()
+}
+
+fn moment(compared: &Compared<'_>, side: Side, stem: &str, frames: &[usize]) -> Option<MomentAgreement> {
+    let Compared { model, predicted, measured, .. } = *compared;
+    let id = model.coordinate(&format!("{stem}_{}", side.letter()))?.index();
+    let (found, truth) = (&predicted.forces.generalized[id], &measured.forces.generalized[id]);
+    let pairs: Vec<(f64, f64)> = frames.iter().map(|&i| (found[i], truth[i])).collect();
+    if pairs.is_empty() {
+        return None;
+    }
+    let agreed = agreement(&pairs);
+    Some(MomentAgreement {
+        quantity: model.force_names()[id].clone(),
+        side: side.letter(),
+        samples: agreed.samples,
+        rmse_nm: agreed.rmse,
+        rmse_nm_kg: agreed.rmse / measured.mass.kg,
+        r: agreed.r,
+    })
+}
+
+/// What all feet are judged with.
+struct Judge {
+    grid: TimeGrid,
+    up: Vec3,
+    /// Body weight [N].
+    weight: f64,
+    direction: WalkingDirection,
+}
+
+/// A measured sample of a stance: frame and axes.
+struct Sample {
+    frame: usize,
+    /// Up, forwards, to the right.
+    axes: [Vec3; 3],
+}
+
+impl Judge {
+    /// Frames of a stance in which the plate is loaded.
+    fn frames(&self, truth: &BodyForces, [from_s, to_s]: [f64; 2]) -> Vec<usize> {
+        let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
+        let loaded = |i: &usize| truth.force[*i].dot(&self.up) > CENTER_OF_PRESSURE_LOAD_N;
+        (first..first + count).filter(loaded).collect()
+    }
+
+    /// Frames in which all that acts on a leg was measured.
+    fn measured_frames(&self, side: Side, seen: &Seen, truth: Option<&BodyForces>) -> Vec<usize> {
+        let mut known = vec![false; self.grid.frames];
+        if let Some([from_s, to_s]) = seen.window {
+            let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
+            known[first..first + count].fill(true);
+        }
+        if let Some(truth) = truth {
+            let frames = stances(seen, side).into_iter().flat_map(|stance| self.frames(truth, stance));
+            frames.for_each(|i| known[i] = true);
+        }
+        (0..known.len()).filter(|&i| known[i]).collect()
+    }
+
+    fn foot(
+        &self,
+        side: Side,
+        found: &BodyForces,
+        truth: &BodyForces,
+        deviation: Option<&FootDeviation>,
+        stances: &[[f64; 2]],
+    ) -> Option<FootAgreement> {
+        let samples = stances.iter().flat_map(|stance| {
+            let [forward, right] = self.direction.during(*stance);
+            let axes = [self.up, forward, right];
+            self.frames(truth, *stance).into_iter().map(move |frame| Sample { frame, axes })
+        });
+        let samples: Vec<Sample> = samples.collect();
+        if samples.is_empty() {
+            return None;
+        }
+        let force = |axis: usize| self.force(&samples, axis, found, truth, deviation);
+        Some(FootAgreement {
+            side: side.letter(),
+            stances_s: stances.to_vec(),
+            samples: samples.len(),
+            vertical: force(0),
+            fore_aft: force(1),
+            lateral: force(2),
+            center_of_pressure: self.center(&samples, found, truth),
+        })
+    }
+
+    fn force(
+        &self,
+        samples: &[Sample],
+        axis: usize,
+        found: &BodyForces,
+        truth: &BodyForces,
+        deviation: Option<&FootDeviation>,
+    ) -> ForceAgreement {
+        let along = |series: &[Vec3], sample: &Sample| series[sample.frame].dot(&sample.axes[axis]);
+        let pairs: Vec<(f64, f64)> = samples.iter().map(|s| (along(&found.force, s), along(&truth.force, s))).collect();
+        let agreed = agreement(&pairs);
+        let half_width =
+            |s: &Sample| deviation.map_or(0.0, |d| BAND_90 * d.force[s.frame].component_mul(&s.axes[axis]).norm());
+        let inside = samples.iter().zip(&pairs).filter(|(s, (a, b))| (a - b).abs() <= half_width(s)).count();
+        let n = samples.len() as f64;
+        ForceAgreement {
+            rmse_bw: agreed.rmse / self.weight,
+            rrmse: agreed.rrmse,
+            r: agreed.r,
+            band: BandAgreement {
+                holds: inside as f64 / n,
+                half_width_over_rmse: samples.iter().map(half_width).sum::<f64>() / n / agreed.rmse,
+            },
+        }
+    }
+
+    fn center(&self, samples: &[Sample], found: &BodyForces, truth: &BodyForces) -> CenterAgreement {
+        let load = |s: &Sample| truth.force[s.frame].dot(&self.up);
+        let measured = samples.iter().filter(|s| load(s) > CENTER_LOAD_BW * self.weight);
+        let (mut squares, mut weighted, mut loads) = ([0.0; 2], [0.0; 2], 0.0);
+        let (mut count, mut missing) = (0, 0);
+        for sample in measured {
+            let off = found.center_of_pressure[sample.frame] - truth.center_of_pressure[sample.frame];
+            if off.x.is_nan() {
+                missing += 1;
+                continue;
+            }
+            count += 1;
+            loads += load(sample);
+            for (k, axis) in sample.axes[1..].iter().enumerate() {
+                let square = off.dot(axis).powi(2);
+                squares[k] += square;
+                weighted[k] += square * load(sample);
+            }
+        }
+        let root_mm = |sum: f64, weight: f64| 1e3 * (sum / weight).sqrt();
+        CenterAgreement {
+            samples: count,
+            missing,
+            fore_aft_mm: root_mm(squares[0], count as f64),
+            lateral_mm: root_mm(squares[1], count as f64),
+            fore_aft_weighted_mm: root_mm(weighted[0], loads),
+            lateral_weighted_mm: root_mm(weighted[1], loads),
+        }
+    }
+}

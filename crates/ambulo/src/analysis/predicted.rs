@@ -1,0 +1,138 @@
+//! A recording whose ground forces are predicted from its motion; where plates measured them too, both stand side by side.
+
+use super::cycles::cycles;
+use super::events::{Event, EventKind};
+use super::feasibility::over_ground;
+use super::plausibility;
+use super::recording::{
+    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse_trajectory, trajectory_within,
+};
+use super::residual::residual;
+use crate::dynamics::{Workspace, inverse};
+use crate::findings::{Finding, Findings};
+use crate::ground::predict::{PredictSettings, Prediction, predict};
+use crate::ground::sole::Sole;
+use crate::ground::upward;
+use crate::kinematics::Trajectory;
+use crate::model::Model;
+use crate::motion::filter::LowPass;
+use crate::motion::{ForceRecording, Motion, TimeGrid, Window};
+
+/// Low-pass of the plates against which a prediction is held, whatever the motion's: 20 Hz, second order, forwards and backwards.
+pub const PLATES_LOW_PASS: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
+
+/// What a prediction needs besides the motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PredictOrder<'a> {
+    /// Right and left sole.
+    pub soles: &'a [Option<Sole>; 2],
+    /// How forces are predicted.
+    pub settings: &'a PredictSettings,
+    /// Low-pass of the plates, where there are any; `None` leaves them as they are.
+    pub plates_filter: Option<LowPass>,
+}
+
+/// Everything that was computed from one recording with predicted forces.
+#[derive(Debug, Clone)]
+pub struct PredictedAnalysis {
+    /// Forces, events and cycles by the prediction.
+    pub analysis: Analysis,
+    /// The prediction.
+    pub prediction: Prediction,
+    /// The same motion with the forces that plates measured; `None` without plates.
+    pub measured: Option<Analysis>,
+}
+
+/// Analyses a recording with predicted ground forces: as [`super::analyse`], without plates. `plates`, if there are any, are only
+/// compared with. `stage` is called with a name as each stage ends.
+///
+/// # Errors
+/// Recordings that cannot be used, bodies that no forces can be predicted for: see [`AnalysisError`].
+pub fn analyse_predicted(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: Settings,
+    order: &PredictOrder<'_>,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<PredictedAnalysis, AnalysisError> {
+    let trajectory = trajectory_within(model, motion, &[], settings, settings.window, findings)?;
+    stage("smooth");
+    analyse_predicted_trajectory(model, trajectory, plates, settings.instrumented, order, findings, stage)
+}
+
+/// The same for a motion that is complete. `within` is the time in which plates measured everything, if that is known.
+///
+/// # Errors
+/// Bodies that no forces can be predicted for, plates that cannot be used: see [`AnalysisError`].
+pub fn analyse_predicted_trajectory(
+    model: &Model,
+    trajectory: Trajectory,
+    plates: &[ForceRecording],
+    within: Option<Window>,
+    order: &PredictOrder<'_>,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<PredictedAnalysis, AnalysisError> {
+    let prediction = predict(model, &trajectory, order.soles, order.settings, findings)?;
+    stage("prediction");
+    let filter = order.plates_filter.filter(|filter| plates.iter().all(|plate| allows(plate, *filter)));
+    let source = ForceSource::Measured { filter, within };
+    let mut of_plates = Findings::default();
+    let measured = match plates {
+        [] => None,
+        _ => Some(analyse_trajectory(model, trajectory.clone(), plates, source, &mut of_plates, &mut |_| ())?),
+    };
+    report_plates(&of_plates, within.is_some(), findings);
+    stage("plates");
+    let analysis = with_prediction(model, trajectory, &prediction, findings);
+    stage("analysis");
+    Ok(PredictedAnalysis { analysis, prediction, measured })
+}
+
+/// What was odd about the plates that the prediction is held against. Where nobody knows when they measured every foot, the residual
+/// of feet beside them is none.
+fn report_plates(of_plates: &Findings, window_is_known: bool, findings: &mut Findings) {
+    /// Said of the motion, which is the prediction's too, or of a residual over times without plates.
+    const OF_THE_MOTION: &str = "motion.out_of_range";
+    const OF_THE_WINDOW: &str = "residual.large";
+    let is_of_plates = |f: &&Finding| f.code != OF_THE_MOTION && (window_is_known || f.code != OF_THE_WINDOW);
+    for finding in of_plates.as_slice().iter().filter(is_of_plates) {
+        let message = format!("plates beside the prediction: {}", finding.message);
+        findings.add(Finding { message, ..finding.clone() });
+    }
+}
+
+/// Whether a sensor is fast enough for a filter.
+fn allows(plate: &ForceRecording, filter: LowPass) -> bool {
+    TimeGrid::spanning(&plate.times).is_none_or(|grid| filter.cutoff_hz < 0.5 * grid.rate_hz())
+}
+
+fn with_prediction(
+    model: &Model,
+    trajectory: Trajectory,
+    prediction: &Prediction,
+    findings: &mut Findings,
+) -> Analysis {
+    let (grid, ground) = (trajectory.grid(), prediction.ground.clone());
+    let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
+    let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
+    let events: Vec<Event> = prediction.footfalls.events().into_iter().filter(inside).collect();
+    if !events.iter().any(|event| event.kind == EventKind::Strike) {
+        findings.note("events.none", "no foot strike was found in the motion inside the window");
+    }
+    plausibility::report_ranges(model, &trajectory, findings);
+    Analysis {
+        cycles: cycles(&events, grid),
+        events,
+        mass: Mass { kg: model.mass(), source: MassSource::Model },
+        speed_m_s: over_ground(model, &trajectory, &ground, upward(model)).map(|over| over.speed),
+        residual: residual(model, &forces),
+        trajectory,
+        adjusted: false,
+        ground,
+        forces,
+        verdict: None,
+    }
+}
