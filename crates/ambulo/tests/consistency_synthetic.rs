@@ -357,10 +357,41 @@ fn what_cannot_be_used_is_refused_with_reasons() {
     let nothing = Window { from_s: Some(7.0), to_s: None };
     let error = attempt(&t.loads, ConsistencySettings { within: nothing, ..usual() });
     assert!(matches!(error, ConsistencyError::TooShort { found: 0, .. }), "{error}");
+    let mut coordinates = t.model.coordinates().to_vec();
+    for coordinate in coordinates.iter_mut().filter(|c| c.name.starts_with("pelvis_t") && c.name.len() == 9) {
+        coordinate.drive = Drive::Locked;
+    }
+    let held = Model::new("held", t.model.gravity(), t.model.bodies().to_vec(), coordinates, Vec::new()).unwrap();
+    let error = make_consistent(&held, &t.trajectory, &t.loads, &usual(), &mut Findings::default()).unwrap_err();
+    assert_eq!(error, ConsistencyError::HeldRoot);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = attempt(&t.loads, ConsistencySettings { tolerance_rad: bad, ..usual() });
         assert!(matches!(error, ConsistencyError::Setting { name: "tolerance_rad", .. }), "{error}");
     }
+}
+
+#[test]
+fn a_recording_that_would_not_fit_into_memory_is_refused_at_once() {
+    let model = person();
+    let frames = 100_000;
+    let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames };
+    let columns = vec![[vec![0.0; frames], vec![0.0; frames], vec![0.0; frames]]; model.coordinates().len()];
+    let still = Trajectory::new(&model, grid, columns).unwrap();
+    let (points, wrenches) = (vec![Vec3::zeros(); frames], vec![Wrench::ZERO; frames]);
+    let load = LoadSeries { body: model.body("calcn_r").unwrap(), points, wrenches };
+    let attempt = |within: Window| {
+        let settings = ConsistencySettings { within, ..ConsistencySettings::default() };
+        let mut findings = Findings::default();
+        (make_consistent(&model, &still, std::slice::from_ref(&load), &settings, &mut findings), findings)
+    };
+    let text = attempt(Window::default()).0.unwrap_err().to_string();
+    assert!(text.contains("MB would be needed for 100000 frames; allowed are 2000 MB. hint:"), "{text}");
+    // A part of it is no trouble. Nothing carries the body here: all that it can do is to fall, and that is said.
+    let (part, findings) = attempt(Window { from_s: Some(500.0), to_s: Some(500.5) });
+    let part = part.unwrap();
+    let height = part.changes.iter().find(|c| c.name == "pelvis_ty").unwrap();
+    assert!(part.residual_before.force_peak_bw > 0.9 && height.max > 0.1, "{height:?}");
+    assert!(findings.has("consistency.incomplete_forces") && findings.has("consistency.large_change"));
 }
 
 #[test]

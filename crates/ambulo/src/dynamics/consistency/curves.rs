@@ -2,7 +2,7 @@
 
 use super::{ConsistencyError, ConsistencySettings};
 use crate::kinematics::{Posture, Trajectory};
-use crate::model::{CoordinateId, CoordinateKind, Drive, Function, Model};
+use crate::model::{Coordinate, CoordinateKind, Displacement, Drive, Function, JointAxis, Model};
 use crate::motion::TimeGrid;
 use crate::numerics::{SPLINES_AT_ONCE, UniformSplines};
 use std::ops::Range;
@@ -93,7 +93,7 @@ impl Curves {
             CoordinateKind::Rotation | CoordinateKind::Coupled => settings.tolerance_rad,
         };
         let tolerances = coordinates.iter().map(tolerance).collect();
-        let follower = |(c, coordinate): (usize, &crate::model::Coordinate)| match &coordinate.drive {
+        let follower = |(c, coordinate): (usize, &Coordinate)| match &coordinate.drive {
             Drive::Coupled(leader, function) => Some((c, leader.index(), function.clone())),
             _ => None,
         };
@@ -208,7 +208,12 @@ impl Instant {
     }
 }
 
-/// Coordinates that a model may move freely, if there are any.
-pub(super) fn has_free_coordinates(model: &Model) -> bool {
-    model.coordinate_ids().any(|id: CoordinateId| matches!(model.coordinates()[id.index()].drive, Drive::Free))
+/// Whether a joint to ground slides along a coordinate that may change: without that nothing answers a force.
+pub(super) fn has_free_root(model: &Model) -> bool {
+    let is_free = |axis: &JointAxis| match &axis.displacement {
+        Displacement::Follows(id, _) => matches!(model.coordinates()[id.index()].drive, Drive::Free),
+        Displacement::Fixed(_) => false,
+    };
+    let mut roots = model.bodies().iter().map(|body| &body.joint).filter(|joint| joint.parent.is_none());
+    roots.any(|joint| joint.translations.iter().any(is_free))
 }

@@ -58,9 +58,9 @@ pub enum ConsistencyError {
         /// The most [MB].
         most_mb: f64,
     },
-    /// A model that nothing can move.
-    #[error("the model has no free coordinate under a joint to ground; expected a body that moves freely")]
-    NoCoordinates,
+    /// A model that is held by the ground.
+    #[error("no joint to ground slides freely; expected a body that only its feet carry")]
+    HeldRoot,
     /// A setting that makes no sense.
     #[error("the setting {name} is {found}; expected a finite number above zero")]
     Setting {

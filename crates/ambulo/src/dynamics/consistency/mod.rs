@@ -50,6 +50,8 @@ use result::rms_and_largest;
 
 /// A residual above this share of body weight is reported.
 const SMALL_RESIDUAL: f64 = 0.01;
+/// A change of the root's place above this is reported [m].
+const LARGE_CHANGE_M: f64 = 0.030;
 /// A change of an angle above this is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 2.0 * std::f64::consts::PI / 180.0;
 /// Forces that miss this share of body weight, or make up as much too many, were not all measured.
@@ -85,8 +87,8 @@ fn checked(
     if let Some((name, found)) = settings.defect() {
         return Err(ConsistencyError::Setting { name, found });
     }
-    if !curves::has_free_coordinates(model) {
-        return Err(ConsistencyError::NoCoordinates);
+    if !curves::has_free_root(model) {
+        return Err(ConsistencyError::HeldRoot);
     }
     if loads.is_empty() {
         return Err(ConsistencyError::NoLoads);
@@ -224,14 +226,19 @@ fn report(consistent: &Consistent, findings: &mut Findings) {
         );
         findings.warn("consistency.residual_left", message);
     }
-    let largest = consistent.changes.iter().filter(|c| c.unit == "rad").max_by(|a, b| a.max.total_cmp(&b.max));
-    if let Some(change) = largest.filter(|change| change.max > LARGE_CHANGE_RAD) {
-        let message = format!(
-            "`{}` was changed by up to {:.1} degrees to obey the forces, more than angles are usually wrong",
-            change.name,
-            change.max.to_degrees()
-        );
-        findings.warn("consistency.large_change", message);
+    for (unit, limit, shown, scale) in
+        [("rad", LARGE_CHANGE_RAD, "degrees", 1.0_f64.to_degrees()), ("m", LARGE_CHANGE_M, "mm", 1e3)]
+    {
+        let largest = consistent.changes.iter().filter(|c| c.unit == unit).max_by(|a, b| a.max.total_cmp(&b.max));
+        if let Some(change) = largest.filter(|change| change.max > limit) {
+            let message = format!(
+                "`{}` was changed by up to {:.1} {shown} to obey the forces, more than motions are usually wrong ({:.0}): mass, body or forces may be",
+                change.name,
+                scale * change.max,
+                scale * limit
+            );
+            findings.warn("consistency.large_change", message);
+        }
     }
     if !consistent.converged {
         let message = format!("the change was not settled after {} iterations", consistent.iterations);
