@@ -11,6 +11,7 @@ mod oracle_c3d;
 mod peers;
 mod simulators;
 mod table;
+mod validate;
 mod walk_bands;
 mod workspace;
 
@@ -28,6 +29,7 @@ usage: cargo xtask <command>
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
+  validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
 
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");

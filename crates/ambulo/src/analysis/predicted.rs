@@ -43,6 +43,28 @@ pub struct PredictedAnalysis {
     pub measured: Option<Analysis>,
 }
 
+impl PredictedAnalysis {
+    /// Weighs the body by what plates carried: over a whole gait cycle inside the time in which they measured every foot, else in a
+    /// standing trial [kg]. Without either the model's mass stays.
+    pub fn weigh(&mut self, model: &Model, window_s: Option<[f64; 2]>, standing_kg: Option<f64>) {
+        let gravity = model.gravity().norm();
+        if let Some(measured) = &mut self.measured {
+            if let Some([from, to]) = window_s {
+                measured.weigh_within(Window { from_s: Some(from), to_s: Some(to) }, upward(model), gravity);
+            }
+            if let Some(kg) = standing_kg {
+                measured.weigh_standing(kg);
+            }
+            if measured.mass.source != MassSource::Model {
+                self.analysis.mass = measured.mass;
+            }
+        }
+        if let Some(kg) = standing_kg {
+            self.analysis.weigh_standing(kg);
+        }
+    }
+}
+
 /// Analyses a recording with predicted ground forces: as [`super::analyse`], without plates. `plates`, if there are any, are only
 /// compared with. `stage` is called with a name as each stage ends.
 ///

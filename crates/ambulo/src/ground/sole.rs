@@ -6,6 +6,21 @@ use crate::model::anthropometry::foot::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, H
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::Vec3;
 
+/// Thigh and shank of a model, joint centre to joint centre, over stature: Gait2392 and Rajagopal's model as scaled to people of known
+/// stature have 0.488 and 0.470, Drillis and Contini 0.491.
+const THIGH_AND_SHANK: f64 = 0.48;
+/// Stature of a man of 72.6 kg [m]: where a model has no legs, stature goes with the cube root of mass.
+const REFERENCE: (f64, f64) = (72.6, 1.80);
+
+/// How tall a person is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stature {
+    /// From head to heel [m].
+    pub(crate) height_m: f64,
+    /// Hip to ground, standing [m].
+    pub(crate) leg_length_m: f64,
+}
+
 /// The sole of one foot: three points along its middle. What lies within `half_width` of the line through them, seen from above,
 /// is on the sole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,14 +70,25 @@ impl Sole {
     }
 }
 
-/// Lengths of thigh and shank together [m], joint centre to joint centre, of the legs whose joints have the usual names.
-pub(crate) fn thigh_and_shank(model: &Model, bodies: &[BodyMotion]) -> Vec<f64> {
-    let length = |side: Side| {
-        let [hip, knee, ankle] = ["hip_flexion", "knee_angle", "ankle_angle"]
-            .map(|stem| moved_by(model, &format!("{stem}_{}", side.letter())).map(|b| joint_center(model, bodies, b)));
-        Some((hip? - knee?).norm() + (knee? - ankle?).norm())
-    };
-    Side::BOTH.into_iter().filter_map(length).collect()
+impl Stature {
+    /// From thigh and shank of a model whose legs have coordinates of the usual names, else from its mass.
+    pub(crate) fn of_model(model: &Model, bodies: &[BodyMotion]) -> Stature {
+        let thigh_and_shank = |side: Side| {
+            let [hip, knee, ankle] = ["hip_flexion", "knee_angle", "ankle_angle"].map(|stem| {
+                moved_by(model, &format!("{stem}_{}", side.letter())).map(|b| joint_center(model, bodies, b))
+            });
+            Some((hip? - knee?).norm() + (knee? - ankle?).norm())
+        };
+        let legs: Vec<f64> = Side::BOTH.into_iter().filter_map(thigh_and_shank).collect();
+        let (height_m, leg) = if legs.is_empty() {
+            let height = REFERENCE.1 * (model.mass() / REFERENCE.0).cbrt();
+            (height, THIGH_AND_SHANK * height)
+        } else {
+            let leg = legs.iter().sum::<f64>() / legs.len() as f64;
+            (leg / THIGH_AND_SHANK, leg)
+        };
+        Stature { height_m, leg_length_m: leg + ANKLE_HEIGHT * height_m }
+    }
 }
 
 /// Bodies with every coordinate at its default.
@@ -73,11 +99,11 @@ pub(crate) fn at_rest(model: &Model) -> Vec<BodyMotion> {
 }
 
 /// The body whose joint a coordinate moves.
-pub(crate) fn moved_by(model: &Model, coordinate: &str) -> Option<BodyId> {
+fn moved_by(model: &Model, coordinate: &str) -> Option<BodyId> {
     let id = model.coordinate(coordinate)?;
     model.body_ids().find(|body| model.bodies()[body.index()].joint.coordinates().contains(&id))
 }
 
-pub(crate) fn joint_center(model: &Model, bodies: &[BodyMotion], body: BodyId) -> Vec3 {
+fn joint_center(model: &Model, bodies: &[BodyMotion], body: BodyId) -> Vec3 {
     bodies[body.index()].pose.place(model.bodies()[body.index()].joint.child_from_joint.translation)
 }

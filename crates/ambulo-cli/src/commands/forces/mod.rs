@@ -14,7 +14,7 @@ use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::analysis::{
-    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, MassSource, PredictedAnalysis, Settings, analyse,
+    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, PredictedAnalysis, Settings, analyse,
 };
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim, to_osim};
@@ -151,29 +151,24 @@ impl Origin {
         }
     }
 
-    /// Adds to a prediction what is known besides the motion: the body mass, if plates or a standing trial weigh it.
+    /// How markers became a body, where there are any, and what completes the forces that plates measured beside a prediction.
     fn complete_prediction(&self, predicted: &mut PredictedAnalysis) -> Option<SubjectSummary> {
-        let PredictedAnalysis { analysis, measured, .. } = predicted;
-        let subject = match (measured, self) {
-            (Some(measured), _) => {
-                let subject = self.complete(measured);
-                if measured.mass.source != MassSource::Model {
-                    analysis.mass = measured.mass;
-                }
-                subject
-            }
+        match (&mut predicted.measured, self) {
+            (Some(measured), _) => self.complete(measured),
             (None, Origin::Coordinates) => None,
             (None, Origin::Skeleton(summary)) => Some(*summary.clone()),
             (None, Origin::Markers(followed)) => {
                 Some(SubjectSummary::of_markers(&followed.body, &followed.listed, &[]))
             }
-        };
-        if let Origin::Markers(followed) = self
-            && let Some(standing_kg) = followed.standing_kg
-        {
-            analysis.weigh_standing(standing_kg);
         }
-        subject
+    }
+
+    /// What plates carried in a standing trial [kg].
+    fn standing_kg(&self) -> Option<f64> {
+        match self {
+            Origin::Markers(followed) => followed.standing_kg,
+            Origin::Coordinates | Origin::Skeleton(_) => None,
+        }
     }
 
     /// The time to analyse when nobody says: all of it, or the longest time without a gap in what the markers tell.

@@ -43,6 +43,7 @@ pub(super) fn compute(
     input.ground_source = GroundSource::Predicted { rule: predicted.prediction.rule };
     let seen = seen(origin, &predicted, plates);
     let subject = origin.complete_prediction(&mut predicted);
+    predicted.weigh(model, seen.as_ref().and_then(|seen| seen.window), origin.standing_kg());
     let comparison = seen.and_then(|seen| predicted.agreement(model, &seen));
     if comparison.is_none() && predicted.measured.is_some() {
         findings.warn(

@@ -1,0 +1,163 @@
+//! `ambulo forces` without plates and with `--predict`: files, columns, keys, comparison, exit codes.
+//!
+//! The demo's walk lies on the instants of its own forces, so that prediction and truth stand side by side.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod workbench;
+
+use ambulo_formats::external_loads::ExternalLoads;
+use workbench::{RAW, Run, Workbench};
+
+const MOTION: [&str; 4] = ["forces", "walk.mot", "--model", "figure.osim"];
+const PLATES: [&str; 4] = ["--grf", "walk_grf.mot", "--loads", "walk_grf.xml"];
+
+fn ran(run: Run) -> Run {
+    assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
+    run
+}
+
+/// Runs `forces --predict` beside the demo's own forces.
+fn beside_plates(bench: &Workbench, more: &[&str]) -> Run {
+    ran(bench.run(&[&MOTION[..], &PLATES, &["--predict"], &RAW[..2], more].concat()))
+}
+
+#[test]
+fn forces_are_predicted_where_none_were_measured() {
+    let bench = Workbench::new("predicted");
+    let run = ran(bench.run(&[&MOTION[..], &RAW[..2]].concat()));
+    run.says(&[
+        "note: no ground forces were given; they are predicted",
+        "warning: nobody states or weighs the body mass",
+    ]);
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["ground"]["source"], "predicted");
+    assert!(summary["ground"]["rule"].as_str().is_some_and(|rule| !rule.is_empty()), "{}", summary["ground"]);
+    assert_eq!((summary["mass"].as_str(), summary["mass_source"].as_str()), (Some("unverified"), Some("model")));
+    assert!(summary["comparison"].is_null());
+    for name in ["grf.mot", "grf_sd.mot", "external_loads.xml", "events.csv", "moments.sto", "powers.sto", "cycles.csv"]
+    {
+        assert!(bench.exists(&format!("out/{name}")), "{name}");
+    }
+    assert!(!bench.exists("out/grf_measured.mot"), "nobody measured anything");
+    // The whole weight stands on the feet, not in the residual.
+    assert!(summary["residual"]["force_rms_bw"].as_f64().unwrap() < 0.02, "{}", summary["residual"]);
+}
+
+#[test]
+fn all_files_share_the_samples_of_the_motion_and_name_their_columns() {
+    let bench = Workbench::new("predict_columns");
+    beside_plates(&bench, &[]);
+    let times = bench.table("out/kinematics.mot").times().unwrap().to_vec();
+    for name in ["grf.mot", "grf_measured.mot", "grf_sd.mot", "moments.sto"] {
+        assert_eq!(bench.table(&format!("out/{name}")).times().unwrap(), times, "{name}");
+    }
+    let (found, measured, deviations) =
+        (bench.table("out/grf.mot"), bench.table("out/grf_measured.mot"), bench.table("out/grf_sd.mot"));
+    assert_eq!(found.names(), measured.names());
+    for side in ["r", "l"] {
+        for axis in ["x", "y", "z"] {
+            for stem in [format!("ground_force_{side}_v{axis}"), format!("ground_force_{side}_p{axis}")] {
+                assert!(found.column(&stem).is_some(), "{stem}");
+                let deviation = deviations.column(&format!("{stem}_sd")).unwrap();
+                let vertical = found.column(&format!("ground_force_{side}_vy")).unwrap();
+                let same = deviation.iter().zip(vertical).all(|(sd, force)| *sd >= 0.0 && (*force > 0.0 || *sd == 0.0));
+                assert!(same, "{stem}: deviations only where there is a force");
+            }
+        }
+        assert!(deviations.column(&format!("ground_torque_{side}_y_sd")).is_some());
+    }
+    let (loads, _) = ExternalLoads::read(&bench.read("out/external_loads.xml")).unwrap();
+    assert_eq!(loads.datafile.as_deref(), Some("grf.mot"));
+    let bodies: Vec<&str> = loads.forces.iter().map(|force| force.applied_to_body.as_str()).collect();
+    assert_eq!(bodies, ["calcn_r", "calcn_l"]);
+}
+
+#[test]
+fn what_was_predicted_is_read_again_as_if_it_had_been_measured() {
+    let bench = Workbench::new("predict_again");
+    ran(bench.run(&[&MOTION[..], &RAW[..2], &["-o", "first"]].concat()));
+    let again = ["--loads", "first/external_loads.xml", "--cutoff", "off", "--force-cutoff", "off", "-o", "second"];
+    ran(bench.run(&[&MOTION[..], &again].concat()));
+    let compared = bench.run(&["compare", "first/moments.sto", "second/moments.sto", "--limit", "1"]);
+    // Below 20 N a foot has zeros in the file: at most 20 N times the lever about the hip, for single frames.
+    assert_eq!(compared.code, Some(0), "{}", compared.stdout);
+}
+
+#[test]
+fn beside_plates_the_prediction_is_compared() {
+    let bench = Workbench::new("predict_compared");
+    let run = beside_plates(&bench, &[]);
+    for words in ["against plates", "vertical", "fore-aft", "lateral", "ankle_angle_r_moment", "strike"] {
+        assert!(run.stdout.contains(words), "`{words}` is missing in: {}", run.stdout);
+    }
+    let summary = bench.json("out/summary.json");
+    assert_eq!((summary["mass"].as_str(), summary["mass_source"].as_str()), (Some("verified"), Some("plates")));
+    assert_eq!(summary["filter"]["force"]["cutoff_hz"], 20.0, "the plates' own filter, whatever the motion's");
+    let comparison = &summary["comparison"];
+    let feet = comparison["feet"].as_array().unwrap();
+    assert_eq!(feet.len(), 2, "{comparison}");
+    for foot in feet {
+        for component in ["vertical", "fore_aft", "lateral"] {
+            for key in ["rmse_bw", "rrmse", "r"] {
+                assert!(foot[component].get(key).is_some(), "{component} {key}: {foot}");
+            }
+        }
+        // The walk obeys Newton's laws; what is left is the split in double support.
+        let rmse = foot["vertical"]["rmse_bw"].as_f64().unwrap();
+        assert!(rmse < 0.2, "{rmse} BW");
+        assert!(foot["center_of_pressure"]["fore_aft_mm"].as_f64().unwrap() < 100.0, "{foot}");
+    }
+    assert_eq!(comparison["moments"].as_array().unwrap().len(), 6);
+    assert_eq!(comparison["events"].as_array().unwrap().len(), 2);
+    // Without --predict everything is as it was measured.
+    bench.forces(&RAW).done();
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["ground"]["source"], "measured");
+    assert!(
+        summary["comparison"].is_null() && !bench.exists("out/grf_sd.mot") && !bench.exists("out/grf_measured.mot")
+    );
+}
+
+#[test]
+fn plates_of_the_wrong_feet_show() {
+    let bench = Workbench::new("predict_exchanged");
+    let exchanged = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
+    let run = bench.run(&[&MOTION[..], &PLATES[..2], &exchanged, &["--predict"], &RAW[..2]].concat());
+    ran(run).says(&["plates beside the prediction: ", "right and left may be exchanged"]);
+    let summary = bench.json("out/summary.json");
+    let feet = summary["comparison"]["feet"].as_array().unwrap();
+    assert!(feet.iter().all(|foot| foot["vertical"]["rmse_bw"].as_f64().unwrap() > 0.3), "{feet:?}");
+}
+
+#[test]
+fn markers_and_skeletons_need_no_plates() {
+    let bench = Workbench::empty("predict_markers");
+    bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+    let input =
+        |name: &str, more: &[&str]| ran(bench.run(&[&["forces", &format!("demo/input/{name}")], more].concat()));
+    input("walk.trc", &["--model", "demo/input/figure.osim"]);
+    assert_eq!(bench.json("out/summary.json")["mass"], "unverified");
+    input("walk.trc", &["--model", "demo/input/figure.osim", "--mass", "75"]);
+    assert_eq!(bench.json("out/summary.json")["mass"], "verified");
+    input("walk.bvh", &["--mass", "75", "--height", "1.75"]);
+    let summary = bench.json("out/summary.json");
+    assert_eq!((summary["ground"]["source"].as_str(), summary["mass"].as_str()), (Some("predicted"), Some("verified")));
+    // Plates in the C3D: compared on stances that stand wholly on their own plate.
+    input("walk.c3d", &["--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75", "--predict"]);
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["comparison"]["feet"].as_array().unwrap().len(), 2);
+    assert!(bench.exists("out/grf_measured.mot"));
+}
+
+#[test]
+fn what_cannot_be_predicted_is_refused() {
+    let bench = Workbench::new("predict_refused");
+    bench.run(&[&MOTION[..], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
+    bench.run(&[&MOTION[..], &["--from", "0.5", "--to", "0.505"]].concat()).refused(&["walk.mot", "expected"]);
+    // No feet.
+    bench.edit("figure.osim", "calcn", "hoof");
+    bench.run(&MOTION).refused(&["has no bodies called calcn_r and calcn_l", "hint: --no-ground", "--grf"]);
+    bench.run(&[&MOTION[..], &["--no-ground"], &RAW].concat());
+    assert_eq!(bench.json("out/summary.json")["ground"]["source"], "none");
+}

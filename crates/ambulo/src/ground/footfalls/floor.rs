@@ -1,0 +1,41 @@
+//! How high the floor is under each stance.
+//!
+//! The lowest point of a standing foot lies on the floor, as far as the sole is known: the median of its height over the stance. Stances
+//! whose heights lie together stand on one floor, at the mean of what right and left foot say of it; stairs have several.
+
+use super::Footfall;
+use super::signals::{FootPath, Signals};
+use crate::model::Side;
+use crate::numerics::median;
+use std::ops::Range;
+
+/// Heights within this are one floor [m]: soles that are estimated are off by 1 to 3 cm, steps are 15 to 20 cm high.
+const ONE_FLOOR_M: f64 = 0.04;
+
+/// Height under one stance, as the foot alone tells it [m].
+pub(super) fn height(signals: &Signals, foot: &FootPath, run: &Range<usize>) -> f64 {
+    median(run.clone().map(|frame| signals.lowest(foot, frame).1)).unwrap_or(0.0)
+}
+
+/// Gives stances at one height one floor.
+pub(super) fn share_floors(falls: &mut [Footfall]) {
+    let mut heights: Vec<f64> = falls.iter().map(|fall| fall.floor_height_m).collect();
+    heights.sort_by(f64::total_cmp);
+    let mut rest = heights.as_slice();
+    let mut floors = Vec::new();
+    while let Some(&lowest) = rest.first() {
+        let (floor, above) = rest.split_at(rest.partition_point(|h| *h <= lowest + ONE_FLOOR_M));
+        floors.extend(floor.last().map(|&highest| [lowest, highest]));
+        rest = above;
+    }
+    for [lowest, highest] in floors {
+        let is_on_it = |fall: &&mut Footfall| (lowest..=highest).contains(&fall.floor_height_m);
+        let on_it: Vec<&mut Footfall> = falls.iter_mut().filter(is_on_it).collect();
+        let of_side = |side: Side| median(on_it.iter().filter(|f| f.side == side).map(|f| f.floor_height_m));
+        let told: Vec<f64> = Side::BOTH.into_iter().filter_map(of_side).collect();
+        let height = told.iter().sum::<f64>() / told.len() as f64;
+        for fall in on_it {
+            fall.floor_height_m = height;
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Recordings with plates, as motions of bodies, and what the plates saw of the feet.
+//!
+//! Plates' events are crossings of 20 N: of the files' own forces where a table has them (the forces of the three OpenSim sets were
+//! low-passed by their authors: from 20 to 140 N they take 20 to 30 ms, those of the C3D files 3 to 5 ms), by the data's README
+//! for the C3D files.
+
+#![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
+
+#[path = "../gait_files/mod.rs"]
+mod gait_files;
+
+use ambulo::analysis::{Body, LaboratoryRecording, body_in_motion};
+use ambulo::findings::Findings;
+use ambulo::ground::phases::contacts;
+use ambulo::ground::sole::Sole;
+use ambulo::kinematics::Trajectory;
+use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::marker_fit::FitSettings;
+use ambulo::model::anthropometry::SegmentTable;
+use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{
+    Event, EventKind, Motion, PlateSettings, SmoothSettings, Smoother, Window, coordinates_from_table,
+    markers_from_c3d, markers_from_trc, plates_from_c3d, smooth,
+};
+use ambulo_formats::table::Table;
+use ambulo_formats::trc::Trc;
+use gait_files::{File, Subject};
+use std::path::Path;
+use std::sync::OnceLock;
+
+const R: Side = Side::Right;
+const L: Side = Side::Left;
+
+/// A motion and the plates' events.
+#[derive(Clone)]
+pub(crate) struct Recorded {
+    pub(crate) name: &'static str,
+    pub(crate) subject: &'static str,
+    pub(crate) model: Model,
+    pub(crate) motion: Motion,
+    pub(crate) soles: [Option<Sole>; 2],
+    pub(crate) plates: Vec<Event>,
+    /// Whether plates saw every step between their first and last event.
+    pub(crate) all_seen: bool,
+}
+
+impl Recorded {
+    pub(crate) fn trajectory(&self, cutoff_hz: f64) -> Trajectory {
+        let smoother = Smoother::Butterworth(LowPass { order: 3, cutoff_hz });
+        let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
+        let mut findings = Findings::default();
+        let smooth = smooth(&self.model, &self.motion, settings, &mut findings).unwrap();
+        Trajectory::complete(&self.model, &smooth, &mut findings).unwrap()
+    }
+}
+
+/// Everything that there is, made once; nothing without data.
+pub(crate) fn everything() -> &'static [Recorded] {
+    static ALL: OnceLock<Vec<Recorded>> = OnceLock::new();
+    ALL.get_or_init(read)
+}
+
+fn read() -> Vec<Recorded> {
+    let Some(data) = gait_files::folder() else { return Vec::new() };
+    let mut all = opensim(&data);
+    let told: [&[(Side, f64, f64)]; 3] = [
+        &[(R, 1.667, 2.282), (L, 2.191, 2.819)],
+        &[(R, 1.830, 2.350), (L, 2.284, 2.807)],
+        &[(L, 7.853, 8.511), (R, 8.382, 9.045), (L, 8.93, 9.60)],
+    ];
+    let names = ["HC032A03", "HC002D06", "PiG_Motion3"];
+    let straight = gait_files::everyone().into_iter().zip(names).zip(told);
+    all.extend(straight.map(|((subject, name), told)| of_c3d(&subject, name, told)));
+    // The left foot leaves its plate early in the first turn: its off is not known.
+    let told: [&[(Side, f64, f64)]; 2] =
+        [&[(R, 1.765, 2.418), (L, 2.335, f64::NAN)], &[(L, 1.582, 2.124), (R, 2.057, 2.584)]];
+    let turns = gait_files::turning().into_iter().zip(["HC032A18 turn", "HC002D25 turn"]).zip(told);
+    all.extend(turns.map(|((subject, name), told)| of_c3d(&subject, name, told)));
+    all
+}
+
+fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> Recorded {
+    let body = Body::BuiltIn { person: &subject.person, set: None };
+    let event = |side, kind, time_s| Event { side, kind, time_s };
+    let both = |t: &(Side, f64, f64)| [event(t.0, EventKind::Strike, t.1), event(t.0, EventKind::Off, t.2)];
+    let plates = told.iter().flat_map(both).filter(|e| e.time_s.is_finite()).collect();
+    fitted(name, subject.name, &recording(&subject.walk), Some(&recording(&subject.standing)), &body, plates, false)
+}
+
+fn recording(file: &File) -> LaboratoryRecording {
+    let mut findings = Findings::default();
+    LaboratoryRecording {
+        markers: markers_from_c3d(&file.c3d, &mut findings).unwrap(),
+        plates: plates_from_c3d(&file.c3d, PlateSettings::default(), &mut findings).unwrap_or_default(),
+        unit: file.c3d.point_unit.clone(),
+    }
+}
+
+fn fitted(
+    name: &'static str,
+    subject: &'static str,
+    walk: &LaboratoryRecording,
+    still: Option<&LaboratoryRecording>,
+    body: &Body<'_>,
+    plates: Vec<Event>,
+    all_seen: bool,
+) -> Recorded {
+    let settings = FitSettings::default();
+    let body = body_in_motion(walk, still, body, &settings, &[], &mut Findings::default(), &mut |_| ()).unwrap();
+    let (model, soles) = (body.subject.model, body.subject.person.soles);
+    Recorded { name, subject, model, motion: body.fit.motion, soles, plates, all_seen }
+}
+
+fn opensim(data: &Path) -> Vec<Recorded> {
+    let (gait, walk, run) = ("opensim-gait2392-subject01", "opensim-rajagopal-walk", "opensim-rajagopal-run");
+    let model =
+        |file: &str| from_osim_bytes(&std::fs::read(data.join(file)).unwrap(), &mut Findings::default()).unwrap();
+    let trc = |folder: &str, file: &str| {
+        let trc = Trc::read(&std::fs::read(data.join(folder).join(file)).unwrap()).unwrap().0;
+        let markers = markers_from_trc(&trc, &mut Findings::default()).unwrap();
+        LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() }
+    };
+    let forces = |file: String, right: &str, left: &str, window: [f64; 2]| {
+        let (table, _) = Table::read_storage(&std::fs::read(data.join(file)).unwrap()).unwrap();
+        let mut out = Vec::new();
+        for (side, column) in [(R, right), (L, left)] {
+            for contact in contacts(table.times().unwrap(), table.column(column).unwrap()) {
+                let event = |kind, time_s| Event { side, kind, time_s };
+                out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
+                out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
+            }
+        }
+        out.retain(|e| (window[0]..window[1]).contains(&e.time_s));
+        out
+    };
+    let [small, large] = [format!("{gait}/subject01_simbody.osim"), format!("{walk}/subject_walk_scaled.osim")];
+    let [small, large] = [model(&small), model(&large)];
+    let of_markers =
+        forces(format!("{gait}/subject01_walk1_grf.mot"), "ground_force_vy", "1_ground_force_vy", [0.05, 2.4]);
+    let long = format!("{gait}/core-id-test/subject01_walk1_grf.mot");
+    let of_angles = forces(long, "ground_force_vy", "l_ground_force_vy", [0.55, 3.95]);
+    let of_walk = forces(format!("{walk}/grf_walk.mot"), "ground_force_r_vy", "ground_force_l_vy", [0.1, 2.3]);
+    let of_run = forces(format!("{run}/grf_run.mot"), "R_ground_force_vy", "L_ground_force_vy", [0.3, 5.25]);
+    let body = |model| Body::Model { model, mass: None };
+    let table = Table::read_storage(&std::fs::read(data.join(gait).join("subject01_walk1_ik.mot")).unwrap()).unwrap().0;
+    let angles = Recorded {
+        name: "gait2392 angles",
+        subject: "gait2392",
+        motion: coordinates_from_table(&small, &table, "ik", &mut Findings::default()).unwrap(),
+        soles: ambulo::analysis::feasibility::Person::of_model(&small).soles,
+        model: small.clone(),
+        plates: of_angles,
+        all_seen: true,
+    };
+    let person =
+        Person { table: SegmentTable::DeLevaMale, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let runner = Body::BuiltIn { person: &person, set: None };
+    let (markers, still) = (trc(run, "motion_capture_run.trc"), trc(run, "static_run.trc"));
+    vec![
+        fitted(
+            "gait2392 markers",
+            "gait2392",
+            &trc(gait, "subject01_walk1.trc"),
+            None,
+            &body(&small),
+            of_markers,
+            true,
+        ),
+        angles,
+        fitted("rajagopal-walk", "rajagopal-walk", &trc(walk, "markers_walk.trc"), None, &body(&large), of_walk, false),
+        fitted("rajagopal-run", "rajagopal-run", &markers, Some(&still), &runner, of_run, true),
+    ]
+}
