@@ -138,6 +138,12 @@ impl Curves {
         self.tolerances.iter().map(move |tolerance| [*tolerance, tolerance * sharpness])
     }
 
+    /// Whether a step of the coefficients moves no coordinate by a thousandth of its tolerance.
+    pub(super) fn is_small(&self, step: &[f64]) -> bool {
+        let tolerances = self.tolerances.iter().cycle();
+        step.iter().zip(tolerances).all(|(x, tolerance)| x.abs() < 1e-3 * tolerance)
+    }
+
     /// What is added to a coordinate that may change, by its place among them: value, rate, acceleration.
     pub(super) fn change(&self, at: &AtFrame, coefficients: &[f64], place: usize) -> [f64; 3] {
         let n = self.coordinates.len();

@@ -59,7 +59,7 @@ impl Problem<'_> {
             let ranges: Vec<[f64; 2]> = at.numbers.iter().enumerate().map(|(k, x)| self.range(k, *x)).collect();
             let (dx, dy) = equations.solve(&ranges).ok_or(ConsistencyError::Singular { iteration })?;
             let Some((better, lower)) = self.along(&at, cost, &dx, &dy)? else {
-                return Ok((at, Ending { iterations: iteration, converged: true }));
+                return Ok((at, Ending { iterations: iteration, converged: self.curves.is_small(&dx) }));
             };
             let settled = cost - lower <= SETTLED * cost;
             (at, cost) = (better, lower);
