@@ -70,10 +70,6 @@ impl Measure {
 }
 
 impl Stance {
-    pub(super) fn holds(&self, time: f64) -> bool {
-        (self.start_s..=self.end_s).contains(&time)
-    }
-
     pub(super) fn duration_s(&self) -> f64 {
         self.end_s - self.start_s
     }
