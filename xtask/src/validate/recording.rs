@@ -1,7 +1,7 @@
 //! The recordings with plates, and what becomes of them before anything is predicted.
 
 use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{Body, BodyInMotion, LaboratoryRecording, body_in_motion};
+use ambulo::analysis::{Body, BodyInMotion, LaboratoryRecording, body_in_motion, body_mass};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration;
 use ambulo::kinematics::marker_fit::FitSettings;
@@ -52,7 +52,7 @@ enum Source {
     Coordinates { motion: &'static str, model: &'static str },
     /// Markers on a model.
     ModelMarkers { markers: &'static str, model: &'static str },
-    /// Markers on the built-in body, with a standing trial; `mass` counts where no plate weighed it.
+    /// Markers on the built-in body, with a standing trial on plates or not; `mass` is what is stated.
     Markers { markers: &'static str, standing: &'static str, mass: f64, height: f64 },
 }
 
@@ -164,9 +164,10 @@ impl Recording {
                     false => trc(&file(name)?, findings),
                 };
                 let (walk, still) = (read(markers, findings)?, read(standing, findings)?);
+                let mass = body_mass(Some(mass), standing_kg(&still), findings);
                 let person = calibration::Person {
                     table: SegmentTable::DeLevaMale,
-                    mass: standing_kg(&still).unwrap_or(mass),
+                    mass: mass.ok_or("no body mass")?,
                     height: Some(height),
                     measures: calibration::Measures::default(),
                 };
@@ -215,9 +216,8 @@ fn followed(
     })
 }
 
-/// What the plates of a standing trial carried [kg].
 fn standing_kg(still: &LaboratoryRecording) -> Option<f64> {
-    standing_weight_n(&still.plates).map(|n| n / STANDARD_GRAVITY)
+    standing_weight_n(&still.plates).map(|newtons| newtons / STANDARD_GRAVITY)
 }
 
 fn trc(bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryRecording, String> {

@@ -1,13 +1,13 @@
 //! The loads of both feet, estimated over the whole trial at once.
 //!
 //! Unknown are the curves of [`super::unknowns`]: three forces and three moments of every stance, near what is expected of it. What is
-//! seen is what the whole body's motion asks of the ground, and only as sharply as markers on skin and the motion's filter show it:
+//! seen is what the whole body's motion asks of the ground. Markers on skin show it up to some frequency only, so both sides are compared
+//! behind a low-pass G of Gaussian shape ([`super::taps`]); what is sharper, as a heel strike, comes from what is expected:
 //!
-//!   G ∗ Σ_feet F_i               = F_total                            + noise
-//!   G ∗ Σ_feet (r_i × F_i + T_i) = M_total about the mass centre      + noise
+//!   G ∗ Σ_feet F_i               = G ∗ F_total                            + noise
+//!   G ∗ Σ_feet (r_i × F_i + T_i) = G ∗ M_total about the mass centre      + noise
 //!
-//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]) and G is a low-pass of
-//! Gaussian shape ([`super::taps`]). Both are linear in the unknowns; with Gaussian noise and expectations the likeliest curves solve a
+//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]). Both are linear in the unknowns; with Gaussian noise and expectations the likeliest curves solve a
 //! band of linear equations ([`super::system`]), whose inverse tells how far they may be off. In single support the forces decide; in
 //! double support the lever rule between the feet, what is expected of people who walk at this speed, and the smoothness of a stance
 //! share the decision by their noise.
@@ -15,6 +15,7 @@
 //! Cost: linear in frames. Memory: about 15 kB a second of walking beside the trajectory.
 //! Not handled: pulls (a foot that clings), hands and objects.
 
+use super::Known;
 use super::center_path::center_path;
 use super::expected::Expectation;
 use super::geometry::Geometry;
@@ -26,7 +27,6 @@ use super::system::System;
 use super::taps::Taps;
 use super::unknowns::Unknowns;
 use super::weights::Weights;
-use super::Known;
 use crate::model::Side;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
@@ -35,6 +35,8 @@ use crate::spatial::{Vec3, Wrench};
 pub(super) struct Evidence<'a> {
     pub(super) grid: TimeGrid,
     pub(super) geometry: &'a Geometry,
+    /// Half the breadth of right and left sole [m].
+    pub(super) half_widths: [f64; 2],
     pub(super) stances: &'a [Stance],
     /// About the world's origin.
     pub(super) total: &'a [Wrench],

@@ -117,7 +117,14 @@ impl<'a> Expectation<'a> {
         let about_zero = |deviation: f64| Expected { mean: 0.0, deviation: deviation * self.measure.size() };
         // Along the foot the centre of pressure turns the load about the right, across it about forward.
         let [along, across] = weights.center_spread.map(|spread| spread * vertical.mean.max(0.0));
-        let all = [forward, vertical, right, about_zero(across), about_zero(weights.free_moment_spread * loaded), about_zero(along)];
+        let all = [
+            forward,
+            vertical,
+            right,
+            about_zero(across),
+            about_zero(weights.free_moment_spread * loaded),
+            about_zero(along),
+        ];
         // A curve that cannot deviate at all cannot follow what an end of the stance found early or late asks for.
         std::array::from_fn(|c| Expected {
             mean: all[c].mean * weight_n,

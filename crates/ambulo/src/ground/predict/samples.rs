@@ -64,7 +64,8 @@ impl Samples {
 pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize> {
     let grid = evidence.grid;
     let frame = |time: f64| ((time - grid.start_s) / grid.step_s).clamp(0.0, grid.frames as f64);
-    let (first, end) = (frame(stance.start_s).ceil() as usize, (frame(stance.end_s).floor() as usize + 1).min(grid.frames));
+    let (first, end) =
+        (frame(stance.start_s).ceil() as usize, (frame(stance.end_s).floor() as usize + 1).min(grid.frames));
     first..end.max(first)
 }
 

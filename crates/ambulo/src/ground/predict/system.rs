@@ -89,18 +89,15 @@ impl System<'_> {
     }
 
     fn observe(&self, frame: usize, first: usize, count: usize, rows: &mut Rows) {
-        let Evidence { grid, known, .. } = *self.evidence;
+        let grid = self.evidence.grid;
         for row in &mut rows.coefficients {
             row.clear();
             row.resize(count, 0.0);
         }
         let axes = self.axes(grid.time(frame));
-        // What the motion shows has gone through the low-pass already; what is known from elsewhere has not.
-        let mut rest = if known.total.is_some() { Wrench::ZERO } else { self.evidence.about_mass_center(frame) };
+        let mut rest = Wrench::ZERO;
         for (tap, weight) in self.taps.around(frame, grid.frames) {
-            if known.total.is_some() {
-                add(&mut rest, &self.evidence.about_mass_center(tap), weight);
-            }
+            add(&mut rest, &self.evidence.about_mass_center(tap), weight);
             for (samples, curves) in self.samples.iter().zip(&self.unknowns.curves) {
                 let Some(sample) = samples.at(tap) else { continue };
                 add(&mut rest, &sample.expected, -weight);

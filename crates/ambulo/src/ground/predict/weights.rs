@@ -6,7 +6,8 @@ use super::calibration::Calibration;
 /// docs/GROUND_FORCES.md has the table and what changes when one is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights {
-    /// Low-pass through which the motion shows the forces [Hz]: markers, skin and the motion's own filter.
+    /// Low-pass below which motion and forces are compared [Hz]: what lies above is skin, markers and noise. Both sides go through it,
+    /// so that the motion's own cut-off hardly matters.
     pub bandwidth_hz: f64,
     /// Noise of the total force from motion: forward, up, sideways [body weights].
     pub force_noise: [f64; 3],
@@ -37,7 +38,7 @@ pub struct Weights {
 impl Default for Weights {
     fn default() -> Weights {
         Weights {
-            bandwidth_hz: 7.9,
+            bandwidth_hz: 6.5,
             force_noise: [0.0195, 0.0335, 0.0155],
             moment_noise: [0.0124, 0.0043, 0.05],
             spread: [0.55, 1.08],
