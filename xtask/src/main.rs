@@ -31,7 +31,7 @@ usage: cargo xtask <command>
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
   fit-ground        fit the numbers of the ground-force estimator anew, each subject left out in turn  [--write: docs/GROUND_FIT.md]
-                    [--evaluations N] [--seed N]
+                    [--evaluations N] [--seed N] [--pull X]
   validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text

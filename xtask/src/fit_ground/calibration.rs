@@ -32,14 +32,14 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// Straight walks of these subjects, predicted with these weights and their deviations unchanged.
-    pub(super) fn new(cases: &[Case], subjects: &[&'static str], weights: &Weights) -> Judged {
-        let raw = Weights { calibration: Calibration::RAW, ..*weights };
-        let own = |subject: &str| {
-            let straight = cases.iter().filter(|case| case.subject == subject && case.is_straight());
-            straight.flat_map(|case| case.samples(&raw)).collect()
+    /// Straight walks of these subjects, each predicted with its own weights and the deviations of the equations unchanged.
+    pub(super) fn new(cases: &[Case], subjects: &[&'static str], weights: &[Weights]) -> Judged {
+        let own = |(subject, weights): (&&'static str, &Weights)| {
+            let raw = Weights { calibration: Calibration::RAW, ..*weights };
+            let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
+            (*subject, straight.flat_map(|case| case.samples(&raw)).collect())
         };
-        Judged { subjects: subjects.iter().map(|subject| (*subject, own(subject))).collect() }
+        Judged { subjects: subjects.iter().zip(weights).map(own).collect() }
     }
 
     /// Stances of a component, subject by subject; subjects that are not judged on it are left out.

@@ -12,17 +12,18 @@ const FORCES: [&str; 3] = ["up", "forward", "sideways"];
 
 /// The whole page.
 pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
-    let Order { evaluations, seed, .. } = *order;
+    let Order { evaluations, seed, pull, .. } = *order;
     let head = format!(
         "# Fit of the ground-force estimator\n\n\
-         Written by `cargo xtask fit-ground --write --evaluations {evaluations} --seed {seed}`. The numbers of \
+         Written by `cargo xtask fit-ground --write --evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of \
          `ambulo::ground::predict::Weights` that no law gives are fitted to recordings with plates. Footfalls are found once a \
          recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local search with \
          {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a subject out.\n\n\
          Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / 0.01, forward \
          rRMSE / 8.5 %, sideways rRMSE / 12 % + 0.3 (1 - r) / 0.12, centre of pressure along / 24 mm + across / 24 mm. Subjects: mean over \
          their recordings, turns included; PiG has no markers on the trunk, is not judged sideways and across, and counts half. A run is \
-         left out.\n"
+         left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle of the range, as a share of the \
+         range: what recordings do not tell stays in the middle. Costs below are without it.\n"
     );
     let values = format!(
         "{}\nCost with all subjects: {:.3} in the middle of the ranges, {:.3} fitted, {:.3} with the numbers that the crate has now.\n",
@@ -117,9 +118,8 @@ fn figures(outcome: &Outcome) -> String {
         table.row(row(fold.subject, "own", &fold.own_figures));
         table.row(row(fold.subject, "left out", &fold.left_out_figures));
     }
-    let with_trunk: Vec<&Fold> = outcome.folds.iter().filter(|fold| fold.importance >= 1.0).collect();
     let mean = |of: fn(&Fold) -> &[f64; 11]| {
-        std::array::from_fn(|k| super::cases::mean(with_trunk.iter().map(|fold| of(fold)[k])))
+        std::array::from_fn(|k| super::cases::mean(outcome.with_trunk().map(|fold| of(fold)[k])))
     };
     table.row(row("mean without PiG", "own", &mean(|fold| &fold.own_figures)));
     table.row(row("mean without PiG", "left out", &mean(|fold| &fold.left_out_figures)));
@@ -152,7 +152,8 @@ fn spreads(outcome: &Outcome) -> String {
     format!(
         "{}\nDeviation = root of (factor x deviation of the equations)^2 + floor^2; the sharpest pair whose band of 1.645 deviations \
          holds 90 % of the samples (plate above 20 N; centres of pressure and free moments above 5 % of body weight), mean over stances, \
-         then over subjects; straight walks.\n",
+         then over subjects; straight walks. Each subject is predicted with the numbers fitted on the others, so these are the errors of strangers. \
+         `left out`: from the other subjects alone.\n",
         table.text()
     )
 }
@@ -160,7 +161,7 @@ fn spreads(outcome: &Outcome) -> String {
 fn bands(outcome: &Outcome) -> String {
     let mut head = vec!["component"];
     head.extend(outcome.folds.iter().flat_map(|fold| [fold.subject, "width"]));
-    head.extend(["mean", "width"]);
+    head.extend(["mean without PiG", "width"]);
     let mut rows = String::new();
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     rows += &line(&head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>());
@@ -174,7 +175,7 @@ fn bands(outcome: &Outcome) -> String {
             cells.push(band.map_or("-".to_owned(), |band| number(100.0 * band.holds, 0)));
             cells.push(band.map_or("-".to_owned(), |band| number(band.half_width_over_rmse, 2)));
         }
-        let known = || found.iter().flatten();
+        let known = || outcome.with_trunk().filter_map(|fold| fold.bands[c]);
         cells.push(number(100.0 * super::cases::mean(known().map(|band| band.holds)), 0));
         cells.push(number(super::cases::mean(known().map(|band| band.half_width_over_rmse)), 2));
         rows += &line(&cells);
