@@ -1,5 +1,6 @@
 //! What a reader wants to know of a motion and its forces: events, cycles, peaks, agreement.
 
+mod agreed_motion;
 mod comparison;
 mod cycles;
 mod event_agreement;
@@ -16,6 +17,7 @@ mod recording;
 mod residual;
 mod walking_direction;
 
+pub use agreed_motion::{Adjustable, agree};
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
