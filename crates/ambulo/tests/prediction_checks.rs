@@ -95,6 +95,7 @@ fn no_recording_is_said_to_push_beside_its_feet() {
             // Half of what would be too much.
             let outside = checks.get("center_of_pressure").unwrap().value.unwrap();
             assert!(outside < 0.015, "{} at {cutoff_hz} Hz: {outside} m", trial.name);
+            assert!(failed(&checks).is_empty(), "{} at {cutoff_hz} Hz: {}", trial.name, line(&checks));
             assert_eq!(checks.mass_agrees(), None, "{}: nobody said what it weighs", trial.name);
         }
     }

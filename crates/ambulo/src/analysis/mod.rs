@@ -32,7 +32,7 @@ pub use predicted::{
     PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, analyse_predicted, analyse_predicted_trajectory,
 };
 pub use prediction_checks::{
-    CarriedMass, CheckOrder, CheckedPrediction, PredictionCheck, PredictionChecks, prediction_checks,
+    CarriedBy, CarriedMass, CheckOrder, CheckedPrediction, PredictionCheck, PredictionChecks, prediction_checks,
 };
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_within};

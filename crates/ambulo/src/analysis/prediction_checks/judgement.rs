@@ -1,7 +1,7 @@
 //! Where the checks write down what they found.
 
 use super::{PredictionCheck, PredictionChecks};
-use crate::analysis::feasibility::{Check, Reason};
+use crate::analysis::feasibility::{Check, Reason, Thresholds};
 use crate::findings::Findings;
 
 /// Forces that do not go through the feet.
@@ -11,6 +11,7 @@ pub(super) const NOT_THROUGH_THE_FEET: &str = "prediction.not_through_the_feet";
 pub(super) struct Judgement<'a> {
     pub(super) checks: PredictionChecks,
     findings: &'a mut Findings,
+    judged: &'a Thresholds,
 }
 
 /// What was looked at, and what passes.
@@ -28,9 +29,9 @@ pub(super) struct Found {
     pub(super) time_s: [f64; 2],
 }
 
-impl Judgement<'_> {
-    pub(super) fn new(findings: &mut Findings) -> Judgement<'_> {
-        Judgement { checks: PredictionChecks::default(), findings }
+impl<'a> Judgement<'a> {
+    pub(super) fn new(judged: &'a Thresholds, findings: &'a mut Findings) -> Judgement<'a> {
+        Judgement { checks: PredictionChecks::default(), findings, judged }
     }
 
     /// Takes a value; `true` if it passes.
@@ -60,8 +61,11 @@ impl Judgement<'_> {
         self.findings.warn(code, message);
     }
 
-    /// Something stands against the motion.
+    /// Forces do not go through the feet, which stands against the motion where the verdict has a check of it.
     pub(super) fn oppose(&mut self, check: Check, looked: Looked, found: Found, message: String) {
+        if !self.judged.judges(check) {
+            return self.findings.warn(NOT_THROUGH_THE_FEET, message);
+        }
         self.findings.warn(NOT_THROUGH_THE_FEET, message.clone());
         let limit = if found.value < looked.allowed[0] { looked.allowed[0] } else { looked.allowed[1] };
         self.checks.reasons.push(Reason {

@@ -14,7 +14,7 @@
 //! | `friction`              | horizontal over vertical force of a standing foot for 0.03 s                      | 0.6              |
 //! | `held_without_feet`     | vertical force needed for 0.1 s while no foot stands [BW]                         | 0.2              |
 //! | `pull`                  | least vertical force needed for 0.1 s [BW]                                        | above -0.15      |
-//! | `mass`                  | body mass by plates or a standing trial over the model's                          | 1 ± 0.05         |
+//! | `mass`                  | body mass by plates or a standing trial over the model's                          | 1 ± 0.05, more if plates saw less than a cycle |
 //!
 //! Nothing is taken off: an offset of the model's mass centre is inside what is allowed. From the motion alone every force scales with
 //! the mass, so that a wrong one shows in the last check only.
@@ -43,7 +43,7 @@ use crate::kinematics::Trajectory;
 use crate::model::Model;
 use judgement::Judgement;
 use low_pass::low_passed;
-pub use mass::CarriedMass;
+pub use mass::{CarriedBy, CarriedMass};
 use record::Record;
 use serde::Serialize;
 
@@ -112,7 +112,7 @@ impl PredictionChecks {
 /// Checks a prediction. What is off is a finding; what stands against the motion is also a reason for its verdict.
 #[must_use]
 pub fn prediction_checks(evidence: &CheckedPrediction<'_>, findings: &mut Findings) -> PredictionChecks {
-    let mut judgement = Judgement::new(findings);
+    let mut judgement = Judgement::new(evidence.thresholds, findings);
     let Some(record) = Record::of(evidence) else { return judgement.checks };
     balance::check(evidence, &record, &mut judgement);
     let low_passed = low_passed(&record);
@@ -144,7 +144,7 @@ impl PredictedAnalysis {
     #[must_use]
     pub fn checks(&self, order: &CheckOrder<'_>, findings: &mut Findings) -> PredictionChecks {
         let CheckOrder { model, soles, thresholds, window_s, standing_kg } = *order;
-        let standing = standing_kg.map(|kg| CarriedMass::Standing { kg });
+        let plates = window_s.and_then(|window_s| CarriedMass::of_plates(self, model, window_s));
         let evidence = CheckedPrediction {
             model,
             trajectory: &self.analysis.trajectory,
@@ -152,7 +152,7 @@ impl PredictedAnalysis {
             prediction: &self.prediction,
             cycles: &self.analysis.cycles,
             thresholds,
-            carried: window_s.and_then(|window_s| CarriedMass::of_plates(self, model, window_s)).or(standing),
+            carried: CarriedMass::best(self, plates, standing_kg),
         };
         prediction_checks(&evidence, findings)
     }

@@ -34,7 +34,7 @@ pub(super) fn check(
     let Some(found) = lasting(&series, low_passed.step_s, SHORTEST_S) else {
         return judgement.skip(looked, "no foot stands for long enough");
     };
-    if judgement.take(looked, found) || !evidence.thresholds.judges(Check::CenterOfPressure) {
+    if judgement.take(looked, found) {
         return;
     }
     let beyond = series.iter().filter(|(_, outside)| *outside > limit).count();
