@@ -119,9 +119,7 @@ fn expected_center(evidence: &Evidence<'_>, stance: &Stance, frame: usize) -> Ve
     let foot = stance.side as usize;
     let known = evidence.known.center_at(foot, frame);
     let place = &evidence.geometry.feet[foot][frame];
-    known.unwrap_or_else(|| {
-        center_path(place, stance, evidence.grid.time(frame), evidence.measure, evidence.weights)
-    })
+    known.unwrap_or_else(|| center_path(place, stance, evidence.grid.time(frame), evidence.measure, evidence.weights))
 }
 
 /// How far the whole force seems to pass from where it should while one foot stands flat: the model's mass centre is off by that much,
@@ -143,7 +141,8 @@ fn offset(evidence: &Evidence<'_>) -> Vec3 {
             }
             let center = expected_center(evidence, stance, frame);
             let rest = moment - center.cross(&force);
-            sum += stance.forward * (rest.dot(&stance.right) / vertical) - stance.right * (rest.dot(&stance.forward) / vertical);
+            sum += stance.forward * (rest.dot(&stance.right) / vertical)
+                - stance.right * (rest.dot(&stance.forward) / vertical);
             (count, seen) = (count + 1.0, true);
         }
         steps += f64::from(u8::from(seen));
@@ -370,7 +369,8 @@ impl System<'_> {
                     Vec3::new(squares(0), squares(1), squares(2)).map(f64::sqrt)
                 };
                 out.deviation.force[frame] = spread([variances[0], variances[1], variances[2]]);
-                out.deviation.center[frame] = spread([variances[5] / vertical.powi(2), 0.0, variances[3] / vertical.powi(2)]);
+                out.deviation.center[frame] =
+                    spread([variances[5] / vertical.powi(2), 0.0, variances[3] / vertical.powi(2)]);
                 out.deviation.free_moment[frame] = variances[4].sqrt();
             }
         }

@@ -109,15 +109,14 @@ impl<'a> Expectation<'a> {
                 let found = self.curves.fore_aft(self.stance.phase(time));
                 Expected { mean: found.mean, deviation: found.deviation * self.weights.spread[0] }
             }
-            Component::Force(0) => {
-                Expected { mean: lean(self.stance.forward), deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1) }
-            }
+            Component::Force(0) => Expected {
+                mean: lean(self.stance.forward),
+                deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1),
+            },
             Component::Force(_) => {
                 Expected { mean: lean(self.stance.right), deviation: self.weights.sideways_spread * loaded }
             }
-            Component::Moment(1) => {
-                Expected { mean: 0.0, deviation: self.weights.free_moment_spread * size * loaded }
-            }
+            Component::Moment(1) => Expected { mean: 0.0, deviation: self.weights.free_moment_spread * size * loaded },
             // Along the foot the centre of pressure turns the load about the right, across it about forward.
             Component::Moment(axis) => {
                 let spread = self.weights.center_spread[usize::from(axis == 0)] * size;

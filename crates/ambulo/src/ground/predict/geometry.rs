@@ -47,7 +47,10 @@ impl Geometry {
                         .try_normalize(f64::MIN_POSITIVE)
                         .unwrap_or_else(Vec3::y)
                 });
-                foot.push(FootPlace { sole: [place(&sole.points[0]), place(&sole.points[1]), place(&sole.points[2])], shank });
+                foot.push(FootPlace {
+                    sole: [place(&sole.points[0]), place(&sole.points[1]), place(&sole.points[2])],
+                    shank,
+                });
             }
         });
         out

@@ -12,23 +12,23 @@ mod geometry;
 mod known;
 mod stance_curves;
 mod stances;
+mod total;
 mod unknowns;
 mod weights;
-mod total;
 
 use super::footfalls::{Footfalls, footfalls};
 use super::plates::foot_bodies;
 use super::sole::{Sole, Stature, at_rest};
 use super::{BodyForces, GroundForces, upward};
-use estimate::{Evidence, FootLoads, estimate};
-use geometry::Geometry;
-use stance_curves::StanceCurves;
-use stances::{Measure, stances};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
+use estimate::{Evidence, FootLoads, estimate};
+use geometry::Geometry;
 pub use known::Known;
+use stance_curves::StanceCurves;
+use stances::{Measure, stances};
 pub use total::total_wrench;
 pub use weights::Weights;
 
@@ -186,9 +186,8 @@ pub fn predict(
     keep_on_the_ground(&mut feet, up, &settings.known);
     let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
     let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {
-        let moment: Vec<Vec3> = (0..foot.force.len())
-            .map(|i| foot.center[i].cross(&foot.force[i]) + up * foot.free_moment[i])
-            .collect();
+        let moment: Vec<Vec3> =
+            (0..foot.force.len()).map(|i| foot.center[i].cross(&foot.force[i]) + up * foot.free_moment[i]).collect();
         BodyForces::on_ground(body, &foot.force, &moment, up, &foot.height)
     });
     let ground = GroundForces { bodies: ground.collect() };

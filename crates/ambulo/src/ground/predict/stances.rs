@@ -93,7 +93,8 @@ pub(super) fn stances(
     let spans: Vec<(&Footfall, f64, f64)> = footfalls.falls.iter().map(|fall| span(fall, grid, usual_s)).collect();
     let mut out: Vec<Stance> = Vec::new();
     for (fall, start_s, end_s) in &spans {
-        let others: Vec<[f64; 2]> = spans.iter().filter(|(o, ..)| o.side != fall.side).map(|(_, a, b)| [*a, *b]).collect();
+        let others: Vec<[f64; 2]> =
+            spans.iter().filter(|(o, ..)| o.side != fall.side).map(|(_, a, b)| [*a, *b]).collect();
         out.push(stance(fall, [*start_s, *end_s], &others, grid, geometry, measure, curves));
     }
     out.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
@@ -139,7 +140,8 @@ fn stance(
     let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| level(Vec3::x()).normalize());
     let near = 0.02 * measure.leg_time_s;
     let other_off = others.iter().map(|o| o[1]).find(|off| *off > start_s + near && *off < end_s - near);
-    let other_strike = others.iter().rev().map(|o| o[0]).find(|strike| *strike > start_s + near && *strike < end_s - near);
+    let other_strike =
+        others.iter().rev().map(|o| o[0]).find(|strike| *strike > start_s + near && *strike < end_s - near);
     let meets = others.iter().any(|o| o[0] < end_s && o[1] > start_s);
     let gait = match () {
         () if end_s - start_s > LONGEST_STEP * measure.leg_time_s || pace < UNDER_WAY => Gait::Stand,
