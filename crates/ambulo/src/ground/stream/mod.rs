@@ -16,8 +16,10 @@
 mod error;
 mod frame;
 mod recent;
+mod rhythm;
 
-use super::predict::{PredictSettings, Prediction, Weights, predict};
+use super::footfalls::footfalls;
+use super::predict::{Known, PredictSettings, Prediction, Weights, predict};
 use super::sole::Sole;
 use crate::dynamics::Workspace;
 use crate::findings::Findings;
@@ -29,6 +31,7 @@ use crate::motion::{SmoothSettings, Smoother, Window, smooth};
 pub use error::StreamError;
 pub use frame::{FootLoad, LoadDeviation, StreamFrame};
 use recent::Recent;
+use rhythm::Rhythm;
 
 /// Rates that motion is recorded at [Hz].
 const RATES_HZ: [f64; 2] = [20.0, 2000.0];
@@ -75,8 +78,9 @@ pub struct Stream {
     model: Model,
     soles: [Option<Sole>; 2],
     smoother: Smoother,
-    prediction: PredictSettings,
+    weights: Weights,
     recent: Recent,
+    rhythm: Rhythm,
     /// Frames between what comes in and what goes out.
     delay: usize,
     /// Number of the next frame that may be given out.
@@ -109,7 +113,8 @@ impl Stream {
             model,
             soles,
             smoother,
-            prediction: PredictSettings { weights, ..PredictSettings::default() },
+            weights,
+            rhythm: Rhythm::default(),
             delay: (delay_s * rate_hz + NEAR_A_FRAME) as usize,
             due: 0,
             findings: Findings::default(),
@@ -180,7 +185,12 @@ impl Stream {
         let whole = SmoothSettings { smoother: self.smoother, window: Window::default(), rate_hz: None };
         let smoothed = smooth(&self.model, self.recent.motion(), whole, &mut findings)?;
         let trajectory = Trajectory::complete(&self.model, &smoothed, &mut findings)?;
-        let prediction = predict(&self.model, &trajectory, &self.soles, &self.prediction, &mut findings)?;
+        let mut footfalls = footfalls(&self.model, &trajectory, &self.soles, &mut findings);
+        self.rhythm.learn(&footfalls);
+        self.rhythm.foretell(&mut footfalls, trajectory.grid());
+        let known = Known { footfalls: Some(footfalls), ..Known::default() };
+        let settings = PredictSettings { known, weights: self.weights };
+        let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
         self.findings = findings;
         Ok(Some((trajectory, prediction)))
     }
