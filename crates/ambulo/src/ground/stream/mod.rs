@@ -13,6 +13,7 @@
 //! prediction of the window.
 //! Pinned by: tests/ground_stream.rs
 
+mod continuation;
 mod error;
 mod frame;
 mod recent;
@@ -28,6 +29,7 @@ use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::gaps::LONGEST_GAP_S;
 use crate::motion::{SmoothSettings, Smoother, Window, smooth};
+use continuation::continued;
 pub use error::StreamError;
 pub use frame::{FootLoad, LoadDeviation, StreamFrame};
 use recent::Recent;
@@ -182,8 +184,10 @@ impl Stream {
             return Ok(None);
         }
         let mut findings = Findings::default();
-        let whole = SmoothSettings { smoother: self.smoother, window: Window::default(), rate_hz: None };
-        let smoothed = smooth(&self.model, self.recent.motion(), whole, &mut findings)?;
+        let seen = Window { from_s: None, to_s: self.recent.motion().times.last().copied() };
+        let settings = SmoothSettings { smoother: self.smoother, window: seen, rate_hz: None };
+        let motion = continued(self.recent.motion(), self.recent.time(1));
+        let smoothed = smooth(&self.model, &motion, settings, &mut findings)?;
         let trajectory = Trajectory::complete(&self.model, &smoothed, &mut findings)?;
         let mut footfalls = footfalls(&self.model, &trajectory, &self.soles, &mut findings);
         self.rhythm.learn(&footfalls);
