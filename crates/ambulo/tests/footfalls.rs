@@ -8,7 +8,8 @@
 mod footfall_trials;
 
 use ambulo::findings::Findings;
-use ambulo::ground::footfalls::{Footfalls, footfalls};
+use ambulo::ground::footfalls::{Footfalls, OffSpeed, footfalls, footfalls_at};
+use ambulo::kinematics::Trajectory;
 use ambulo::motion::{Event, EventKind};
 use footfall_trials::{Recorded, everything};
 
@@ -100,9 +101,8 @@ fn strikes_and_offs_are_those_of_the_plates() {
         leave_one_out(&rows);
         for (row, trial) in rows.iter().zip(trials) {
             for errors in &row.errors {
-                // None missed. The aim is 30 ms for each; the forces of rajagopal-walk were low-passed before they were published, which
-                // makes them begin 25 ms early and end late.
-                assert!(errors.iter().all(|e| e.abs() < 35.0), "{} at {cutoff_hz} Hz: {errors:?}", trial.name);
+                // None missed, and none further off than the aim.
+                assert!(errors.iter().all(|e| e.abs() <= 30.0), "{} at {cutoff_hz} Hz: {errors:?}", trial.name);
             }
         }
         for k in [0, 1] {
@@ -157,4 +157,63 @@ fn the_wrong_foot_and_the_wrong_time_are_seen() {
         // `soles` says whose foot it is: the feet's points come under the wrong names.
         assert!(other.iter().all(|e| e.is_nan() || e.abs() > 60.0), "{}: {other:?}", trial.name);
     }
+}
+
+/// Mean over subjects of the mean over their trials of the mean magnitude [ms].
+fn cost(trials: &[Recorded], errors: &[f64], subjects: &[&str]) -> f64 {
+    let of_subject = |name: &&str| {
+        let own = trials.iter().zip(errors).filter(|(trial, _)| trial.subject == *name);
+        mean(own.map(|(_, error)| *error))
+    };
+    mean(subjects.iter().map(of_subject))
+}
+
+#[test]
+fn the_speed_of_the_off_is_the_best_of_a_grid() {
+    let trials = everything();
+    if trials.is_empty() {
+        return;
+    }
+    let motions: Vec<Trajectory> = trials.iter().map(|trial| trial.trajectory(6.0)).collect();
+    let errors = |left: OffSpeed| -> Vec<f64> {
+        let of_trial = |(trial, motion): (&Recorded, &Trajectory)| {
+            let found = footfalls_at(&trial.model, motion, &trial.soles, left, &mut Findings::default());
+            mean(errors_ms(&trial.plates, &found.events(), EventKind::Off).into_iter().map(f64::abs))
+        };
+        trials.iter().zip(&motions).map(of_trial).collect()
+    };
+    let factors = (6..=16).map(|k| 0.05 * f64::from(k));
+    let grid: Vec<OffSpeed> =
+        factors.flat_map(|factor| [0.0, 0.125, 0.25, 0.375, 0.5].map(|power| OffSpeed { factor, power })).collect();
+    let all: Vec<(OffSpeed, Vec<f64>)> = grid.into_iter().map(|left| (left, errors(left))).collect();
+    let mut subjects: Vec<&str> = trials.iter().map(|trial| trial.subject).collect();
+    subjects.sort_unstable();
+    subjects.dedup();
+    let best = |subjects: &[&str]| {
+        let costs = all.iter().map(|(left, errors)| (*left, errors, cost(trials, errors, subjects)));
+        costs.filter(|c| c.2.is_finite()).min_by(|a, b| a.2.total_cmp(&b.2)).unwrap()
+    };
+    let mut left_out = Vec::new();
+    for name in &subjects {
+        let others: Vec<&str> = subjects.iter().copied().filter(|s| s != name).collect();
+        let (left, errors, _) = best(&others);
+        left_out.push(cost(trials, errors, &[*name]));
+        println!(
+            "without {name:<15} {:.2} and {:.3}: {:.1} ms for it",
+            left.factor,
+            left.power,
+            left_out[left_out.len() - 1]
+        );
+    }
+    let (left, _, least) = best(&subjects);
+    let own = cost(trials, &errors(OffSpeed::default()), &subjects);
+    println!(
+        "all: {:.2} and {:.3}, {least:.1} ms; default {own:.1} ms; left out {:.1} ms",
+        left.factor,
+        left.power,
+        mean(left_out)
+    );
+    assert!(own < least + 0.5, "{own} ms, {least} ms at {left:?}");
+    // A grid in which every speed is as good would say nothing.
+    assert!(all.iter().any(|(_, errors)| cost(trials, errors, &subjects) > 1.5 * own));
 }

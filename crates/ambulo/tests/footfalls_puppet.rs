@@ -146,6 +146,8 @@ fn whatever_the_way_all_steps_are_found() {
     for step in [
         Vec3::new(1.3, 0.0, 0.0),
         Vec3::new(0.5, 0.0, 0.0),
+        Vec3::new(0.15, 0.0, 0.0),
+        Vec3::zeros(),
         Vec3::new(-0.9, 0.0, 0.0),
         Vec3::new(0.0, 0.0, 0.6),
         Vec3::new(-0.4, 0.0, -0.4),

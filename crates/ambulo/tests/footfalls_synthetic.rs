@@ -4,10 +4,12 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
+mod common;
+
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::ground::footfalls::{Footfalls, footfalls};
+use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
 use ambulo::ground::phases::contacts;
 use ambulo::ground::sole::Sole;
 use ambulo::kinematics::Trajectory;
@@ -315,6 +317,53 @@ fn nobody_stands_in_a_jump() {
         // Two frames: the speed changes at once.
         assert!((event.time_s - expected).abs() <= 2.0 * grid.step_s, "{event:?}");
     }
+}
+
+#[test]
+fn whatever_moves_strikes_and_offs_take_turns() {
+    for seed in 0..30 {
+        let mut random = common::random::Random::new(seed);
+        let mut wild = Moving::standing(0.1 + 0.2 * seed as f64);
+        let grid = wild.grid;
+        for column in &mut wild.columns {
+            let (size, omega, phase) = (random.within(0.5), random.between(0.1, 20.0), random.within(3.0));
+            for frame in 0..grid.frames {
+                let (sine, cosine) = (omega * grid.time(frame) + phase).sin_cos();
+                column[0][frame] += size * sine;
+                column[1][frame] = size * omega * cosine;
+                column[2][frame] = -size * omega * omega * sine;
+            }
+        }
+        let found = wild.footfalls();
+        for side in Side::BOTH {
+            let ends = |f: &Footfall| [f.strike_s.unwrap_or(grid.start_s), f.off_s.unwrap_or(grid.end_s())];
+            let ends: Vec<f64> = found.of(side).flat_map(ends).collect();
+            assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]), "seed {seed}: {found:?}");
+            assert!(ends.iter().all(|t| (grid.start_s..=grid.end_s()).contains(t)), "seed {seed}: {found:?}");
+            assert!(found.of(side).skip(1).all(|f| f.strike_s.is_some()), "seed {seed}: {found:?}");
+            let count = found.of(side).count();
+            assert!(found.of(side).take(count.saturating_sub(1)).all(|f| f.off_s.is_some()), "seed {seed}: {found:?}");
+        }
+        assert!(found.falls.iter().all(|f| f.floor_height_m.is_finite() && f.floor_velocity.norm().is_finite()));
+    }
+}
+
+#[test]
+fn recordings_of_a_few_frames_are_no_trouble() {
+    for frames in 0..5 {
+        let found = walk().cut(20..20 + frames).footfalls();
+        assert!(found.falls.len() <= 2 && found.events().len() <= 1, "{frames}: {found:?}");
+    }
+}
+
+#[test]
+fn on_a_belt_the_world_may_be_turned_too() {
+    let on_belt = || walk().on_belt(|t| 1.2 * t, |_| 1.2);
+    let turn = *nalgebra::Rotation3::new(Vec3::y() * 0.9).matrix();
+    let (straight, turned) = (on_belt().footfalls(), on_belt().turned(turn, false).footfalls());
+    // The velocities gather at one place wherever the search begins, to the search's tolerance.
+    assert_same(&straight.events(), &turned.events(), 1e-3);
+    assert!((turned.floor_velocity - turn * straight.floor_velocity).norm() < 1e-2);
 }
 
 #[test]

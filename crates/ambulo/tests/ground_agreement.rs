@@ -142,3 +142,27 @@ fn a_stance_beside_the_plates_bars_its_time() {
     );
     assert!(found.stances.iter().all(|(side, s)| *side == Side::Right || (s[0] - missed_from).abs() > 0.1));
 }
+
+#[test]
+fn beyond_their_recording_plates_say_nothing() {
+    let grid = WALK.trajectory.grid();
+    let middle = 0.5 * (grid.start_s + grid.end_s());
+    let mut plates = WALK.loads.clone();
+    for plate in &mut plates {
+        let kept = plate.times.partition_point(|t| *t <= middle);
+        plate.times.truncate(kept);
+        plate.force.truncate(kept);
+        plate.point.truncate(kept);
+        plate.moment.truncate(kept);
+    }
+    let partly = predicted(&plates);
+    let measured = of_feet(partly.measured.as_ref().unwrap());
+    let after = |i: &usize| grid.time(*i) > middle + grid.step_s * 1.5;
+    let total = |i: usize| measured.iter().map(|foot| foot.force[i].norm()).sum::<f64>();
+    assert!((0..grid.frames).filter(after).all(|i| total(i) < f64::MIN_POSITIVE), "a force that nobody measured");
+    assert!((0..grid.frames).filter(|i| grid.time(*i) < middle).all(|i| total(i) > 300.0));
+    let found = seen(&partly, &plates);
+    assert!(found.window.unwrap()[1] <= middle && found.stances.iter().all(|(_, s)| s[1] <= middle), "{found:?}");
+    // The prediction goes on.
+    assert!(partly.analysis.ground.bodies.iter().any(|foot| foot.force[grid.frames - 5].y > 300.0));
+}

@@ -280,7 +280,7 @@ fn budget(trials: &[Trial]) -> String {
     }
     format!(
         "{}\nMeans over subjects, walking, over the part of the stances in which plates measured every foot: only there can every source \
-         be replaced. Moments in N.m/kg; centres of pressure are force-weighted.\n",
+         be replaced. A known split is that of the vertical force; along the ground the rule divides. Moments in N.m/kg; centres of pressure are force-weighted.\n",
         table.text()
     )
 }

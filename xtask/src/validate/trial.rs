@@ -88,7 +88,7 @@ fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen),
     };
     let order = PredictOrder {
         soles: &person.soles,
-        settings: &PredictSettings { known },
+        settings: &PredictSettings { known, ..PredictSettings::default() },
         plates_filter: Some(PLATES_LOW_PASS),
     };
     let mut findings = Findings::default();

@@ -69,6 +69,9 @@ pub(crate) struct ForcesArgs {
     /// How the motion is smoothed; spline: quintic, stiffness by generalised cross-validation, --cutoff then goes for the forces only.
     #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
     pub(crate) filter: Filter,
+    /// Change the motion within its noise until it obeys the measured forces (docs/CONSISTENCY.md): `motion` alone, or with the `body`'s mass and the trunk's mass centre [without a value: body].
+    #[arg(long, value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "body", conflicts_with = "no_ground")]
+    pub(crate) consistent: Option<Consistency>,
     /// What a worn device contributes: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
@@ -83,6 +86,15 @@ pub(crate) struct ForcesArgs {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) voice: Voice,
+}
+
+/// What may change to make motion and forces agree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Consistency {
+    /// The motion alone.
+    Motion,
+    /// The motion, the body's mass and the trunk's mass centre.
+    Body,
 }
 
 /// A filter family.
@@ -100,7 +112,8 @@ pub(crate) struct SubjectArgs {
     /// Markers of the same person standing still: .c3d or .trc.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg] [default: what the recording states, or the plates carry; with --model the model's own].
+    /// Body mass [kg]; a standing trial on plates that comes within 5 % of it is believed instead [default: what the plates carry or the
+    /// recording states; with --model the model's own].
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass: Option<f64>,
     /// Stature [m] [default: what the recording states, or an estimate from the markers].

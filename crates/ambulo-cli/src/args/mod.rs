@@ -7,7 +7,7 @@ mod values;
 mod walk;
 
 pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
-pub(crate) use forces::{Filter, ForcesArgs, MarkerFitting, SubjectArgs};
+pub(crate) use forces::{Consistency, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns, PlateFoot};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};

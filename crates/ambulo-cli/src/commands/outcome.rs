@@ -7,7 +7,9 @@ use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
 use ambulo::analysis::{Analysis, GroundAgreement, Settings};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
-use ambulo::report::{Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary};
+use ambulo::report::{
+    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary,
+};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -24,6 +26,8 @@ pub(super) struct Outcome<'a> {
     pub(super) read: &'a [PathBuf],
     /// How a synthetic walk was made.
     pub(super) walk: Option<WalkSummary>,
+    /// How the motion was changed to obey the forces.
+    pub(super) consistency: Option<ConsistencySummary>,
     /// How markers became a body in motion.
     pub(super) subject: Option<SubjectSummary>,
     /// Prediction against plates.
@@ -58,6 +62,7 @@ impl Outcome<'_> {
         summary.height_m = (!self.person.estimated).then_some(self.person.height_m);
         summary.walk = self.walk;
         summary.subject = self.subject;
+        summary.consistency = self.consistency;
         summary.comparison = self.comparison;
         if self.mass_is_stated {
             summary.mass = MassKnowledge::Verified;

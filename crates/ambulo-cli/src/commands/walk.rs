@@ -82,6 +82,7 @@ impl Made<'_> {
             person: Person::of_human(human),
             device: None,
             read: self.read,
+            consistency: None,
             walk: Some(WalkSummary::new(model, report)),
             subject: None,
             comparison: None,

@@ -1,6 +1,6 @@
 //! The outcome of `forces`, `walk` and `demo`.
 
-use super::{comparison, print_findings, print_verdict, say, subject};
+use super::{comparison, consistency, print_findings, print_verdict, say, subject};
 use crate::args::Voice;
 use ambulo::report::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
@@ -41,6 +41,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
             r.moment_rms_nm,
             r.moment_peak_nm
         ))?;
+    }
+    if let Some(agreed) = &summary.consistency {
+        consistency::print(agreed)?;
     }
     print_peaks(summary)?;
     if let Some(comparison) = &summary.comparison {

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 mod comparison;
+mod consistency;
 mod forces;
 mod reproduce;
 mod simulate;

@@ -215,7 +215,7 @@ pub fn ground_agreement(compared: &Compared<'_>, seen: &Seen) -> GroundAgreement
     let of_foot = |side: Side| {
         let (found, truth) = (&found[of(&found, side)?].1, &truth[of(&truth, side)?].1);
         let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side);
-        judge.foot(side, found, truth, deviation, &stances(seen, side))
+        judge.foot(side, found, truth, deviation, &stances(seen, side, judge.grid))
     };
     let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
     let moments = Side::BOTH.into_iter().flat_map(|side| {
@@ -234,9 +234,12 @@ pub fn ground_agreement(compared: &Compared<'_>, seen: &Seen) -> GroundAgreement
     }
 }
 
-fn stances(seen: &Seen, side: Side) -> Vec<[f64; 2]> {
+/// Stances of a side that are long enough and lie wholly in the motion, give or take a frame.
+fn stances(seen: &Seen, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
     let long = |s: &[f64; 2]| s[1] - s[0] >= SHORTEST_STANCE_S;
-    seen.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s).filter(long).collect()
+    let inside = |s: &[f64; 2]| s[0] >= grid.start_s - grid.step_s && s[1] <= grid.end_s() + grid.step_s;
+    let of_side = seen.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s);
+    of_side.filter(long).filter(inside).collect()
 }
 
 fn moment(compared: &Compared<'_>, side: Side, stem: &str, frames: &[usize]) -> Option<MomentAgreement> {
@@ -290,7 +293,7 @@ impl Judge {
             known[first..first + count].fill(true);
         }
         if let Some(truth) = truth {
-            let frames = stances(seen, side).into_iter().flat_map(|stance| self.frames(truth, stance));
+            let frames = stances(seen, side, self.grid).into_iter().flat_map(|stance| self.frames(truth, stance));
             frames.for_each(|i| known[i] = true);
         }
         (0..known.len()).filter(|&i| known[i]).collect()

@@ -152,6 +152,7 @@ fn with_prediction(
         speed_m_s: over_ground(model, &trajectory, &ground, upward(model)).map(|over| over.speed),
         residual: residual(model, &forces),
         trajectory,
+        adjusted: false,
         ground,
         forces,
         verdict: None,

@@ -36,6 +36,8 @@ pub struct Settings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
+    /// Whether it was changed to agree with the forces ([`super::agree`]).
+    pub adjusted: bool,
     /// The measured ground forces on its instants.
     pub ground: GroundForces,
     /// Joint forces, powers and reactions.
@@ -197,7 +199,18 @@ pub fn analyse_trajectory(
     plausibility::report_far_feet(model, &trajectory, &ground, findings);
     plausibility::report_ranges(model, &trajectory, findings);
     stage("analysis");
-    Ok(Analysis { trajectory, ground, forces, events, cycles, mass, speed_m_s, residual, verdict: None })
+    Ok(Analysis {
+        trajectory,
+        adjusted: false,
+        ground,
+        forces,
+        events,
+        cycles,
+        mass,
+        speed_m_s,
+        residual,
+        verdict: None,
+    })
 }
 
 /// A range that holds too little is named as the user gave it, beside what motion and forces cover together.

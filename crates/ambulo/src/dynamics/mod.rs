@@ -4,6 +4,7 @@ mod best;
 mod block;
 mod carried;
 mod conjugate_gradient;
+pub mod consistency;
 mod constraint;
 mod curvature;
 mod departure;
@@ -14,6 +15,7 @@ mod load;
 mod mixing;
 mod proximal;
 mod relaxed;
+mod roots;
 mod solve;
 
 pub use constraint::{
@@ -25,5 +27,6 @@ pub use inverse::{
     Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames, project_wrenches,
 };
 pub use load::{BodyLoad, LoadSeries};
+pub(crate) use roots::Roots;
 pub use solve::{GraphWorkspace, Method, SolverSettings, solve_graph, undetermined_rows};
 pub(crate) use solve::{project_displacements, project_placed};

@@ -309,6 +309,14 @@ impl Model {
         Ok(model)
     }
 
+    /// The same model with another mass, mass centre and inertia of a body, in the body's frame.
+    #[must_use]
+    pub fn with_inertia(&self, body: BodyId, inertia: Inertia) -> Model {
+        let mut model = self.clone();
+        model.bodies[body.0].inertia = inertia;
+        model
+    }
+
     /// Names of the generalised forces, one for each coordinate: `<coordinate>_moment` or `<coordinate>_force`.
     #[must_use]
     pub fn force_names(&self) -> Vec<String> {

@@ -12,6 +12,7 @@ mod natural_spline;
 mod periodic_spline;
 mod spline_fitter;
 mod spline_grid;
+mod uniform_spline;
 
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
@@ -19,3 +20,4 @@ pub use median::median;
 pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
+pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};

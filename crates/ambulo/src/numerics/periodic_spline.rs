@@ -66,7 +66,7 @@ impl PeriodicSplines {
 }
 
 /// w_d(0), ..., w_d(d); zeros behind.
-fn cardinal<const D: usize>(u: f64) -> [f64; OVERLAP] {
+pub(super) fn cardinal<const D: usize>(u: f64) -> [f64; OVERLAP] {
     let mut w = [0.0; OVERLAP];
     w[0] = 1.0;
     for degree in 1..=D {

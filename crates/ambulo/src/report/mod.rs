@@ -1,5 +1,6 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
+mod consistency_summary;
 mod cycle_table;
 mod exchange;
 mod figure;
@@ -17,6 +18,7 @@ mod summary;
 mod tables;
 mod walk_summary;
 
+pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use exchange::{
     GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,

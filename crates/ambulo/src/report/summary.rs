@@ -1,5 +1,6 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
+use super::consistency_summary::ConsistencySummary;
 use super::subject_summary::SubjectSummary;
 use super::tables::UNLOADED_N;
 use super::walk_summary::WalkSummary;
@@ -59,6 +60,8 @@ pub struct Summary {
     pub comparison: Option<GroundAgreement>,
     /// How markers became a body in motion; `null` where coordinates were given.
     pub subject: Option<SubjectSummary>,
+    /// How the motion was changed to obey the forces; `null` where it was not.
+    pub consistency: Option<ConsistencySummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
     /// Time that each stage took [ms].
@@ -221,6 +224,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         verdict: analysis.verdict.clone(),
         comparison: None,
         subject: None,
+        consistency: None,
         walk: None,
         timing_ms: BTreeMap::new(),
     }

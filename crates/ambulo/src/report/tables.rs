@@ -28,7 +28,8 @@ pub(super) fn kinematics(model: &Model, analysis: &Analysis) -> Result<Table, Er
         };
         (coordinate.name.clone(), shown)
     });
-    let mut table = table("Coordinates", analysis, columns.collect())?;
+    let title = if analysis.adjusted { "Coordinates, changed to agree with the forces" } else { "Coordinates" };
+    let mut table = table(title, analysis, columns.collect())?;
     table.in_degrees = Some(true);
     Ok(table)
 }

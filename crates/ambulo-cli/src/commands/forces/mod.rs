@@ -1,5 +1,6 @@
 //! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
 
+mod agreed;
 mod coordinates;
 mod ground_table;
 mod marker_ground;
@@ -188,10 +189,11 @@ impl Origin {
         Some(Window { from_s: Some(from), to_s: Some(to) })
     }
 
-    /// Files of its own: the body that was made for the person, for OpenSim and for later runs. What cannot be written
-    /// is noted.
-    fn files(&self, model: &Model, findings: &mut Findings) -> Vec<OutputFile> {
+    /// Files of its own: the body that was made for the person, or changed, for OpenSim and for later runs. What cannot be
+    /// written is noted.
+    fn files(&self, model: &Model, is_changed: bool, findings: &mut Findings) -> Vec<OutputFile> {
         let is_made = match self {
+            _ if is_changed => true,
             Origin::Coordinates => false,
             Origin::Skeleton(_) => true,
             Origin::Markers(followed) => {
@@ -229,10 +231,12 @@ fn compute(
     } else {
         by_plates(&recorded, settings, &mut findings, &mut clock)
     };
-    let Recorded { model, person, input, origin, mass_is_stated, .. } = recorded;
-    let Computed { analysis, subject, comparison, mut files } =
+    let Recorded { mut model, person, input, origin, mass_is_stated, .. } = recorded;
+    let Computed { mut analysis, subject, comparison, mut files } =
         computed.map_err(|error| name_the_file(error, &input))?;
-    files.extend(origin.files(&model, &mut findings));
+    let consistency = agreed::agree(args, &mut model, &mut analysis, &input, &settings, &mut findings)?;
+    clock.lap("consistency");
+    files.extend(origin.files(&model, consistency.is_some(), &mut findings));
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }
@@ -246,6 +250,7 @@ fn compute(
         device: device.as_deref(),
         read: &read,
         walk: None,
+        consistency,
         subject,
         comparison,
         mass_is_stated,

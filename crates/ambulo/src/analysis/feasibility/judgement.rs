@@ -6,8 +6,7 @@ use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{Check, Closest, NotJudged, Reason, Verdict};
-use crate::analysis::residual::Roots;
-use crate::dynamics::Forces;
+use crate::dynamics::{Forces, Roots};
 use crate::findings::Findings;
 use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -140,7 +139,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
             powers: &power,
             bodies,
             feet: feet.map(|foot| foot.map(|f| foot_frame(f, i))),
-            residual: roots.residual(forces, i),
+            residual: roots.residual(|body| forces.reactions[body.index()][i]),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
             ground_height: height,
             walking: froude.is_none_or(|froude| froude < judge.thresholds.running_froude),

@@ -22,7 +22,7 @@ const RESTS: f64 = 0.03;
 const EVEN: f64 = 0.05;
 /// Length of a piece, in √(L/g): about two strides.
 const PIECE: f64 = 8.0;
-/// Share of a piece's velocities that have to lie together for the piece to be believed.
+/// Share of the velocities that have to lie together to be believed; 0.83 to 1 of those of walks and runs do.
 const BELIEVED: f64 = 0.6;
 /// Rounds of the mean; it rests after a few.
 const ROUNDS: usize = 20;
@@ -39,7 +39,8 @@ impl Belt {
     /// Found from the feet.
     pub(super) fn new(signals: &Signals) -> Belt {
         let samples = samples(signals);
-        let Some((overall, _)) = gathered(signals, &samples) else {
+        let believed = |(_, count): &(Vec3, usize)| *count as f64 >= BELIEVED * samples.len() as f64;
+        let Some((overall, _)) = gathered(signals, &samples).filter(believed) else {
             return Belt { overall: Vec3::zeros(), knots: Vec::new() };
         };
         let length = signals.frames_in(PIECE * signals.swing_s);

@@ -8,10 +8,10 @@
 //!
 //! **Off.** What leaves last is the point that is lowest at the end; its speed against the floor rises above
 //!
-//!   v = 0.5 √(g L) (V / √(g L))^¼,
+//!   v = 0.6 √(g L) (V / √(g L))^⅜,
 //!
-//! 1.2 m/s for an adult who walks at 1.2 m/s, 1.6 m/s at a run of 3.8 m/s: between a share of walking speed (Bruening, Ridge 2014: 0.66),
-//! which is late in running, and a speed that depends on the person only. Power and factor are fitted ([module docs](super)). It is at
+//! 1.3 m/s for an adult who walks at 1.2 m/s, 2 m/s at a run of 3.8 m/s: between a share of walking speed (Bruening, Ridge 2014: 0.66),
+//! which is late in running, and a speed that depends on the person only. Factor and power ([`OffSpeed`]) are fitted ([module docs](super)). It is at
 //! most half of the point's highest speed in the swing that follows.
 
 use super::belt::Belt;
@@ -25,14 +25,25 @@ const LANDED: f64 = 0.5;
 const NEAR_STRIKE: f64 = 0.3;
 /// Slower descents than this share of √(g L) tell nothing of a strike.
 const DESCENT: f64 = 0.02;
-/// Speed of the last point at the off, share of √(g L), at walking speed √(g L).
-const LEFT: f64 = 0.5;
-/// Power of the walking speed in that.
-const LEFT_POWER: f64 = 0.25;
 /// Who goes slower than this share of √(g L) counts as going at it.
 const SLOWEST: f64 = 0.1;
 /// At most this share of the highest speed of the swing.
 const OF_SWING: f64 = 0.5;
+
+/// The speed of a foot's last point at which it has left the ground: factor √(g L) (V / √(g L))^power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OffSpeed {
+    /// Share of √(g L), at the walking speed √(g L).
+    pub factor: f64,
+    /// Power of the walking speed.
+    pub power: f64,
+}
+
+impl Default for OffSpeed {
+    fn default() -> OffSpeed {
+        OffSpeed { factor: 0.6, power: 0.375 }
+    }
+}
 
 /// One foot and what its search needs.
 pub(super) struct Search<'a> {
@@ -40,6 +51,7 @@ pub(super) struct Search<'a> {
     pub(super) belt: &'a Belt,
     pub(super) walking: &'a [f64],
     pub(super) foot: &'a FootPath,
+    pub(super) left: OffSpeed,
 }
 
 impl Search<'_> {
@@ -69,7 +81,7 @@ impl Search<'_> {
         let until = next.unwrap_or(frames);
         let pace = self.signals.pace;
         let going = (self.walking[run.end - 1] / pace).max(SLOWEST);
-        let mut limit = LEFT * pace * going.powf(LEFT_POWER);
+        let mut limit = self.left.factor * pace * going.powf(self.left.power);
         // A swing that the recording cuts does not tell how fast it is.
         if next.is_some() || until - run.end > self.signals.frames_in(self.signals.swing_s) {
             let fastest = (run.end..until).map(|frame| self.speed(point, frame)).fold(0.0, f64::max);

@@ -62,7 +62,9 @@ pub(super) fn still(signals: &Signals, belt: &Belt, walking: &[f64], foot: &Foot
         }
     }
     let carried = |run: &Range<usize>| signals.carried[run.clone()].iter().sum::<f64>() / run.len() as f64;
-    merged.retain(|run| run.len() >= shortest && carried(run) > FLIGHT);
+    // How long a foot stands that the recording cuts is not known.
+    let is_cut = |run: &Range<usize>| run.len() > 1 && (run.start == 0 || run.end == signals.grid.frames);
+    merged.retain(|run| (run.len() >= shortest || is_cut(run)) && carried(run) > FLIGHT);
     merged
 }
 

@@ -8,7 +8,6 @@
 //! The force leans towards the mass centre: sideways, and forward where no curve is known, F_h = k F_v × lever / height.
 //! Moments are those that a centre of pressure beside its path makes, and the free moment; their mean is zero.
 
-use super::geometry::Geometry;
 use super::stance_curves::{AtSpeed, Expected, StanceCurves};
 use super::stances::{Gait, Measure, Stance};
 use super::weights::Weights;
@@ -35,8 +34,8 @@ impl Component {
     ];
 }
 
-/// Stature for which lengths of [`Weights`] are given [m].
-const STATURE_M: f64 = 1.75;
+/// Least deviations of forces [body weights] and moments [body weights × m].
+const LEAST_SPREAD: [f64; 2] = [0.004, 0.000_2];
 /// Deviation of the upward force of a run and of somebody who stands, share of the mean and of the weight.
 const RUN_SPREAD: f64 = 0.25;
 const STAND_SPREAD: f64 = 0.3;
@@ -78,8 +77,7 @@ impl<'a> Expectation<'a> {
         let own = self.stance.own_phase(time);
         match self.stance.gait {
             Gait::Walk => {
-                let phase = self.weights.own_phase * own + (1.0 - self.weights.own_phase) * self.stance.phase(time);
-                let found = self.curves.vertical(phase);
+                let found = self.curves.vertical(own);
                 Expected { mean: found.mean, deviation: found.deviation * self.weights.spread[1] }
             }
             Gait::Run => {
@@ -95,52 +93,47 @@ impl<'a> Expectation<'a> {
         }
     }
 
-    /// Mean and deviation of a component [N or N.m]. `lever` leads from the expected centre of pressure to the mass centre [m].
-    pub(super) fn of(&self, component: Component, time: f64, lever: Vec3) -> Expected {
+    /// Means and deviations of all components [N or N.m], in the order of [`Component::ALL`]. `lever` leads from the expected centre of
+    /// pressure to the mass centre [m].
+    pub(super) fn all(&self, time: f64, lever: Vec3) -> [Expected; 6] {
+        let Measure { up, weight_n, height_m, .. } = *self.measure;
+        let (stance, weights) = (self.stance, self.weights);
         let vertical = self.vertical(time);
-        let own = self.stance.own_phase(time);
+        let own = stance.own_phase(time);
         let loaded = (vertical.mean / WHOLE_LOAD).clamp(0.0, 1.0);
-        let size = self.measure.height_m / STATURE_M;
-        let height = lever.dot(&self.measure.up).max(0.1 * self.measure.height_m);
-        let lean = |axis: Vec3| self.weights.sideways_lever * vertical.mean * lever.dot(&axis) / height;
-        let found = match component {
-            Component::Force(1) => vertical,
-            Component::Force(0) if self.stance.gait == Gait::Walk => {
-                let found = self.curves.fore_aft(self.stance.phase(time));
-                Expected { mean: found.mean, deviation: found.deviation * self.weights.spread[0] }
+        let height = lever.dot(&up).max(0.1 * height_m);
+        let lean = |axis: Vec3| weights.sideways_lever * vertical.mean * lever.dot(&axis) / height;
+        let forward = match stance.gait {
+            Gait::Walk => {
+                let found = self.curves.fore_aft(stance.phase(time));
+                Expected { deviation: found.deviation * weights.spread[0], ..found }
             }
-            Component::Force(0) => Expected {
-                mean: lean(self.stance.forward),
+            Gait::Run | Gait::Stand => Expected {
+                mean: lean(stance.forward),
                 deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1),
             },
-            Component::Force(_) => {
-                Expected { mean: lean(self.stance.right), deviation: self.weights.sideways_spread * loaded }
-            }
-            Component::Moment(1) => Expected { mean: 0.0, deviation: self.weights.free_moment_spread * size * loaded },
-            // Along the foot the centre of pressure turns the load about the right, across it about forward.
-            Component::Moment(axis) => {
-                let spread = self.weights.center_spread[usize::from(axis == 0)] * size;
-                Expected { mean: 0.0, deviation: spread * vertical.mean.max(0.0) }
-            }
         };
-        let weight = self.measure.weight_n;
+        let right = Expected { mean: lean(stance.right), deviation: weights.sideways_spread * loaded };
+        let about_zero = |deviation: f64| Expected { mean: 0.0, deviation: deviation * self.measure.size() };
+        // Along the foot the centre of pressure turns the load about the right, across it about forward.
+        let [along, across] = weights.center_spread.map(|spread| spread * vertical.mean.max(0.0));
+        let all = [
+            forward,
+            vertical,
+            right,
+            about_zero(across),
+            about_zero(weights.free_moment_spread * loaded),
+            about_zero(along),
+        ];
         // A curve that cannot deviate at all cannot follow what an end of the stance found early or late asks for.
-        let least = if matches!(component, Component::Force(_)) { 0.004 } else { 0.000_2 };
-        Expected { mean: found.mean * weight, deviation: found.deviation.max(least) * weight }
+        std::array::from_fn(|c| Expected {
+            mean: all[c].mean * weight_n,
+            deviation: all[c].deviation.max(LEAST_SPREAD[c / 3]) * weight_n,
+        })
     }
 }
 
 /// From 0 at both ends of the stance to 1 after a share of it.
 fn rise(phase: f64, share: f64) -> f64 {
     (phase.min(1.0 - phase) / share).clamp(0.05, 1.0)
-}
-
-/// How far the model's mass centre may be off, on this person [m].
-pub(super) fn mass_center_spread(weights: &Weights, measure: &Measure) -> f64 {
-    weights.mass_center_spread * measure.height_m / STATURE_M
-}
-
-/// Where the mass centre stands against a point.
-pub(super) fn lever(geometry: &Geometry, frame: usize, center: Vec3) -> Vec3 {
-    geometry.center[frame] - center
 }

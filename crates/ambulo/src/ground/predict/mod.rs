@@ -10,8 +10,12 @@ mod estimate;
 mod expected;
 mod geometry;
 mod known;
+mod loads;
+mod samples;
 mod stance_curves;
 mod stances;
+mod system;
+mod taps;
 mod total;
 mod unknowns;
 mod weights;
@@ -24,14 +28,17 @@ use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
-use estimate::{Evidence, FootLoads, estimate};
+use estimate::{Evidence, estimate};
 use geometry::Geometry;
 pub use known::Known;
+use loads::FootLoads;
 use stance_curves::StanceCurves;
 use stances::{Measure, stances};
 pub use total::total_wrench;
 pub use weights::Weights;
 
+/// Less gravity holds nobody on the ground [m/s²].
+const LEAST_GRAVITY: f64 = 0.1;
 /// The name of the rule that divides double support.
 const RULE: &str = "likeliest curves of all stances: lever rule, curves of people by speed, smoothness";
 
@@ -93,6 +100,16 @@ pub enum PredictError {
         model: String,
         /// Which foot.
         side: Side,
+    },
+    /// A model that nothing presses to the ground.
+    #[error(
+        "the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1. hint: --no-ground computes a motion without contact"
+    )]
+    NoGravity {
+        /// Its name.
+        model: String,
+        /// Its gravity [m/s²].
+        gravity: f64,
     },
     /// The crate's own curves.
     #[error("the curves of stances cannot be read: {message}")]
@@ -162,6 +179,9 @@ pub fn predict(
     let up = upward(model);
     let stature = Stature::of_model(model, &at_rest(model));
     let gravity = model.gravity().norm();
+    if gravity < LEAST_GRAVITY {
+        return Err(PredictError::NoGravity { model: name(), gravity });
+    }
     let measure = Measure {
         up,
         weight_n: model.mass() * gravity,
@@ -175,14 +195,14 @@ pub fn predict(
     let evidence = Evidence {
         grid: trajectory.grid(),
         geometry: &geometry,
+        half_widths: soles.map(|sole| sole.half_width),
         stances: &stances,
         total: &total,
         measure: &measure,
         weights: &settings.weights,
         known: &settings.known,
     };
-    let estimate = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
-    let mut feet = estimate.feet;
+    let mut feet = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
     keep_on_the_ground(&mut feet, up, &settings.known);
     let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
     let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {

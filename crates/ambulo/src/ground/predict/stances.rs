@@ -59,11 +59,17 @@ pub(super) struct Measure {
     pub(super) height_m: f64,
 }
 
-impl Stance {
-    pub(super) fn holds(&self, time: f64) -> bool {
-        (self.start_s..=self.end_s).contains(&time)
-    }
+/// Stature for which lengths of [`super::Weights`] are given [m].
+const STATURE_M: f64 = 1.75;
 
+impl Measure {
+    /// Size against that stature.
+    pub(super) fn size(&self) -> f64 {
+        self.height_m / STATURE_M
+    }
+}
+
+impl Stance {
     pub(super) fn duration_s(&self) -> f64 {
         self.end_s - self.start_s
     }

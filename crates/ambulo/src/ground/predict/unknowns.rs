@@ -43,6 +43,13 @@ impl Curve {
     }
 }
 
+impl Curve {
+    /// Lowest and highest number that act between two instants.
+    pub(super) fn range(&self, from_s: f64, to_s: f64) -> [usize; 2] {
+        [self.numbers[self.active(from_s).0], self.numbers[self.active(to_s).0 + 3]]
+    }
+}
+
 /// Curves of all components of all stances.
 #[derive(Debug, Clone)]
 pub(super) struct Unknowns {
@@ -76,6 +83,12 @@ impl Unknowns {
             curves[*s][*c].numbers[*k] = number;
         }
         Unknowns { curves, count: knots.len() }
+    }
+
+    /// Most numbers between splines of one curve that act together.
+    pub(super) fn widest(&self) -> usize {
+        let together = self.curves.iter().flatten().flat_map(|curve| curve.numbers.windows(4));
+        together.map(|four| four[3] - four[0]).max().unwrap_or(0)
     }
 }
 

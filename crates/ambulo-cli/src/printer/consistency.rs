@@ -1,0 +1,52 @@
+//! How a motion was changed to obey the forces.
+
+use super::say;
+use ambulo::report::{ConsistencySummary, CoordinateSize, ResidualSize};
+use anyhow::Result;
+
+/// Coordinates shown of each unit, those that changed most.
+const SHOWN: usize = 4;
+
+/// What remains, and what was changed.
+pub(super) fn print(summary: &ConsistencySummary) -> Result<()> {
+    let [from, to] = summary.window_s;
+    say(&format!("  agreed    motion and forces from {from:.3} to {to:.3} s    rms            peak"))?;
+    for (when, residual) in [("before", &summary.residual_before), ("after", &summary.residual_after)] {
+        say(&residual_line(when, residual))?;
+    }
+    say("    changed                           rms          largest")?;
+    for unit in ["deg", "mm"] {
+        for (name, size) in largest(summary, unit) {
+            say(&format!("    {name:<28} {:>8.2} {:>16.2} {unit}", size.rms, size.max))?;
+        }
+    }
+    for (body, size) in &summary.feet_mm {
+        say(&format!("    {body:<28} {:>8.2} {:>16.2} mm", size.rms, size.max))?;
+    }
+    let [x, y, z] = summary.trunk_center_mm;
+    if summary.mass_percent.abs() + x.abs() + y.abs() + z.abs() > 0.0 {
+        say(&format!(
+            "    mass {:+.2} %, mass centre of `{}` {x:+.1} {y:+.1} {z:+.1} mm; subject.osim is the body with them",
+            summary.mass_percent, summary.trunk
+        ))?;
+    }
+    Ok(())
+}
+
+fn residual_line(when: &str, residual: &ResidualSize) -> String {
+    format!(
+        "    residual {when:<8} {:>8.2} %BW {:>7.2} N.m {:>8.2} %BW {:>7.2} N.m",
+        100.0 * residual.force_rms_bw,
+        residual.moment_rms_nm,
+        100.0 * residual.force_peak_bw,
+        residual.moment_peak_nm
+    )
+}
+
+/// Coordinates of a unit, the one that changed most first.
+fn largest<'a>(summary: &'a ConsistencySummary, unit: &str) -> Vec<(&'a String, &'a CoordinateSize)> {
+    let mut list: Vec<_> = summary.changes.iter().filter(|(_, size)| size.unit == unit).collect();
+    list.sort_by(|a, b| b.1.max.total_cmp(&a.1.max));
+    list.truncate(SHOWN);
+    list
+}

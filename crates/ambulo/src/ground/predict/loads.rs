@@ -1,0 +1,104 @@
+//! The estimate read out: forces, centres of pressure and free moments of a foot in every frame, with standard deviations.
+
+use super::FootDeviation;
+use super::estimate::Evidence;
+use super::expected::Expectation;
+use super::samples::{Part, frames_of, sample};
+use super::system::Solution;
+use super::unknowns::{Curve, Unknowns};
+use crate::ground::sole::nearest_on_sole;
+use crate::model::Side;
+use crate::spatial::Vec3;
+
+/// Below this vertical force the centre of pressure is not moved any further by a moment [body weights].
+const LEAST_LOAD: f64 = 0.05;
+
+/// Loads of one foot, one entry a frame.
+#[derive(Debug, Clone)]
+pub(super) struct FootLoads {
+    pub(super) force: Vec<Vec3>,
+    pub(super) center: Vec<Vec3>,
+    /// About the vertical through the centre of pressure [N.m].
+    pub(super) free_moment: Vec<f64>,
+    /// Of the ground, along the upward direction [m].
+    pub(super) height: Vec<f64>,
+    pub(super) deviation: FootDeviation,
+}
+
+/// Loads of one foot in every frame; zero while it does not stand.
+pub(super) fn loads(
+    side: Side,
+    evidence: &Evidence<'_>,
+    expectations: &[Expectation<'_>],
+    unknowns: &Unknowns,
+    solution: &Solution,
+) -> FootLoads {
+    let frames = evidence.grid.frames;
+    let zeros = || vec![Vec3::zeros(); frames];
+    let mut out = FootLoads {
+        force: zeros(),
+        center: zeros(),
+        free_moment: vec![0.0; frames],
+        height: vec![0.0; frames],
+        deviation: FootDeviation { side, force: zeros(), center: zeros(), free_moment: vec![0.0; frames] },
+    };
+    for (expectation, curves) in expectations.iter().zip(&unknowns.curves).filter(|(e, _)| e.stance.side == side) {
+        let stance = expectation.stance;
+        for frame in frames_of(evidence, stance) {
+            let at = sample(evidence, expectation, curves, frame);
+            let estimates: [Estimate; 6] = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
+            let [forward, up, right, about_forward, about_up, about_right] = estimates;
+            let axes = [stance.forward, evidence.measure.up, stance.right];
+            let vertical = up.value.max(LEAST_LOAD * evidence.measure.weight_n);
+            out.force[frame] = axes[0] * forward.value + axes[1] * up.value + axes[2] * right.value;
+            out.center[frame] = match evidence.known.center_at(side as usize, frame) {
+                Some(center) => center,
+                // δ × F = T for a centre of pressure δ away from its path.
+                None => {
+                    let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
+                    let sole = &evidence.geometry.feet[side as usize][frame].sole;
+                    nearest_on_sole(sole, evidence.half_widths[side as usize], at.center + moved, axes[1])
+                }
+            };
+            out.free_moment[frame] = about_up.value;
+            out.height[frame] = stance.height_m;
+            let deviation = &mut out.deviation;
+            deviation.force[frame] = turned(axes, [forward.variance, up.variance, right.variance]);
+            let (along, across) = (about_right.variance, about_forward.variance);
+            deviation.center[frame] = turned(axes, [along, 0.0, across]) / vertical;
+            deviation.free_moment[frame] = about_up.variance.sqrt();
+        }
+    }
+    out
+}
+
+/// A component with its variance.
+struct Estimate {
+    value: f64,
+    variance: f64,
+}
+
+impl Estimate {
+    fn of(part: &Part, curve: &Curve, solution: &Solution) -> Estimate {
+        let (k, splines) = part.active;
+        let numbers = &curve.numbers[k..k + 4];
+        let (mut z, mut variance) = (0.0, 0.0);
+        for (i, (n, a)) in numbers.iter().zip(splines).enumerate() {
+            z += a * solution.values[*n];
+            variance += a * a * solution.covariances.value(*n, *n);
+            for (m, b) in numbers[..i].iter().zip(splines) {
+                variance += 2.0 * a * b * solution.covariances.value(*n, *m);
+            }
+        }
+        Estimate {
+            value: part.mean + part.deviation * z,
+            variance: part.deviation * part.deviation * variance.max(0.0),
+        }
+    }
+}
+
+/// Standard deviations along the world's axes of something with these variances along others.
+fn turned(axes: [Vec3; 3], variances: [f64; 3]) -> Vec3 {
+    let along = |world: usize| (0..3).map(|i| axes[i][world].powi(2) * variances[i]).sum::<f64>();
+    Vec3::new(along(0), along(1), along(2)).map(f64::sqrt)
+}

@@ -1,0 +1,119 @@
+//! Cubic B-splines on uniform knots over a run of samples.
+//!
+//! Knots lie on every `stride`-th sample. A sum of the splines has two continuous derivatives. At an open end every spline that
+//! reaches into the run takes part, so the sum is free there; at a closed end only those that lie inside, so the sum and its two
+//! derivatives are zero there.
+//!
+//! Source: as [`super::PeriodicSplines`], of degree three.
+//! Cost: constant.
+//! Pinned by: the tests below; tests/consistency.rs
+
+use super::periodic_spline::cardinal;
+
+/// How many splines are not zero at one sample, at most.
+pub const SPLINES_AT_ONCE: usize = 4;
+
+/// Splines over samples 0 to `samples` - 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UniformSplines {
+    stride: usize,
+    /// Splines left out before the first.
+    skipped: usize,
+    count: usize,
+}
+
+impl UniformSplines {
+    /// Splines over `samples` samples, a knot every `stride` of them. `closed` says at which end, first and last, the sum vanishes; a
+    /// closed last end wants a number of samples that is one more than a multiple of `stride`.
+    #[must_use]
+    pub fn new(samples: usize, stride: usize, closed: [bool; 2]) -> UniformSplines {
+        let stride = stride.max(1);
+        let last = samples.saturating_sub(1);
+        let all = last / stride + 3 + usize::from(!last.is_multiple_of(stride));
+        let skipped = if closed[0] { 3 } else { 0 };
+        let left_out = if closed[1] { 3 } else { 0 };
+        UniformSplines { stride, skipped, count: all.saturating_sub(skipped + left_out) }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(self) -> usize {
+        self.count
+    }
+
+    /// How many are not zero at one sample, at most.
+    #[must_use]
+    pub fn overlap(self) -> usize {
+        if self.stride == 1 { SPLINES_AT_ONCE - 1 } else { SPLINES_AT_ONCE }
+    }
+
+    /// The splines that are not zero at a sample: the number of the first, and each one's value, first and second derivative by the
+    /// number of samples.
+    #[must_use]
+    pub fn at(self, sample: usize) -> (usize, [[f64; SPLINES_AT_ONCE]; 3], std::ops::Range<usize>) {
+        let (interval, within) = (sample / self.stride, sample % self.stride);
+        let rate = 1.0 / self.stride as f64;
+        let u = within as f64 * rate;
+        let [linear, quadratic, cubic] = [cardinal::<1>(u), cardinal::<2>(u), cardinal::<3>(u)];
+        let below = |w: &[f64], j: usize, back: usize| if j >= back { w[j - back] } else { 0.0 };
+        let mut values = [[0.0; SPLINES_AT_ONCE]; 3];
+        for j in 0..SPLINES_AT_ONCE {
+            values[0][j] = cubic[j];
+            values[1][j] = rate * (below(&quadratic, j, 1) - quadratic[j]);
+            values[2][j] = rate * rate * (below(&linear, j, 2) - 2.0 * below(&linear, j, 1) + linear[j]);
+        }
+        // At a knot the fourth spline only begins.
+        let reach = if within == 0 { SPLINES_AT_ONCE - 1 } else { SPLINES_AT_ONCE };
+        let from = self.skipped.saturating_sub(interval).min(reach);
+        let to = (self.count + self.skipped).saturating_sub(interval).clamp(from, reach);
+        ((interval + from).saturating_sub(self.skipped), values, from..to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Value and derivatives at a sample.
+    fn sum(splines: UniformSplines, coefficients: &[f64], sample: usize) -> [f64; 3] {
+        let (first, values, which) = splines.at(sample);
+        std::array::from_fn(|d| {
+            which.clone().enumerate().map(|(k, j)| coefficients[first + k] * values[d][j]).sum::<f64>()
+        })
+    }
+
+    #[test]
+    fn equal_coefficients_make_a_constant_at_open_ends() {
+        for (samples, stride) in [(11, 1), (12, 3), (13, 3), (2, 1), (41, 5)] {
+            let splines = UniformSplines::new(samples, stride, [false; 2]);
+            for sample in 0..samples {
+                let [value, slope, curvature] = sum(splines, &vec![2.5; splines.count()], sample);
+                assert!((value - 2.5).abs() < 1e-13 && slope.abs() < 1e-13 && curvature.abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn closed_ends_are_at_rest() {
+        let splines = UniformSplines::new(21, 2, [true; 2]);
+        let coefficients: Vec<f64> = (0..splines.count()).map(|k| 1.0 + (1.7 * k as f64).sin()).collect();
+        for sample in [0, 20] {
+            assert!(sum(splines, &coefficients, sample).iter().all(|x| x.abs() < 1e-15), "sample {sample}");
+        }
+        assert!(sum(splines, &coefficients, 10)[0].abs() > 0.1);
+        assert_eq!(splines.count(), 10 + 3 - 6);
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        // The same curve on knots ten samples apart: differences of samples are near its derivatives.
+        let splines = UniformSplines::new(101, 10, [true, false]);
+        let coefficients: Vec<f64> = (0..splines.count()).map(|k| (1.3 * k as f64).cos()).collect();
+        for sample in 1..100 {
+            let [before, at, after] = [sample - 1, sample, sample + 1].map(|s| sum(splines, &coefficients, s));
+            // A third derivative of about 6 / 10³ misses the slope by a sixth of it.
+            assert!((0.5 * (after[0] - before[0]) - at[1]).abs() < 2e-3, "slope at {sample}");
+            assert!((0.5 * (after[1] - before[1]) - at[2]).abs() < 4e-3, "curvature at {sample}");
+        }
+    }
+}
