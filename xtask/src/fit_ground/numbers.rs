@@ -22,7 +22,7 @@ const fn number(
 }
 
 /// All of them.
-pub(super) const NUMBERS: [Number; 22] = [
+pub(super) const NUMBERS: [Number; 23] = [
     number("bandwidth_hz", "Hz", [4.0, 15.0], |w| &mut w.bandwidth_hz),
     number("force_noise forward", "BW", [0.005, 0.08], |w| &mut w.force_noise[0]),
     number("force_noise up", "BW", [0.005, 0.1], |w| &mut w.force_noise[1]),
@@ -34,6 +34,7 @@ pub(super) const NUMBERS: [Number; 22] = [
     number("spread up", "1", [0.3, 2.0], |w| &mut w.spread[1]),
     number("sideways_spread", "BW", [0.015, 0.1], |w| &mut w.sideways_spread),
     number("sideways_lever", "1", [0.3, 1.2], |w| &mut w.sideways_lever),
+    number("strike_push", "BW", [0.0, 0.06], |w| &mut w.strike_push),
     number("detail forward", "√(L/g)", [0.2, 0.8], |w| &mut w.detail[0]),
     number("detail up", "√(L/g)", [0.2, 0.8], |w| &mut w.detail[1]),
     number("detail sideways", "√(L/g)", [0.2, 0.8], |w| &mut w.detail[2]),
