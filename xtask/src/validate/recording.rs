@@ -1,7 +1,7 @@
 //! The recordings with plates, and what becomes of them before anything is predicted.
 
 use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{Body, BodyInMotion, LaboratoryRecording, body_in_motion};
+use ambulo::analysis::{Body, BodyInMotion, LaboratoryRecording, body_in_motion, body_mass};
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration;
 use ambulo::kinematics::marker_fit::FitSettings;
@@ -164,9 +164,10 @@ impl Recording {
                     false => trc(&file(name)?, findings),
                 };
                 let (walk, still) = (read(markers, findings)?, read(standing, findings)?);
+                let mass = body_mass(Some(mass), standing_kg(&still), findings);
                 let person = calibration::Person {
                     table: SegmentTable::DeLevaMale,
-                    mass,
+                    mass: mass.ok_or("no body mass")?,
                     height: Some(height),
                     measures: calibration::Measures::default(),
                 };
@@ -210,9 +211,13 @@ fn followed(
         motion: body.fit.motion.clone(),
         plates: body.plate_forces(),
         person: body.subject.person.clone(),
-        standing_kg: still.and_then(|still| standing_weight_n(&still.plates)).map(|n| n / STANDARD_GRAVITY),
+        standing_kg: still.and_then(standing_kg),
         body: Some(body),
     })
+}
+
+fn standing_kg(still: &LaboratoryRecording) -> Option<f64> {
+    standing_weight_n(&still.plates).map(|newtons| newtons / STANDARD_GRAVITY)
 }
 
 fn trc(bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryRecording, String> {

@@ -112,7 +112,8 @@ pub(crate) struct SubjectArgs {
     /// Markers of the same person standing still: .c3d or .trc.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg] [default: what the recording states, or the plates carry; with --model the model's own].
+    /// Body mass [kg]; a standing trial on plates that comes within 5 % of it is believed instead [default: what the plates carry or the
+    /// recording states; with --model the model's own].
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass: Option<f64>,
     /// Stature [m] [default: what the recording states, or an estimate from the markers].

@@ -1,6 +1,7 @@
 //! What a reader wants to know of a motion and its forces: events, cycles, peaks, agreement.
 
 mod agreed_motion;
+mod body_mass;
 mod comparison;
 mod cycles;
 mod event_agreement;
@@ -18,6 +19,7 @@ mod residual;
 mod walking_direction;
 
 pub use agreed_motion::{Adjustable, agree};
+pub use body_mass::body_mass;
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};

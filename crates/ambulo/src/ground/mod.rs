@@ -7,6 +7,7 @@ pub mod phases;
 pub mod plates;
 pub mod predict;
 pub mod sole;
+pub mod stream;
 
 pub(crate) use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};

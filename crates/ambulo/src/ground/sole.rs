@@ -70,6 +70,20 @@ impl Sole {
     }
 }
 
+/// The place nearest to `place` on a sole whose points are at `points`, seen along `up`; its height stays.
+pub(crate) fn nearest_on_sole(points: &[Vec3; 3], half_width: f64, place: Vec3, up: Vec3) -> Vec3 {
+    let level = |v: Vec3| v - up * v.dot(&up);
+    let target = level(place);
+    let nearest = points.windows(2).map(|ends| {
+        let (from, along) = (level(ends[0]), level(ends[1] - ends[0]));
+        let share = (target - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+        from + along * share.clamp(0.0, 1.0)
+    });
+    let nearest = nearest.min_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm())).unwrap_or(target);
+    let away = target - nearest;
+    nearest + away * (half_width / away.norm().max(half_width)) + up * place.dot(&up)
+}
+
 impl Stature {
     /// From thigh and shank of a model whose legs have coordinates of the usual names, else from its mass.
     pub(crate) fn of_model(model: &Model, bodies: &[BodyMotion]) -> Stature {

@@ -7,7 +7,7 @@ use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 use std::ops::Range;
 
 /// Gaps inside a recording up to this long are bridged by a spline [s].
-pub(super) const LONGEST_GAP_S: f64 = 0.2;
+pub(crate) const LONGEST_GAP_S: f64 = 0.2;
 
 /// The rows inside a window, and those around it that lead up to it without a break: filters want a run-in, but what
 /// lies beyond a gap that the window leaves out is of no use. `complete` says whether a row has all its numbers.

@@ -4,7 +4,7 @@ use super::{Followed, Origin, Reading, Recorded, loaded, marker_ground, read_mod
 use crate::args::{ForcesArgs, MarkerFitting, PlateFoot, SubjectArgs};
 use crate::files;
 use crate::laboratory_file::{self, LaboratoryFile};
-use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion};
+use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion, body_mass};
 use ambulo::findings::{Finding, Findings};
 use ambulo::kinematics::calibration::{CalibrationError, Measures, Person};
 use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
@@ -12,13 +12,11 @@ use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
 use ambulo::motion::force_plate::standing_weight_n;
 use ambulo::spatial::Vec3;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use std::mem;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Masses stated and measured that differ by more are reported.
-const MASS_MISMATCH: f64 = 0.03;
 /// Bodies that can be made [kg].
 const BODY_MASS_KG: RangeInclusive<f64> = 2.0..=300.0;
 /// Weight to mass [m/s²].
@@ -189,7 +187,7 @@ fn person(
     })
 }
 
-/// Body mass [kg]: what the user says, else what the files say, else what the plates carry in the standing trial.
+/// Body mass [kg]: what the plates carry in the standing trial, what the user says, or what the files say; see [`body_mass`].
 fn mass(
     args: &ForcesArgs,
     walk: &LaboratoryFile,
@@ -199,28 +197,11 @@ fn mass(
     let in_file = still.and_then(|still| still.subject.mass_kg).or(walk.subject.mass_kg);
     let stated = args.subject.mass.or(in_file);
     let standing = still.and_then(standing_kg);
-    match (stated, standing) {
-        (Some(stated), Some(standing)) => {
-            if (standing / stated - 1.0).abs() > MASS_MISMATCH {
-                let message = format!(
-                    "{stated:.1} kg are stated, the plates carry {standing:.1} kg in the standing trial; the stated mass was used. hint: --mass {standing:.1}"
-                );
-                findings.warn("mass.mismatch", message);
-            }
-            Ok(stated)
-        }
-        (Some(mass), None) => Ok(mass),
-        (None, Some(mass)) => {
-            findings.note(
-                "mass.standing",
-                format!("no mass is stated; {mass:.1} kg stand on the plates in the standing trial"),
-            );
-            Ok(mass)
-        }
-        (None, None) => bail!(
+    body_mass(stated, standing, findings).ok_or_else(|| {
+        anyhow!(
             "the body mass is not known: the files state none and nobody stands still on plates; expected --mass KG"
-        ),
-    }
+        )
+    })
 }
 
 /// What stands on the plates of a standing trial [kg].

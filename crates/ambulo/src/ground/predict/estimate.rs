@@ -35,6 +35,8 @@ use crate::spatial::{Vec3, Wrench};
 pub(super) struct Evidence<'a> {
     pub(super) grid: TimeGrid,
     pub(super) geometry: &'a Geometry,
+    /// Half the breadth of right and left sole [m].
+    pub(super) half_widths: [f64; 2],
     pub(super) stances: &'a [Stance],
     /// About the world's origin.
     pub(super) total: &'a [Wrench],

@@ -6,6 +6,7 @@ use super::expected::Expectation;
 use super::samples::{Part, frames_of, sample};
 use super::system::Solution;
 use super::unknowns::{Curve, Unknowns};
+use crate::ground::sole::nearest_on_sole;
 use crate::model::Side;
 use crate::spatial::Vec3;
 
@@ -53,7 +54,11 @@ pub(super) fn loads(
             out.center[frame] = match evidence.known.center_at(side as usize, frame) {
                 Some(center) => center,
                 // δ × F = T for a centre of pressure δ away from its path.
-                None => at.center + (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical,
+                None => {
+                    let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
+                    let sole = &evidence.geometry.feet[side as usize][frame].sole;
+                    nearest_on_sole(sole, evidence.half_widths[side as usize], at.center + moved, axes[1])
+                }
             };
             out.free_moment[frame] = about_up.value;
             out.height[frame] = stance.height_m;

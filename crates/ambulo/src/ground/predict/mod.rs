@@ -37,6 +37,8 @@ use stances::{Measure, stances};
 pub use total::total_wrench;
 pub use weights::Weights;
 
+/// Less gravity holds nobody on the ground [m/s²].
+const LEAST_GRAVITY: f64 = 0.1;
 /// The name of the rule that divides double support.
 const RULE: &str = "likeliest curves of all stances: lever rule, curves of people by speed, smoothness";
 
@@ -98,6 +100,16 @@ pub enum PredictError {
         model: String,
         /// Which foot.
         side: Side,
+    },
+    /// A model that nothing presses to the ground.
+    #[error(
+        "the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1. hint: --no-ground computes a motion without contact"
+    )]
+    NoGravity {
+        /// Its name.
+        model: String,
+        /// Its gravity [m/s²].
+        gravity: f64,
     },
     /// The crate's own curves.
     #[error("the curves of stances cannot be read: {message}")]
@@ -167,6 +179,9 @@ pub fn predict(
     let up = upward(model);
     let stature = Stature::of_model(model, &at_rest(model));
     let gravity = model.gravity().norm();
+    if gravity < LEAST_GRAVITY {
+        return Err(PredictError::NoGravity { model: name(), gravity });
+    }
     let measure = Measure {
         up,
         weight_n: model.mass() * gravity,
@@ -180,6 +195,7 @@ pub fn predict(
     let evidence = Evidence {
         grid: trajectory.grid(),
         geometry: &geometry,
+        half_widths: soles.map(|sole| sole.half_width),
         stances: &stances,
         total: &total,
         measure: &measure,

@@ -1,0 +1,97 @@
+//! What a stream gives out: both feet and all joints at one instant.
+
+use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
+use crate::ground::predict::Prediction;
+use crate::ground::{BodyForces, upward};
+use crate::kinematics::{Posture, Trajectory};
+use crate::model::{Model, Side};
+use crate::spatial::{Vec3, Wrench};
+
+/// Forces at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StreamFrame {
+    /// Which frame, from 0.
+    pub frame: usize,
+    /// Its time after the first frame [s].
+    pub time_s: f64,
+    /// Right and left foot.
+    pub feet: [FootLoad; 2],
+    /// Generalised forces, one a coordinate of the model, under these loads [N.m or N].
+    pub generalized: Vec<f64>,
+}
+
+/// What the ground does to one foot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootLoad {
+    /// Which foot.
+    pub side: Side,
+    /// Force [N]; zero while the foot is in the air.
+    pub force: Vec3,
+    /// Moment about the world's origin [N.m].
+    pub moment: Vec3,
+    /// Centre of pressure [m]; `None` below [`crate::ground::CENTER_OF_PRESSURE_LOAD_N`].
+    pub center_of_pressure: Option<Vec3>,
+    /// Moment about the vertical through it [N.m]; zero without one.
+    pub free_moment: f64,
+    /// How far all this may be off.
+    pub deviation: LoadDeviation,
+}
+
+/// Standard deviations of what a foot carries; zero while it is in the air.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadDeviation {
+    /// Of the force [N].
+    pub force: Vec3,
+    /// Of the centre of pressure [m].
+    pub center: Vec3,
+    /// Of the free moment [N.m].
+    pub free_moment: f64,
+}
+
+impl FootLoad {
+    /// Whether the foot carries enough for a centre of pressure.
+    #[must_use]
+    pub fn loaded(&self) -> bool {
+        self.center_of_pressure.is_some()
+    }
+}
+
+/// Reads one frame of a window; `number` and `time_s` are those of the stream.
+pub(super) fn read(
+    model: &Model,
+    workspace: &mut Workspace,
+    (trajectory, prediction): &(Trajectory, Prediction),
+    frame: usize,
+    (number, time_s): (usize, f64),
+) -> StreamFrame {
+    let feet = Side::BOTH.map(|side| foot_load(model, prediction, side, frame));
+    let bodies = &prediction.ground.bodies;
+    let load = |(body, foot): (&BodyForces, &FootLoad)| BodyLoad {
+        body: body.body,
+        point: Vec3::zeros(),
+        wrench: Wrench { force: foot.force, moment: foot.moment },
+    };
+    let loads: Vec<BodyLoad> = bodies.iter().zip(&feet).map(load).collect();
+    let column = |part: usize| trajectory.columns().iter().map(|c| c[part][frame]).collect::<Vec<f64>>();
+    let (q, qd, qdd) = (column(0), column(1), column(2));
+    let forces = inverse_frame(workspace, Posture { q: &q, qd: &qd, qdd: &qdd }, &loads);
+    StreamFrame { frame: number, time_s, feet, generalized: forces.generalized().to_vec() }
+}
+
+fn foot_load(model: &Model, prediction: &Prediction, side: Side, frame: usize) -> FootLoad {
+    let foot = &prediction.ground.bodies[side as usize];
+    let deviation = &prediction.deviations[side as usize];
+    let center = Some(foot.center_of_pressure[frame]).filter(|center| center.iter().all(|x| x.is_finite()));
+    FootLoad {
+        side,
+        force: foot.force[frame],
+        moment: foot.moment[frame],
+        center_of_pressure: center,
+        free_moment: center.map_or(0.0, |_| foot.free_moment[frame].dot(&upward(model))),
+        deviation: LoadDeviation {
+            force: deviation.force[frame],
+            center: deviation.center[frame],
+            free_moment: deviation.free_moment[frame],
+        },
+    }
+}
