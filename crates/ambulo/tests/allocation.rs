@@ -246,7 +246,7 @@ fn a_prediction_holds_a_bounded_number_of_bytes_a_frame() {
 }
 
 #[test]
-fn a_stream_holds_no_more_after_ten_times_the_frames() {
+fn a_stream_holds_no_more_the_longer_it_runs() {
     let walk = synthetic(2);
     let soles = Person::of_human(&walk.human).soles;
     let mut frames = Vec::new();
@@ -262,9 +262,10 @@ fn a_stream_holds_no_more_after_ten_times_the_frames() {
             stream
         })
     };
-    let (few, many) = (after(150), after(1500));
+    // The walk begins again after 328 frames: a jump, at which feet seem to step more often. Both have it in all places of the window.
+    let (few, many) = (after(440), after(1760));
     println!("a stream holds {} bytes, {} during a push", few[0], few[1]);
     // Findings of the last window may differ by a message.
-    assert!(many[0] < few[0] + 2000, "{many:?} after {few:?}");
+    assert!(few[0] > 50_000 && many[0] < few[0] + 2000, "{many:?} after {few:?}");
     assert!((many[1] as f64) < 1.2 * few[1] as f64, "{many:?} after {few:?}");
 }

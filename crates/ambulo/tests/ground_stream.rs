@@ -2,9 +2,9 @@
 //!
 //! | claim | limit and its reason |
 //! |---|---|
-//! | recordings, after the first 0.8 s: stream - whole recording | 3, 8, 4 % of body weight forward, up, right: half as much again as the worst of nine |
+//! | recordings, after the first 0.8 s: stream - whole recording | 3, 8, 3 % of body weight forward, up, right: half as much again as the worst of nine |
 //! | stream - plates | vertical no more than 4 % of body weight above what the whole recording has |
-//! | without a delay | more than twice as far from the whole recording: nothing is known of what follows |
+//! | without a delay | more than half as far again from the whole recording: nothing is known of what follows |
 //! | the same frames in two goes | the same bits |
 //! | ten times the frames | not a byte more |
 //!
@@ -111,9 +111,9 @@ fn a_synthetic_walk_is_streamed_like_the_whole_of_it() {
     println!(
         "stream - whole {late:.2?}, at once {at_once:.2?}, stream - applied {of_stream:.2?}, whole - applied {of_batch:.2?} % BW"
     );
-    assert!(late.x < 3.0 && late.y < 8.0 && late.z < 4.0, "{late}");
+    assert!(late.x < 3.0 && late.y < 8.0 && late.z < 3.0, "{late}");
     assert!(of_stream.y < of_batch.y + 4.0, "{of_stream} {of_batch}");
-    assert!(at_once.y > 2.0 * late.y, "{at_once} {late}");
+    assert!(at_once.y > 1.5 * late.y, "{at_once} {late}");
     // The other foot's forces are not these.
     let swapped = [batch.ground.bodies[1].clone(), batch.ground.bodies[0].clone()];
     assert!(rms(&apart(&streamed, &swapped, SETTLED_S)).y > 0.3 * weight);
@@ -337,7 +337,7 @@ fn recordings_are_streamed_nearly_as_well_as_they_are_predicted_whole() {
         let all: Vec<String> = forces.iter().map(cells).chain(centers.iter().map(pair)).collect();
         println!("| {name} | {} |", all.join(" | "));
         let [apart, of_stream, of_batch] = forces;
-        assert!(apart.x < 3.5 && apart.y < 8.0 && apart.z < 4.5, "{name}: {apart}");
+        assert!(apart.x < 3.0 && apart.y < 8.0 && apart.z < 3.0, "{name}: {apart}");
         assert!(!of_stream.y.is_finite() || of_stream.y < of_batch.y + 4.0, "{name}: {of_stream} {of_batch}");
         for (mean, forces) in means.iter_mut().zip(forces) {
             *mean += forces / trials.len() as f64;
