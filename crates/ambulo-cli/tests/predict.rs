@@ -124,6 +124,68 @@ fn beside_plates_the_prediction_is_compared() {
 }
 
 #[test]
+fn a_walk_that_its_feet_carry_passes_the_checks_and_one_that_leans_on_something_does_not() {
+    let bench = Workbench::empty("predict_checks");
+    bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+    let motion = ["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim", "--cutoff", "off"];
+    let plates = ["--grf", "demo/input/walk_grf.mot", "--loads", "demo/input/walk_grf.xml"];
+    let run = bench.run(&[&motion[..], &plates, &["--predict"]].concat()).done();
+    assert!(run.stdout.contains("  checks    passed: vertical_force_feet, "), "{}", run.stdout);
+    let summary = bench.json("out/summary.json");
+    let checks = summary["prediction"]["checks"].as_array().unwrap();
+    assert!(checks.iter().all(|check| check["passed"] != false), "{checks:?}");
+    let mass = checks.iter().find(|check| check["name"] == "mass").unwrap();
+    assert_eq!(mass["passed"], true, "plates beside the prediction weigh: {mass}");
+    for key in ["value", "allowed", "unit", "time_s", "not_judged"] {
+        assert!(mass.get(key).is_some(), "{key}: {mass}");
+    }
+    // The same steps with the trunk bent far forward, as over a walking frame.
+    let text = bench.text("demo/input/walk.mot");
+    let names = text.lines().skip_while(|line| line.trim() != "endheader").nth(1).unwrap();
+    let trunk = names.split_whitespace().position(|name| name == "lumbar_extension").unwrap();
+    bench.edit_rows("demo/input/walk.mot", |mut rows| {
+        for row in &mut rows {
+            row[trunk] = (row[trunk].parse::<f64>().unwrap() - 60.0).to_string();
+        }
+        rows
+    });
+    let run = bench.run(&motion).infeasible();
+    run.says(&["warning: the whole body's"]);
+    assert!(run.stdout.contains("            failed: "), "{}", run.stdout);
+    let summary = bench.json("out/summary.json");
+    let codes = summary["findings"].as_array().unwrap();
+    assert!(codes.iter().any(|finding| finding["code"] == "prediction.not_through_the_feet"), "{codes:?}");
+    let reasons = summary["verdict"]["reasons"].as_array().unwrap();
+    let is_beside = |reason: &&serde_json::Value| reason["quantity"].as_str().unwrap().ends_with("_needed");
+    let reason = reasons.iter().find(is_beside).unwrap_or_else(|| panic!("{reasons:?}"));
+    assert_eq!((reason["check"].as_str(), reason["unit"].as_str()), (Some("center_of_pressure"), Some("m")));
+    // Forces that plates measured are judged as ever.
+    ran(bench.run(&[&motion[..], &plates].concat()));
+    assert!(bench.json("out/summary.json")["prediction"].is_null());
+}
+
+#[test]
+fn half_the_mass_shows_beside_plates_alone() {
+    let bench = Workbench::empty("predict_half");
+    bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+    let mass = |more: &[&str]| {
+        let input = ["forces", "demo/input/walk.c3d", "--height", "1.75", "--mass", "40", "--predict"];
+        let run = ran(bench.run(&[&input[..], more].concat()));
+        (run, bench.json("out/summary.json")["mass"].as_str().unwrap().to_owned())
+    };
+    let (run, known) = mass(&[]);
+    run.says(&["the plates beside the prediction carry 7", "the model has 40.0 kg", "hint: --mass KG"]);
+    assert_eq!(known, "contradicted");
+    assert!(run.stdout.contains("40.00 kg (model, but plates carry another)"), "{}", run.stdout);
+    ran(bench.run(&["forces", "demo/input/walk.bvh", "--mass", "40", "--height", "1.75"]));
+    let summary = bench.json("out/summary.json");
+    let checks = summary["prediction"]["checks"].as_array().unwrap();
+    let mass = checks.iter().find(|check| check["name"] == "mass").unwrap();
+    assert!(mass["passed"].is_null() && mass["not_judged"].is_string(), "nobody weighs: {mass}");
+    assert_eq!(summary["mass"], "verified", "what --mass states stands");
+}
+
+#[test]
 fn plates_of_the_wrong_feet_show() {
     let bench = Workbench::new("predict_exchanged");
     let exchanged = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];

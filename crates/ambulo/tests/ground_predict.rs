@@ -38,7 +38,7 @@ fn applied(walk: &SyntheticWalk) -> GroundForces {
 
 fn predicted(walk: &SyntheticWalk, known: Known) -> Prediction {
     let soles = Person::of_human(&walk.human).soles;
-    let settings = PredictSettings { known };
+    let settings = PredictSettings { known, ..PredictSettings::default() };
     predict(&walk.human.model, &walk.trajectory, &soles, &settings, &mut Findings::default()).unwrap()
 }
 
@@ -133,7 +133,7 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     assert_eq!(error, PredictError::NoSole { model: model.name().to_owned(), side: Side::Left });
     assert!(error.to_string().contains("calcn_l") && error.to_string().contains("hint:"), "{error}");
     let known = Known { right_share: Some(vec![0.5; 3]), ..Known::default() };
-    let error = refused(model, &soles, &PredictSettings { known });
+    let error = refused(model, &soles, &PredictSettings { known, ..PredictSettings::default() });
     assert!(error.to_string().contains("3 frames"), "{error}");
     let mut bodies = model.bodies().to_vec();
     for body in &mut bodies {

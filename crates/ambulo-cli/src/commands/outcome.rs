@@ -4,7 +4,7 @@ use super::stopwatch::Stopwatch;
 use crate::args::Voice;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
-use ambulo::analysis::{Analysis, GroundAgreement, Settings};
+use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, Settings};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
 use ambulo::report::{
@@ -30,6 +30,8 @@ pub(super) struct Outcome<'a> {
     pub(super) consistency: Option<ConsistencySummary>,
     /// How markers became a body in motion.
     pub(super) subject: Option<SubjectSummary>,
+    /// Whether predicted forces can be right.
+    pub(super) checks: Option<PredictionChecks>,
     /// Prediction against plates.
     pub(super) comparison: Option<GroundAgreement>,
     /// Whether somebody states the mass.
@@ -64,9 +66,12 @@ impl Outcome<'_> {
         summary.subject = self.subject;
         summary.consistency = self.consistency;
         summary.comparison = self.comparison;
-        if self.mass_is_stated {
-            summary.mass = MassKnowledge::Verified;
-        }
+        summary.mass = match (self.checks.as_ref().and_then(PredictionChecks::mass_agrees), self.mass_is_stated) {
+            (Some(false), _) => MassKnowledge::Contradicted,
+            (Some(true), _) | (None, true) => MassKnowledge::Verified,
+            (None, false) => summary.mass,
+        };
+        summary.prediction = self.checks;
         summary.timing_ms = clock.into_laps();
         write_summary(output, &summary)?;
         printer::forces(&summary, output, voice)?;
@@ -77,7 +82,8 @@ impl Outcome<'_> {
     fn judge(&self, analysis: &mut Analysis, findings: &mut Findings) -> bool {
         let Analysis { trajectory, forces, ground, .. } = &*analysis;
         let evidence = Evidence { model: self.model, trajectory, forces, ground, device: self.device };
-        let verdict = feasibility::check(&evidence, &self.person, self.thresholds, findings);
+        let mut verdict = feasibility::check(&evidence, &self.person, self.thresholds, findings);
+        verdict.oppose(self.checks.as_ref().map_or(&[], |checks| &checks.reasons));
         analysis.verdict.insert(verdict).feasible
     }
 }

@@ -85,6 +85,7 @@ impl Made<'_> {
             consistency: None,
             walk: Some(WalkSummary::new(model, report)),
             subject: None,
+            checks: None,
             comparison: None,
             mass_is_stated: true,
             files: self.files()?,

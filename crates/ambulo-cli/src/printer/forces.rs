@@ -2,6 +2,7 @@
 
 use super::{comparison, consistency, print_findings, print_verdict, say, subject};
 use crate::args::Voice;
+use ambulo::analysis::PredictionCheck;
 use ambulo::report::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
@@ -17,9 +18,12 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
         return Ok(());
     }
     say(&format!("{}, {}", summary.model, summary.input.motion))?;
-    let unverified = summary.mass == MassKnowledge::Unverified && summary.ground.source == "predicted";
-    let unverified = if unverified { ", unverified" } else { "" };
-    say(&format!("  mass      {:.2} kg ({}{unverified})", summary.mass_kg, summary.mass_source))?;
+    let known = match summary.mass {
+        MassKnowledge::Unverified if summary.ground.source == "predicted" => ", unverified",
+        MassKnowledge::Contradicted => ", but plates carry another",
+        MassKnowledge::Verified | MassKnowledge::Unverified => "",
+    };
+    say(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source))?;
     if let Some(subject) = &summary.subject {
         subject::print(subject)?;
     }
@@ -44,6 +48,9 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     }
     if let Some(agreed) = &summary.consistency {
         consistency::print(agreed)?;
+    }
+    if let Some(prediction) = &summary.prediction {
+        print_checks(&prediction.checks)?;
     }
     print_peaks(summary)?;
     if let Some(comparison) = &summary.comparison {
@@ -95,6 +102,24 @@ fn print_ground(summary: &Summary) -> Result<()> {
     say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
     let rule = summary.ground.rule.filter(|_| source == "predicted").map_or(String::new(), |rule| format!(", {rule}"));
     say(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
+}
+
+/// Which checks of a prediction passed; values of those that did not.
+fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
+    let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
+    let names = |passed: Option<bool>| of(passed).map(|check| check.name).collect::<Vec<_>>().join(", ");
+    let off = |check: &PredictionCheck| {
+        let [low, high] = check.allowed;
+        format!("{} {:.3} {} (allowed {low} to {high})", check.name, check.value.unwrap_or(f64::NAN), check.unit)
+    };
+    let failed: Vec<String> = of(Some(false)).map(off).collect();
+    let lines = [("passed", names(Some(true))), ("failed", failed.join(", ")), ("not judged", names(None))];
+    let mut head = "checks";
+    for (what, list) in lines.iter().filter(|(_, list)| !list.is_empty()) {
+        say(&format!("  {head:<10}{what}: {list}"))?;
+        head = "";
+    }
+    Ok(())
 }
 
 fn print_peaks(summary: &Summary) -> Result<()> {

@@ -13,6 +13,7 @@ mod measured_cycles;
 mod peaks;
 mod plausibility;
 mod predicted;
+mod prediction_checks;
 mod recording;
 mod residual;
 mod walking_direction;
@@ -31,6 +32,9 @@ pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError
 pub use peaks::{Peak, peak};
 pub use predicted::{
     PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, analyse_predicted, analyse_predicted_trajectory,
+};
+pub use prediction_checks::{
+    CarriedBy, CarriedMass, CheckOrder, CheckedPrediction, PredictionCheck, PredictionChecks, prediction_checks,
 };
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_within};

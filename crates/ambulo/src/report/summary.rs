@@ -5,7 +5,7 @@ use super::subject_summary::SubjectSummary;
 use super::tables::UNLOADED_N;
 use super::walk_summary::WalkSummary;
 use crate::analysis::feasibility::Verdict;
-use crate::analysis::{Analysis, GroundAgreement, MassSource, Settings, peak};
+use crate::analysis::{Analysis, GroundAgreement, MassSource, PredictionChecks, Settings, peak};
 use crate::findings::{Finding, Findings};
 use crate::model::Model;
 use crate::motion::Smoother;
@@ -56,6 +56,8 @@ pub struct Summary {
     pub findings: Vec<Finding>,
     /// Whether a person could do this.
     pub verdict: Option<Verdict>,
+    /// Whether predicted forces can be right; `null` where none were predicted.
+    pub prediction: Option<PredictionChecks>,
     /// Prediction against plates; filled when forces are predicted and plates saw something in full.
     pub comparison: Option<GroundAgreement>,
     /// How markers became a body in motion; `null` where coordinates were given.
@@ -119,6 +121,8 @@ pub enum MassKnowledge {
     Verified,
     /// The model's own.
     Unverified,
+    /// Plates carry another mass than the model has.
+    Contradicted,
 }
 
 /// The filters in words and numbers.
@@ -222,6 +226,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         convergence: None,
         findings: findings.as_slice().to_vec(),
         verdict: analysis.verdict.clone(),
+        prediction: None,
         comparison: None,
         subject: None,
         consistency: None,

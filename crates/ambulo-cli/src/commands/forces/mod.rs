@@ -14,7 +14,8 @@ use crate::args::{AddedMass, Filter, ForcesArgs};
 use crate::{Verdict, files};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::analysis::{
-    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, PredictedAnalysis, Settings, analyse,
+    Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, PredictedAnalysis, PredictionChecks, Settings,
+    analyse,
 };
 use ambulo::findings::Findings;
 use ambulo::model::{Model, from_osim, to_osim};
@@ -98,6 +99,7 @@ struct Recorded {
 struct Computed {
     analysis: Analysis,
     subject: Option<SubjectSummary>,
+    checks: Option<PredictionChecks>,
     comparison: Option<GroundAgreement>,
     files: Vec<OutputFile>,
 }
@@ -227,12 +229,12 @@ fn compute(
     }
     let computed = if prediction::is_wanted(args, &recorded) {
         settings.force_filter = prediction::plates_filter(args).filter(|_| !recorded.plates.is_empty());
-        prediction::compute(&mut recorded, settings, &mut findings, &mut clock)
+        prediction::compute(&mut recorded, settings, thresholds, &mut findings, &mut clock)
     } else {
         by_plates(&recorded, settings, &mut findings, &mut clock)
     };
     let Recorded { mut model, person, input, origin, mass_is_stated, .. } = recorded;
-    let Computed { mut analysis, subject, comparison, mut files } =
+    let Computed { mut analysis, subject, checks, comparison, mut files } =
         computed.map_err(|error| name_the_file(error, &input))?;
     let consistency = agreed::agree(args, &mut model, &mut analysis, &input, &settings, &mut findings)?;
     clock.lap("consistency");
@@ -252,6 +254,7 @@ fn compute(
         walk: None,
         consistency,
         subject,
+        checks,
         comparison,
         mass_is_stated,
         files,
@@ -269,7 +272,7 @@ fn by_plates(
     let Recorded { model, motion, plates, origin, .. } = recorded;
     let mut analysis = analyse(model, motion, plates, settings, findings, &mut |stage| clock.lap(stage))?;
     let subject = origin.complete(&mut analysis);
-    Ok(Computed { analysis, subject, comparison: None, files: Vec::new() })
+    Ok(Computed { analysis, subject, checks: None, comparison: None, files: Vec::new() })
 }
 
 /// The error with the file that it is about.

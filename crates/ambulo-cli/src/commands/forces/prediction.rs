@@ -3,8 +3,10 @@
 use super::{Computed, Origin, Recorded};
 use crate::args::ForcesArgs;
 use crate::commands::stopwatch::Stopwatch;
+use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::{
-    AnalysisError, MassSource, PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, Seen, Settings, analyse_predicted,
+    AnalysisError, CheckOrder, MassSource, PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, Seen, Settings,
+    analyse_predicted,
 };
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
@@ -29,6 +31,7 @@ pub(super) fn plates_filter(args: &ForcesArgs) -> Option<LowPass> {
 pub(super) fn compute(
     recorded: &mut Recorded,
     settings: Settings,
+    thresholds: &Thresholds,
     findings: &mut Findings,
     clock: &mut Stopwatch,
 ) -> Result<Computed, AnalysisError> {
@@ -43,7 +46,10 @@ pub(super) fn compute(
     input.ground_source = GroundSource::Predicted { rule: predicted.prediction.rule };
     let seen = seen(origin, &predicted, plates);
     let subject = origin.complete_prediction(&mut predicted);
-    predicted.weigh(model, seen.as_ref().and_then(|seen| seen.window), origin.standing_kg());
+    let window_s = seen.as_ref().and_then(|seen| seen.window);
+    predicted.weigh(model, window_s, origin.standing_kg());
+    let order = CheckOrder { model, soles: &person.soles, thresholds, window_s, standing_kg: origin.standing_kg() };
+    let checks = predicted.checks(&order, findings);
     let comparison = seen.and_then(|seen| predicted.agreement(model, &seen));
     if comparison.is_none() && predicted.measured.is_some() {
         findings.warn(
@@ -51,7 +57,7 @@ pub(super) fn compute(
             "plates are there, but no foot stood wholly on its own one: the prediction was compared with nothing",
         );
     }
-    if predicted.analysis.mass.source == MassSource::Model && !*mass_is_stated {
+    if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !*mass_is_stated {
         let message = format!(
             "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: --mass KG or a standing trial on plates with --static; of a model, scale it to this person",
             model.mass()
@@ -62,7 +68,7 @@ pub(super) fn compute(
         findings.warn("prediction.not_written", format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
         Vec::new()
     });
-    Ok(Computed { analysis: predicted.analysis, subject, comparison, files })
+    Ok(Computed { analysis: predicted.analysis, subject, checks: Some(checks), comparison, files })
 }
 
 /// What plates saw in full; `None` without plates.

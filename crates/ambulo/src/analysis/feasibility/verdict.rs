@@ -98,6 +98,15 @@ pub struct Verdict {
     pub height_m: f64,
 }
 
+impl Verdict {
+    /// Adds what stands against the motion from elsewhere.
+    pub fn oppose(&mut self, reasons: &[Reason]) {
+        self.reasons.extend_from_slice(reasons);
+        self.reasons.sort_by(|a, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
+        self.feasible = self.reasons.is_empty();
+    }
+}
+
 /// A time during which a limit was exceeded.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reason {

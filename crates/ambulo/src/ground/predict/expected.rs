@@ -5,12 +5,14 @@
 //!   the impulse of a step carries the body for a step (Morin, Dalleau, Kyröläinen, Jeannin, Belli 2005; unverified).
 //! * Standing: the weight, shared evenly by the feet that stand.
 //!
-//! The force leans towards the mass centre: sideways, and forward where no curve is known, F_h = k F_v × lever / height.
+//! The force leans towards the mass centre: sideways, and forward where no curve is known, F_h = k F_v × lever / height. A walker's foot
+//! that strikes pushes outwards for a moment before: so it did in all 16 stances of six straight trials (0.008 to 0.058 body weights).
 //! Moments are those that a centre of pressure beside its path makes, and the free moment; their mean is zero.
 
 use super::stance_curves::{AtSpeed, Expected, StanceCurves};
 use super::stances::{Gait, Measure, Stance};
 use super::weights::Weights;
+use crate::model::Side;
 use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -113,7 +115,10 @@ impl<'a> Expectation<'a> {
                 deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1),
             },
         };
-        let right = Expected { mean: lean(stance.right), deviation: weights.sideways_spread * loaded };
+        let outwards = if stance.side == Side::Right { 1.0 } else { -1.0 };
+        let push = if stance.gait == Gait::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
+        let right =
+            Expected { mean: lean(stance.right) + outwards * push, deviation: weights.sideways_spread * loaded };
         let about_zero = |deviation: f64| Expected { mean: 0.0, deviation: deviation * self.measure.size() };
         // Along the foot the centre of pressure turns the load about the right, across it about forward.
         let [along, across] = weights.center_spread.map(|spread| spread * vertical.mean.max(0.0));
@@ -131,6 +136,13 @@ impl<'a> Expectation<'a> {
             deviation: all[c].deviation.max(LEAST_SPREAD[c / 3]) * weight_n,
         })
     }
+}
+
+/// From 0 at the strike to 1 at a twentieth of the stance and away again.
+fn push_after_strike(phase: f64) -> f64 {
+    const HIGHEST_AT: f64 = 0.05;
+    let x = phase / HIGHEST_AT;
+    x * (0.5 * (1.0 - x * x)).exp()
 }
 
 /// From 0 at both ends of the stance to 1 after a share of it.

@@ -17,6 +17,8 @@ pub struct Weights {
     pub sideways_spread: f64,
     /// Sideways force over vertical force, as a share of the lever to the mass centre over its height.
     pub sideways_lever: f64,
+    /// Outward push of a foot just after its strike, at its height [body weights].
+    pub strike_push: f64,
     /// Least time in which the curves deviate, in leg times √(L/g): forward, up, sideways.
     pub detail: [f64; 3],
     /// How far the centre of pressure may be off its path: along and across the foot [m at a stature of 1.75 m].
@@ -40,6 +42,7 @@ impl Default for Weights {
             spread: [0.55, 1.08],
             sideways_spread: 0.05,
             sideways_lever: 0.68,
+            strike_push: 0.03,
             detail: [0.47, 0.35, 0.5],
             center_spread: [0.0193, 0.0099],
             free_moment_spread: 0.003,

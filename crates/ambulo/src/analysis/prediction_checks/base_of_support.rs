@@ -1,0 +1,105 @@
+//! The area that soles span, seen from above, and how far outside of it a place lies.
+
+use crate::spatial::Vec3;
+
+/// Convex hull of discs.
+#[derive(Debug, Clone)]
+pub(super) struct BaseOfSupport {
+    /// Corners, counterclockwise; one or two if the soles span no area.
+    corners: Vec<[f64; 2]>,
+    /// Radius of the discs at them [m].
+    radius: f64,
+    axes: [Vec3; 2],
+}
+
+impl BaseOfSupport {
+    /// Around places that each hold what lies within `radius` [m]; `axes` are two level unit vectors, square to each other. `None`
+    /// without places.
+    pub(super) fn around(places: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
+        let corners = hull(places.iter().map(|p| [p.dot(&axes[0]), p.dot(&axes[1])]).collect());
+        (!corners.is_empty()).then_some(BaseOfSupport { corners, radius, axes })
+    }
+
+    /// Level way from the nearest place of the base [m]; zero inside.
+    pub(super) fn outside(&self, place: Vec3) -> Vec3 {
+        let p = [place.dot(&self.axes[0]), place.dot(&self.axes[1])];
+        let count = self.corners.len();
+        let edges = || (0..count).map(|i| (self.corners[i], self.corners[(i + 1) % count]));
+        if count > 2 && edges().all(|(a, b)| turn(a, b, p) >= 0.0) {
+            return Vec3::zeros();
+        }
+        let ways = edges().map(|(a, b)| from_edge(a, b, p));
+        let nearest = ways.min_by(|v, w| length(*v).total_cmp(&length(*w))).unwrap_or([0.0; 2]);
+        let distance = length(nearest);
+        let share = if distance > self.radius { (distance - self.radius) / distance } else { 0.0 };
+        (self.axes[0] * nearest[0] + self.axes[1] * nearest[1]) * share
+    }
+}
+
+fn length([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}
+
+/// Twice the area of a triangle, positive if it turns counterclockwise.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// From the nearest place of an edge to p.
+fn from_edge(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> [f64; 2] {
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let share = if square > 0.0 { ((to[0] * along[0] + to[1] * along[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    [to[0] - share * along[0], to[1] - share * along[1]]
+}
+
+/// Corners of the convex hull, counterclockwise (Andrew 1979, monotone chains; unverified).
+fn hull(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    places.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    places.dedup();
+    if places.len() < 3 {
+        return places;
+    }
+    let chain = |places: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut out: Vec<[f64; 2]> = Vec::new();
+        for p in places {
+            while out.len() > 1 && turn(out[out.len() - 2], out[out.len() - 1], p) <= 0.0 {
+                out.pop();
+            }
+            out.push(p);
+        }
+        out.pop();
+        out
+    };
+    let mut corners = chain(&mut places.iter().copied());
+    corners.extend(chain(&mut places.iter().rev().copied()));
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outside(places: &[[f64; 2]], at: [f64; 2]) -> f64 {
+        let places: Vec<Vec3> = places.iter().map(|p| Vec3::new(p[0], 0.3, p[1])).collect();
+        let base = BaseOfSupport::around(&places, 0.05, [Vec3::x(), Vec3::z()]).unwrap();
+        base.outside(Vec3::new(at[0], -1.0, at[1])).norm()
+    }
+
+    #[test]
+    fn a_place_is_as_far_outside_as_it_lies_beyond_the_rounded_edge() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]];
+        for (at, expected) in
+            [([0.5, 0.5], 0.0), ([1.04, 0.5], 0.0), ([1.25, 0.5], 0.2), ([1.3, 1.4], 0.45), ([0.2, -0.15], 0.1)]
+        {
+            assert!((outside(&square, at) - expected).abs() < 1e-12, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn one_place_and_a_line_have_a_breadth_too() {
+        assert!((outside(&[[0.0, 0.0]], [0.3, 0.4]) - 0.45).abs() < 1e-12);
+        assert!((outside(&[[0.0, 0.0], [1.0, 0.0]], [0.5, 0.25]) - 0.2).abs() < 1e-12);
+        assert!(outside(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], [0.9, -0.04]) < 1e-12);
+    }
+}

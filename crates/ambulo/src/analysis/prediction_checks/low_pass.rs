@@ -1,0 +1,99 @@
+//! The record, low-passed: mean wrenches, and the soles that stand meanwhile.
+//!
+//!   p = (u × M₀ + h F) / (u · F)
+//!
+//! F and M₀ are the mean wrench of the ground over a Gauss curve of time, h the mean height of what the feet stand on.
+
+use super::record::Record;
+use crate::spatial::{Vec3, Wrench};
+
+/// Half the amplitude passes at this frequency [Hz]. The trunk's soft tissue shakes faster after a strike.
+const BANDWIDTH_HZ: f64 = 3.5;
+/// The low-pass reaches this many deviations of the Gauss curve, 0.11 s.
+const REACH: f64 = 2.0;
+/// Time between looks [s].
+const EVERY_S: f64 = 0.02;
+/// A centre of pressure means something above this mean vertical force [body weights].
+const LEAST_LOAD_BW: f64 = 0.3;
+/// What lasts less is noise [s].
+pub(super) const SHORTEST_S: f64 = 0.1;
+
+/// What was low-passed.
+#[derive(Debug, Clone)]
+pub(super) struct LowPassed {
+    pub(super) instants: Vec<Instant>,
+    /// Time from one to the next [s].
+    pub(super) step_s: f64,
+}
+
+/// The low-passed record at one instant.
+#[derive(Debug, Clone)]
+pub(super) struct Instant {
+    pub(super) frame: usize,
+    pub(super) time_s: f64,
+    /// Of the ground on the body, about the floor's origin.
+    pub(super) mean: Wrench,
+    /// Mean height of what stands [m].
+    height: f64,
+    /// Points of the soles that stand meanwhile [m]; none while nobody stands.
+    pub(super) places: Vec<Vec3>,
+    /// The only foot that stands at this instant.
+    pub(super) alone: Option<usize>,
+}
+
+/// The record, low-passed, every now and then; nothing within the reach of the recording's ends.
+pub(super) fn low_passed(record: &Record) -> LowPassed {
+    let sigma = (0.5 * std::f64::consts::LN_2).sqrt() / (std::f64::consts::PI * BANDWIDTH_HZ);
+    let reach = record.frames_in(REACH * sigma);
+    let weights: Vec<f64> =
+        (0..=reach).map(|i| (-0.5 * (i as f64 * record.grid.step_s / sigma).powi(2)).exp()).collect();
+    let stride = record.frames_in(EVERY_S);
+    let end = record.grid.frames.saturating_sub(reach);
+    let instants = (reach..end).step_by(stride).map(|frame| instant(record, frame, &weights, stride)).collect();
+    LowPassed { instants, step_s: stride as f64 * record.grid.step_s }
+}
+
+fn instant(record: &Record, frame: usize, weights: &[f64], stride: usize) -> Instant {
+    let reach = weights.len() - 1;
+    let (mut sum, mut whole) = (Wrench::ZERO, 0.0);
+    let (mut height, mut standing, mut places) = (0.0, 0.0, Vec::new());
+    for near in frame - reach..=frame + reach {
+        let apart = near.abs_diff(frame);
+        let weight = weights[apart];
+        whole += weight;
+        sum.force += record.total[near].force * weight;
+        sum.moment += record.total[near].moment * weight;
+        for (soles, on) in record.soles.iter().zip(&record.stands_on) {
+            let Some(floor) = on[near] else { continue };
+            height += weight * floor;
+            standing += weight;
+            if apart % stride == 0 || apart == reach {
+                places.extend(soles[near]);
+            }
+        }
+    }
+    let stands = |foot: usize| record.stands_on[foot][frame].is_some();
+    Instant {
+        frame,
+        time_s: record.grid.time(frame),
+        mean: Wrench { force: sum.force / whole, moment: sum.moment / whole },
+        height: if standing > 0.0 { height / standing } else { 0.0 },
+        places,
+        alone: (0..2).find(|&foot| stands(foot) && !stands(1 - foot)),
+    }
+}
+
+impl Instant {
+    /// Where the ground must push [m]; `None` where it hardly pushes.
+    pub(super) fn center(&self, record: &Record) -> Option<Vec3> {
+        let Wrench { force, moment } = self.mean;
+        let vertical = force.dot(&record.up);
+        let is_loaded = vertical > LEAST_LOAD_BW * record.weight;
+        is_loaded.then(|| (record.up.cross(&moment) + force * self.height) / vertical)
+    }
+
+    /// Vertical force that the motion needs [body weights].
+    pub(super) fn vertical(&self, record: &Record) -> f64 {
+        self.mean.force.dot(&record.up) / record.weight
+    }
+}

@@ -1,0 +1,85 @@
+//! What the checks look at: the whole body's wrench and both soles, on the floor's own axes.
+
+use super::CheckedPrediction;
+use crate::ground::footfalls::Footfall;
+use crate::ground::upward;
+use crate::kinematics::each_body_motion;
+use crate::model::{Displacement, Model, Side};
+use crate::motion::TimeGrid;
+use crate::spatial::{Vec3, Wrench};
+
+/// One entry a frame. Places move with the floor, so that a sole that stands on a belt rests.
+#[derive(Debug, Clone)]
+pub(super) struct Record {
+    pub(super) grid: TimeGrid,
+    /// Against gravity.
+    pub(super) up: Vec3,
+    /// Body weight [N].
+    pub(super) weight: f64,
+    /// Velocity of the mass centre over the floor [m/s].
+    pub(super) velocity: Vec<Vec3>,
+    /// Rear, ball and tip of right and left sole [m].
+    pub(super) soles: [Vec<[Vec3; 3]>; 2],
+    /// Height of what right and left foot stand on [m]; `None` while they do not stand.
+    pub(super) stands_on: [Vec<Option<f64>>; 2],
+    /// Of the ground on the body: force, and moment about the floor's origin.
+    pub(super) total: Vec<Wrench>,
+    /// Half the breadth of right and left sole [m].
+    pub(super) half_widths: [f64; 2],
+    /// Of the plane that the root's joint keeps the body in, if it does.
+    pub(super) plane_normal: Option<Vec3>,
+}
+
+impl Record {
+    /// `None` without both soles.
+    pub(super) fn of(evidence: &CheckedPrediction<'_>) -> Option<Record> {
+        let CheckedPrediction { model, trajectory, prediction, soles, .. } = *evidence;
+        let soles_of_body = [soles[0]?, soles[1]?];
+        let (grid, floor) = (trajectory.grid(), prediction.footfalls.floor_velocity);
+        let way = |frame: usize| floor * (grid.time(frame) - grid.start_s);
+        let (mut velocity, mut soles) = (Vec::with_capacity(grid.frames), [Vec::new(), Vec::new()]);
+        each_body_motion(model, trajectory, |frame, bodies| {
+            let momentum: Vec3 =
+                model.bodies().iter().zip(bodies).map(|(b, m)| m.twist.linear * b.inertia.mass()).sum();
+            velocity.push(momentum / model.mass() - floor);
+            for (list, sole) in soles.iter_mut().zip(&soles_of_body) {
+                list.push(sole.points.map(|p| bodies[p.body.index()].pose.place(p.place) - way(frame)));
+            }
+        });
+        let stands_on = Side::BOTH.map(|side| {
+            let on = |frame: usize| prediction.footfalls.of(side).find(|fall| holds(fall, grid.time(frame)));
+            (0..grid.frames).map(|frame| on(frame).map(|fall| fall.floor_height_m)).collect()
+        });
+        let on_floor = |(frame, wrench): (usize, &Wrench)| wrench.about(-way(frame));
+        Some(Record {
+            grid,
+            up: upward(model),
+            weight: model.mass() * model.gravity().norm(),
+            velocity,
+            soles,
+            stands_on,
+            total: prediction.total.iter().enumerate().map(on_floor).collect(),
+            half_widths: soles_of_body.map(|sole| sole.half_width),
+            plane_normal: plane_normal(model),
+        })
+    }
+
+    /// Frames in a time [s], at least one.
+    pub(super) fn frames_in(&self, duration_s: f64) -> usize {
+        ((duration_s / self.grid.step_s).round() as usize).max(1)
+    }
+}
+
+fn holds(fall: &Footfall, time: f64) -> bool {
+    fall.strike_s.is_none_or(|strike| strike <= time) && fall.off_s.is_none_or(|off| time <= off)
+}
+
+/// The axis of a root that turns about one axis alone and slides.
+fn plane_normal(model: &Model) -> Option<Vec3> {
+    let joint = &model.bodies().iter().find(|body| body.joint.parent.is_none())?.joint;
+    let moves = |axis: &&crate::model::JointAxis| matches!(axis.displacement, Displacement::Follows(..));
+    let mut turns = joint.rotations.iter().filter(moves);
+    let (first, second) = (turns.next()?, turns.next());
+    let is_plane = second.is_none() && joint.translations.iter().any(|axis| moves(&axis));
+    is_plane.then(|| joint.parent_from_joint.rotation * first.direction)
+}

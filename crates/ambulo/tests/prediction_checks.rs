@@ -1,0 +1,304 @@
+//! Whether a prediction can be right, as far as that shows without plates: consistent motions pass, forces beside the feet are found.
+//!
+//! The recordings are not part of the repository; without them their test says `skipped` and passes.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
+
+mod footfall_trials;
+mod walking_puppet;
+
+use ambulo::analysis::feasibility::{Check, Person, Thresholds};
+use ambulo::analysis::{
+    CarriedMass, CheckOrder, CheckedPrediction, MassSource, PredictOrder, PredictedAnalysis, PredictionChecks, Seen,
+    analyse_predicted_trajectory, cycles, prediction_checks,
+};
+use ambulo::findings::Findings;
+use ambulo::gait::Gait;
+use ambulo::ground::predict::{PredictSettings, Prediction, predict};
+use ambulo::ground::sole::Sole;
+use ambulo::ground::{BodyForces, GroundForces};
+use ambulo::kinematics::Trajectory;
+use ambulo::model::Model;
+use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::model::full_body::full_body;
+use ambulo::motion::TimeGrid;
+use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::spatial::{Inertia, Vec3};
+use footfall_trials::everything;
+use std::sync::LazyLock;
+use walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
+
+const FOUND: &str = "prediction.not_through_the_feet";
+
+fn prediction(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Prediction {
+    predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
+}
+
+/// Checks of a prediction whose forces were changed.
+fn checked_after(
+    model: &Model,
+    trajectory: &Trajectory,
+    soles: &[Option<Sole>; 2],
+    carried: Option<CarriedMass>,
+    change: impl Fn(&mut Prediction),
+) -> (PredictionChecks, Findings) {
+    let mut prediction = prediction(model, trajectory, soles);
+    change(&mut prediction);
+    let cycles = cycles(&prediction.footfalls.events(), trajectory.grid());
+    let evidence = CheckedPrediction {
+        model,
+        trajectory,
+        soles,
+        prediction: &prediction,
+        cycles: &cycles,
+        thresholds: &Thresholds::default(),
+        carried,
+    };
+    let mut findings = Findings::default();
+    (prediction_checks(&evidence, &mut findings), findings)
+}
+
+fn checked(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> (PredictionChecks, Findings) {
+    checked_after(model, trajectory, soles, None, |_| ())
+}
+
+fn of_puppet(puppet: &Puppet) -> (PredictionChecks, Findings) {
+    checked(&puppet.model, &puppet.trajectory, &puppet.soles)
+}
+
+/// Values as a line; a star where one does not pass.
+fn line(checks: &PredictionChecks) -> String {
+    let value = |check: &ambulo::analysis::PredictionCheck| {
+        let star = if check.passed == Some(false) { "*" } else { " " };
+        check.value.map_or_else(|| format!("{:>8} ", "-"), |value| format!("{value:>8.3}{star}"))
+    };
+    checks.checks.iter().map(value).collect()
+}
+
+fn failed(checks: &PredictionChecks) -> Vec<&'static str> {
+    checks.checks.iter().filter(|check| check.passed == Some(false)).map(|check| check.name).collect()
+}
+
+#[test]
+fn no_recording_is_said_to_push_beside_its_feet() {
+    let mut is_first = true;
+    for trial in everything() {
+        for cutoff_hz in [6.0, 15.0] {
+            let trajectory = trial.trajectory(cutoff_hz);
+            let (checks, findings) = checked(&trial.model, &trajectory, &trial.soles);
+            if std::mem::take(&mut is_first) {
+                println!("{:24}{}", "", checks.checks.iter().map(|c| format!("{:>8.8} ", c.name)).collect::<String>());
+            }
+            println!("{:<15} {cutoff_hz:>4} Hz  {}", trial.name, line(&checks));
+            assert!(checks.reasons.is_empty() && !findings.has(FOUND), "{}: {:?}", trial.name, checks.reasons);
+            // Half of what would be too much.
+            let outside = checks.get("center_of_pressure").unwrap().value.unwrap();
+            assert!(outside < 0.015, "{} at {cutoff_hz} Hz: {outside} m", trial.name);
+            assert!(failed(&checks).is_empty(), "{} at {cutoff_hz} Hz: {}", trial.name, line(&checks));
+            assert_eq!(checks.mass_agrees(), None, "{}: nobody said what it weighs", trial.name);
+        }
+    }
+}
+
+#[test]
+fn a_walk_that_only_feet_carry_passes() {
+    let (checks, findings) = of_puppet(&walk(NO_HAND));
+    println!("{}", line(&checks));
+    assert!(failed(&checks).is_empty() && findings.as_slice().is_empty(), "{checks:?}");
+    let judged = checks.checks.iter().filter(|check| check.passed.is_some()).count();
+    assert!(judged >= 6, "{checks:?}");
+}
+
+#[test]
+fn a_hand_on_a_rail_shows() {
+    for (what, hand) in [
+        ("on the right", Hand { share: 0.15, forward: 0.1, right: 0.45 }),
+        ("on the left", Hand { share: 0.15, forward: 0.1, right: -0.45 }),
+        ("ahead", Hand { share: 0.2, forward: 0.6, right: 0.0 }),
+        ("carried behind", Hand { share: 0.3, forward: -0.6, right: 0.0 }),
+        ("lightly", Hand { share: 0.02, forward: 0.1, right: 0.45 }),
+    ] {
+        let (checks, findings) = of_puppet(&walk(hand));
+        println!("{what:<20} {}", line(&checks));
+        if what == "lightly" {
+            assert!(!findings.has(FOUND), "2 % of body weight is within what masses are wrong by");
+            continue;
+        }
+        assert!(findings.has(FOUND), "{what}");
+        let reason = checks.reasons.first().unwrap_or_else(|| panic!("{what}: a reason for the verdict"));
+        assert_eq!((reason.check, reason.unit), (Check::CenterOfPressure, "m"), "{what}");
+        assert!(reason.value.abs() > reason.limit.abs(), "{what}: {reason:?}");
+    }
+}
+
+/// A figure in some posture, at rest for two seconds: coordinates and their values [rad, m].
+fn still(human: &Human, posture: &[(&str, f64)]) -> Trajectory {
+    let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 200 };
+    let columns = human.model.coordinates().iter().map(|coordinate| {
+        let value = posture.iter().find(|(name, _)| *name == coordinate.name).map(|(_, value)| *value);
+        [vec![value.unwrap_or(coordinate.default_value); grid.frames], vec![0.0; grid.frames], vec![0.0; grid.frames]]
+    });
+    Trajectory::new(&human.model, grid, columns.collect()).unwrap()
+}
+
+fn man() -> Human {
+    full_body(&Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true }).unwrap()
+}
+
+fn of_posture(posture: &[(&str, f64)]) -> (PredictionChecks, Findings) {
+    let human = man();
+    checked(&human.model, &still(&human, posture), &Person::of_human(&human).soles)
+}
+
+#[test]
+fn standing_upright_passes_and_leaning_beyond_the_toes_does_not() {
+    let (checks, findings) = of_posture(&[]);
+    println!("upright {}", line(&checks));
+    assert!(failed(&checks).is_empty() && findings.as_slice().is_empty(), "{checks:?} {findings:?}");
+    // The whole body turns about the ankles.
+    for (lean, is_found) in [(-0.1_f64, false), (-0.35, true)] {
+        let ankle = man().model.coordinates().iter().find(|c| c.name == "pelvis_ty").unwrap().default_value;
+        let (checks, findings) = of_posture(&[
+            ("pelvis_tilt", lean),
+            ("pelvis_tx", -lean.sin() * ankle),
+            ("pelvis_ty", lean.cos() * ankle),
+            ("ankle_angle_r", -lean),
+            ("ankle_angle_l", -lean),
+        ]);
+        println!("lean {lean} {}", line(&checks));
+        assert_eq!(findings.has(FOUND), is_found, "{lean} rad: {checks:?}");
+    }
+}
+
+#[test]
+fn sitting_shows() {
+    let (checks, findings) = of_posture(&[
+        ("hip_flexion_r", 1.5),
+        ("hip_flexion_l", 1.5),
+        ("knee_angle_r", -1.5),
+        ("knee_angle_l", -1.5),
+        ("pelvis_ty", 0.5),
+    ]);
+    println!("{}", line(&checks));
+    assert!(findings.has(FOUND), "{checks:?}");
+    assert!(!checks.reasons.is_empty());
+}
+
+#[test]
+fn hanging_in_a_harness_shows_and_a_jump_does_not() {
+    let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 300 };
+    let still = |place: Vec3| [place, Vec3::zeros(), Vec3::zeros()];
+    // Feet that go up and down beside each other.
+    let feet = |t: f64, up: [f64; 3]| {
+        [0.08, -0.08].map(|z: f64| {
+            let (phase, rate) = (8.0 * t + 10.0 * z, 8.0);
+            let swing = [phase.sin(), rate * phase.cos(), -rate * rate * phase.sin()];
+            [0, 1, 2].map(|k| Vec3::new(0.0, up[k] + 0.25 * swing[k], if k == 0 { z } else { 0.0 }))
+        })
+    };
+    let hangs = moved(grid, |frame| {
+        let [right, left] = feet(grid.time(frame), [0.6, 0.0, 0.0]);
+        [still(Vec3::y()), right, left]
+    });
+    let (checks, findings) = of_puppet(&hangs);
+    println!("hangs {}", line(&checks));
+    assert!(findings.has(FOUND) && failed(&checks).contains(&"held_without_feet"), "{checks:?}");
+    let reason = checks.reasons.iter().find(|reason| reason.check == Check::Support).unwrap();
+    assert!((reason.value - 1.0).abs() < 0.05, "all of the weight: {reason:?}");
+    // The same in free fall: nothing holds it.
+    let fall = |t: f64, g: f64| [40.0 - 0.5 * g * t * t, -g * t, -g];
+    for (g, is_fine) in [(9.80665, true), (14.0, false)] {
+        let falls = moved(grid, |frame| {
+            let t = grid.time(frame);
+            let [y, v, a] = fall(t, g);
+            let [right, left] = feet(t, [y - 1.0, v, a]);
+            [[Vec3::y() * y, Vec3::y() * v, Vec3::y() * a], right, left]
+        });
+        let (checks, findings) = of_puppet(&falls);
+        println!("falls at {g} {}", line(&checks));
+        assert!(!findings.has(FOUND), "{g}: {checks:?}");
+        assert_eq!(findings.has("prediction.pull"), !is_fine, "{g}: {checks:?}");
+    }
+}
+
+#[test]
+fn forces_of_the_feet_that_do_not_balance_the_motion_show() {
+    let puppet = walk(NO_HAND);
+    let changed = |change: &dyn Fn(Vec3) -> Vec3| {
+        let (checks, findings) = checked_after(&puppet.model, &puppet.trajectory, &puppet.soles, None, |prediction| {
+            let bodies = &prediction.ground.bodies;
+            let of_foot = |foot: &BodyForces| {
+                let force: Vec<Vec3> = foot.force.iter().map(|f| change(*f)).collect();
+                BodyForces::on_level_ground(foot.body, &force, &foot.moment, Vec3::y(), 0.0)
+            };
+            prediction.ground = GroundForces { bodies: bodies.iter().map(of_foot).collect() };
+        });
+        let codes: Vec<&str> = findings.as_slice().iter().map(|finding| finding.code).collect();
+        (failed(&checks), codes)
+    };
+    assert_eq!(changed(&|f| f), (vec![], vec![]));
+    assert_eq!(changed(&|f| f * 0.9), (vec!["vertical_force_feet"], vec!["prediction.weight"]));
+    let pushed = changed(&|f| f + Vec3::x() * (0.05 * f.y));
+    assert_eq!(pushed, (vec!["fore_aft_impulse"], vec!["prediction.impulse"]));
+    let slippery = changed(&|f| f + Vec3::z() * (0.8 * f.y));
+    assert_eq!(slippery, (vec!["friction"], vec!["prediction.friction"]));
+}
+
+// ---- mass ----
+
+static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
+    let gait = Gait::named("free").unwrap();
+    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    synthesise(&order, &mut Findings::default()).unwrap()
+});
+
+/// The walk's figure with a share of its masses.
+fn lighter(share: f64) -> Model {
+    let model = &WALK.human.model;
+    let mut bodies = model.bodies().to_vec();
+    for body in &mut bodies {
+        let (mass, center, turning) = (body.inertia.mass(), body.inertia.center(), body.inertia.about_center());
+        body.inertia = Inertia::new(share * mass, center, turning * share).unwrap();
+    }
+    Model::new("lighter", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap()
+}
+
+fn of_mass(share: f64, with_plates: bool, standing_kg: Option<f64>) -> (PredictionChecks, Findings, PredictedAnalysis) {
+    let (model, soles) = (lighter(share), Person::of_human(&WALK.human).soles);
+    let plates = if with_plates { &WALK.loads[..] } else { &[] };
+    let order = PredictOrder { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
+    let mut findings = Findings::default();
+    let trajectory = WALK.trajectory.clone();
+    let mut predicted =
+        analyse_predicted_trajectory(&model, trajectory, plates, None, &order, &mut findings, &mut |_| ()).unwrap();
+    let seen = predicted.measured.as_ref().map(|m| Seen::by_load(m, plates, &predicted.prediction.footfalls));
+    let window_s = seen.and_then(|seen| seen.window);
+    predicted.weigh(&model, window_s, standing_kg);
+    let thresholds = Thresholds::default();
+    let order = CheckOrder { model: &model, soles: &soles, thresholds: &thresholds, window_s, standing_kg };
+    let mut findings = Findings::default();
+    (predicted.checks(&order, &mut findings), findings, predicted)
+}
+
+#[test]
+fn a_wrong_mass_shows_only_against_plates() {
+    let (checks, findings, predicted) = of_mass(0.5, false, None);
+    println!("half, alone     {}", line(&checks));
+    // All forces are half of what they were, and agree with each other.
+    assert!(failed(&checks).is_empty() && findings.as_slice().is_empty(), "{checks:?}");
+    assert_eq!((checks.mass_agrees(), predicted.analysis.mass.source), (None, MassSource::Model));
+    for (with_plates, standing_kg) in [(true, None), (false, Some(75.0))] {
+        let (checks, findings, predicted) = of_mass(0.5, with_plates, standing_kg);
+        println!("half, weighed   {}", line(&checks));
+        assert_eq!((failed(&checks), checks.mass_agrees()), (vec!["mass"], Some(false)));
+        assert!(findings.has("prediction.mass") && checks.reasons.is_empty(), "{findings:?}");
+        let value = checks.get("mass").unwrap().value.unwrap();
+        assert!((value - 2.0).abs() < 0.02, "{value}");
+        assert_eq!(predicted.analysis.mass.source, MassSource::Model, "what contradicts the model is not taken");
+        let (checks, findings, predicted) = of_mass(1.0, with_plates, standing_kg);
+        assert_eq!((failed(&checks), checks.mass_agrees()), (vec![], Some(true)), "{findings:?}");
+        assert_ne!(predicted.analysis.mass.source, MassSource::Model);
+    }
+}
