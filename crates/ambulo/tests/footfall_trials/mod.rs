@@ -95,10 +95,16 @@ fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> R
         &recording(&subject.walk),
         Some(&recording(&subject.standing)),
         &body,
-        plates,
-        None,
-        false,
+        Plates { events: plates, forces: None, all_seen: false },
     )
+}
+
+/// What plates say of a recording.
+struct Plates<'a> {
+    events: Vec<Event>,
+    /// `None` where the recording itself holds the forces.
+    forces: Option<&'a TableForces>,
+    all_seen: bool,
 }
 
 /// A table of forces and the prefixes of its columns: right and left foot.
@@ -132,9 +138,7 @@ fn fitted(
     walk: &LaboratoryRecording,
     still: Option<&LaboratoryRecording>,
     body: &Body<'_>,
-    plates: Vec<Event>,
-    forces: Option<&TableForces>,
-    all_seen: bool,
+    Plates { events: plates, forces, all_seen }: Plates<'_>,
 ) -> Recorded {
     let settings = FitSettings::default();
     let body = body_in_motion(walk, still, body, &settings, &[], &mut Findings::default(), &mut |_| ()).unwrap();
@@ -210,9 +214,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
             &trc(gait, "subject01_walk1.trc"),
             None,
             &body(&small),
-            of_markers,
-            Some(&by_markers),
-            true,
+            Plates { events: of_markers, forces: Some(&by_markers), all_seen: true },
         ),
         angles,
         fitted(
@@ -221,10 +223,15 @@ fn opensim(data: &Path) -> Vec<Recorded> {
             &trc(walk, "markers_walk.trc"),
             None,
             &body(&large),
-            of_walk,
-            Some(&by_walk),
-            false,
+            Plates { events: of_walk, forces: Some(&by_walk), all_seen: false },
         ),
-        fitted("rajagopal-run", "rajagopal-run", &markers, Some(&still), &runner, of_run, Some(&by_run), true),
+        fitted(
+            "rajagopal-run",
+            "rajagopal-run",
+            &markers,
+            Some(&still),
+            &runner,
+            Plates { events: of_run, forces: Some(&by_run), all_seen: true },
+        ),
     ]
 }
