@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod figures;
 mod fit_gait;
+mod fit_ground;
 mod harmonics;
 mod normative;
 mod npz;
@@ -29,6 +30,8 @@ usage: cargo xtask <command>
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
+  fit-ground        fit the numbers of the ground-force estimator anew, each subject left out in turn  [--write: docs/GROUND_FIT.md]
+                    [--evaluations N] [--seed N] [--pull X]
   validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("fit-ground", _) => fit_ground::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
         ("help" | "--help" | "-h", []) => {

@@ -100,11 +100,17 @@ pub(crate) fn two_laboratories(quantity: &str) -> Result<[Vec<f64>; 2], String> 
 
 /// Foot off of the curve's own foot [share of the cycle] at five speeds.
 pub(crate) fn foot_off() -> Result<[f64; 5], String> {
-    let text = read("schwartz2008_cycle_events.csv")?;
-    let line = text.lines().find(|line| line.starts_with("Ipsilateral Foot Off"));
-    let line = line.ok_or("schwartz2008_cycle_events.csv: found no row `Ipsilateral Foot Off`")?;
+    event("Ipsilateral Foot Off")
+}
+
+/// An event of the cycle [share of it] at five speeds.
+pub(crate) fn event(name: &str) -> Result<[f64; 5], String> {
+    const FILE: &str = "schwartz2008_cycle_events.csv";
+    let text = read(FILE)?;
+    let line = text.lines().find(|line| line.starts_with(name));
+    let line = line.ok_or_else(|| format!("{FILE}: found no row `{name}`"))?;
     let cells: Vec<f64> = line.split(',').skip(1).step_by(2).filter_map(|cell| cell.parse().ok()).collect();
-    cells.try_into().map_err(|cells: Vec<f64>| format!("found {} foot offs; expected 5", cells.len()))
+    cells.try_into().map_err(|cells: Vec<f64>| format!("{FILE}: found {} of `{name}`; expected 5", cells.len()))
 }
 
 fn read(name: &str) -> Result<String, String> {

@@ -6,8 +6,8 @@
 
 mod means;
 mod page;
-mod recording;
-mod trial;
+pub(crate) mod recording;
+pub(crate) mod trial;
 
 use crate::workspace;
 use serde_json::{Value, json};

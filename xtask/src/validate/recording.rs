@@ -23,7 +23,7 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// How a recording counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Group {
+pub(crate) enum Group {
     /// Straight walking: these make the means.
     Walking,
     /// Straight walking without markers on the trunk.
@@ -35,7 +35,7 @@ pub(super) enum Group {
 }
 
 impl Group {
-    pub(super) fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Group::Walking => "walking",
             Group::NoTrunk => "walking, no trunk markers",
@@ -52,7 +52,7 @@ enum Source {
     Coordinates { motion: &'static str, model: &'static str },
     /// Markers on a model.
     ModelMarkers { markers: &'static str, model: &'static str },
-    /// Markers on the built-in body, with a standing trial.
+    /// Markers on the built-in body, with a standing trial on plates or not; `mass` is what is stated.
     Markers { markers: &'static str, standing: &'static str, mass: f64, height: f64 },
 }
 
@@ -61,28 +61,28 @@ type Grf = Option<(&'static str, [&'static str; 2])>;
 
 /// A recording.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Recording {
-    pub(super) label: &'static str,
-    pub(super) subject: &'static str,
-    pub(super) group: Group,
+pub(crate) struct Recording {
+    pub(crate) label: &'static str,
+    pub(crate) subject: &'static str,
+    pub(crate) group: Group,
     folder: &'static str,
     source: Source,
     grf: Grf,
 }
 
 /// A recording as the analysis takes it.
-pub(super) struct Loaded {
-    pub(super) model: Model,
-    pub(super) motion: Motion,
-    pub(super) plates: Vec<ForceRecording>,
-    pub(super) person: Person,
+pub(crate) struct Loaded {
+    pub(crate) model: Model,
+    pub(crate) motion: Motion,
+    pub(crate) plates: Vec<ForceRecording>,
+    pub(crate) person: Person,
     /// Of markers: the body that follows them, for which foot stood on which plate.
-    pub(super) body: Option<BodyInMotion>,
-    pub(super) standing_kg: Option<f64>,
+    pub(crate) body: Option<BodyInMotion>,
+    pub(crate) standing_kg: Option<f64>,
 }
 
 /// All recordings with plates.
-pub(super) fn all() -> Vec<Recording> {
+pub(crate) fn all() -> Vec<Recording> {
     let c3d = |label, subject, group, folder, markers, standing, mass, height| Recording {
         label,
         subject,
@@ -142,7 +142,7 @@ pub(super) fn all() -> Vec<Recording> {
 
 impl Recording {
     /// Reads it and brings it to a body in motion.
-    pub(super) fn load(&self, data: &Path) -> Result<Loaded, String> {
+    pub(crate) fn load(&self, data: &Path) -> Result<Loaded, String> {
         let folder = data.join(self.folder);
         let file = |name: &str| {
             let path = folder.join(name);

@@ -74,7 +74,7 @@ impl Trial {
 }
 
 /// The prediction and what plates saw, as the command makes them.
-fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen), String> {
+pub(crate) fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen), String> {
     let Loaded { model, motion, plates, person, body, standing_kg } = loaded;
     let on_plates = body.as_ref().filter(|body| !body.on_plates.contacts.is_empty());
     let longest = body.as_ref().and_then(|body| body.longest_known_s());

@@ -63,10 +63,14 @@ pub(super) fn loads(
             out.free_moment[frame] = about_up.value;
             out.height[frame] = stance.height_m;
             let deviation = &mut out.deviation;
-            deviation.force[frame] = turned(axes, [forward.variance, up.variance, right.variance]);
-            let (along, across) = (about_right.variance, about_forward.variance);
-            deviation.center[frame] = turned(axes, [along, 0.0, across]) / vertical;
-            deviation.free_moment[frame] = about_up.variance.sqrt();
+            let weight = evidence.measure.weight_n;
+            let calibration = &evidence.weights.calibration;
+            let spread = |axis: usize, of: &Estimate| calibration.force[axis].variance(of.variance, weight);
+            deviation.force[frame] = turned(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]);
+            let [along, across] = [(0, &about_right), (1, &about_forward)]
+                .map(|(axis, of)| calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0));
+            deviation.center[frame] = turned(axes, [along, 0.0, across]);
+            deviation.free_moment[frame] = calibration.free_moment.variance(about_up.variance, weight).sqrt();
         }
     }
     out

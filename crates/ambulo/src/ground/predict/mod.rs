@@ -5,6 +5,7 @@
 //! divides ([`hand_over`]): its name goes with every result.
 //! Pinned by: tests/ground_predict.rs
 
+mod calibration;
 mod center_path;
 mod estimate;
 mod expected;
@@ -28,6 +29,7 @@ use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
+pub use calibration::{Calibration, Spread};
 use estimate::{Evidence, estimate};
 use geometry::Geometry;
 pub use known::Known;

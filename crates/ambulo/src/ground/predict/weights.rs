@@ -1,5 +1,7 @@
 //! How much each piece of evidence counts: standard deviations and lengths, all of them dimensionless or in seconds.
 
+use super::calibration::Calibration;
+
 /// The numbers of the estimator that no law gives. Fitted across the recordings, leave one subject out, by `cargo xtask fit-ground`;
 /// docs/GROUND_FORCES.md has the table and what changes when one is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +33,8 @@ pub struct Weights {
     pub center_ends: [f64; 2],
     /// How far the centre of pressure lies outwards of the middle of the foot [stature].
     pub center_outwards: f64,
+    /// How far predictions are off in truth, against what the equations say.
+    pub calibration: Calibration,
 }
 
 impl Default for Weights {
@@ -49,6 +53,7 @@ impl Default for Weights {
             center_lean: [0.092, 0.116],
             center_ends: [0.0141, 0.67],
             center_outwards: 0.006,
+            calibration: Calibration::default(),
         }
     }
 }

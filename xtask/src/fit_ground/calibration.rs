@@ -1,0 +1,174 @@
+//! Factors and floors of the standard deviations, so that a band of 90 % holds 90 % of what plates measured.
+//!
+//! Samples of a stance depend on each other, so every stance counts once, and so does every subject: shares are means over stances,
+//! then over subjects. For each floor the factor follows from the share; of these pairs the sharpest is taken.
+
+use super::cases::{Case, Sample, StanceSamples, mean};
+use super::numbers::three_digits;
+use ambulo::ground::predict::{Calibration, Spread, Weights};
+
+/// Standard deviations on either side that hold 90 % of a normal distribution.
+const BAND_90: f64 = 1.645;
+/// Share that the band is to hold.
+const HELD: f64 = 0.9;
+/// Floors that are tried, as shares of the RMSE.
+const FLOORS: [f64; 8] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9];
+/// Least and most multiple of what the equations say: a band must still widen where the motion tells less.
+const FACTORS: [f64; 2] = [0.3, 30.0];
+
+/// How a band does on a subject, or on several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Band {
+    /// Share of the samples inside it.
+    pub(super) holds: f64,
+    /// Mean half-width over the RMSE.
+    pub(super) half_width_over_rmse: f64,
+}
+
+/// Stances of subjects.
+pub(super) struct Judged {
+    /// One entry a subject.
+    subjects: Vec<(&'static str, Vec<StanceSamples>)>,
+}
+
+impl Judged {
+    /// Straight walks of these subjects, each predicted with its own weights and the deviations of the equations unchanged.
+    pub(super) fn new(cases: &[Case], subjects: &[&'static str], weights: &[Weights]) -> Judged {
+        let own = |(subject, weights): (&&'static str, &Weights)| {
+            let raw = Weights { calibration: Calibration::RAW, ..*weights };
+            let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
+            (*subject, straight.flat_map(|case| case.samples(&raw)).collect())
+        };
+        Judged { subjects: subjects.iter().zip(weights).map(own).collect() }
+    }
+
+    /// Stances of a component, subject by subject; subjects that are not judged on it are left out.
+    fn of_component(&self, component: usize, only: impl Fn(&str) -> bool) -> Vec<Vec<&[Sample]>> {
+        let chosen = self.subjects.iter().filter(|(subject, _)| only(subject));
+        let lists = chosen.map(|(_, stances)| {
+            let own = stances.iter().map(|stance| stance[component].as_slice());
+            own.filter(|samples| !samples.is_empty()).collect::<Vec<&[Sample]>>()
+        });
+        lists.filter(|stances| !stances.is_empty()).collect()
+    }
+
+    /// Factors and floors from the subjects for which `only` says so.
+    pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> Calibration {
+        let spread = |component: usize| fitted(&self.of_component(component, &only));
+        Calibration {
+            force: std::array::from_fn(spread),
+            center: std::array::from_fn(|i| spread(3 + i)),
+            free_moment: spread(5),
+        }
+    }
+
+    /// How a band does on a subject; `None` where the subject is not judged on that component.
+    pub(super) fn band(&self, component: usize, subject: &str, calibration: &Calibration) -> Option<Band> {
+        let stances = self.of_component(component, |name| name == subject);
+        (!stances.is_empty()).then(|| band(&stances, &spread(calibration, component)))
+    }
+}
+
+/// The spread of one of [`super::cases::COMPONENTS`].
+pub(super) fn spread(calibration: &Calibration, component: usize) -> Spread {
+    match component {
+        0..3 => calibration.force[component],
+        3 | 4 => calibration.center[component - 3],
+        _ => calibration.free_moment,
+    }
+}
+
+/// Where nothing was predicted there is no band.
+fn half_width(sample: &Sample, spread: &Spread) -> f64 {
+    if sample.deviation > 0.0 { BAND_90 * spread.variance(sample.deviation.powi(2), sample.unit).sqrt() } else { 0.0 }
+}
+
+fn band(subjects: &[Vec<&[Sample]>], spread: &Spread) -> Band {
+    let holds =
+        |stance: &&[Sample]| mean(stance.iter().map(|s| f64::from(u8::from(s.error.abs() <= half_width(s, spread)))));
+    let width = |stances: &Vec<&[Sample]>| {
+        let all = || stances.iter().copied().flatten();
+        mean(all().map(|s| half_width(s, spread))) / mean(all().map(|s| s.error.powi(2))).sqrt()
+    };
+    Band {
+        holds: mean(subjects.iter().map(|stances| mean(stances.iter().map(holds)))),
+        half_width_over_rmse: mean(subjects.iter().map(width)),
+    }
+}
+
+/// The sharpest pair of factor and floor that holds enough.
+fn fitted(subjects: &[Vec<&[Sample]>]) -> Spread {
+    let rmse = mean(
+        subjects
+            .iter()
+            .map(|stances| mean(stances.iter().copied().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt()),
+    );
+    let pairs = FLOORS.map(|share| {
+        let spread = Spread { factor: factor(subjects, share * rmse), floor: share * rmse };
+        Spread { factor: three_digits(spread.factor), floor: three_digits(spread.floor) }
+    });
+    let rated = pairs.map(|spread| (spread, band(subjects, &spread)));
+    let enough = |band: &Band| band.holds >= HELD - 0.01;
+    let sharpest = rated
+        .iter()
+        .filter(|(_, band)| enough(band))
+        .min_by(|a, b| a.1.half_width_over_rmse.total_cmp(&b.1.half_width_over_rmse));
+    let widest = || rated.iter().max_by(|a, b| a.1.holds.total_cmp(&b.1.holds));
+    sharpest.or_else(widest).map_or(Spread::RAW, |(spread, _)| *spread)
+}
+
+/// The factor that holds enough beside a floor, by halving on a logarithmic scale: the share grows with the factor.
+fn factor(subjects: &[Vec<&[Sample]>], floor: f64) -> f64 {
+    let [mut low, mut high] = FACTORS;
+    for _ in 0..30 {
+        let factor = (low * high).sqrt();
+        if band(subjects, &Spread { factor, floor }).holds < HELD { low = factor } else { high = factor }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::search::Random;
+    use super::*;
+
+    /// Stances whose errors are normal with `true_factor` times what the equations say, and a floor.
+    fn stances(seed: u64, true_factor: f64, floor: f64) -> Vec<Vec<Sample>> {
+        let mut random = Random::seeded(seed);
+        let mut sample = |i: usize| {
+            let deviation = 1.0 + (i % 7) as f64;
+            let truth = (true_factor * deviation).hypot(floor);
+            Sample { error: truth * random.normal(), deviation, unit: 1.0 }
+        };
+        (0..20).map(|_| (0..100).map(&mut sample).collect()).collect()
+    }
+
+    /// One subject with these stances.
+    fn slices(stances: &[Vec<Sample>]) -> Vec<Vec<&[Sample]>> {
+        vec![stances.iter().map(Vec::as_slice).collect()]
+    }
+
+    #[test]
+    fn a_band_of_normal_errors_holds_nine_in_ten_and_so_it_does_on_others() {
+        for (factor, floor) in [(1.0, 0.0), (2.5, 0.0), (0.5, 3.0)] {
+            let (own, others) = (stances(1, factor, floor), stances(2, factor, floor));
+            let found = fitted(&slices(&own));
+            let band = band(&slices(&others), &found);
+            assert!((band.holds - 0.9).abs() < 0.03, "{factor}, {floor}: {found:?} gives {band:?}");
+            assert!(band.half_width_over_rmse < 1.7, "{band:?}");
+        }
+    }
+
+    #[test]
+    fn a_factor_is_found_again() {
+        let own = stances(3, 2.0, 0.0);
+        let found = factor(&slices(&own), 0.0);
+        assert!((found - 2.0).abs() < 0.1, "{found}");
+    }
+
+    #[test]
+    fn where_nothing_was_predicted_nothing_is_held() {
+        let sample = Sample { error: 0.1, deviation: 0.0, unit: 1.0 };
+        assert!(half_width(&sample, &Spread { factor: 5.0, floor: 9.0 }).abs() < 1e-12);
+    }
+}
