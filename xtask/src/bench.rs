@@ -1,4 +1,5 @@
-//! How long our inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command take: `cargo xtask bench`.
+//! How long our inverse dynamics, synthetic walks, ground forces without plates, the stages of the main job and the `ambulo` command
+//! take: `cargo xtask bench`.
 //!
 //! Before anything is timed, the torques of the reference human are compared with those of another engine; a time of a
 //! wrong answer is worth nothing. Where other engines are installed (see `peers`) they run right after ours, and the
@@ -11,6 +12,7 @@
 mod gait;
 mod human;
 pub(crate) mod markers;
+mod prediction;
 pub(crate) mod simulation;
 mod timing;
 mod walk;
@@ -45,8 +47,9 @@ struct Row {
 pub(crate) fn run() -> Result<(), String> {
     let (human, walk) = (human::Human::find(), workspace::Walk::find());
     println!("{}", machine());
-    // Synthetic walks need no data.
+    // Synthetic walks need no data, nor do forces under them.
     let mut rows = gait::bench()?;
+    rows.extend(prediction::bench()?);
     println!();
     match human {
         Some(files) => rows.extend(bench_human(&human::Human::read(&files)?)?),

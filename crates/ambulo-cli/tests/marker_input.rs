@@ -308,7 +308,8 @@ fn what_a_person_carries_counts_on_the_built_in_body_too() {
     };
     for (input, given) in [("walk.c3d", &STILL[..]), ("walk.bvh", &["--mass", "75"])] {
         let found = total(input, given);
-        assert!((found - 80.0).abs() < 1e-6, "{input}: {found}");
+        // A C3D holds its forces in single precision, and the standing trial weighs the person.
+        assert!((found - 80.0).abs() < 1e-4, "{input}: {found}");
     }
     let run = forces(&bench, "walk.c3d", &[&STILL[..], &["--add-mass", "rucksack:5"]].concat());
     run.refused(&["--add-mass: the model has no body `rucksack`; expected one of", "torso"]);

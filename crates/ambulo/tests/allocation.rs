@@ -1,4 +1,5 @@
-//! Nothing is allocated per frame after the first: counted by an allocator of this process.
+//! Nothing is allocated per frame after the first, and what a prediction and a stream hold is bounded: counted by an allocator of this
+//! process.
 #![expect(unsafe_code, reason = "an allocator is unsafe by its trait; this one counts and forwards")]
 
 mod common;
@@ -8,11 +9,14 @@ use ambulo::dynamics::{self, BodyLoad, Workspace};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::WalkMachine;
 use ambulo::gait::{Gait, Walk};
+use ambulo::ground::predict::{PredictSettings, predict};
+use ambulo::ground::stream::{Stream, StreamSettings};
 use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
 use ambulo::spatial::{Vec3, Wrench};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
@@ -25,6 +29,14 @@ struct Counting;
 thread_local! {
     /// Per thread, so that the test harness on its own threads does not disturb the count.
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    /// Bytes that this thread took and did not give back, and the most of them at any time.
+    static HELD: Cell<[isize; 2]> = const { Cell::new([0, 0]) };
+}
+
+fn count_bytes(more: usize, less: usize) {
+    let [held, most] = HELD.get();
+    let held = held + more as isize - less as isize;
+    HELD.set([held, most.max(held)]);
 }
 
 fn count_one() {
@@ -36,17 +48,20 @@ fn count_one() {
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count_one();
+        count_bytes(layout.size(), 0);
         // SAFETY: the caller's promise about `layout` is passed on.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count_bytes(0, layout.size());
         // SAFETY: `pointer` came from `System` with this layout.
         unsafe { System.dealloc(pointer, layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         count_one();
+        count_bytes(size, layout.size());
         // SAFETY: `pointer` came from `System` with this layout.
         unsafe { System.realloc(pointer, layout, size) }
     }
@@ -60,6 +75,16 @@ fn allocations(work: impl FnOnce()) -> usize {
     let before = ALLOCATIONS.get();
     work();
     ALLOCATIONS.get() - before
+}
+
+/// Bytes that `work` holds when it is done with what it returns, and the most that it held.
+fn bytes_held<T>(work: impl FnOnce() -> T) -> [usize; 2] {
+    let [before, _] = HELD.get();
+    HELD.set([before, before]);
+    let result = black_box(work());
+    let after = HELD.get().map(|bytes| usize::try_from(bytes - before).unwrap_or(0));
+    drop(result);
+    after
 }
 
 /// A chain of every joint kind, twenty-one postures (no multiple of eight), two loads each.
@@ -191,4 +216,56 @@ fn fitting_markers_allocates_for_the_recording_and_not_for_its_frames() {
     };
     let (few, many) = (count(20), count(400));
     assert_eq!(few, many, "allocations in 20 and in 400 frames");
+}
+
+fn synthetic(cycles: usize) -> SyntheticWalk {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
+    let gait = Gait::named("free").unwrap_or_else(|e| panic!("{e}"));
+    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles, rate_hz: 100.0 };
+    synthesise(&order, &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn a_prediction_holds_a_bounded_number_of_bytes_a_frame() {
+    let held = |walk: &SyntheticWalk| {
+        let soles = Person::of_human(&walk.human).soles;
+        let (model, settings) = (&walk.human.model, PredictSettings::default());
+        let frames = walk.trajectory.grid().frames;
+        let run = || predict(model, &walk.trajectory, &soles, &settings, &mut Findings::default()).ok();
+        // The first one reads the crate's curves, which stay.
+        black_box(run());
+        (frames, bytes_held(run))
+    };
+    let ((few, of_few), (many, of_many)) = (held(&synthetic(2)), held(&synthetic(8)));
+    let [result, most] = [0, 1].map(|i| (of_many[i] - of_few[i]) as f64 / (many - few) as f64);
+    println!("a prediction: {result:.0} bytes a frame, {most:.0} while it is made ({few} and {many} frames)");
+    // Two feet of four vectors, a height, two vectors and a number each, and the total's six numbers make 48 + 2 * 160 = 368 bytes.
+    assert!((300.0..800.0).contains(&result), "{result} bytes a frame");
+    // Beside the trajectory itself, joint forces (for the total) and places of the feet.
+    assert!(most < 12_000.0, "{most} bytes a frame");
+}
+
+#[test]
+fn a_stream_holds_no_more_the_longer_it_runs() {
+    let walk = synthetic(2);
+    let soles = Person::of_human(&walk.human).soles;
+    let mut frames = Vec::new();
+    walk.trajectory.for_each_posture(|_, posture| frames.push(posture.q.to_vec()));
+    let settings = StreamSettings { window_s: 1.0, ..StreamSettings::at_rate(100.0) };
+    let Ok(full) = Stream::new(walk.human.model.clone(), soles, &settings) else { panic!("no stream") };
+    let after = |count: usize| {
+        bytes_held(|| {
+            let mut stream = full.clone();
+            for i in 0..count {
+                black_box(stream.push(&frames[i % frames.len()]).is_ok());
+            }
+            stream
+        })
+    };
+    // The walk begins again after 328 frames: a jump, at which feet seem to step more often. Both have it in all places of the window.
+    let (few, many) = (after(440), after(1760));
+    println!("a stream holds {} bytes, {} during a push", few[0], few[1]);
+    // Findings of the last window may differ by a message.
+    assert!(few[0] > 50_000 && many[0] < few[0] + 2000, "{many:?} after {few:?}");
+    assert!((many[1] as f64) < 1.2 * few[1] as f64, "{many:?} after {few:?}");
 }

@@ -233,8 +233,8 @@ fn forces_that_were_predicted_are_obeyed_or_the_findings_say_that_they_are_not()
         let settings = ConsistencySettings { within: case.window, ..motion_only() };
         make_consistent(model, trajectory, &loads, &settings, &mut findings).unwrap();
         assert_eq!(findings.has("consistency.residual_left"), !done.obeys(0.01), "{}", case.name);
-        // Forces that are Newton's by their making can lack moment alone, which centres of pressure inside the feet cannot give.
+        // Predicted forces are Newton's behind a low-pass only: a heel strike that markers do not show is left over.
         let [before, after] = [done.residual_before, done.residual_after].map(|r| r.moment_rms_nm);
-        assert!(done.residual_before.force_rms_bw < 0.02 && after < 0.5 * before, "{}: {before} -> {after}", case.name);
+        assert!(done.residual_before.force_rms_bw < 0.1 && after < 0.5 * before, "{}: {before} -> {after}", case.name);
     }
 }

@@ -83,18 +83,26 @@ fn both_feet_together_give_the_total() {
     let walk = walk();
     let prediction = predicted(&walk, Known::default());
     let [right, left] = &prediction.ground.bodies[..] else { panic!("two feet") };
-    for (i, total) in prediction.total.iter().enumerate() {
-        let sum = right.force[i] + left.force[i];
-        let stands = sum.norm() > 0.0;
-        assert!(!stands || (sum - total.force).norm() < 1e-9 * total.force.norm(), "frame {i}: {sum} {}", total.force);
-    }
+    let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
+    let missing: Vec<Vec3> =
+        (0..right.force.len()).map(|i| right.force[i] + left.force[i] - prediction.total[i].force).collect();
+    // Behind a low-pass: what is sharper than markers show comes from what is expected of a foot.
+    let window = 25;
+    let means = missing.windows(window).map(|w| w.iter().sum::<Vec3>() / window as f64);
+    let worst = means.map(|mean| mean.norm() / weight).fold(0.0, f64::max);
+    println!("over a quarter of a second the feet miss {:.2} % of the weight at most", 100.0 * worst);
+    assert!(worst < 0.05, "{worst} of the weight");
     assert!(prediction.footfalls.events().len() >= 8, "{:?}", prediction.footfalls.events());
+    let mut swings = 0;
     for (foot, deviation) in prediction.ground.bodies.iter().zip(&prediction.deviations) {
         for i in 0..foot.force.len() {
             let is_loaded = !foot.center_of_pressure[i].x.is_nan();
-            assert_eq!(deviation.force[i].y > 0.0, is_loaded, "a deviation where there is a force, frame {i}");
+            let deviates = deviation.force[i].y > 0.0;
+            assert!(deviates || !is_loaded, "a deviation where there is a force, frame {i}");
+            swings += usize::from(!deviates);
         }
     }
+    assert!(swings > 2 * right.force.len() / 5, "a foot swings for about 40 % of a walk: {swings}");
 }
 
 #[test]
@@ -105,7 +113,7 @@ fn with_everything_known_the_forces_are_those_that_were_applied() {
     let share = right.force.iter().zip(&left.force).map(|(r, l)| r.y / (r.y + l.y)).collect();
     let known = Known {
         footfalls: Some(true_footfalls(&walk, &applied)),
-        total: None,
+        total: Some(total_wrench(&walk.human.model, &walk.trajectory)),
         right_share: Some(share),
         centers: Some([right.center_of_pressure.clone(), left.center_of_pressure.clone()]),
     };

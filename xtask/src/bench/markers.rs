@@ -89,6 +89,13 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
+/// Model and markers of the first recording; `None` without data.
+pub(super) fn walk() -> Result<Option<(Model, MarkerRecording)>, String> {
+    let [case, _] = &CASES;
+    let folder = workspace::data().join("data").join(case.folder);
+    folder.is_dir().then(|| read(case, &folder)).transpose()
+}
+
 fn row(case: &Case, folder: &Path) -> Result<String, String> {
     let (model, markers) = read(case, folder)?;
     let fit = || fit_markers(&model, &markers, &FitSettings::default(), &mut Findings::default());

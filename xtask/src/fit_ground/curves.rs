@@ -78,7 +78,6 @@ mod tests {
     use super::*;
 
     #[test]
-    #[expect(clippy::print_stdout, reason = "says that there was nothing to compare with")]
     fn the_curves_of_the_crate_are_those_of_the_tables() {
         let Ok(expected) = file_text() else {
             println!("skipped: no data");

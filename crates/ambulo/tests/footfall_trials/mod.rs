@@ -21,9 +21,10 @@ use ambulo::model::anthropometry::SegmentTable;
 use ambulo::model::{Model, Side, from_osim_bytes};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{
-    Event, EventKind, Motion, PlateSettings, SmoothSettings, Smoother, Window, coordinates_from_table,
-    markers_from_c3d, markers_from_trc, plates_from_c3d, smooth,
+    Event, EventKind, ForceRecording, Motion, PlateSettings, SmoothSettings, Smoother, Window, coordinates_from_table,
+    force_recordings, markers_from_c3d, markers_from_trc, plates_from_c3d, smooth,
 };
+use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use gait_files::{File, Subject};
@@ -42,6 +43,8 @@ pub(crate) struct Recorded {
     pub(crate) motion: Motion,
     pub(crate) soles: [Option<Sole>; 2],
     pub(crate) plates: Vec<Event>,
+    /// What plates measured, in the world of the motion.
+    pub(crate) forces: Vec<ForceRecording>,
     /// Whether plates saw every step between their first and last event.
     pub(crate) all_seen: bool,
 }
@@ -86,7 +89,38 @@ fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> R
     let event = |side, kind, time_s| Event { side, kind, time_s };
     let both = |t: &(Side, f64, f64)| [event(t.0, EventKind::Strike, t.1), event(t.0, EventKind::Off, t.2)];
     let plates = told.iter().flat_map(both).filter(|e| e.time_s.is_finite()).collect();
-    fitted(name, subject.name, &recording(&subject.walk), Some(&recording(&subject.standing)), &body, plates, false)
+    fitted(
+        name,
+        subject.name,
+        &recording(&subject.walk),
+        Some(&recording(&subject.standing)),
+        &body,
+        Plates { events: plates, forces: None, all_seen: false },
+    )
+}
+
+/// What plates say of a recording.
+struct Plates<'a> {
+    events: Vec<Event>,
+    /// `None` where the recording itself holds the forces.
+    forces: Option<&'a TableForces>,
+    all_seen: bool,
+}
+
+/// A table of forces and the prefixes of its columns: right and left foot.
+struct TableForces {
+    table: Table,
+    prefixes: [&'static str; 2],
+}
+
+fn forces_of(model: &Model, forces: &TableForces) -> Vec<ForceRecording> {
+    let [right, left] = forces.prefixes;
+    let of_feet = vec![
+        ExternalForce::with_prefix("right", "calcn_r", right),
+        ExternalForce::with_prefix("left", "calcn_l", left),
+    ];
+    let loads = ExternalLoads { name: "feet".into(), datafile: None, forces: of_feet };
+    force_recordings(model, &loads, &forces.table, &mut Findings::default()).unwrap()
 }
 
 fn recording(file: &File) -> LaboratoryRecording {
@@ -104,13 +138,20 @@ fn fitted(
     walk: &LaboratoryRecording,
     still: Option<&LaboratoryRecording>,
     body: &Body<'_>,
-    plates: Vec<Event>,
-    all_seen: bool,
+    Plates { events: plates, forces, all_seen }: Plates<'_>,
 ) -> Recorded {
     let settings = FitSettings::default();
     let body = body_in_motion(walk, still, body, &settings, &[], &mut Findings::default(), &mut |_| ()).unwrap();
+    let forces = forces.map_or_else(
+        || body.plate_forces(),
+        |table| {
+            let mut forces = forces_of(&body.subject.model, table);
+            forces.iter_mut().for_each(|force| force.turn(&body.laboratory.world_from_lab));
+            forces
+        },
+    );
     let (model, soles) = (body.subject.model, body.subject.person.soles);
-    Recorded { name, subject, model, motion: body.fit.motion, soles, plates, all_seen }
+    Recorded { name, subject, model, motion: body.fit.motion, soles, plates, forces, all_seen }
 }
 
 fn opensim(data: &Path) -> Vec<Recorded> {
@@ -122,11 +163,16 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         let markers = markers_from_trc(&trc, &mut Findings::default()).unwrap();
         LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() }
     };
-    let forces = |file: String, right: &str, left: &str, window: [f64; 2]| {
+    let read = |file: String, prefixes: [&'static str; 2]| {
         let (table, _) = Table::read_storage(&std::fs::read(data.join(file)).unwrap()).unwrap();
+        TableForces { table, prefixes }
+    };
+    let events = |forces: &TableForces, window: [f64; 2]| {
+        let table = &forces.table;
         let mut out = Vec::new();
-        for (side, column) in [(R, right), (L, left)] {
-            for contact in contacts(table.times().unwrap(), table.column(column).unwrap()) {
+        for (side, prefix) in [R, L].into_iter().zip(forces.prefixes) {
+            let column = table.column(&format!("{prefix}vy")).unwrap();
+            for contact in contacts(table.times().unwrap(), column) {
                 let event = |kind, time_s| Event { side, kind, time_s };
                 out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
                 out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
@@ -137,12 +183,14 @@ fn opensim(data: &Path) -> Vec<Recorded> {
     };
     let [small, large] = [format!("{gait}/subject01_simbody.osim"), format!("{walk}/subject_walk_scaled.osim")];
     let [small, large] = [model(&small), model(&large)];
-    let of_markers =
-        forces(format!("{gait}/subject01_walk1_grf.mot"), "ground_force_vy", "1_ground_force_vy", [0.05, 2.4]);
-    let long = format!("{gait}/core-id-test/subject01_walk1_grf.mot");
-    let of_angles = forces(long, "ground_force_vy", "l_ground_force_vy", [0.55, 3.95]);
-    let of_walk = forces(format!("{walk}/grf_walk.mot"), "ground_force_r_vy", "ground_force_l_vy", [0.1, 2.3]);
-    let of_run = forces(format!("{run}/grf_run.mot"), "R_ground_force_vy", "L_ground_force_vy", [0.3, 5.25]);
+    let by_markers = read(format!("{gait}/subject01_walk1_grf.mot"), ["ground_force_", "1_ground_force_"]);
+    let by_angles = read(format!("{gait}/core-id-test/subject01_walk1_grf.mot"), ["ground_force_", "l_ground_force_"]);
+    let by_walk = read(format!("{walk}/grf_walk.mot"), ["ground_force_r_", "ground_force_l_"]);
+    let by_run = read(format!("{run}/grf_run.mot"), ["R_ground_force_", "L_ground_force_"]);
+    let of_markers = events(&by_markers, [0.05, 2.4]);
+    let of_angles = events(&by_angles, [0.55, 3.95]);
+    let of_walk = events(&by_walk, [0.1, 2.3]);
+    let of_run = events(&by_run, [0.3, 5.25]);
     let body = |model| Body::Model { model, mass: None };
     let table = Table::read_storage(&std::fs::read(data.join(gait).join("subject01_walk1_ik.mot")).unwrap()).unwrap().0;
     let angles = Recorded {
@@ -152,6 +200,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         soles: ambulo::analysis::feasibility::Person::of_model(&small).soles,
         model: small.clone(),
         plates: of_angles,
+        forces: forces_of(&small, &by_angles),
         all_seen: true,
     };
     let person =
@@ -165,11 +214,24 @@ fn opensim(data: &Path) -> Vec<Recorded> {
             &trc(gait, "subject01_walk1.trc"),
             None,
             &body(&small),
-            of_markers,
-            true,
+            Plates { events: of_markers, forces: Some(&by_markers), all_seen: true },
         ),
         angles,
-        fitted("rajagopal-walk", "rajagopal-walk", &trc(walk, "markers_walk.trc"), None, &body(&large), of_walk, false),
-        fitted("rajagopal-run", "rajagopal-run", &markers, Some(&still), &runner, of_run, true),
+        fitted(
+            "rajagopal-walk",
+            "rajagopal-walk",
+            &trc(walk, "markers_walk.trc"),
+            None,
+            &body(&large),
+            Plates { events: of_walk, forces: Some(&by_walk), all_seen: false },
+        ),
+        fitted(
+            "rajagopal-run",
+            "rajagopal-run",
+            &markers,
+            Some(&still),
+            &runner,
+            Plates { events: of_run, forces: Some(&by_run), all_seen: true },
+        ),
     ]
 }

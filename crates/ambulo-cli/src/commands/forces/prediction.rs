@@ -50,6 +50,7 @@ pub(super) fn compute(
     predicted.weigh(model, window_s, origin.standing_kg());
     let order = CheckOrder { model, soles: &person.soles, thresholds, window_s, standing_kg: origin.standing_kg() };
     let checks = predicted.checks(&order, findings);
+    clock.lap("checks");
     let comparison = seen.and_then(|seen| predicted.agreement(model, &seen));
     if comparison.is_none() && predicted.measured.is_some() {
         findings.warn(

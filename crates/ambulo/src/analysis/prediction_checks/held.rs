@@ -19,7 +19,7 @@ pub(super) fn check(record: &Record, low_passed: &LowPassed, judgement: &mut Jud
 /// The low-pass reaches over what lasts less than twice its reach: such flights are not seen.
 fn held(record: &Record, low_passed: &LowPassed, judgement: &mut Judgement<'_>) {
     let looked = Looked { name: "held_without_feet", allowed: [f64::NEG_INFINITY, HELD_BW], unit: "BW" };
-    let nobody = low_passed.instants.iter().filter(|instant| instant.places.is_empty());
+    let nobody = low_passed.instants.iter().filter(|instant| !instant.someone_stands);
     let series: Vec<(f64, f64)> = nobody.map(|i| (i.time_s, i.vertical(record))).collect();
     let Some(found) = lasting(&series, low_passed.step_s, SHORTEST_S) else {
         return judgement.skip(looked, "a foot stands at all times, or flights are short");

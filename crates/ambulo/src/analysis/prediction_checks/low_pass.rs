@@ -24,10 +24,13 @@ pub(super) struct LowPassed {
     pub(super) instants: Vec<Instant>,
     /// Time from one to the next [s].
     pub(super) step_s: f64,
+    /// The same in frames, and how far the low-pass reaches.
+    stride: usize,
+    reach: usize,
 }
 
 /// The low-passed record at one instant.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Instant {
     pub(super) frame: usize,
     pub(super) time_s: f64,
@@ -35,8 +38,8 @@ pub(super) struct Instant {
     pub(super) mean: Wrench,
     /// Mean height of what stands [m].
     height: f64,
-    /// Points of the soles that stand meanwhile [m]; none while nobody stands.
-    pub(super) places: Vec<Vec3>,
+    /// Whether a foot stands within the reach.
+    pub(super) someone_stands: bool,
     /// The only foot that stands at this instant.
     pub(super) alone: Option<usize>,
 }
@@ -49,27 +52,22 @@ pub(super) fn low_passed(record: &Record) -> LowPassed {
         (0..=reach).map(|i| (-0.5 * (i as f64 * record.grid.step_s / sigma).powi(2)).exp()).collect();
     let stride = record.frames_in(EVERY_S);
     let end = record.grid.frames.saturating_sub(reach);
-    let instants = (reach..end).step_by(stride).map(|frame| instant(record, frame, &weights, stride)).collect();
-    LowPassed { instants, step_s: stride as f64 * record.grid.step_s }
+    let instants = (reach..end).step_by(stride).map(|frame| instant(record, frame, &weights)).collect();
+    LowPassed { instants, step_s: stride as f64 * record.grid.step_s, stride, reach }
 }
 
-fn instant(record: &Record, frame: usize, weights: &[f64], stride: usize) -> Instant {
+fn instant(record: &Record, frame: usize, weights: &[f64]) -> Instant {
     let reach = weights.len() - 1;
     let (mut sum, mut whole) = (Wrench::ZERO, 0.0);
-    let (mut height, mut standing, mut places) = (0.0, 0.0, Vec::new());
+    let (mut height, mut standing) = (0.0, 0.0);
     for near in frame - reach..=frame + reach {
-        let apart = near.abs_diff(frame);
-        let weight = weights[apart];
+        let weight = weights[near.abs_diff(frame)];
         whole += weight;
         sum.force += record.total[near].force * weight;
         sum.moment += record.total[near].moment * weight;
-        for (soles, on) in record.soles.iter().zip(&record.stands_on) {
-            let Some(floor) = on[near] else { continue };
+        for floor in record.stands_on.iter().filter_map(|on| on[near]) {
             height += weight * floor;
             standing += weight;
-            if apart % stride == 0 || apart == reach {
-                places.extend(soles[near]);
-            }
         }
     }
     let stands = |foot: usize| record.stands_on[foot][frame].is_some();
@@ -78,8 +76,21 @@ fn instant(record: &Record, frame: usize, weights: &[f64], stride: usize) -> Ins
         time_s: record.grid.time(frame),
         mean: Wrench { force: sum.force / whole, moment: sum.moment / whole },
         height: if standing > 0.0 { height / standing } else { 0.0 },
-        places,
+        someone_stands: standing > 0.0,
         alone: (0..2).find(|&foot| stands(foot) && !stands(1 - foot)),
+    }
+}
+
+impl LowPassed {
+    /// Points of the soles that stand within the reach of an instant [m].
+    pub(super) fn places(&self, record: &Record, instant: &Instant) -> Vec<Vec3> {
+        let (first, last) = (instant.frame - self.reach, instant.frame + self.reach);
+        let frames = (first..last).step_by(self.stride).chain([last]);
+        let of_frame = |frame: usize| {
+            let feet = record.soles.iter().zip(&record.stands_on);
+            feet.filter(move |(_, on)| on[frame].is_some()).flat_map(move |(soles, _)| soles[frame])
+        };
+        frames.flat_map(of_frame).collect()
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) fn check(
     let axes = level_axes(record.up);
     let outside = |instant: &Instant| {
         let in_plane = |p: Vec3| record.plane_normal.map_or(p, |n| p - n * n.dot(&p));
-        let places: Vec<Vec3> = instant.places.iter().map(|p| in_plane(*p)).collect();
+        let places: Vec<Vec3> = low_passed.places(record, instant).into_iter().map(in_plane).collect();
         let base = BaseOfSupport::around(&places, radius, axes)?;
         let outside = base.outside(in_plane(instant.center(record)?));
         Some((instant.time_s, outside.norm()))

@@ -36,8 +36,12 @@ impl Known {
     /// The total wrench: known where it is a number, found elsewhere.
     pub(super) fn total(&self, found: Vec<Wrench>) -> Vec<Wrench> {
         let Some(known) = &self.total else { return found };
-        let is_known = |w: &Wrench| w.force.iter().chain(w.moment.iter()).all(|x| x.is_finite());
-        known.iter().zip(found).map(|(known, found)| if is_known(known) { *known } else { found }).collect()
+        known.iter().zip(found).map(|(known, found)| if is_number(known) { *known } else { found }).collect()
+    }
+
+    /// The total wrench in a frame, where it is known.
+    pub(super) fn total_at(&self, frame: usize) -> Option<Wrench> {
+        self.total.as_ref().map(|total| total[frame]).filter(is_number)
     }
 
     /// The right foot's share of the vertical force in a frame.
@@ -49,4 +53,8 @@ impl Known {
     pub(super) fn center_at(&self, foot: usize, frame: usize) -> Option<Vec3> {
         self.centers.as_ref().map(|c| c[foot][frame]).filter(|center| center.iter().all(|x| x.is_finite()))
     }
+}
+
+fn is_number(load: &Wrench) -> bool {
+    load.force.iter().chain(load.moment.iter()).all(|x| x.is_finite())
 }

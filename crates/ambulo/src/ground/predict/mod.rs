@@ -59,7 +59,7 @@ pub struct Prediction {
     pub rule: &'static str,
 }
 
-/// Standard deviations of what was predicted for a foot, one entry a frame; zero while it is unloaded.
+/// Standard deviations of what was predicted for a foot, one entry a frame; zero while it does not stand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootDeviation {
     /// Which foot.
@@ -140,7 +140,7 @@ fn keep_on_the_ground(feet: &mut [FootLoads; 2], up: Vec3, known: &Known) {
     for frame in 0..feet[0].force.len() {
         let vertical = [feet[0].force[frame].dot(&up), feet[1].force[frame].dot(&up)];
         if let Some(share) = known.right_share_at(frame) {
-            let whole = vertical[0] + vertical[1];
+            let whole = known.total_at(frame).map_or(vertical[0] + vertical[1], |total| total.force.dot(&up));
             feet[0].force[frame] += up * (share * whole - vertical[0]);
             feet[1].force[frame] += up * ((1.0 - share) * whole - vertical[1]);
             continue;

@@ -16,7 +16,7 @@ const LAST_PART_S: f64 = 0.2;
 const SHORTEST_S: f64 = 0.4;
 /// How far the motion is continued [s]: beyond it a low-pass at 6 Hz sees nothing.
 const AHEAD_S: f64 = 0.3;
-/// What differs by more than this share of the last part's own movement is no repetition.
+/// What differs by more than this share of the last part's own movement, about its mean, is no repetition.
 const ALIKE: f64 = 0.5;
 
 /// The motion with a probable continuation; as it was where nothing in it resembles its end. Times are `step_s` apart.
@@ -90,7 +90,8 @@ mod tests {
 
     #[test]
     fn what_never_was_before_is_not_continued() {
-        let of = |t: f64| if t < 2.0 { 0.0 } else { (t - 2.0).powi(2) };
+        // Two and a half swings in the last part, after rest: no straight line makes one of the other.
+        let of = |t: f64| if t < 2.0 { 0.0 } else { 0.1 * (78.5 * (t - 2.0)).sin() };
         for motion in [motion(of, 230), motion(of, 30)] {
             assert_eq!(continued(&motion, 0.01), motion);
         }

@@ -66,8 +66,8 @@ impl Rhythm {
 /// When the other foot last landed during a stance that ends.
 fn taken_over(fall: &Footfall, end_s: f64, falls: &[Footfall]) -> Option<f64> {
     let strike = fall.strike_s?;
-    let others = falls.iter().filter(|other| other.side != fall.side).filter_map(|other| other.strike_s);
-    others.filter(|landed| *landed > strike && *landed < end_s).last()
+    let mut others = falls.iter().filter(|other| other.side != fall.side).filter_map(|other| other.strike_s);
+    others.rfind(|landed| *landed > strike && *landed < end_s)
 }
 
 /// What has not happened yet is overdue by as much as it is still expected to take.
