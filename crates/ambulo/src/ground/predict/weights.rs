@@ -1,9 +1,9 @@
 //! How much each piece of evidence counts: standard deviations and lengths, all of them dimensionless or in seconds.
 
-use super::calibration::Calibration;
+use super::calibration::{Calibration, Spread};
 
 /// The numbers of the estimator that no law gives. Fitted across the recordings, leave one subject out, by `cargo xtask fit-ground`;
-/// docs/GROUND_FORCES.md has the table and what changes when one is changed.
+/// docs/GROUND_FIT.md has the table and what changes when one is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights {
     /// Low-pass below which motion and forces are compared [Hz]: what lies above is skin, markers and noise. Both sides go through it,
@@ -40,20 +40,28 @@ pub struct Weights {
 impl Default for Weights {
     fn default() -> Weights {
         Weights {
-            bandwidth_hz: 6.5,
-            force_noise: [0.0195, 0.0335, 0.0155],
-            moment_noise: [0.0124, 0.0043, 0.05],
-            spread: [0.55, 1.08],
-            sideways_spread: 0.05,
-            sideways_lever: 0.68,
-            strike_push: 0.03,
-            detail: [0.47, 0.35, 0.5],
-            center_spread: [0.0193, 0.0099],
-            free_moment_spread: 0.003,
-            center_lean: [0.092, 0.116],
-            center_ends: [0.0141, 0.67],
-            center_outwards: 0.006,
-            calibration: Calibration::default(),
+            bandwidth_hz: 6.23,
+            force_noise: [0.0199, 0.0173, 0.0168],
+            moment_noise: [0.0143, 0.00883, 0.0253],
+            spread: [0.747, 1.11],
+            sideways_spread: 0.0491,
+            sideways_lever: 0.597,
+            strike_push: 0.0346,
+            detail: [0.456, 0.352, 0.425],
+            center_spread: [0.0119, 0.0123],
+            free_moment_spread: 0.00315,
+            center_lean: [0.0905, 0.116],
+            center_ends: [0.0162, 0.424],
+            center_outwards: 0.00301,
+            calibration: Calibration {
+                force: [
+                    Spread { factor: 0.759, floor: 0.0196 },
+                    Spread { factor: 1.86, floor: 0.0243 },
+                    Spread { factor: 0.567, floor: 0.00906 },
+                ],
+                center: [Spread { factor: 1.97, floor: 0.00188 }, Spread { factor: 0.767, floor: 0.00579 }],
+                free_moment: Spread { factor: 1.3, floor: 0.000583 },
+            },
         }
     }
 }
