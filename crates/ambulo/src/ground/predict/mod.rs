@@ -18,6 +18,7 @@ mod stances;
 mod system;
 mod taps;
 mod total;
+mod unilateral;
 mod unknowns;
 mod weights;
 
@@ -33,10 +34,10 @@ pub use calibration::{Calibration, Spread};
 use estimate::{Evidence, estimate};
 use geometry::Geometry;
 pub use known::Known;
-use loads::FootLoads;
 use stance_curves::StanceCurves;
 use stances::{Measure, stances};
 pub use total::total_wrench;
+use unilateral::keep_on_the_ground;
 pub use weights::Weights;
 
 /// Less gravity holds nobody on the ground [m/s²].
@@ -132,29 +133,6 @@ pub enum PredictError {
         /// How many it should have.
         expected: usize,
     },
-}
-
-/// Nothing pulls a foot down: what would pull is taken from the other foot, if it stands. Where the share of the feet is known it
-/// decides.
-fn keep_on_the_ground(feet: &mut [FootLoads; 2], up: Vec3, known: &Known) {
-    for frame in 0..feet[0].force.len() {
-        let vertical = [feet[0].force[frame].dot(&up), feet[1].force[frame].dot(&up)];
-        if let Some(share) = known.right_share_at(frame) {
-            let whole = known.total_at(frame).map_or(vertical[0] + vertical[1], |total| total.force.dot(&up));
-            feet[0].force[frame] += up * (share * whole - vertical[0]);
-            feet[1].force[frame] += up * ((1.0 - share) * whole - vertical[1]);
-            continue;
-        }
-        for (pulled, other) in [(0, 1), (1, 0)] {
-            if vertical[pulled] < 0.0 {
-                let pull = std::mem::take(&mut feet[pulled].force[frame]);
-                feet[pulled].free_moment[frame] = 0.0;
-                if vertical[other] > 0.0 {
-                    feet[other].force[frame] += pull;
-                }
-            }
-        }
-    }
 }
 
 /// Predicts the forces under both feet. `soles` are those of the right and the left foot.
