@@ -109,8 +109,13 @@ fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
     let names = |passed: Option<bool>| of(passed).map(|check| check.name).collect::<Vec<_>>().join(", ");
     let off = |check: &PredictionCheck| {
-        let [low, high] = check.allowed;
-        format!("{} {:.3} {} (allowed {low} to {high})", check.name, check.value.unwrap_or(f64::NAN), check.unit)
+        let unit = if check.unit == "1" { String::new() } else { format!(" {}", check.unit) };
+        let allowed = match check.allowed {
+            [low, high] if low.is_finite() && high.is_finite() => format!("{low:.3} to {high:.3}"),
+            [low, _] if low.is_finite() => format!("at least {low:.3}"),
+            [_, high] => format!("at most {high:.3}"),
+        };
+        format!("{} {:.3}{unit} (allowed {allowed})", check.name, check.value.unwrap_or(f64::NAN))
     };
     let failed: Vec<String> = of(Some(false)).map(off).collect();
     let lines = [("passed", names(Some(true))), ("failed", failed.join(", ")), ("not judged", names(None))];

@@ -22,7 +22,7 @@ pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<
     Ok(files)
 }
 
-/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot is unloaded.
+/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot does not stand.
 fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<Column> {
     let mut columns = Vec::new();
     for side in Side::BOTH {

@@ -14,6 +14,9 @@ use ambulo::motion::filter::LowPass;
 use ambulo::report::{GroundSource, prediction_files};
 use anyhow::Result;
 
+/// A shorter motion shows no whole cycle [s].
+const SHORT_S: f64 = 1.0;
+
 /// Whether forces are predicted: if that is asked for, or if nothing measured them.
 pub(super) fn is_wanted(args: &ForcesArgs, recorded: &Recorded) -> bool {
     !args.no_ground && (args.predict || recorded.plates.is_empty())
@@ -60,10 +63,22 @@ pub(super) fn compute(
     }
     if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !*mass_is_stated {
         let message = format!(
-            "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: --mass KG or a standing trial on plates with --static; of a model, scale it to this person",
+            "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: with markers, --mass KG or a standing trial on plates with --static; recorded coordinates have the mass of their model",
             model.mass()
         );
         findings.warn("mass.unverified", message);
+    }
+    if findings.has("events.no_foot_markers") {
+        findings.warn(
+            "prediction.feet_unseen",
+            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
+        );
+    }
+    if predicted.analysis.trajectory.grid().end_s() - predicted.analysis.trajectory.grid().start_s < SHORT_S {
+        findings.warn(
+            "prediction.short",
+            "less than a gait cycle is predicted from: forces near both ends are guesses, see grf_sd.mot. hint: without --from and --to a prediction sees more",
+        );
     }
     let files = prediction_files(model, &predicted).unwrap_or_else(|error| {
         findings.warn("prediction.not_written", format!("grf_sd.mot and grf_measured.mot were not written: {error}"));

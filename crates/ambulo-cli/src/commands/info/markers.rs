@@ -32,8 +32,7 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
             sheet.text("axes", &axes.statement);
             sheet.remarks(&remarks);
             sheet.findings(&findings);
-            let ground = if stands_still(&recording) { "" } else { " --grf FORCES.mot" };
-            sheet.next(next(path, &recording, set.is_some(), &format!("--mass KG --height M{ground}")));
+            sheet.next(next(path, &recording, set.is_some(), "--mass KG --height M"));
         }
         Err(error) => {
             sheet.names("markers", &trc.markers().iter().map(|m| m.name.as_str()).collect::<Vec<_>>());

@@ -23,7 +23,7 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     sheet.value("markers", model.markers().len());
     sheet.list("findings", findings.as_slice().iter().map(ToString::to_string).collect());
     let markers = if model.markers().is_empty() { "" } else { ", or markers: ambulo forces TRIAL.c3d --model ..." };
-    sheet.next(format!("ambulo forces MOTION.mot --model {} --grf FORCES.mot -o out{markers}", path.display()));
+    sheet.next(format!("ambulo forces MOTION.mot --model {} -o out{markers}", path.display()));
     Ok(sheet)
 }
 

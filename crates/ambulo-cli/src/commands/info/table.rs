@@ -14,7 +14,7 @@ pub(super) fn describe_storage(path: &Path, bytes: &[u8]) -> Result<Sheet> {
         sheet.names("force_columns", &prefixes.iter().map(String::as_str).collect::<Vec<_>>());
         sheet.next(format!("ambulo forces MOTION.mot --model MODEL.osim --grf {shown} -o out"));
     } else if table.names().iter().filter_map(|name| coordinate_of_state_path(name)).any(|name| name == "pelvis_ty") {
-        sheet.next(format!("ambulo forces {shown} --model MODEL.osim --grf FORCES.mot -o out"));
+        sheet.next(format!("ambulo forces {shown} --model MODEL.osim -o out"));
     }
     Ok(sheet)
 }

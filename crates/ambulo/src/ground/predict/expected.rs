@@ -69,7 +69,8 @@ impl<'a> Expectation<'a> {
         let next = all.iter().map(|s| s.start_s - stance.start_s).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
         let before = all.iter().map(|s| stance.start_s - s.start_s).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
         let step_s = if next.is_finite() { next } else { before };
-        let others = all.iter().filter(|s| s.side != stance.side).map(|s| [s.start_s, s.end_s]).collect();
+        let meets = |s: &&Stance| s.side != stance.side && s.start_s < stance.end_s && s.end_s > stance.start_s;
+        let others = all.iter().filter(meets).map(|s| [s.start_s, s.end_s]).collect();
         let step_s = if step_s.is_finite() { step_s } else { 1.5 * stance.duration_s() };
         Expectation { stance, curves: stance.curves(curves), weights, measure, step_s, others }
     }

@@ -1,4 +1,4 @@
-//! Where the mass centre and the soles are, and how the shanks lean, on the instants of the estimate.
+//! Where the mass centre and the soles are, and how the shanks lean, in every frame.
 
 use crate::ground::sole::{Sole, joint_center, moved_by};
 use crate::kinematics::{Trajectory, each_body_motion};
@@ -31,7 +31,11 @@ impl Geometry {
         let masses: Vec<f64> = model.bodies().iter().map(|body| body.inertia.mass()).collect();
         let whole: f64 = masses.iter().sum();
         let feet = || Vec::with_capacity(frames);
-        let mut out = Geometry { center: feet_of(frames), velocity: feet_of(frames), feet: [feet(), feet()] };
+        let mut out = Geometry {
+            center: Vec::with_capacity(frames),
+            velocity: Vec::with_capacity(frames),
+            feet: [feet(), feet()],
+        };
         each_body_motion(model, trajectory, |_, bodies| {
             let (mut center, mut velocity) = (Vec3::zeros(), Vec3::zeros());
             for (body, mass) in bodies.iter().zip(&masses) {
@@ -55,10 +59,6 @@ impl Geometry {
         });
         out
     }
-}
-
-fn feet_of(frames: usize) -> Vec<Vec3> {
-    Vec::with_capacity(frames)
 }
 
 /// The bodies whose joint centres are knee and ankle.

@@ -2,6 +2,7 @@
 
 use super::PredictError;
 use crate::ground::footfalls::Footfalls;
+use crate::model::Side;
 use crate::spatial::{Vec3, Wrench};
 
 /// What is known and need not be found. Series have one entry a frame of the motion; not a number where nothing is known.
@@ -18,7 +19,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Whether every series is as long as the motion.
+    /// Whether every series is as long as the motion, and the stances of each foot follow each other.
     pub(super) fn check(&self, frames: usize) -> Result<(), PredictError> {
         let centers = |foot: usize| self.centers.as_ref().map(|c| c[foot].len());
         let series = [
@@ -27,6 +28,18 @@ impl Known {
             ("centre of pressure of the right foot", centers(0)),
             ("centre of pressure of the left foot", centers(1)),
         ];
+        for side in Side::BOTH {
+            let falls = self.footfalls.iter().flat_map(|footfalls| footfalls.of(side));
+            let mut free_s = f64::NEG_INFINITY;
+            for fall in falls {
+                let (strike, off) = (fall.strike_s.unwrap_or(free_s), fall.off_s.unwrap_or(f64::INFINITY));
+                if !(strike >= free_s && off >= strike) {
+                    let time_s = fall.strike_s.or(fall.off_s).unwrap_or(free_s);
+                    return Err(PredictError::Footfalls { side, time_s });
+                }
+                free_s = off;
+            }
+        }
         match series.into_iter().find_map(|(what, length)| Some((what, length.filter(|found| *found != frames)?))) {
             Some((what, found)) => Err(PredictError::Shape { what, found, expected: frames }),
             None => Ok(()),

@@ -1,8 +1,9 @@
 //! What the ground does to the feet, from the motion alone.
 //!
-//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total`]); the feet's own motion says when each
-//! stands ([`super::footfalls`]). While one foot stands it takes all. While both stand six equations face twelve unknowns, and a rule
-//! divides ([`hand_over`]): its name goes with every result.
+//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the feet's own motion says when
+//! each stands ([`super::footfalls`]); what people's feet carry who walk at this speed says what to expect of a stance. The likeliest curves
+//! under all of this are the answer, with their deviations ([`estimate`]); docs/GROUND_FORCES.md tells the method, its accuracy and its
+//! weak points. While both feet stand six equations face twelve unknowns: the rule that decides is named in every result.
 //! Pinned by: tests/ground_predict.rs
 
 mod calibration;
@@ -104,6 +105,16 @@ pub enum PredictError {
         /// Which foot.
         side: Side,
     },
+    /// A model that weighs nothing.
+    #[error(
+        "the model `{model}` has a mass of {mass} kg; expected bodies with masses. hint: from motion alone every force scales with the mass"
+    )]
+    NoMass {
+        /// Its name.
+        model: String,
+        /// Its mass [kg].
+        mass: f64,
+    },
     /// A model that nothing presses to the ground.
     #[error(
         "the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1. hint: --no-ground computes a motion without contact"
@@ -119,6 +130,26 @@ pub enum PredictError {
     Curves {
         /// Why.
         message: String,
+    },
+    /// More than memory should hold.
+    #[error(
+        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: cut the recording with --from and --to; feet that strike many times a second are a sign of noise"
+    )]
+    TooLarge {
+        /// What they would take.
+        found_mb: f64,
+        /// What they may take.
+        most_mb: f64,
+    },
+    /// Stances that are known and cannot be.
+    #[error(
+        "a known stance of the {side} foot at {time_s} s ends before it begins, or before the one before it has ended; expected stances in order of time"
+    )]
+    Footfalls {
+        /// Which foot.
+        side: Side,
+        /// When it strikes, or leaves [s].
+        time_s: f64,
     },
     /// The motion's numbers.
     #[error("the equations of the forces have no solution; expected finite numbers in the motion")]
@@ -159,6 +190,9 @@ pub fn predict(
     let up = upward(model);
     let stature = Stature::of_model(model, &at_rest(model));
     let gravity = model.gravity().norm();
+    if model.mass() <= 0.0 {
+        return Err(PredictError::NoMass { model: name(), mass: model.mass() });
+    }
     if gravity < LEAST_GRAVITY {
         return Err(PredictError::NoGravity { model: name(), gravity });
     }
@@ -182,7 +216,7 @@ pub fn predict(
         weights: &settings.weights,
         known: &settings.known,
     };
-    let mut feet = estimate(&evidence, curves).ok_or(PredictError::NoSolution)?;
+    let mut feet = estimate(&evidence, curves)?;
     keep_on_the_ground(&mut feet, up, &settings.known);
     let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
     let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {

@@ -63,9 +63,10 @@ impl Samples {
 /// Frames of a stance.
 pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize> {
     let grid = evidence.grid;
-    let frame = |time: f64| ((time - grid.start_s) / grid.step_s).clamp(0.0, grid.frames as f64);
-    let (first, end) =
-        (frame(stance.start_s).ceil() as usize, (frame(stance.end_s).floor() as usize + 1).min(grid.frames));
+    let last = grid.frames as f64;
+    let place = |time: f64| (time - grid.start_s) / grid.step_s;
+    let first = place(stance.start_s).ceil().clamp(0.0, last) as usize;
+    let end = (place(stance.end_s).floor() + 1.0).clamp(0.0, last) as usize;
     first..end.max(first)
 }
 

@@ -87,6 +87,12 @@ impl Stance {
     }
 }
 
+/// A level direction where none is better than another.
+fn any_level(up: Vec3) -> Vec3 {
+    let axis = if up.x.abs() < 0.7 { Vec3::x() } else { Vec3::z() };
+    (axis - up * axis.dot(&up)).normalize()
+}
+
 /// All stances, in the order of their strikes.
 pub(super) fn stances(
     footfalls: &Footfalls,
@@ -99,6 +105,10 @@ pub(super) fn stances(
     let spans: Vec<(&Footfall, f64, f64)> = footfalls.falls.iter().map(|fall| span(fall, grid, usual_s)).collect();
     let mut out: Vec<Stance> = Vec::new();
     for (fall, start_s, end_s) in &spans {
+        // What is shorter than a frame carries nothing.
+        if end_s - start_s < grid.step_s {
+            continue;
+        }
         let others: Vec<[f64; 2]> =
             spans.iter().filter(|(o, ..)| o.side != fall.side).map(|(_, a, b)| [*a, *b]).collect();
         out.push(stance(fall, [*start_s, *end_s], &others, grid, geometry, measure, curves));
@@ -143,11 +153,17 @@ fn stance(
     let foot = &geometry.feet[fall.side as usize][(first + last) / 2].sole;
     let pace = level(drift).norm() / measure.leg_speed_m_s;
     let heading = if pace > UNDER_WAY { level(drift) } else { level(foot[2] - foot[0]) };
-    let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| level(Vec3::x()).normalize());
+    let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| any_level(measure.up));
     let near = 0.02 * measure.leg_time_s;
-    let other_off = others.iter().map(|o| o[1]).find(|off| *off > start_s + near && *off < end_s - near);
-    let other_strike =
-        others.iter().rev().map(|o| o[0]).find(|strike| *strike > start_s + near && *strike < end_s - near);
+    // The other foot leaves a stance that began before this one, and meets the ground for one that ends after it.
+    let before = others.iter().filter(|o| o[0] <= start_s).map(|o| o[1]);
+    let other_off = before.into_iter().find(|off| *off > start_s + near && *off < end_s - near);
+    let other_strike = others
+        .iter()
+        .rev()
+        .filter(|o| o[1] >= end_s)
+        .map(|o| o[0])
+        .find(|strike| *strike > start_s + near && *strike < end_s - near);
     let meets = others.iter().any(|o| o[0] < end_s && o[1] > start_s);
     let gait = match () {
         () if end_s - start_s > LONGEST_STEP * measure.leg_time_s || pace < UNDER_WAY => Gait::Stand,

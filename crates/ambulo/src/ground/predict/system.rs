@@ -1,5 +1,6 @@
 //! The normal equations of the estimate: expectations and evidence, by number of the unknowns.
 
+use super::PredictError;
 use super::estimate::Evidence;
 use super::samples::Samples;
 use super::stances::Stance;
@@ -8,10 +9,13 @@ use super::unknowns::Unknowns;
 use crate::numerics::BandMatrix;
 use crate::spatial::{Vec3, Wrench};
 
-/// The motion's evidence is read about this often [s]: at 7 Hz neighbours tell nearly the same.
+/// The motion's evidence is read about this often [s]: at the bandwidth of [`super::Weights`] neighbours tell nearly the
+/// same.
 const OBSERVED_EVERY_S: f64 = 0.04;
 /// Within a reach of the recording's ends the motion is less certain: noise grows by this factor.
 const AT_THE_ENDS: f64 = 2.0;
+/// Most memory for the equations and their inverse: ten minutes of walking take 60 MB.
+const MOST_BYTES: f64 = 1e9;
 /// Smaller coefficients, as a share of one deviation of the noise, do not count.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -38,15 +42,21 @@ struct Rows {
 }
 
 impl System<'_> {
-    /// `None` if the equations have no solution, which finite evidence always has.
-    pub(super) fn solve(&self) -> Option<Solution> {
+    /// # Errors
+    /// Equations without a solution, which finite evidence always has, or more of them than memory should hold.
+    pub(super) fn solve(&self) -> Result<Solution, PredictError> {
         let grid = self.evidence.grid;
         let stride = self.taps.stride;
         let every = stride * ((OBSERVED_EVERY_S / grid.step_s / stride as f64).round() as usize).max(1);
         let instants = || (0..grid.frames).step_by(every);
         let ranges: Vec<Option<[usize; 2]>> = instants().map(|frame| self.range(grid.time(frame))).collect();
         let width = ranges.iter().flatten().map(|[first, last]| last - first).max().unwrap_or(0);
-        let mut matrix = BandMatrix::zeros(self.unknowns.count, width.max(self.unknowns.widest()));
+        let width = width.max(self.unknowns.widest());
+        let bytes = 2.0 * 8.0 * self.unknowns.count as f64 * (width + 1) as f64;
+        if bytes > MOST_BYTES {
+            return Err(PredictError::TooLarge { found_mb: bytes / 1e6, most_mb: MOST_BYTES / 1e6 });
+        }
+        let mut matrix = BandMatrix::zeros(self.unknowns.count, width);
         let mut values = vec![0.0; self.unknowns.count];
         // Every unknown has unit deviation about zero.
         for number in 0..self.unknowns.count {
@@ -65,9 +75,12 @@ impl System<'_> {
                 add_equation(&mut matrix, &mut values, &used, rest / noise);
             }
         }
-        let factor = matrix.factor()?;
+        let factor = matrix.factor().ok_or(PredictError::NoSolution)?;
         factor.solve(&mut values);
-        Some(Solution { values, covariances: factor.inverse_in_band() })
+        if values.iter().any(|x| !x.is_finite()) {
+            return Err(PredictError::NoSolution);
+        }
+        Ok(Solution { values, covariances: factor.inverse_in_band() })
     }
 
     /// Lowest and highest number that the taps around an instant reach.

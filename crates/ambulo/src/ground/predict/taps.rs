@@ -19,7 +19,7 @@ pub(super) struct Taps {
 impl Taps {
     pub(super) fn new(bandwidth_hz: f64, grid: TimeGrid) -> Taps {
         let sigma = (0.5 * std::f64::consts::LN_2).sqrt() / (std::f64::consts::PI * bandwidth_hz);
-        let stride = ((EVERY_S / grid.step_s) as usize).max(1);
+        let stride = ((EVERY_S / grid.step_s + 1e-6) as usize).max(1);
         let step = stride as f64 * grid.step_s;
         let count = (REACH * sigma / step).ceil() as usize;
         let weights = (0..=count).map(|i| (-0.5 * (i as f64 * step / sigma).powi(2)).exp()).collect();

@@ -66,7 +66,7 @@ impl Unknowns {
                 Component::Moment(_) => weights.detail[2],
             };
             let duration = stance.duration_s();
-            let intervals = (duration / (detail * measure.leg_time_s)).round().clamp(3.0, 5000.0) as usize;
+            let intervals = (duration / (detail * measure.leg_time_s)).round().max(3.0) as usize;
             Curve { start_s: stance.start_s, spacing_s: duration / intervals as f64, numbers: vec![0; intervals + 3] }
         };
         let mut curves: Vec<[Curve; 6]> =

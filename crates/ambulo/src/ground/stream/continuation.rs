@@ -64,7 +64,9 @@ fn unlike(column: &[f64], back: usize, last: usize) -> f64 {
         let (x, y) = (i as f64 - middle, a - b);
         (sum, squares, turned, spread) = (sum + y, squares + y * y, turned + x * y, spread + x * x);
     }
-    (squares - sum * sum / last as f64 - turned * turned / spread).max(0.0)
+    let left = squares - sum * sum / last as f64 - turned * turned / spread;
+    // Pieces with a gap are like nothing.
+    if left.is_nan() { f64::INFINITY } else { left.max(0.0) }
 }
 
 #[cfg(test)]
