@@ -22,7 +22,7 @@ const fn number(
 }
 
 /// All of them.
-pub(super) const NUMBERS: [Number; 24] = [
+pub(super) const NUMBERS: [Number; 23] = [
     number("bandwidth_hz", "Hz", [4.0, 15.0], |w| &mut w.bandwidth_hz),
     number("force_noise forward", "BW", [0.005, 0.08], |w| &mut w.force_noise[0]),
     number("force_noise up", "BW", [0.005, 0.1], |w| &mut w.force_noise[1]),
@@ -44,8 +44,7 @@ pub(super) const NUMBERS: [Number; 24] = [
     number("center_lean half-way", "rad", [0.02, 0.25], |w| &mut w.center_lean[0]),
     number("center_lean over", "rad", [0.04, 0.4], |w| &mut w.center_lean[1]),
     number("center_ends heel", "stature", [0.0, 0.03], |w| &mut w.center_ends[0]),
-    number("center_ends flat", "1", [-0.4, 0.8], |w| &mut w.center_ends[1]),
-    number("center_ends raised", "1", [0.0, 1.2], |w| &mut w.center_ends[2]),
+    number("center_ends toe", "1", [0.2, 1.0], |w| &mut w.center_ends[1]),
     number("center_outwards", "stature", [-0.005, 0.012], |w| &mut w.center_outwards),
 ];
 

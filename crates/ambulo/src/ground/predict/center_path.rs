@@ -2,7 +2,7 @@
 //!
 //!   p = rear + (front - rear) s(θ)       s(θ) = σ((θ - θ₀) / θ₁), scaled to 0 at θ = -20° and to 1 at 22°
 //!
-//! θ is the forward lean of the shank, σ the logistic function; the front lies on the toes, further ahead the more the heel is raised. That the centre of pressure
+//! θ is the forward lean of the shank, σ the logistic function; the front lies between ball and tip. That the centre of pressure
 //! follows the shank, much the same at every speed, is the roll-over shape of Hansen, Childress, Knox 2004 (unverified); against
 //! plates the shank's lean told the path better than time, the foot's pitch or the mass centre, subjects left out one by one
 //! (docs/GROUND_FORCES.md). Without a shank the path goes evenly with time.
@@ -26,24 +26,15 @@ pub(super) fn center_path(place: &FootPlace, stance: &Stance, time: f64, measure
     let [rear, ball, tip] = place.sole;
     let along = level(tip - rear).try_normalize(f64::MIN_POSITIVE).unwrap_or(stance.forward);
     let outwards = along.cross(&up) * if stance.side == Side::Right { 1.0 } else { -1.0 };
-    let [behind, flat, raised] = weights.center_ends;
+    let [behind, front] = weights.center_ends;
     let back = rear - along * (behind * measure.height_m);
-    // The toes stay on the ground while the heel rises, whether the model bends them or not.
-    let front = ball + along * ((tip - ball).norm() * (flat + raised * heel_rise(rear, ball, up)));
+    let front = ball + (tip - ball) * front;
     let share = match place.shank {
         Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), weights.center_lean),
         None => stance.own_phase(time),
     };
     let path = back + (front - back) * share + outwards * (weights.center_outwards * measure.height_m);
     level(path) + up * stance.height_m
-}
-
-/// From 0 with the sole flat to 1 with the heel raised by 40 degrees, as it is at toe-off.
-fn heel_rise(rear: Vec3, ball: Vec3, up: Vec3) -> f64 {
-    const AT_TOE_OFF: f64 = 0.7;
-    let sole = rear - ball;
-    let height = sole.dot(&up);
-    (height.atan2((sole - up * height).norm()) / AT_TOE_OFF).clamp(0.0, 1.0)
 }
 
 fn share(lean: f64, [middle, width]: [f64; 2]) -> f64 {

@@ -29,9 +29,8 @@ pub struct Weights {
     pub free_moment_spread: f64,
     /// Lean of the shank at which the centre of pressure is half-way from heel to ball, and the lean over which it goes [rad].
     pub center_lean: [f64; 2],
-    /// Where the centre of pressure begins behind the rear of the sole [stature], and where it ends from ball (0) to tip (1) of the toes:
-    /// while the foot is flat, and how much further with the heel raised.
-    pub center_ends: [f64; 3],
+    /// Where the centre of pressure begins behind the rear of the sole, and where it ends from ball (0) to tip (1) [stature, 1].
+    pub center_ends: [f64; 2],
     /// How far the centre of pressure lies outwards of the middle of the foot [stature].
     pub center_outwards: f64,
     /// How far predictions are off in truth, against what the equations say.
@@ -52,7 +51,7 @@ impl Default for Weights {
             center_spread: [0.0119, 0.0123],
             free_moment_spread: 0.00315,
             center_lean: [0.0905, 0.116],
-            center_ends: [0.0162, 0.3, 0.4],
+            center_ends: [0.0162, 0.424],
             center_outwards: 0.00301,
             calibration: Calibration {
                 force: [
