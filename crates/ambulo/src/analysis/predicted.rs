@@ -10,13 +10,17 @@ use super::recording::{
 use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Finding, Findings};
-use crate::ground::predict::{PredictSettings, Prediction, predict};
+use crate::ground::predict::{Known, PredictSettings, Prediction, predict};
 use crate::ground::sole::Sole;
 use crate::ground::upward;
 use crate::kinematics::Trajectory;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
-use crate::motion::{ForceRecording, Motion, TimeGrid, Window};
+use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
+
+/// Low-pass of the motion that a prediction is made from, whatever the one is that joint moments are computed with: the estimator's numbers
+/// were fitted behind it, and compare nothing above (docs/GROUND_FIT.md).
+const MOTION_LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 
 /// Low-pass of the plates against which a prediction is held, whatever the motion's: 20 Hz, second order, forwards and backwards.
 pub const PLATES_LOW_PASS: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
@@ -81,7 +85,42 @@ pub fn analyse_predicted(
 ) -> Result<PredictedAnalysis, AnalysisError> {
     let trajectory = trajectory_within(model, motion, &[], settings, settings.window, findings)?;
     stage("smooth");
-    analyse_predicted_trajectory(model, trajectory, plates, settings.instrumented, order, findings, stage)
+    let prediction = match prediction_of_whole_motion(model, motion, settings, trajectory.grid(), order, findings) {
+        Some(prediction) => prediction?,
+        None => predict(model, &trajectory, order.soles, order.settings, findings)?,
+    };
+    stage("prediction");
+    with_plates(model, trajectory, prediction, plates, settings.instrumented, order, findings, stage)
+}
+
+/// The prediction from all that was recorded around the window, behind the low-pass that predictions are made for, whatever that of the
+/// motion is. `None` where the recording around the window cannot be used, or parts of the answer are given.
+fn prediction_of_whole_motion(
+    model: &Model,
+    motion: &Motion,
+    settings: Settings,
+    grid: TimeGrid,
+    order: &PredictOrder<'_>,
+    findings: &mut Findings,
+) -> Option<Result<Prediction, AnalysisError>> {
+    /// Frames are the same instants if they differ by less than this share of a step.
+    const SAME_INSTANT: f64 = 1e-3;
+    let is_the_same =
+        settings.smoother == Smoother::Butterworth(MOTION_LOW_PASS) && settings.window == Window::default();
+    if is_the_same || order.settings.known != Known::default() {
+        return None;
+    }
+    let settings = Settings { smoother: Smoother::Butterworth(MOTION_LOW_PASS), ..settings };
+    let whole = trajectory_within(model, motion, &[], settings, Window::default(), &mut Findings::default()).ok()?;
+    let offset = (grid.start_s - whole.grid().start_s) / grid.step_s;
+    let first = offset.round().max(0.0) as usize;
+    let same_steps = (whole.grid().step_s / grid.step_s - 1.0).abs() * (grid.frames as f64) < SAME_INSTANT;
+    let is_inside = (offset - first as f64).abs() < SAME_INSTANT && first + grid.frames <= whole.grid().frames;
+    if !(same_steps && is_inside) {
+        return None;
+    }
+    let found = predict(model, &whole, order.soles, order.settings, findings);
+    Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }
 
 /// The same for a motion that is complete. `within` is the time in which plates measured everything, if that is known.
@@ -99,6 +138,21 @@ pub fn analyse_predicted_trajectory(
 ) -> Result<PredictedAnalysis, AnalysisError> {
     let prediction = predict(model, &trajectory, order.soles, order.settings, findings)?;
     stage("prediction");
+    with_plates(model, trajectory, prediction, plates, within, order, findings, stage)
+}
+
+/// Both analyses: with the prediction, and with plates if there are any.
+#[expect(clippy::too_many_arguments, reason = "the two ways to a prediction meet here")]
+fn with_plates(
+    model: &Model,
+    trajectory: Trajectory,
+    prediction: Prediction,
+    plates: &[ForceRecording],
+    within: Option<Window>,
+    order: &PredictOrder<'_>,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<PredictedAnalysis, AnalysisError> {
     let filter = order.plates_filter.filter(|filter| plates.iter().all(|plate| allows(plate, *filter)));
     let source = ForceSource::Measured { filter, within };
     let mut of_plates = Findings::default();

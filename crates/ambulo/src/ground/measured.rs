@@ -25,6 +25,7 @@ use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::gaps::rows_around;
 use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
+use std::ops::Range;
 
 /// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
@@ -89,6 +90,19 @@ impl BodyForces {
     pub fn on_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: &[f64]) -> BodyForces {
         let frames = force.len().min(moment.len()).min(surface_height.len());
         combine(body, &[(&force[..frames], &moment[..frames], &surface_height[..frames])], up)
+    }
+
+    /// Some of the frames.
+    #[must_use]
+    pub(crate) fn within(&self, frames: Range<usize>) -> BodyForces {
+        BodyForces {
+            body: self.body,
+            force: self.force[frames.clone()].to_vec(),
+            moment: self.moment[frames.clone()].to_vec(),
+            center_of_pressure: self.center_of_pressure[frames.clone()].to_vec(),
+            free_moment: self.free_moment[frames.clone()].to_vec(),
+            surface_height: self.surface_height[frames].to_vec(),
+        }
     }
 
     fn load(&self) -> LoadSeries {

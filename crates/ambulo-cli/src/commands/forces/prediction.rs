@@ -74,10 +74,11 @@ pub(super) fn compute(
             "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
         );
     }
-    if predicted.analysis.trajectory.grid().end_s() - predicted.analysis.trajectory.grid().start_s < SHORT_S {
+    let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);
+    if recorded_s < SHORT_S {
         findings.warn(
             "prediction.short",
-            "less than a gait cycle is predicted from: forces near both ends are guesses, see grf_sd.mot. hint: without --from and --to a prediction sees more",
+            "the recording holds less than a gait cycle: forces near its ends are guesses, see grf_sd.mot",
         );
     }
     let files = prediction_files(model, &predicted).unwrap_or_else(|error| {

@@ -23,13 +23,14 @@ mod unilateral;
 mod unknowns;
 mod weights;
 
-use super::footfalls::{Footfalls, footfalls};
+use super::footfalls::{Footfall, Footfalls, footfalls};
 use super::plates::foot_bodies;
 use super::sole::{Sole, Stature, at_rest};
 use super::{BodyForces, GroundForces, upward};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{Model, Side};
+use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 pub use calibration::{Calibration, Spread};
 use estimate::{Evidence, estimate};
@@ -37,6 +38,7 @@ use geometry::Geometry;
 pub use known::Known;
 use stance_curves::StanceCurves;
 use stances::{Measure, stances};
+use std::ops::Range;
 pub use total::total_wrench;
 use unilateral::keep_on_the_ground;
 pub use weights::Weights;
@@ -72,6 +74,37 @@ pub struct FootDeviation {
     pub center: Vec<Vec3>,
     /// Of the free moment [N.m].
     pub free_moment: Vec<f64>,
+}
+
+impl Prediction {
+    /// Some of its frames, those of `grid`; stances that reach beyond are cut there.
+    #[must_use]
+    pub(crate) fn within(&self, frames: Range<usize>, grid: TimeGrid) -> Prediction {
+        let deviation = |of: &FootDeviation| FootDeviation {
+            side: of.side,
+            force: of.force[frames.clone()].to_vec(),
+            center: of.center[frames.clone()].to_vec(),
+            free_moment: of.free_moment[frames.clone()].to_vec(),
+        };
+        let (first, last) = (grid.start_s, grid.end_s());
+        let overlaps = |fall: &&Footfall| {
+            fall.strike_s.is_none_or(|strike| strike < last) && fall.off_s.is_none_or(|off| off > first)
+        };
+        let cut = |fall: &Footfall| Footfall {
+            strike_s: fall.strike_s.filter(|strike| *strike >= first),
+            off_s: fall.off_s.filter(|off| *off <= last),
+            ..*fall
+        };
+        let falls = self.footfalls.falls.iter().filter(overlaps).map(cut).collect();
+        let bodies = self.ground.bodies.iter().map(|body| body.within(frames.clone())).collect();
+        Prediction {
+            ground: GroundForces { bodies },
+            deviations: self.deviations.iter().map(deviation).collect(),
+            footfalls: Footfalls { falls, ..self.footfalls.clone() },
+            total: self.total[frames.clone()].to_vec(),
+            rule: self.rule,
+        }
+    }
 }
 
 /// How forces are predicted.

@@ -2,8 +2,8 @@
 
 use super::calibration::{Calibration, Spread};
 
-/// The numbers of the estimator that no law gives. Fitted across the recordings, leave one subject out, by `cargo xtask fit-ground`;
-/// docs/GROUND_FIT.md has the table and what changes when one is changed.
+/// The numbers of the estimator that no law gives, fitted on the recordings with plates by `cargo xtask fit-ground`; docs/GROUND_FIT.md has
+/// them, how they fare on subjects who were left out, and what changes when one is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights {
     /// Low-pass below which motion and forces are compared [Hz]: what lies above is skin, markers and noise. Both sides go through it,
