@@ -375,14 +375,16 @@ fn mass_events_and_moments_of_the_figure_come_back_over_the_whole_recording() {
 fn what_info_says_to_type_next_can_be_typed() {
     let bench = with_demo("next");
     let (_, text) = info(&bench, "demo/input/walk.trc");
-    assert!(text.contains("--grf FORCES.mot -o out") && text.contains("or --model MODEL.osim"), "{text}");
+    assert!(text.contains("--height M -o out") && text.contains("or --model MODEL.osim"), "{text}");
     bench.run(&["convert", "demo/input/walk.c3d", "walk.trc", "--world"]).done();
     bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
     let (_, text) = info(&bench, "walk.trc");
-    let next = "next: ambulo forces walk.trc --static STANDING --mass KG --height M --grf FORCES.mot -o out";
+    let next = "next: ambulo forces walk.trc --static STANDING --mass KG --height M -o out";
     assert!(text.contains(next), "{text}");
     let run = ["forces", "walk.trc", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
     bench.run(&[&run[..], &["--grf", "grf.mot", "-o", "out", "--quiet"]].concat()).done();
+    // Without forces they are predicted; a figure without sway passes its feet, and that is a verdict.
+    bench.run(&[&run[..], &["-o", "predicted", "--quiet"]].concat()).infeasible();
     // The standing figure has both feet on one plate.
     let (_, text) = info(&bench, "demo/input/standing.c3d");
     assert!(text.contains("s: two feet: the right foot stood on it"), "{text}");
