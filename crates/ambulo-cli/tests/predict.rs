@@ -61,8 +61,13 @@ fn all_files_share_the_samples_of_the_motion_and_name_their_columns() {
                 assert!(found.column(&stem).is_some(), "{stem}");
                 let deviation = deviations.column(&format!("{stem}_sd")).unwrap();
                 let vertical = found.column(&format!("ground_force_{side}_vy")).unwrap();
-                let same = deviation.iter().zip(vertical).all(|(sd, force)| *sd >= 0.0 && (*force > 0.0 || *sd == 0.0));
-                assert!(same, "{stem}: deviations only where there is a force");
+                assert!(deviation.iter().all(|sd| *sd >= 0.0), "{stem}: a deviation is no number below zero");
+                // A foot that stands may carry too little to be written; one that swings deviates by nothing.
+                let is_force = stem.contains("_v");
+                let covered = deviation.iter().zip(vertical).all(|(sd, force)| !is_force || *force <= 0.0 || *sd > 0.0);
+                assert!(covered, "{stem}: a force without a deviation");
+                let swings = deviation.iter().filter(|sd| **sd <= 0.0).count();
+                assert!(4 * swings > deviation.len(), "{stem}: {swings} of {} samples swing", deviation.len());
             }
         }
         assert!(deviations.column(&format!("ground_torque_{side}_y_sd")).is_some());
