@@ -1,7 +1,7 @@
 //! Forces under the feet while the motion still comes in: one frame in, the forces of a frame a little earlier out.
 //!
 //! The last few seconds are kept. With every frame they are smoothed, and the forces are predicted by the same code as those of a whole
-//! recording ([`crate::motion::smooth`], [`predict`](crate::ground::predict::predict)); what it says of the frame at the delay is
+//! recording ([`crate::motion::smooth`], [`predict`]); what it says of the frame at the delay is
 //! given out. That frame has only the delay after it: the smoothing ends there, and a stance that lasts longer is as long as the
 //! stances before it. docs/STREAMING.md tells what this costs against a whole recording.
 //!
