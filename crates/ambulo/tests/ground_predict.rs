@@ -102,7 +102,7 @@ fn both_feet_together_give_the_total() {
             swings += usize::from(!deviates);
         }
     }
-    assert!(swings > 2 * right.force.len() / 5, "a foot swings for about 40 % of a walk: {swings}");
+    assert!(swings > 3 * right.force.len() / 5, "each foot swings for about 40 % of a walk: {swings}");
 }
 
 #[test]
@@ -150,4 +150,82 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     let footless = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
     let error = refused(&footless, &soles, &PredictSettings::default());
     assert!(error.to_string().contains("horse") && error.to_string().contains("--no-ground"), "{error}");
+}
+
+#[test]
+fn forces_forward_and_up_follow_those_of_the_simulator() {
+    let walk = walk();
+    let (prediction, applied) = (predicted(&walk, Known::default()), applied(&walk));
+    let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
+    for (found, truth) in prediction.ground.bodies.iter().zip(&applied.bodies) {
+        for (axis, most) in [(0, 0.05), (1, 0.15)] {
+            let pairs: Vec<(f64, f64)> =
+                found.force.iter().zip(&truth.force).map(|(a, b)| (a[axis], b[axis])).collect();
+            let rms = |of: &dyn Fn(&(f64, f64)) -> f64| {
+                (pairs.iter().map(|pair| of(pair).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt() / weight
+            };
+            let (apart, size) = (rms(&|(a, b)| a - b), rms(&|(_, b)| *b));
+            println!(
+                "axis {axis}: {:.2} % of body weight from the truth, which has {:.2} %",
+                100.0 * apart,
+                100.0 * size
+            );
+            // A wrong sign would be off by twice the size.
+            assert!(apart < most && apart < 0.5 * size, "axis {axis}: {apart} of {size}");
+        }
+    }
+}
+
+#[test]
+fn twice_the_mass_takes_twice_the_force() {
+    let walk = walk();
+    let soles = Person::of_human(&walk.human).soles;
+    let model = &walk.human.model;
+    let heavier = model.scaled(&vec![Vec3::repeat(1.0); model.bodies().len()], Some(2.0 * model.mass())).unwrap();
+    let one = predicted(&walk, Known::default());
+    let two =
+        predict(&heavier, &walk.trajectory, &soles, &PredictSettings::default(), &mut Findings::default()).unwrap();
+    for (a, b) in one.ground.bodies.iter().zip(&two.ground.bodies) {
+        for (a, b) in a.force.iter().zip(&b.force) {
+            assert!((a * 2.0 - b).norm() < 1e-6 * (1.0 + b.norm()), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_known_stance_before_the_recording_changes_nothing_and_one_that_runs_backwards_is_refused() {
+    let walk = walk();
+    let footfalls = true_footfalls(&walk, &applied(&walk));
+    let fall = |strike_s, off_s| Footfall { strike_s: Some(strike_s), off_s: Some(off_s), ..footfalls.falls[0] };
+    let with = |fall: Footfall| {
+        let mut more = footfalls.clone();
+        more.falls.insert(0, fall);
+        Known { footfalls: Some(more), ..Known::default() }
+    };
+    let plain = predicted(&walk, Known { footfalls: Some(footfalls.clone()), ..Known::default() });
+    // As long as the others, so that what is usual stays what it was.
+    let mut usual: Vec<f64> = footfalls.falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?)).collect();
+    usual.sort_by(f64::total_cmp);
+    let earlier = predicted(&walk, with(fall(-60.0, -60.0 + usual[usual.len() / 2])));
+    for (a, b) in plain.ground.bodies.iter().zip(&earlier.ground.bodies) {
+        let worst = largest_difference(&a.force, &b.force);
+        assert!(worst < 0.1, "{worst} N");
+    }
+    let soles = Person::of_human(&walk.human).soles;
+    let settings = PredictSettings { known: with(fall(-59.4, -60.0)), ..PredictSettings::default() };
+    let error = predict(&walk.human.model, &walk.trajectory, &soles, &settings, &mut Findings::default()).unwrap_err();
+    assert!(matches!(error, PredictError::Footfalls { .. }), "{error}");
+}
+
+#[test]
+fn gravity_that_holds_nobody_is_refused() {
+    let walk = walk();
+    let model = &walk.human.model;
+    let bodies = model.bodies().to_vec();
+    let afloat =
+        Model::new("afloat", model.gravity() * 1e-3, bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
+    let soles = Person::of_human(&walk.human).soles;
+    let settings = PredictSettings::default();
+    let error = predict(&afloat, &walk.trajectory, &soles, &settings, &mut Findings::default()).unwrap_err();
+    assert!(matches!(error, PredictError::NoGravity { .. }) && error.to_string().contains("afloat"), "{error}");
 }
