@@ -6,6 +6,7 @@ mod exchange;
 mod figure;
 mod files;
 mod gait_figure;
+pub mod page;
 mod paper_figure;
 mod prediction_files;
 mod reproduction;

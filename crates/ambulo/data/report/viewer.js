@@ -1,0 +1,1 @@
+document.getElementById("ambulo").textContent="viewer not built";

@@ -1,0 +1,630 @@
+// Made from crates/ambulo/src/report/page/contract.rs by its test; do not edit.
+
+/** Version of the contract. */
+export const FORMAT = 1;
+
+export type Page = { 
+/**
+ * Version of this contract.
+ */
+format: number, 
+/**
+ * Version of the program.
+ */
+program: string, 
+/**
+ * Title of the page.
+ */
+title: string, 
+/**
+ * What is shown: the first is the one of this folder, the others are compared with it.
+ */
+sessions: Array<Session>, };
+
+export type Series = { 
+/**
+ * Place of the first, counted in 16-bit numbers.
+ */
+at: number, 
+/**
+ * How many.
+ */
+count: number, 
+/**
+ * The smallest value.
+ */
+low: number, 
+/**
+ * Distance of neighbouring values; 0 if all are the same.
+ */
+step: number, };
+
+export type PageSide = "r" | "l";
+
+export type Session = { 
+/**
+ * A short name: that of the recording.
+ */
+name: string, 
+/**
+ * Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
+ */
+header: Array<Fact>, 
+/**
+ * Where the ground forces come from.
+ */
+source: PageSource, 
+/**
+ * The instants of all series over time.
+ */
+time: TimeAxis, 
+/**
+ * Foot strikes and toe-offs.
+ */
+events: Array<PageEvent>, 
+/**
+ * The whole cycles that curves were cut into.
+ */
+cycles: Array<PageCycle>, 
+/**
+ * Grids of panels, in the order to be shown.
+ */
+groups: Array<Group>, 
+/**
+ * Time and distance, extracted values, symmetry.
+ */
+tables: Array<Table>, 
+/**
+ * How far the numbers can be trusted.
+ */
+quality: Quality, 
+/**
+ * Whether a person could do this.
+ */
+feasibility: Feasibility | null, 
+/**
+ * The 3-D view.
+ */
+view: View | null, 
+/**
+ * What this page cannot show and why, a sentence each.
+ */
+missing: Array<string>, };
+
+export type Fact = { 
+/**
+ * What: `Body mass`.
+ */
+label: string, 
+/**
+ * Value with its unit: `72.8 kg`.
+ */
+value: string, 
+/**
+ * Where it comes from: `weighed by plates`.
+ */
+note: string | null, };
+
+export type PageSource = "measured" | "predicted" | "simulated" | "none";
+
+export type TimeAxis = { 
+/**
+ * The first.
+ */
+start_s: number, 
+/**
+ * Distance of neighbours.
+ */
+step_s: number, 
+/**
+ * How many.
+ */
+frames: number, };
+
+export type PageEvent = { 
+/**
+ * Whose foot.
+ */
+side: PageSide, 
+/**
+ * Strike, or else toe-off.
+ */
+strike: boolean, 
+/**
+ * When [s].
+ */
+time_s: number, };
+
+export type PageCycle = { 
+/**
+ * Whose foot.
+ */
+side: PageSide, 
+/**
+ * Number of the cycle of this foot, from 1.
+ */
+number: number, 
+/**
+ * First strike [s].
+ */
+start_s: number, 
+/**
+ * Next strike [s].
+ */
+end_s: number, 
+/**
+ * Toe-off [% of the cycle].
+ */
+toe_off_percent: number | null, };
+
+export type Group = { 
+/**
+ * A word without blanks: `kinematics`, `kinetics`, `ground`, `overlay`, `energy`, ...
+ */
+id: string, 
+/**
+ * Heading.
+ */
+title: string, 
+/**
+ * A sentence below it.
+ */
+note: string | null, 
+/**
+ * Panels abreast on a wide screen.
+ */
+columns: number, 
+/**
+ * The panels, row by row.
+ */
+panels: Array<Panel>, };
+
+export type Panel = { 
+/**
+ * A word without blanks, unique in the page: `hip_flexion_moment`.
+ */
+id: string, 
+/**
+ * `Hip flexion`.
+ */
+title: string, 
+/**
+ * `deg`, `N.m/kg`, `W/kg`, `BW`, ...
+ */
+unit: string, 
+/**
+ * What positive and negative values mean: `flexion`, `extension`; empty if it needs no words.
+ */
+positive: string, 
+/**
+ * The other direction.
+ */
+negative: string, 
+/**
+ * Every cycle: 101 values from 0 to 100 %.
+ */
+cycles: Array<CycleCurve>, 
+/**
+ * Mean over the cycles of a side.
+ */
+means: Array<MeanCurve>, 
+/**
+ * Mean and deviation of healthy people at this speed.
+ */
+band: Band | null, 
+/**
+ * The same over time.
+ */
+traces: Array<Trace>, 
+/**
+ * Parts that are not feasible, over time; those of the panel's own quantity only.
+ */
+red: Array<RedSpan>, 
+/**
+ * Why there is nothing to be seen, instead of an empty box.
+ */
+empty: string | null, };
+
+export type CycleCurve = { 
+/**
+ * Whose cycle.
+ */
+side: PageSide, 
+/**
+ * Number of the cycle, as in `cycles` of the session.
+ */
+number: number, 
+/**
+ * 101 values.
+ */
+values: Series, 
+/**
+ * Where they stand in the files.
+ */
+origin: Origin, };
+
+export type MeanCurve = { 
+/**
+ * Whose cycles.
+ */
+side: PageSide, 
+/**
+ * How many.
+ */
+cycles: number, 
+/**
+ * 101 values.
+ */
+values: Series, 
+/**
+ * Standard deviation over the cycles, from two on.
+ */
+sd: Series | null, 
+/**
+ * Mean toe-off [%].
+ */
+toe_off_percent: number | null, };
+
+export type Band = { 
+/**
+ * Mean at even steps from 0 to 100 %.
+ */
+mean: Series, 
+/**
+ * Standard deviation there.
+ */
+sd: Series, 
+/**
+ * Who: citation, people, speed.
+ */
+citation: string, };
+
+export type Trace = { 
+/**
+ * What it is: `right`, `plates, left`, `limit`.
+ */
+name: string, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * How it is drawn.
+ */
+role: Role, 
+/**
+ * A value an instant of the session's time.
+ */
+values: Series, 
+/**
+ * Its standard deviation.
+ */
+sd: Series | null, 
+/**
+ * Where it stands in the files.
+ */
+origin: Origin | null, };
+
+export type Role = "main" | "measured" | "limit";
+
+export type Origin = { 
+/**
+ * Name of the file.
+ */
+file: string, 
+/**
+ * Column; of `cycles.csv` the quantity.
+ */
+column: string, 
+/**
+ * Factor from the file's unit and sign to the panel's.
+ */
+factor: number, };
+
+export type Table = { 
+/**
+ * A word without blanks: `time_distance`, `extracted`, `markers`, `plates`, ...
+ */
+id: string, 
+/**
+ * Heading.
+ */
+title: string, 
+/**
+ * A sentence below it: what the normal ranges are of, and their source.
+ */
+note: string | null, 
+/**
+ * Heads of the columns, with units.
+ */
+columns: Array<string>, 
+/**
+ * The rows; the first cell is the row's name.
+ */
+rows: Array<Array<Cell>>, 
+/**
+ * Why there are no rows.
+ */
+empty: string | null, };
+
+export type Cell = { 
+/**
+ * As shown, rounded.
+ */
+text: string, 
+/**
+ * The number behind it, unrounded.
+ */
+value: number | null, 
+/**
+ * Outside of what is normal or allowed.
+ */
+outside: boolean, };
+
+export type Quality = { 
+/**
+ * Residual, marker error, agreement with plates, ... one line each.
+ */
+facts: Array<Judged>, 
+/**
+ * Residual, friction, plates against prediction, ... over time.
+ */
+groups: Array<Group>, 
+/**
+ * Marker errors, plates and feet, agreement by component, changes made, ...
+ */
+tables: Array<Table>, 
+/**
+ * What was odd on the way.
+ */
+findings: Array<PageFinding>, 
+/**
+ * What was taken for granted, in sentences.
+ */
+assumptions: Array<string>, };
+
+export type Judged = { 
+/**
+ * What.
+ */
+label: string, 
+/**
+ * Value with its unit.
+ */
+value: string, 
+/**
+ * What is allowed, in words.
+ */
+allowed: string | null, 
+/**
+ * Whether it is; nothing if nobody can say.
+ */
+good: boolean | null, };
+
+export type PageFinding = { 
+/**
+ * `ground.predicted`.
+ */
+code: string, 
+/**
+ * `note` or `warning`.
+ */
+severity: string, 
+/**
+ * The remark.
+ */
+message: string, 
+/**
+ * How often.
+ */
+count: number, };
+
+export type Feasibility = { 
+/**
+ * The verdict.
+ */
+feasible: boolean, 
+/**
+ * The verdict in a sentence.
+ */
+sentence: string, 
+/**
+ * What stands against the motion.
+ */
+red: Array<RedSpan>, 
+/**
+ * How near to its limit every kind of check comes.
+ */
+closest: Table, };
+
+export type RedSpan = { 
+/**
+ * From [s].
+ */
+from_s: number, 
+/**
+ * To [s].
+ */
+to_s: number, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * `strength`, `friction`, ...
+ */
+check: string, 
+/**
+ * Why, in a sentence with value, limit and unit.
+ */
+sentence: string, 
+/**
+ * The panel that shows it.
+ */
+panel: string | null, };
+
+export type View = { 
+/**
+ * The bodies that move.
+ */
+bodies: Array<ViewBody>, 
+/**
+ * What stands still: obstacles of a scene. In world axes.
+ */
+fixed: Array<ViewShape>, 
+/**
+ * Force plates.
+ */
+plates: Array<ViewPlate>, 
+/**
+ * Forces of the ground on the feet, with their points.
+ */
+forces: Array<ViewForce>, 
+/**
+ * Joint moments.
+ */
+torques: Array<ViewTorque>, 
+/**
+ * Points of the soles.
+ */
+contacts: Array<ViewContact>, 
+/**
+ * Height of the floor [m]; a grid is drawn there.
+ */
+floor_m: number, 
+/**
+ * Weight of the figure [N], for the length of the arrows.
+ */
+weight_n: number, };
+
+export type ViewBody = { 
+/**
+ * Name in the model.
+ */
+name: string, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * Shapes in the body's axes.
+ */
+shapes: Array<ViewShape>, 
+/**
+ * Origin of the body in the world [m]: x, y, z.
+ */
+position: [Series, Series, Series], 
+/**
+ * Orientation, world from body: x, y, z, w of a unit quaternion without jumps of sign.
+ */
+rotation: [Series, Series, Series, Series], };
+
+export type ViewShape = { "kind": "capsule", 
+/**
+ * One end.
+ */
+from: [number, number, number], 
+/**
+ * The other.
+ */
+to: [number, number, number], 
+/**
+ * Radius.
+ */
+radius: number, } | { "kind": "box", 
+/**
+ * Its middle.
+ */
+center: [number, number, number], 
+/**
+ * Half of its lengths along its own axes.
+ */
+half: [number, number, number], 
+/**
+ * Its axes: x, y, z, w of a quaternion.
+ */
+turn: [number, number, number, number], } | { "kind": "mesh", 
+/**
+ * Corners.
+ */
+points: Array<[number, number, number]>, 
+/**
+ * Numbers of the corners.
+ */
+triangles: Array<[number, number, number]>, };
+
+export type ViewPlate = { 
+/**
+ * Its name.
+ */
+name: string, 
+/**
+ * Its corners in the world [m], in turn.
+ */
+corners: [[number, number, number], [number, number, number], [number, number, number], [number, number, number]], };
+
+export type ViewForce = { 
+/**
+ * `right`, `right, plates`.
+ */
+name: string, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * Main, or measured beside a prediction.
+ */
+role: Role, 
+/**
+ * Where it acts, world [m]; no number while it does not act.
+ */
+point: [Series, Series, Series], 
+/**
+ * The force, world [N].
+ */
+force: [Series, Series, Series], };
+
+export type ViewTorque = { 
+/**
+ * `right knee`.
+ */
+name: string, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * Place in `bodies` of the body that it turns.
+ */
+body: number, 
+/**
+ * Centre of the joint in this body's axes [m].
+ */
+center: [number, number, number], 
+/**
+ * Axis in this body's axes, a unit vector.
+ */
+axis: [number, number, number], 
+/**
+ * The moment [N.m/kg], in the clinical sign of its panel.
+ */
+values: Series, 
+/**
+ * The panel that shows it.
+ */
+panel: string | null, };
+
+export type ViewContact = { 
+/**
+ * Place in `bodies`.
+ */
+body: number, 
+/**
+ * In this body's axes [m].
+ */
+place: [number, number, number], 
+/**
+ * Whose side.
+ */
+side: PageSide | null, };
