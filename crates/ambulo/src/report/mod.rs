@@ -6,10 +6,12 @@ mod exchange;
 mod figure;
 mod files;
 mod gait_figure;
+mod html;
 pub mod page;
 mod paper_figure;
 mod prediction_files;
 mod reproduction;
+mod reproduction_page;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
@@ -31,6 +33,7 @@ pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
+pub use reproduction_page::reproduction_page;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
