@@ -1,5 +1,6 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
+mod clinical;
 mod consistency_summary;
 mod cycle_table;
 mod exchange;
