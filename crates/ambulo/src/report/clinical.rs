@@ -147,7 +147,10 @@ const TURNED: Sign = Sign::Both(-1.0);
 const OWN: Sign = Sign::Right(1.0);
 const OTHER: Sign = Sign::Right(-1.0);
 
-use ClinicalGroup::{Ground, Kinematics, Moments, Powers};
+const KINEMATICS: ClinicalGroup = ClinicalGroup::Kinematics;
+const MOMENTS: ClinicalGroup = ClinicalGroup::Moments;
+const POWERS: ClinicalGroup = ClinicalGroup::Powers;
+const GROUND: ClinicalGroup = ClinicalGroup::Ground;
 
 const fn row(
     id: &'static str,
@@ -164,32 +167,32 @@ const POWER: [&str; 2] = ["generated", "absorbed"];
 /// All rows. Signs of the files: docs/CONVENTIONS.md, "Signs, one row for each movement".
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    row("pelvis_tilt_angle", "Pelvic tilt", ["anterior", "posterior"], Kinematics, &[("pelvis_tilt", TURNED)]),
-    row("pelvis_obliquity_angle", "Pelvic obliquity", ["up", "down"], Kinematics, &[("pelvis_list", OTHER)]),
-    row("pelvis_rotation_angle", "Pelvic rotation", ["forward", "backward"], Kinematics, &[("pelvis_rotation", OWN)]),
-    row("hip_flexion_angle", "Hip flexion", ["flexion", "extension"], Kinematics, &[("hip_flexion", SAME)]),
-    row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], Kinematics, &[("hip_adduction", SAME), ("hip_abduction", TURNED)]),
-    row("hip_rotation_angle", "Hip rotation", ["internal", "external"], Kinematics, &[("hip_rotation", SAME)]),
-    row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], Kinematics, &[(KNEE[0], Sign::Knee(1.0)), (KNEE[1], Sign::Knee(1.0))]),
-    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], Kinematics, &[("knee_adduction", SAME)]),
-    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], Kinematics, &[("knee_rotation", SAME)]),
-    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], Kinematics, ANKLE),
-    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], Kinematics, &[("subtalar_angle", SAME)]),
-    row("trunk_lean_angle", "Trunk lean, to pelvis", ["forward", "backward"], Kinematics, &[("lumbar_extension", TURNED), ("lumbar_flexion", SAME)]),
-    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], Kinematics, &[("lumbar_bending", OTHER)]),
-    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], Kinematics, &[("lumbar_rotation", OWN)]),
-    row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], Moments, &[("hip_flexion", TURNED)]),
-    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], Moments, &[("hip_adduction", TURNED), ("hip_abduction", SAME)]),
-    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], Moments, &[("hip_rotation", TURNED)]),
-    row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], Moments, &[(KNEE[0], Sign::Knee(-1.0)), (KNEE[1], Sign::Knee(-1.0))]),
-    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], Moments, &[("knee_adduction", TURNED)]),
-    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], Moments, &[("ankle_angle", TURNED), ("ankle_flexion", TURNED), ("ankle_dorsiflexion", TURNED)]),
-    row("hip_flexion_power", "Hip power", POWER, Powers, &[("hip_flexion", SAME)]),
-    row("knee_flexion_power", "Knee power", POWER, Powers, &[(KNEE[0], SAME), (KNEE[1], SAME)]),
-    row("ankle_dorsiflexion_power", "Ankle power", POWER, Powers, ANKLE),
-    row("ground_force_vertical", "Vertical ground force", ["up", "down"], Ground, &[("ground_force_vertical", SAME)]),
-    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], Ground, &[("ground_force_fore_aft", SAME)]),
-    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], Ground, &[("ground_force_lateral", OTHER)]),
+    row("pelvis_tilt_angle", "Pelvic tilt", ["anterior", "posterior"], KINEMATICS, &[("pelvis_tilt", TURNED)]),
+    row("pelvis_obliquity_angle", "Pelvic obliquity", ["up", "down"], KINEMATICS, &[("pelvis_list", OTHER)]),
+    row("pelvis_rotation_angle", "Pelvic rotation", ["forward", "backward"], KINEMATICS, &[("pelvis_rotation", OWN)]),
+    row("hip_flexion_angle", "Hip flexion", ["flexion", "extension"], KINEMATICS, &[("hip_flexion", SAME)]),
+    row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], KINEMATICS, &[("hip_adduction", SAME), ("hip_abduction", TURNED)]),
+    row("hip_rotation_angle", "Hip rotation", ["internal", "external"], KINEMATICS, &[("hip_rotation", SAME)]),
+    row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, &[(KNEE[0], Sign::Knee(1.0)), (KNEE[1], Sign::Knee(1.0))]),
+    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, &[("knee_adduction", SAME)]),
+    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, &[("knee_rotation", SAME)]),
+    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS, ANKLE),
+    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS, &[("subtalar_angle", SAME)]),
+    row("trunk_lean_angle", "Trunk lean, to pelvis", ["forward", "backward"], KINEMATICS, &[("lumbar_extension", TURNED), ("lumbar_flexion", SAME)]),
+    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], KINEMATICS, &[("lumbar_bending", OTHER)]),
+    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], KINEMATICS, &[("lumbar_rotation", OWN)]),
+    row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, &[("hip_flexion", TURNED)]),
+    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS, &[("hip_adduction", TURNED), ("hip_abduction", SAME)]),
+    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS, &[("hip_rotation", TURNED)]),
+    row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, &[(KNEE[0], Sign::Knee(-1.0)), (KNEE[1], Sign::Knee(-1.0))]),
+    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS, &[("knee_adduction", TURNED)]),
+    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS, &[("ankle_angle", TURNED), ("ankle_flexion", TURNED), ("ankle_dorsiflexion", TURNED)]),
+    row("hip_flexion_power", "Hip power", POWER, POWERS, &[("hip_flexion", SAME)]),
+    row("knee_flexion_power", "Knee power", POWER, POWERS, &[(KNEE[0], SAME), (KNEE[1], SAME)]),
+    row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, ANKLE),
+    row("ground_force_vertical", "Vertical ground force", ["up", "down"], GROUND, &[("ground_force_vertical", SAME)]),
+    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], GROUND, &[("ground_force_fore_aft", SAME)]),
+    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], GROUND, &[("ground_force_lateral", OTHER)]),
 ];
 
 const ANKLE: &[(&str, Sign)] = &[("ankle_angle", SAME), ("ankle_flexion", SAME), ("ankle_dorsiflexion", SAME)];

@@ -1,12 +1,13 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
-mod clinical;
+pub mod clinical;
 mod consistency_summary;
 mod cycle_table;
 mod exchange;
 mod figure;
 mod files;
 mod gait_figure;
+pub mod normative;
 pub mod page;
 mod paper_figure;
 mod prediction_files;
