@@ -1,12 +1,14 @@
 //! One clinical quantity as a panel: its cycles, their mean, and the same over time.
 
 use super::cycles_file::{self, CycleValues};
-use super::results::{DEVIATIONS, GROUND, KINEMATICS, MOMENTS, POWERS, Results};
+use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
 use super::sides;
+use super::size::BodySize;
 use crate::model::Side;
 use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::report::normative;
 use crate::report::page::block::Block;
-use crate::report::page::contract::{CycleCurve, MeanCurve, Origin, Panel, Role, Series, Trace};
+use crate::report::page::contract::{Band, CycleCurve, MeanCurve, Origin, Panel, Role, Series, Trace};
 use ambulo_formats::table::Table;
 
 /// Columns of `grf.mot` by the names of `cycles.csv`.
@@ -14,7 +16,13 @@ pub(super) const GROUND_AXES: [(&str, &str); 3] =
     [("ground_force_fore_aft", "x"), ("ground_force_vertical", "y"), ("ground_force_lateral", "z")];
 
 /// The panel of a quantity; `empty` is what it says where no file has it.
-pub(super) fn panel(results: &Results, quantity: &ClinicalQuantity, empty: &str, block: &mut Block) -> Panel {
+pub(super) fn panel(
+    results: &Results,
+    size: &BodySize,
+    quantity: &ClinicalQuantity,
+    empty: &str,
+    block: &mut Block,
+) -> Panel {
     let (mut cycles, mut means) = (Vec::new(), Vec::new());
     for side in Side::BOTH {
         let shown = shown_cycles(results, quantity, side);
@@ -31,11 +39,17 @@ pub(super) fn panel(results: &Results, quantity: &ClinicalQuantity, empty: &str,
         negative: quantity.negative.to_owned(),
         cycles,
         means,
-        band: None,
+        band: band(size, quantity, block),
         traces,
         red: Vec::new(),
         empty: nothing.then(|| empty.to_owned()),
     }
+}
+
+/// What healthy people do at this speed, where it and the size of the body are known.
+fn band(size: &BodySize, quantity: &ClinicalQuantity, block: &mut Block) -> Option<Band> {
+    let normal = normative::band(quantity.id, size.walking_speed()?)?;
+    Some(Band { mean: block.add(&normal.mean), sd: block.add(&normal.sd), citation: normal.citation })
 }
 
 /// A curve in clinical signs.

@@ -2,6 +2,7 @@
 
 use super::curves;
 use super::results::Results;
+use super::size::BodySize;
 use crate::model::Side;
 use crate::report::clinical::{ClinicalGroup, ClinicalQuantity, clinical_quantities};
 use crate::report::page::block::Block;
@@ -37,12 +38,19 @@ const GRIDS: [Grid; 3] = [
     },
 ];
 
+/// Moments that have a power below them.
+const SAGITTAL: [&str; 3] = ["hip_flexion_moment", "knee_flexion_moment", "ankle_dorsiflexion_moment"];
 /// Panels abreast.
 const COLUMNS: usize = 3;
 
 /// All grids that the files have something for.
-pub(super) fn groups(results: &Results, quantities: &[ClinicalQuantity], block: &mut Block) -> Vec<Group> {
-    GRIDS.iter().map(|grid| group(results, grid, quantities, block)).collect()
+pub(super) fn groups(
+    results: &Results,
+    size: &BodySize,
+    quantities: &[ClinicalQuantity],
+    block: &mut Block,
+) -> Vec<Group> {
+    GRIDS.iter().map(|grid| group(results, size, grid, quantities, block)).collect()
 }
 
 /// The quantities that the files have, over cycles or over time.
@@ -51,15 +59,26 @@ pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
     clinical_quantities(|name| names.contains(name))
 }
 
-fn group(results: &Results, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {
-    let of_grid = quantities.iter().filter(|quantity| grid.kinds.contains(&quantity.group));
+fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {
+    let mut of_grid: Vec<_> = quantities.iter().filter(|quantity| grid.kinds.contains(&quantity.group)).collect();
+    of_grid.sort_by_key(|quantity| place(quantity));
     let empty = format!("The files have no numbers of this: {}.", lacking(results, grid));
-    let panels: Vec<Panel> = of_grid.map(|quantity| curves::panel(results, quantity, &empty, block)).collect();
+    let panels: Vec<Panel> =
+        of_grid.into_iter().map(|quantity| curves::panel(results, size, quantity, &empty, block)).collect();
     let note = match panels.is_empty() {
         true => format!("Nothing to show: {}.", lacking(results, grid)),
         false => grid.note.to_owned(),
     };
     Group { id: grid.id.to_owned(), title: grid.title.to_owned(), note: Some(note), columns: COLUMNS, panels }
+}
+
+/// Moments of the sagittal plane stand over the powers of the same joints, the other planes follow.
+fn place(quantity: &ClinicalQuantity) -> usize {
+    match quantity.group {
+        ClinicalGroup::Moments => usize::from(!SAGITTAL.contains(&quantity.id)) * 2,
+        ClinicalGroup::Powers => 1,
+        ClinicalGroup::Kinematics | ClinicalGroup::Ground => 0,
+    }
 }
 
 /// Why a grid has nothing.

@@ -6,14 +6,20 @@ mod curves;
 mod cycles;
 mod cycles_file;
 mod events;
+mod feet;
 mod groups;
+mod header;
 mod results;
 mod sides;
+mod size;
+mod strides;
+mod time_distance;
 
 use super::block::Block;
 use super::contract::{Quality, Session};
 use super::folder::{Folder, PageError};
 use results::Results;
+use size::BodySize;
 
 /// The session of a folder; its numbers go into `block`.
 pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, PageError> {
@@ -24,13 +30,15 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
 /// Of a recording or a synthetic walk.
 fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result<Session, PageError> {
     let quantities = groups::quantities(&results);
+    let strides = strides::strides(&results);
+    let size = BodySize::of(&results, &strides);
     Ok(Session {
         name: folder.name.clone(),
-        header: Vec::new(),
+        header: header::header(&results, &size, &strides),
         source: results.source,
         time: results.time(),
-        groups: groups::groups(&results, &quantities, block),
-        tables: Vec::new(),
+        groups: groups::groups(&results, &size, &quantities, block),
+        tables: vec![time_distance::table(&results, &size, &strides)],
         quality: Quality {
             facts: Vec::new(),
             groups: Vec::new(),

@@ -79,6 +79,11 @@ impl Results {
         TimeAxis { start_s: self.grid.start_s, step_s: self.grid.step_s, frames: self.grid.frames }
     }
 
+    /// Gravity [m/s²].
+    pub(super) fn gravity(&self) -> f64 {
+        self.weight_n / self.mass_kg
+    }
+
     /// A number of the summary, by its path: `/ground/threshold_n`.
     pub(super) fn number(&self, path: &str) -> Option<f64> {
         self.summary.pointer(path)?.as_f64()
