@@ -14,6 +14,7 @@ mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod stage;
 mod subject_summary;
 mod summary;
 mod tables;

@@ -5,9 +5,10 @@ mod events;
 use super::block::Block;
 use super::contract::{PageSource, Quality, Session, TimeAxis};
 use super::folder::{Folder, PageError};
+use super::view::view;
 
 /// The session of a folder; its numbers go into `block`.
-pub(super) fn session(folder: &Folder<'_>, _block: &mut Block) -> Result<Session, PageError> {
+pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, PageError> {
     let summary = folder.summary()?;
     let kinematics = folder.table("kinematics.mot")?;
     let frames = kinematics.as_ref().map_or(0, |table| table.rows());
@@ -19,11 +20,12 @@ pub(super) fn session(folder: &Folder<'_>, _block: &mut Block) -> Result<Session
         Some("simulated") => PageSource::Simulated,
         _ => PageSource::None,
     };
+    let viewed = view(folder, block)?;
     Ok(Session {
         name: folder.name.clone(),
         header: Vec::new(),
         source,
-        time: TimeAxis { start_s, step_s, frames },
+        time: viewed.time.unwrap_or(TimeAxis { start_s, step_s, frames }),
         events: events::events(folder)?,
         cycles: Vec::new(),
         groups: Vec::new(),
@@ -36,7 +38,7 @@ pub(super) fn session(folder: &Folder<'_>, _block: &mut Block) -> Result<Session
             assumptions: Vec::new(),
         },
         feasibility: None,
-        view: None,
-        missing: Vec::new(),
+        view: viewed.view,
+        missing: viewed.missing,
     })
 }
