@@ -19,6 +19,9 @@ const SLENDER: f64 = 0.1;
 const LIMITS: [f64; 2] = [0.04, 0.3];
 /// Radius of a body without extent, over stature.
 const DOT: f64 = 0.012;
+/// Where a limb is thickest, over its length, and how thick its ends are over that.
+const BELLY: [f64; 2] = [0.1, 0.5];
+const THIN: f64 = 0.78;
 /// A segment shorter than this over stature is a dot.
 const SHORT: f64 = 0.02;
 
@@ -38,13 +41,16 @@ pub(super) fn radius(length: f64, mass: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A capsule between two places for a body of this mass, or a dot where they are the same.
-pub(super) fn bone(from: Vec3, to: Vec3, mass: f64, stature: f64) -> ViewShape {
-    let length = (to - from).norm();
-    if length < SHORT * stature {
-        return dot(from, stature);
+/// Capsules between two places for a body of this mass: one over the whole length, and one about the upper part, where muscles are
+/// thick. A dot where the places are the same.
+fn flesh(from: Vec3, to: Vec3, mass: f64, stature: f64) -> Vec<ViewShape> {
+    let along = to - from;
+    if along.norm() < SHORT * stature {
+        return vec![dot(from, stature)];
     }
-    capsule(from, to, radius(length, mass))
+    let thick = radius(along.norm(), mass);
+    let belly = BELLY.map(|share| from + along * share);
+    vec![capsule(from, to, thick * THIN), capsule(belly[0], belly[1], thick)]
 }
 
 /// A small ball.
@@ -58,7 +64,7 @@ pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<
     let own = places.own(body);
     let ends = ends(places, body);
     let share = places.mass(body) / ends.len().max(1) as f64;
-    ends.into_iter().map(|end| bone(own, end, share, stature)).collect()
+    ends.into_iter().flat_map(|end| flesh(own, end, share, stature)).collect()
 }
 
 fn ends(places: &JointPlaces<'_>, body: BodyId) -> Vec<Vec3> {

@@ -16,11 +16,11 @@ use crate::spatial::Vec3;
 /// unverified), widened by the depth.
 const HEAD: f64 = 0.38;
 /// Thickness of the parts of the trunk over stature, chosen so that chest and arms do not touch.
-const CHEST: f64 = 0.055;
+const CHEST: f64 = 0.062;
 const SHOULDER: f64 = 0.032;
 const NECK: f64 = 0.028;
 /// How far apart both halves of the chest are, over the distance of the shoulders: at the waist, at the top.
-const PARTED: [f64; 2] = [0.12, 0.26];
+const PARTED: [f64; 2] = [0.1, 0.22];
 
 /// Shapes of the pelvis, or of a trunk that is one with it.
 pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
