@@ -18,7 +18,7 @@ impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// What this writer does not know: constraints but couplers of coordinates, ellipsoid joints; numbers that are not finite.
+    /// What this writer does not know: constraints but couplers of coordinates; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;

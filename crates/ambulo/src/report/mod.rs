@@ -1,13 +1,16 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
+pub mod clinical;
 mod consistency_summary;
 mod cycle_table;
 mod exchange;
-mod figure;
+pub mod figures;
 mod files;
 mod gait_figure;
+pub mod normative;
 pub mod page;
 mod paper_figure;
+mod plot;
 mod prediction_files;
 mod reproduction;
 mod scene_figures;
@@ -15,6 +18,7 @@ mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
 mod stage;
+pub mod style;
 mod subject_summary;
 mod summary;
 mod tables;
@@ -26,10 +30,11 @@ pub use exchange::{
     GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
     skeleton_of, standing_recording, table_of_markers, trc_of_markers,
 };
-pub use figure::{FigureError, Mark, moments_figure};
+pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
+pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use scene_figures::SceneCurves;

@@ -5,42 +5,47 @@
 
 use super::StageTorque;
 use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, Model, Side};
+use crate::report::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign};
 use crate::spatial::Vec3;
 use ambulo_formats::table::Table;
 
-/// Panel, name, coordinate without its side, factor of the sign; the knee's follows the direction of flexion.
-const ROWS: [(&str, &str, &str, f64); 3] = [
-    ("hip_flexion_moment", "hip", "hip_flexion", -1.0),
-    ("knee_flexion_moment", "knee", "knee_angle", -1.0),
-    ("ankle_dorsiflexion_moment", "ankle", "ankle_angle", -1.0),
-];
-
-/// The moments of hips, knees and ankles in a table with the columns of `moments.sto`; `angles` are the coordinates of the same motion.
+/// The moments of legs that panels show, in a table with the columns of `moments.sto`; `angles` are the coordinates of the same motion.
 pub(super) fn torques(model: &Model, moments: &Table, angles: &Table, mass_kg: f64) -> Vec<StageTorque> {
-    let rows = ROWS.iter().flat_map(|row| Side::BOTH.map(|side| (row, side)));
-    let torque = |((panel, name, coordinate, sign), side): (&(&str, &str, &str, f64), Side)| {
-        let coordinate_name = format!("{coordinate}_{}", side.letter());
-        let id = model.coordinate(&coordinate_name)?;
-        let values = moments.column(&format!("{coordinate_name}_moment"))?;
-        let (body, axis) = axis(model, id)?;
-        let sign = if *name == "knee" { sign * flexion(angles.column(&coordinate_name)?) } else { *sign };
+    let has = |stem: &str| {
+        moments.column(&of_side(stem, Side::Right)).or(moments.column(&of_side(stem, Side::Left))).is_some()
+    };
+    let quantities = clinical_quantities(has);
+    let of_legs = quantities.iter().filter(|q| q.group == ClinicalGroup::Moments && !q.central);
+    let flexion = flexion(angles);
+    let torque = |(quantity, side): (&ClinicalQuantity, Side)| {
+        let values = moments.column(&of_side(&quantity.column, side))?;
+        let (body, axis) = axis(model, model.coordinate(&format!("{}_{}", quantity.coordinate, side.letter()))?)?;
+        let factor = quantity.factor(mass_kg, side, flexion);
+        let title = quantity.title.trim_end_matches(" moment").to_lowercase();
         Some(StageTorque {
-            name: format!("{side} {name}"),
+            name: format!("{side} {title}"),
             side: Some(side),
             body: body.index(),
             center: model.bodies()[body.index()].joint.child_from_joint.translation,
-            axis: axis * sign,
-            values: values.iter().map(|moment| moment * sign / mass_kg).collect(),
-            panel: (*panel).to_owned(),
+            axis: axis * factor.signum(),
+            values: values.iter().map(|moment| factor * moment).collect(),
+            panel: quantity.id.to_owned(),
         })
     };
-    rows.filter_map(torque).collect()
+    of_legs.flat_map(|quantity| Side::BOTH.map(|side| (quantity, side))).filter_map(torque).collect()
 }
 
-/// Plus one where flexion counts positive: the direction in which the knee turns most.
-fn flexion(angles: &[f64]) -> f64 {
-    let largest = angles.iter().fold(0.0_f64, |most, &x| if x.abs() > most.abs() { x } else { most });
-    if largest < 0.0 { -1.0 } else { 1.0 }
+/// `hip_flexion_moment` of the right side is `hip_flexion_r_moment`.
+fn of_side(column: &str, side: Side) -> String {
+    let (coordinate, kind) = column.rsplit_once('_').unwrap_or((column, ""));
+    format!("{coordinate}_{}_{kind}", side.letter())
+}
+
+/// The direction in which the knees' coordinate counts flexion.
+fn flexion(angles: &Table) -> f64 {
+    let names = KNEE.iter().flat_map(|knee| Side::BOTH.map(|side| format!("{knee}_{}", side.letter())));
+    let columns: Vec<&[f64]> = names.filter_map(|name| angles.column(&name)).collect();
+    knee_flexion_sign(columns.into_iter().flatten())
 }
 
 /// The body that a coordinate turns and the axis, in its frame, about which it turns when the coordinate grows.
