@@ -19,6 +19,7 @@ mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod stage;
 pub mod style;
 mod subject_summary;
 mod summary;
@@ -46,7 +47,8 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use subject_summary::{
-    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
+    SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,

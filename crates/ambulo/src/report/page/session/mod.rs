@@ -18,6 +18,7 @@ mod time_distance;
 use super::block::Block;
 use super::contract::{Quality, Session};
 use super::folder::{Folder, PageError};
+use super::view::view;
 use results::Results;
 use size::BodySize;
 
@@ -32,6 +33,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let quantities = groups::quantities(&results);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
+    let viewed = view(folder, block)?;
     Ok(Session {
         name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
         header: header::header(&results, &size, &strides),
@@ -47,8 +49,8 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
             assumptions: Vec::new(),
         },
         feasibility: None,
-        view: None,
-        missing: Vec::new(),
+        view: viewed.view,
+        missing: viewed.missing,
         events: results.events,
         cycles: results.cycles,
     })
