@@ -1,0 +1,67 @@
+import type { Mesh } from "three";
+import { Group, MeshStandardMaterial, Vector3 } from "three";
+import type { Session, View } from "../contract";
+import { Figure } from "./figure";
+import type { Palette } from "./palette";
+import { Path } from "./path";
+import { type Gait, gaitOf, matchingTime } from "./phase";
+import type { SeriesReader } from "./reader";
+
+const UP = new Vector3(0, 1, 0);
+
+/** Another session's figure, translucent, at the same phase of its gait and with its pelvis where the main one's is. */
+export class Ghost {
+  readonly group = new Group();
+  private readonly figure: Figure;
+  private readonly gait: Gait;
+  private readonly path: Path;
+  private readonly turn: number;
+  private readonly material = new MeshStandardMaterial({
+    roughness: 0.7,
+    transparent: true,
+    opacity: 0.34,
+    depthWrite: true,
+  });
+  private readonly own = new Vector3();
+  private readonly wanted = new Vector3();
+
+  constructor(
+    session: Session,
+    private readonly view: View,
+    numbers: SeriesReader,
+    heading: Vector3,
+    private readonly index: number,
+  ) {
+    this.figure = new Figure(view, numbers);
+    this.gait = gaitOf(session);
+    this.path = new Path(view, numbers, this.gait.timeline);
+    this.turn = angleOf(heading) - angleOf(this.path.heading);
+    this.figure.group.traverse((part) => {
+      if ((part as Mesh).isMesh) {
+        (part as Mesh).material = this.material;
+        part.castShadow = false;
+        part.renderOrder = 2;
+      }
+    });
+    this.group.add(this.figure.group);
+  }
+
+  recolor(colors: Palette): void {
+    this.material.color.copy(colors.sessions[this.index % colors.sessions.length] ?? colors.text);
+  }
+
+  /** `pelvis`: where the main figure's is; `floor`: height of its floor [m]. */
+  pose(time: number, main: Gait, pelvis: Vector3, floor: number): void {
+    const frame = this.gait.timeline.frameAt(matchingTime(time, main, this.gait));
+    this.figure.pose(frame);
+    this.path.pelvis(frame, this.own);
+    this.group.quaternion.setFromAxisAngle(UP, this.turn);
+    this.wanted.copy(this.own).applyQuaternion(this.group.quaternion);
+    this.group.position.set(pelvis.x - this.wanted.x, floor - this.view.floor_m, pelvis.z - this.wanted.z);
+  }
+}
+
+/** Angle about the vertical from x to a direction [rad]. */
+function angleOf(direction: Vector3): number {
+  return Math.atan2(-direction.z, direction.x);
+}
