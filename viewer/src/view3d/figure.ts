@@ -1,10 +1,13 @@
-import { Group, MeshStandardMaterial } from "three";
+import { Group, MeshStandardMaterial, ReplaceStencilOp } from "three";
 import type { PageSide, View } from "../contract";
 import { addAll } from "./layers";
 import { Motion } from "./motion";
 import { limbColor, type Palette } from "./palette";
 import type { SeriesReader } from "./reader";
 import { shapeMesh } from "./shape";
+
+/** Written where the main figure is seen. */
+export const FIGURE_STENCIL = 1;
 
 interface Limb {
   group: Group;
@@ -20,7 +23,13 @@ export class Figure {
 
   constructor(view: View, numbers: SeriesReader) {
     this.limbs = view.bodies.map((body) => {
-      const material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0 });
+      const material = new MeshStandardMaterial({
+        roughness: 0.62,
+        metalness: 0,
+        stencilWrite: true,
+        stencilRef: FIGURE_STENCIL,
+        stencilZPass: ReplaceStencilOp,
+      });
       this.materials.push({ material, side: body.side });
       const group = new Group();
       addAll(

@@ -1,11 +1,31 @@
-import type { Mesh } from "three";
-import { Group, MeshStandardMaterial, Vector3 } from "three";
+import { Color, Group, type Mesh, NotEqualStencilFunc, ShaderMaterial, Vector3 } from "three";
 import type { Session, View } from "../contract";
-import { Figure } from "./figure";
+import { FIGURE_STENCIL, Figure } from "./figure";
 import type { Palette } from "./palette";
 import { Path } from "./path";
 import { type Gait, gaitOf, matchingTime } from "./phase";
 import type { SeriesReader } from "./reader";
+
+const VERTEX = `
+varying vec3 outward;
+varying vec3 towards;
+void main() {
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  outward = normalMatrix * normal;
+  towards = -seen.xyz;
+  gl_Position = projectionMatrix * seen;
+}`;
+
+/** Clear in the middle, coloured at the edges. */
+const FRAGMENT = `
+varying vec3 outward;
+varying vec3 towards;
+uniform vec3 color;
+void main() {
+  float facing = abs(dot(normalize(outward), normalize(towards)));
+  gl_FragColor = vec4(color, mix(0.85, 0.1, pow(facing, 0.7)));
+  #include <colorspace_fragment>
+}`;
 
 const UP = new Vector3(0, 1, 0);
 
@@ -16,12 +36,7 @@ export class Ghost {
   private readonly gait: Gait;
   private readonly path: Path;
   private readonly turn: number;
-  private readonly material = new MeshStandardMaterial({
-    roughness: 0.7,
-    transparent: true,
-    opacity: 0.34,
-    depthWrite: true,
-  });
+  private readonly material = glass();
   private readonly own = new Vector3();
   private readonly wanted = new Vector3();
 
@@ -47,7 +62,9 @@ export class Ghost {
   }
 
   recolor(colors: Palette): void {
-    this.material.color.copy(colors.sessions[this.index % colors.sessions.length] ?? colors.text);
+    (this.material.uniforms["color"] as { value: Color }).value.copy(
+      colors.sessions[this.index % colors.sessions.length] ?? colors.text,
+    );
   }
 
   /** `pelvis`: where the main figure's is; `floor`: height of its floor [m]. */
@@ -64,4 +81,17 @@ export class Ghost {
 /** Angle about the vertical from x to a direction [rad]. */
 function angleOf(direction: Vector3): number {
   return Math.atan2(-direction.z, direction.x);
+}
+
+/** Of glass, and nowhere before the main figure. */
+function glass(): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: { color: { value: new Color() } },
+    transparent: true,
+    stencilWrite: true,
+    stencilRef: FIGURE_STENCIL,
+    stencilFunc: NotEqualStencilFunc,
+  });
 }
