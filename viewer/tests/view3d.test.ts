@@ -11,7 +11,7 @@ import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
 import { marks } from "../src/view3d/ruler";
 import { sample, Timeline } from "../src/view3d/timeline";
 import { arcAngle } from "../src/view3d/torques";
-import { contactStart, ribbon, trailPoints } from "../src/view3d/trail";
+import { contactStart, rings, trailPoints } from "../src/view3d/trail";
 import { ORDINARY, SampleNumbers, samplePage } from "./sample-view";
 
 const NONE = Number.NaN;
@@ -141,8 +141,8 @@ test("a trail begins with its contact and after the last jump", () => {
   assert.deepEqual(trailPoints(x, z, 1), []);
 });
 
-test("a ribbon is as broad as asked and fades backwards", () => {
-  const { corners, strength } = ribbon(
+test("the trail's line lies around its points and fades backwards", () => {
+  const { corners, strength } = rings(
     [
       [0, 0],
       [1, 0],
@@ -150,12 +150,11 @@ test("a ribbon is as broad as asked and fades backwards", () => {
     ],
     0.2,
   );
-  assert.deepEqual(corners.slice(0, 2), [
-    [0, 0.1],
-    [0, -0.1],
-  ]);
-  assert.ok((strength[0] ?? 1) < (strength[5] ?? 0));
-  close(strength[5] ?? 0, 1);
+  assert.deepEqual(corners[0], [0, 0, 0.2]);
+  assert.equal(corners.length, 18);
+  assert.ok(corners.every(([, y, z]) => Math.abs(Math.hypot(y, z) - 0.2) < 1e-9));
+  assert.ok((strength[0] ?? 1) < (strength[2] ?? 0));
+  close(strength[2] ?? 0, 1);
 });
 
 test("gaps of the way are bridged, sway is smoothed, travel is not", () => {

@@ -54,7 +54,7 @@ export class Arrow {
 
   recolor(color: Color, halo: Color): void {
     this.material.color.copy(color);
-    this.material.emissive.copy(color).multiplyScalar(0.35);
+    this.material.emissive.copy(color).multiplyScalar(0.5);
     this.halo.color.copy(halo);
   }
 

@@ -6,7 +6,7 @@ import { addAll, OVER, onLayer } from "./layers";
 import { type Palette, sideColor } from "./palette";
 
 /** Radius of a point, in heights of the figure. */
-const RADIUS = 0.0062;
+const RADIUS = 0.007;
 /** A point of the sole this near to the floor touches it [m]. */
 const NEAR_M = 0.02;
 

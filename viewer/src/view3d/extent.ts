@@ -42,6 +42,16 @@ export function extentOf(view: View, numbers: SeriesReader, path: Path, timeline
   return extent;
 }
 
+/** Room for both. */
+export function union(a: Extent, b: Extent): Extent {
+  return {
+    bottom: Math.min(a.bottom, b.bottom),
+    top: Math.max(a.top, b.top),
+    along: Math.max(a.along, b.along),
+    across: Math.max(a.across, b.across),
+  };
+}
+
 function grow(extent: Extent, point: Vector3, radius: number, heading: Vector3): void {
   extent.top = Math.max(extent.top, point.y + radius);
   extent.bottom = Math.min(extent.bottom, point.y - radius);

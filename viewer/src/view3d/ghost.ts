@@ -1,5 +1,6 @@
 import { Color, Group, type Mesh, NotEqualStencilFunc, ShaderMaterial, Vector3 } from "three";
 import type { Session, View } from "../contract";
+import { type Extent, extentOf } from "./extent";
 import { FIGURE_STENCIL, Figure } from "./figure";
 import type { Palette } from "./palette";
 import { Path } from "./path";
@@ -29,9 +30,10 @@ void main() {
 
 const UP = new Vector3(0, 1, 0);
 
-/** Another session's figure, translucent, at the same phase of its gait and with its pelvis where the main one's is. */
+/** Another session's figure, translucent, at the same phase of its gait and with its hips where the main one's are. */
 export class Ghost {
   readonly group = new Group();
+  private readonly extent: Extent;
   private readonly figure: Figure;
   private readonly gait: Gait;
   private readonly path: Path;
@@ -50,6 +52,7 @@ export class Ghost {
     this.figure = new Figure(view, numbers);
     this.gait = gaitOf(session);
     this.path = new Path(view, numbers, this.gait.timeline);
+    this.extent = extentOf(view, numbers, this.path, this.gait.timeline);
     this.turn = angleOf(heading) - angleOf(this.path.heading);
     this.figure.group.traverse((part) => {
       if ((part as Mesh).isMesh) {
@@ -61,20 +64,26 @@ export class Ghost {
     this.group.add(this.figure.group);
   }
 
+  /** Its room on a floor of this height [m]. */
+  extentOn(floor: number): Extent {
+    const lift = floor - this.view.floor_m;
+    return { ...this.extent, bottom: this.extent.bottom + lift, top: this.extent.top + lift };
+  }
+
   recolor(colors: Palette): void {
     (this.material.uniforms["color"] as { value: Color }).value.copy(
       colors.sessions[this.index % colors.sessions.length] ?? colors.text,
     );
   }
 
-  /** `pelvis`: where the main figure's is; `floor`: height of its floor [m]. */
-  pose(time: number, main: Gait, pelvis: Vector3, floor: number): void {
+  /** `hips`: where the main figure's are; `floor`: height of its floor [m]. */
+  pose(time: number, main: Gait, hips: Vector3, floor: number): void {
     const frame = this.gait.timeline.frameAt(matchingTime(time, main, this.gait));
     this.figure.pose(frame);
-    this.path.pelvis(frame, this.own);
+    this.path.hips(frame, this.own);
     this.group.quaternion.setFromAxisAngle(UP, this.turn);
     this.wanted.copy(this.own).applyQuaternion(this.group.quaternion);
-    this.group.position.set(pelvis.x - this.wanted.x, floor - this.view.floor_m, pelvis.z - this.wanted.z);
+    this.group.position.set(hips.x - this.wanted.x, floor - this.view.floor_m, hips.z - this.wanted.z);
   }
 }
 

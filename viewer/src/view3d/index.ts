@@ -75,7 +75,7 @@ class Picture implements View3D {
       this.stage.scene,
       this.world.parts.map((part) => part.group),
     );
-    this.rig = new CameraRig(this.canvas, this.world.extent, this.world.path.heading);
+    this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
     this.world.show(this.options);
     this.recolor();

@@ -14,6 +14,7 @@ export class Path {
   /** Unit vector of the way it goes, horizontal. */
   readonly heading: Vector3;
   private readonly root: Motion | null;
+  private readonly thighs: Motion[];
   private readonly smoothX: Float64Array;
   private readonly smoothZ: Float64Array;
   private readonly turn = new Quaternion();
@@ -21,6 +22,9 @@ export class Path {
   constructor(view: View, numbers: SeriesReader, timeline: Timeline) {
     const body = view.bodies[rootOf(view)];
     this.root = body ? new Motion(body, numbers) : null;
+    const thighs = view.bodies.filter(({ name }) => /femur|thigh|upleg/i.test(name));
+    const leading = thighs.length === 2 ? thighs : body ? [body] : [];
+    this.thighs = leading.map((one) => new Motion(one, numbers));
     const half = timeline.step > 0 ? Math.round(HALF_WINDOW_S / timeline.step) : 0;
     const series = body ? [numbers.read(body.position[0]), numbers.read(body.position[2])] : [];
     const [x, z] = series.map((values) => smoothed(filled(values), half));
@@ -34,9 +38,16 @@ export class Path {
     return into.set(sample(this.smoothX, frame), 0, sample(this.smoothZ, frame));
   }
 
-  /** The pelvis itself at a frame; false in a gap. */
-  pelvis(frame: number, into: Vector3): boolean {
-    return this.root?.at(frame, into, this.turn) ?? false;
+  /** Midway between the hips at a frame, the same place in every model; without thighs the pelvis' origin. False in a gap. */
+  hips(frame: number, into: Vector3): boolean {
+    const sum = new Vector3();
+    const all = this.thighs.every((thigh) => {
+      const there = thigh.at(frame, into, this.turn);
+      sum.add(into);
+      return there;
+    });
+    into.copy(sum).divideScalar(this.thighs.length);
+    return all && this.thighs.length > 0;
   }
 
   private direction(timeline: Timeline): Vector3 {

@@ -20,7 +20,7 @@ import type { SeriesReader } from "./reader";
 import { sample } from "./timeline";
 
 /** Radius of an arc and of its tube, in heights of the figure. */
-const RADIUS = 0.047;
+const RADIUS = 0.055;
 const TUBE = 0.0048;
 /** Moment of a full arc [N.m/kg], about the largest of walking, and the angle of that arc. */
 const FULL = 1.6;

@@ -1,13 +1,14 @@
-import { BufferAttribute, BufferGeometry, CircleGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { View, ViewForce } from "../contract";
+import { OVER, onLayer } from "./layers";
 import { type Palette, sideColor } from "./palette";
 import type { SeriesReader } from "./reader";
 
-/** Above the floor [m], so that the floor does not shine through. */
-const LIFT_M = 0.004;
-/** Breadth of the ribbon [m] and radius of the present point. */
-const BREADTH_M = 0.014;
-const POINT_M = 0.016;
+/** Radius of the line [m] and of the present point. */
+const LINE_M = 0.006;
+const POINT_M = 0.013;
+/** Corners around the line. */
+const SIDES = 6;
 /** Longest jump between two frames that is still one trail [m]. */
 const JUMP_M = 0.15;
 
@@ -23,23 +24,25 @@ export function contactStart(x: Float64Array, frame: number): number {
   return first;
 }
 
-/** Corners and strengths of a ribbon along points on the floor; the strength grows from 0.1 at the oldest point to 1. */
-export function ribbon(
+/** Corners of rings around points on the floor, `SIDES` for each, and how strong each ring is: 0.08 at the oldest point, 1 at the last. */
+export function rings(
   points: [number, number][],
-  breadth: number,
-): { corners: [number, number][]; strength: number[] } {
-  const corners: [number, number][] = [];
+  radius: number,
+): { corners: [number, number, number][]; strength: number[] } {
+  const corners: [number, number, number][] = [];
   const strength: number[] = [];
-  points.forEach((point, index) => {
+  for (const [index, point] of points.entries()) {
     const before = points[Math.max(0, index - 1)] ?? point;
     const after = points[Math.min(points.length - 1, index + 1)] ?? point;
-    const along = [after[0] - before[0], after[1] - before[1]] as const;
-    const length = Math.hypot(...along) || 1;
-    const across = [(-along[1] / length) * (breadth / 2), (along[0] / length) * (breadth / 2)] as const;
-    corners.push([point[0] + across[0], point[1] + across[1]], [point[0] - across[0], point[1] - across[1]]);
-    const part = 0.1 + (0.9 * (index + 1)) / points.length;
-    strength.push(part, part);
-  });
+    const [x, z] = [after[0] - before[0], after[1] - before[1]];
+    const length = Math.hypot(x, z) || 1;
+    for (let side = 0; side < SIDES; side += 1) {
+      const angle = (2 * Math.PI * side) / SIDES;
+      const across = radius * Math.cos(angle);
+      corners.push([point[0] - (z / length) * across, radius * Math.sin(angle), point[1] + (x / length) * across]);
+    }
+    strength.push(0.08 + (0.92 * (index + 1)) / points.length);
+  }
   return { corners, strength };
 }
 
@@ -47,8 +50,8 @@ interface Track {
   source: ViewForce;
   x: Float64Array;
   z: Float64Array;
-  ribbon: Mesh<BufferGeometry, MeshBasicMaterial>;
-  point: Mesh<CircleGeometry, MeshBasicMaterial>;
+  line: Mesh<BufferGeometry, MeshBasicMaterial>;
+  point: Mesh<SphereGeometry, MeshBasicMaterial>;
 }
 
 /** Where the centres of pressure of the present contacts have been. */
@@ -64,14 +67,15 @@ export class Trail {
     this.tracks = view.forces
       .filter((force) => force.role === "main")
       .map((source) => track(source, numbers.read(source.point[0]), numbers.read(source.point[2])));
-    for (const { ribbon, point } of this.tracks) {
-      this.group.add(ribbon, point);
+    for (const { line, point } of this.tracks) {
+      this.group.add(line, point);
     }
+    onLayer(this.group, OVER);
   }
 
   recolor(colors: Palette): void {
-    for (const { source, ribbon, point } of this.tracks) {
-      ribbon.material.color.copy(sideColor(colors, source.side));
+    for (const { source, line, point } of this.tracks) {
+      line.material.color.copy(sideColor(colors, source.side));
       point.material.color.copy(sideColor(colors, source.side));
     }
   }
@@ -79,14 +83,14 @@ export class Trail {
   pose(frame: number): void {
     for (const one of this.tracks) {
       const points = trailPoints(one.x, one.z, Math.floor(frame));
-      one.ribbon.visible = points.length > 1;
+      one.line.visible = points.length > 1;
       one.point.visible = points.length > 0;
       const last = points[points.length - 1];
       if (last) {
-        one.point.position.set(last[0], this.floor + LIFT_M * 1.5, last[1]);
+        one.point.position.set(last[0], this.floor, last[1]);
       }
       if (points.length > 1) {
-        fill(one.ribbon.geometry, points, this.floor + LIFT_M);
+        fill(one.line.geometry, points, this.floor);
       }
     }
   }
@@ -108,39 +112,44 @@ export function trailPoints(x: Float64Array, z: Float64Array, frame: number): [n
 }
 
 function track(source: ViewForce, x: Float64Array, z: Float64Array): Track {
-  const look = { transparent: true, depthWrite: false, side: DoubleSide };
-  const mesh = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ ...look, vertexColors: true }));
-  mesh.frustumCulled = false;
-  const point = new Mesh(new CircleGeometry(POINT_M, 28).rotateX(-Math.PI / 2), new MeshBasicMaterial(look));
-  return { source, x, z, ribbon: mesh, point };
+  const line = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ transparent: true, vertexColors: true }));
+  line.frustumCulled = false;
+  const point = new Mesh(new SphereGeometry(POINT_M, 20, 14), new MeshBasicMaterial());
+  return { source, x, z, line, point };
 }
 
 function fill(geometry: BufferGeometry, points: [number, number][], height: number): void {
-  const { corners, strength } = ribbon(points, BREADTH_M);
-  const count = corners.length;
-  let position = geometry.getAttribute("position") as BufferAttribute | undefined;
-  if (!position || position.count < count) {
-    geometry.dispose();
-    position = new BufferAttribute(new Float32Array(6 * count), 3);
-    geometry.setAttribute("position", position);
-    geometry.setAttribute("color", new BufferAttribute(new Float32Array(8 * count), 4));
-    geometry.setIndex(
-      Array.from({ length: Math.max(0, count - 1) }, (_, i) => [
-        2 * i,
-        2 * i + 1,
-        2 * i + 2,
-        2 * i + 1,
-        2 * i + 3,
-        2 * i + 2,
-      ]).flat(),
-    );
-  }
+  const { corners, strength } = rings(points, LINE_M);
+  const position = room(geometry, points.length);
   const color = geometry.getAttribute("color") as BufferAttribute;
-  corners.forEach(([x, z], index) => {
-    position.setXYZ(index, x, height, z);
-    color.setXYZW(index, 1, 1, 1, strength[index] ?? 0);
-  });
+  for (const [index, [x, y, z]] of corners.entries()) {
+    position.setXYZ(index, x, height + y, z);
+    color.setXYZW(index, 1, 1, 1, strength[Math.floor(index / SIDES)] ?? 0);
+  }
   position.needsUpdate = true;
   color.needsUpdate = true;
-  geometry.setDrawRange(0, 6 * (count / 2 - 1));
+  geometry.setDrawRange(0, 6 * SIDES * (points.length - 1));
+}
+
+/** The corners' buffer, with room for so many rings. */
+function room(geometry: BufferGeometry, count: number): BufferAttribute {
+  const known = geometry.getAttribute("position") as BufferAttribute | undefined;
+  if (known && known.count >= count * SIDES) {
+    return known;
+  }
+  const most = Math.max(64, 2 * count);
+  const position = new BufferAttribute(new Float32Array(3 * SIDES * most), 3);
+  const index: number[] = [];
+  for (let ring = 0; ring + 1 < most; ring += 1) {
+    for (let side = 0; side < SIDES; side += 1) {
+      const a = ring * SIDES + side;
+      const b = ring * SIDES + ((side + 1) % SIDES);
+      index.push(a, b, a + SIDES, b, b + SIDES, a + SIDES);
+    }
+  }
+  geometry.dispose();
+  geometry.setAttribute("position", position);
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(4 * SIDES * most), 4));
+  geometry.setIndex(index);
+  return position;
 }

@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import type { Page, Session, View } from "../contract";
 import { arrowScale } from "./arrow";
 import { Contacts } from "./contacts";
-import { type Extent, extentOf } from "./extent";
+import { type Extent, extentOf, union } from "./extent";
 import { Figure } from "./figure";
 import { Floor } from "./floor";
 import { Forces } from "./forces";
@@ -21,7 +21,7 @@ import { Trail } from "./trail";
 /** Everything that is seen, at a time. */
 export class World {
   readonly path: Path;
-  readonly extent: Extent;
+  private readonly extent: Extent;
   readonly ghosts: Ghost[];
   private readonly gait: Gait;
   private readonly figure: Figure;
@@ -31,7 +31,7 @@ export class World {
   private readonly trail: Trail;
   private readonly contacts: Contacts;
   private readonly still: (Plates | Obstacles | Ruler)[];
-  private readonly pelvis = new Vector3();
+  private readonly hips = new Vector3();
 
   constructor(
     page: Page,
@@ -43,7 +43,7 @@ export class World {
     const { timeline } = this.gait;
     this.path = new Path(view, numbers, timeline);
     this.extent = extentOf(view, numbers, this.path, timeline);
-    const height = this.extent.top - view.floor_m;
+    const height = this.height;
     this.figure = new Figure(view, numbers);
     this.floor = new Floor(view.floor_m);
     this.forces = new Forces(view, numbers, height, arrowScale(height, view.weight_n));
@@ -51,7 +51,7 @@ export class World {
     this.trail = new Trail(view, numbers, view.floor_m);
     this.contacts = new Contacts(view, height, view.floor_m);
     const [from, to] = [0, timeline.frames - 1].map((frame) => this.path.smooth(frame, new Vector3()));
-    const ruler = new Ruler(from ?? this.pelvis, to ?? this.pelvis, this.path.heading, view.floor_m, 0.45);
+    const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
     this.still = [new Plates(view), new Obstacles(view), ruler];
     this.ghosts = page.sessions.flatMap((other, index) =>
       index > 0 && other.view ? [new Ghost(other, other.view, numbers, this.path.heading, index)] : [],
@@ -62,6 +62,11 @@ export class World {
   get parts(): (Figure | Floor | Forces | Torques | Trail | Contacts | Ghost | Plates | Obstacles | Ruler)[] {
     const { figure, floor, forces, torques, trail, contacts } = this;
     return [figure, floor, forces, torques, trail, contacts, ...this.ghosts, ...this.still];
+  }
+
+  /** Room for the figure with its ghosts. */
+  get room(): Extent {
+    return this.ghosts.reduce((room, ghost) => union(room, ghost.extentOn(this.view.floor_m)), this.extent);
   }
 
   /** Height of the figure [m]. */
@@ -95,9 +100,9 @@ export class World {
     this.torques.pose(frame, time, this.figure);
     this.trail.pose(frame);
     this.contacts.pose(frame, this.figure, this.forces);
-    if (this.ghosts.length > 0 && this.path.pelvis(frame, this.pelvis)) {
+    if (this.ghosts.length > 0 && this.path.hips(frame, this.hips)) {
       for (const ghost of this.ghosts) {
-        ghost.pose(time, this.gait, this.pelvis, this.view.floor_m);
+        ghost.pose(time, this.gait, this.hips, this.view.floor_m);
       }
     }
   }
