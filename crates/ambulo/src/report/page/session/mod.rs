@@ -20,7 +20,7 @@ pub(super) fn session(folder: &Folder<'_>, _block: &mut Block) -> Result<Session
         _ => PageSource::None,
     };
     Ok(Session {
-        name: folder.name.clone(),
+        name: summary["input"]["motion"].as_str().unwrap_or(&folder.name).to_owned(),
         header: Vec::new(),
         source,
         time: TimeAxis { start_s, step_s, frames },
