@@ -7,6 +7,7 @@ mod fit_gait;
 mod fit_ground;
 mod harmonics;
 mod normative;
+mod normative_bands;
 mod npz;
 mod oracle_c3d;
 mod peers;
@@ -32,6 +33,7 @@ usage: cargo xtask <command>
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
   fit-ground        fit the numbers of the ground-force estimator anew, each subject left out in turn  [--write: docs/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
+  normative-bands   write the normative bands of page and figures anew, from the tables beside the workspace
   validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
@@ -58,6 +60,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("normative-bands", []) => normative_bands::run(),
         ("fit-ground", _) => fit_ground::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
