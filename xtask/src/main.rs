@@ -7,6 +7,7 @@ mod fit_gait;
 mod fit_ground;
 mod harmonics;
 mod normative;
+mod normative_bands;
 mod npz;
 mod oracle_c3d;
 mod peers;
@@ -21,7 +22,7 @@ use std::process::ExitCode;
 const HELP: &str = "\
 usage: cargo xtask <command>
 
-  check             what CI runs: format, lints, tests, documentation; stops at the first failure
+  check             what CI runs: format, lints, tests, documentation, the viewer, its pages in a browser; stops at the first failure
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it, ours and OpenSim's  [--write: docs/BENCHMARKS_MARKERS.md]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
@@ -32,6 +33,7 @@ usage: cargo xtask <command>
   fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
   fit-ground        fit the numbers of the ground-force estimator anew, each subject left out in turn  [--write: docs/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
+  normative-bands   write the normative bands of page and figures anew, from the tables beside the workspace
   validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
   walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
   help              this text
@@ -58,6 +60,7 @@ fn main() -> ExitCode {
         ("bench-simulation", _) => bench::simulation::run(rest),
         ("figures", []) => figures::run(),
         ("fit-gait", []) => fit_gait::run(),
+        ("normative-bands", []) => normative_bands::run(),
         ("fit-ground", _) => fit_ground::run(rest),
         ("validate", _) => validate::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),

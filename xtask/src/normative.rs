@@ -105,12 +105,20 @@ pub(crate) fn foot_off() -> Result<[f64; 5], String> {
 
 /// An event of the cycle [share of it] at five speeds.
 pub(crate) fn event(name: &str) -> Result<[f64; 5], String> {
+    Ok(event_band(name)?.0)
+}
+
+/// Mean and standard deviation of an event of the cycle [share of it] at five speeds; the table has the deviations with a minus.
+pub(crate) fn event_band(name: &str) -> Result<([f64; 5], [f64; 5]), String> {
     const FILE: &str = "schwartz2008_cycle_events.csv";
     let text = read(FILE)?;
     let line = text.lines().find(|line| line.starts_with(name));
     let line = line.ok_or_else(|| format!("{FILE}: found no row `{name}`"))?;
-    let cells: Vec<f64> = line.split(',').skip(1).step_by(2).filter_map(|cell| cell.parse().ok()).collect();
-    cells.try_into().map_err(|cells: Vec<f64>| format!("{FILE}: found {} of `{name}`; expected 5", cells.len()))
+    let every_other = |first: usize| -> Result<[f64; 5], String> {
+        let cells: Vec<f64> = line.split(',').skip(first).step_by(2).filter_map(|cell| cell.parse().ok()).collect();
+        cells.try_into().map_err(|cells: Vec<f64>| format!("{FILE}: found {} of `{name}`; expected 5", cells.len()))
+    };
+    Ok((every_other(1)?, every_other(2)?.map(f64::abs)))
 }
 
 fn read(name: &str) -> Result<String, String> {

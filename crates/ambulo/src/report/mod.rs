@@ -1,19 +1,26 @@
 //! Results as bytes: the tables, the summary and the figures that a shell writes to files.
 
+pub mod clinical;
 mod consistency_summary;
 mod cycle_table;
 mod exchange;
-mod figure;
+pub mod figures;
 mod files;
 mod gait_figure;
+mod html;
+pub mod normative;
 pub mod page;
 mod paper_figure;
+mod plot;
 mod prediction_files;
 mod reproduction;
+mod reproduction_page;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod stage;
+pub mod style;
 mod subject_summary;
 mod summary;
 mod tables;
@@ -25,12 +32,14 @@ pub use exchange::{
     GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
     skeleton_of, standing_recording, table_of_markers, trc_of_markers,
 };
-pub use figure::{FigureError, Mark, moments_figure};
+pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
+pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
+pub use reproduction_page::reproduction_page;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
@@ -38,7 +47,8 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use subject_summary::{
-    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
+    SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,
