@@ -53,7 +53,8 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 53] = [
+const RESULTS: &[&str] = &[
+    "report.html",
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -76,6 +77,7 @@ const RESULTS: [&str; 53] = [
     "figures/gait.svg",
     "figure.osim",
     "subject.osim",
+    "shapes.json",
     "poses.csv",
     "joints.csv",
     "reactions.csv",

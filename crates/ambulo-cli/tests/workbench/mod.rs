@@ -35,7 +35,7 @@ pub(crate) const FORCES: [&str; 10] = [
 pub(crate) const RAW: [&str; 4] = ["--cutoff", "off", "--force-cutoff", "off"];
 
 /// A run that takes longer than this hangs. The slowest, on 100 MB, takes a second or two.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A fresh folder.
 pub(crate) struct Workbench {

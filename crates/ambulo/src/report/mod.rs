@@ -7,16 +7,19 @@ mod exchange;
 pub mod figures;
 mod files;
 mod gait_figure;
+mod html;
 pub mod normative;
 pub mod page;
 mod paper_figure;
 mod plot;
 mod prediction_files;
 mod reproduction;
+mod reproduction_page;
 mod scene_figures;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod stage;
 pub mod style;
 mod subject_summary;
 mod summary;
@@ -36,6 +39,7 @@ pub use paper_figure::paper_figure;
 pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
+pub use reproduction_page::reproduction_page;
 pub use scene_figures::SceneCurves;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
@@ -43,7 +47,8 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use subject_summary::{
-    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
+    SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,
