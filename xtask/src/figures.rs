@@ -129,7 +129,10 @@ fn file_address(path: &Path) -> Result<String, String> {
     Ok(address)
 }
 
-/// Width and height of an SVG document in its units, rounded up.
+/// CSS has 96 pixels in an inch.
+const PIXELS_PER_MM: f64 = 96.0 / 25.4;
+
+/// Width and height of an SVG document in pixels, rounded up.
 fn size(svg: &str) -> Result<[u32; 2], String> {
     let begin = svg.find("<svg").ok_or("no <svg> element")?;
     let tag = svg[begin..].split('>').next().unwrap_or_default();
@@ -139,7 +142,11 @@ fn size(svg: &str) -> Result<[u32; 2], String> {
 fn length(tag: &str, name: &str) -> Result<u32, String> {
     let after = tag.split_once(&format!(" {name}=\"")).ok_or_else(|| format!("<svg> has no {name}"))?.1;
     let value = after.split('"').next().unwrap_or_default();
-    let number: f64 = value.trim_end_matches("px").parse().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
+    let (digits, pixels) = match value.strip_suffix("mm") {
+        Some(millimetres) => (millimetres, PIXELS_PER_MM),
+        None => (value.trim_end_matches("px"), 1.0),
+    };
+    let number = pixels * digits.parse::<f64>().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
     if !(number > 0.0 && number < 1e5) {
         return Err(format!("<svg {name}=\"{value}\">, expected a length above 0"));
     }
@@ -154,6 +161,7 @@ mod tests {
     fn the_size_is_that_of_the_svg_element_alone() {
         let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect width=\"5\"/></svg>";
         assert_eq!(size(svg), Ok([990, 316]));
+        assert_eq!(size("<svg width=\"25.4mm\" height=\"50.9mm\">"), Ok([96, 193]));
         let message = size("<svg stroke-width=\"2\"><rect width=\"5\" height=\"5\"/></svg>").unwrap_err();
         assert_eq!(message, "<svg> has no width");
         assert!(size("<svg width=\"100%\" height=\"5\">").unwrap_err().starts_with("<svg width=\"100%\">"));
