@@ -14,6 +14,7 @@ mod plot;
 mod prediction_files;
 mod reproduction;
 mod scene_figures;
+mod scene_shapes;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
@@ -38,6 +39,7 @@ pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use scene_figures::SceneCurves;
+pub use scene_shapes::scene_shapes;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };

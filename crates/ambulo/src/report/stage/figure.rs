@@ -83,6 +83,13 @@ impl Stage {
     }
 }
 
+/// What the bodies of a model look like, in their own axes.
+pub(crate) fn figure_shapes(model: &Model) -> Vec<Vec<ViewShape>> {
+    let places = JointPlaces::new(model);
+    let stature = person::stature(&places, None);
+    person::lengths(stature).map(|size| shapes(&places, stature, &size).0).unwrap_or_default()
+}
+
 fn shapes(
     places: &JointPlaces<'_>,
     stature: f64,
