@@ -28,8 +28,9 @@ mod walk_summary;
 pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use exchange::{
-    GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
-    skeleton_of, standing_recording, table_of_markers, trc_of_markers,
+    ExchangeError, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
+    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
+    table_of_markers, trc_of_markers,
 };
 pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};

@@ -18,7 +18,7 @@ mod scene;
 mod torque;
 mod trunk;
 
-pub(crate) use figure::figure_shapes;
+pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
 pub(crate) use path::BodyPath;
 
 use super::page::{Folder, PageError, ViewShape};
