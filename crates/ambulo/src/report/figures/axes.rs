@@ -1,6 +1,6 @@
 //! Axes of a panel: from numbers to places on the paper, with ticks at round numbers.
 
-use super::svg::{Anchor, Drawing, Letters, Stroke};
+use super::svg::{Anchor, Drawing, Letters, Stroke, text_width};
 use crate::report::style::Style;
 
 /// A rectangle of the paper with the numbers that its edges stand for.
@@ -33,6 +33,8 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
+/// Bold letters are wider by so much.
+const BOLD: f64 = 1.07;
 
 impl Axes {
     pub(super) fn x(&self, number: f64) -> f64 {
@@ -95,8 +97,11 @@ impl Axes {
     fn draw_words(&self, drawing: &mut Drawing, style: &Style, words: AxisWords<'_>) {
         let [left, top, right, bottom] = self.place;
         let font = &style.font;
-        let title = Letters { bold: true, ..Letters::plain(font.panel_pt, &style.text.color, Anchor::Start) };
         let unit = Letters::plain(font.label_pt, &style.quiet.color, Anchor::End);
+        let room = right - (left - LEFT + 2.0) - text_width(words.unit, font.label_pt) - 4.0;
+        let fitting = room / (BOLD * text_width(words.title, 1.0)).max(f64::MIN_POSITIVE);
+        let size = font.panel_pt.min(fitting).max(font.note_pt);
+        let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
         let line = top - 4.5;
         drawing.text([left - LEFT + 2.0, line], words.title, title);
         drawing.text([right, line], words.unit, unit);

@@ -113,8 +113,12 @@ const PLANS: [Plan; 6] = [
     },
 ];
 
-/// Quantities that never change by more than this within a percent of the cycle, in the file's unit, are not drawn: rounding.
-const LEAST_CHANGE: f64 = 1e-9;
+/// Whether a curve is one: by more than rounding and filters make of a constant.
+fn moves(row: &CycleRow) -> bool {
+    let least = if row.unit == "BW" { 1e-5 } else { 1e-3 };
+    let finite = || row.values.iter().copied().filter(|x| x.is_finite());
+    finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min) > least
+}
 
 /// Panels in rows of so many; where the pelvis has a row of its own, the hip and the trunk begin one, too.
 fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
@@ -178,7 +182,6 @@ impl CycleFigures<'_> {
             quantities.sort_by_key(|quantity| plan.only.iter().position(|id| *id == quantity.id));
         }
         // Sideways forces of a figure that moves in a plane, joints that are locked.
-        let moves = |row: &CycleRow| row.values.windows(2).any(|pair| (pair[1] - pair[0]).abs() > LEAST_CHANGE);
         quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row)));
         let band = |id: &str| self.speed_dimensionless.and_then(|speed| normative::band(id, speed));
         let panel = |quantity: ClinicalQuantity| {

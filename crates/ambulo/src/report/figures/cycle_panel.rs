@@ -15,6 +15,8 @@ use crate::report::style::Style;
 pub(super) const MOST_CYCLES: usize = 30;
 /// Height of toe-off ticks, as a share of the panel's.
 const TICK: f64 = 0.06;
+/// Thickness of the bars at the bottom [pt].
+const BAR: f64 = 1.5;
 
 /// A row of `cycles.csv` in clinical sign and unit.
 #[derive(Debug, Clone)]
@@ -163,9 +165,9 @@ impl<'a> CyclePanel<'a> {
                     }
                     Some(_) => {}
                     None => {
-                        let y = bottom - if mark.side == Side::Right { 1.2 } else { 3.8 };
+                        let y = bottom - if mark.side == Side::Right { 1.1 } else { 3.0 };
                         let points = mark.percent.map(|percent| [axes.x(percent), y]);
-                        drawing.polyline(&points, stroke, &attributes);
+                        drawing.polyline(&points, Stroke { width: BAR, ..stroke }, &attributes);
                     }
                 }
             }
