@@ -7,6 +7,7 @@ mod curves;
 mod cycles;
 mod cycles_file;
 mod events;
+mod extracted;
 mod feasibility;
 mod feet;
 mod groups;
@@ -37,6 +38,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
     let feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let values = extracted::extracted(&results, &quantities);
     let mut groups = groups::groups(&results, &size, &quantities, block);
     let mut quality = quality::quality(&results, block);
     if let Some(verdict) = &feasibility {
@@ -49,7 +51,11 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
         source: results.source,
         time: results.time(),
         groups,
-        tables: vec![time_distance::table(&results, &size, &strides)],
+        tables: vec![
+            time_distance::table(&results, &size, &strides),
+            extracted::table(&values),
+            extracted::symmetry(&values, &strides),
+        ],
         quality,
         feasibility,
         view: None,
