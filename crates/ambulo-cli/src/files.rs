@@ -53,7 +53,7 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 46] = [
+const RESULTS: [&str; 47] = [
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -70,6 +70,7 @@ const RESULTS: [&str; 46] = [
     "figure.osim",
     "subject.osim",
     "poses.csv",
+    "shapes.json",
     "joints.csv",
     "reactions.csv",
     "contacts.csv",

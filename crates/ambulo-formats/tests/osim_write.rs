@@ -103,7 +103,6 @@ fn what_the_writer_does_not_know_is_refused() {
     };
     let weld = || OsimConstraint::Other { kind: "WeldConstraint".into(), name: "c".into(), line: 1 };
     refused(&|m| m.constraints.push(weld()), "found the WeldConstraint `c`; expected couplers of coordinates");
-    refused(&|m| m.joints[0].kind = OsimJointKind::Ellipsoid { radii_m: [1.0; 3] }, "the ellipsoid joint");
     refused(&|m| m.bodies[0].mass_kg = f64::NAN, "found NaN; expected finite numbers");
     let endless = knots(&[0.0, f64::INFINITY], &[0.0, 1.0]);
     refused(&|m| set_curve(m, OsimFunction::SimmSpline(endless.clone())), "found inf; expected finite numbers");

@@ -86,8 +86,11 @@ fn what_the_writer_does_not_know_is_refused() {
         <Coordinate name="x"/><Coordinate name="y"/><Coordinate name="z"/></coordinates></BallJoint>
         </objects></JointSet></Model></OpenSimDocument>"#;
     let mut findings = Findings::default();
-    let model = from_osim(&OsimModel::read(document.as_bytes()).unwrap(), &mut findings).unwrap();
-    let error = to_osim(&model).unwrap_err();
+    let ball = from_osim(&OsimModel::read(document.as_bytes()).unwrap(), &mut findings).unwrap();
+    let mut bodies = ball.bodies().to_vec();
+    bodies[0].joint.rotations.swap(0, 1);
+    let odd = Model::new("m", ball.gravity(), bodies, ball.coordinates().to_vec(), Vec::new()).unwrap();
+    let error = to_osim(&odd).unwrap_err();
     assert!(matches!(&error, ExportError::Unknown { name, .. } if name == "ball"), "{error}");
     assert!(error.to_string().contains("joint `ball`: found forces that go with angular velocity"), "{error}");
 
@@ -97,6 +100,44 @@ fn what_the_writer_does_not_know_is_refused() {
     let model = from_osim_bytes(idle.as_bytes(), &mut findings).unwrap();
     let error = to_osim(&model).unwrap_err().to_string();
     assert!(error.contains("coordinate `x`: found no axis of a joint that follows it"), "{error}");
+}
+
+#[test]
+fn the_full_body_reads_back_as_it_was() {
+    for table in SegmentTable::ALL {
+        let build = Build { table, mass: 71.3, height: 1.734, toe_joint: true };
+        let written = ambulo::model::full_body::full_body(&build).unwrap().model;
+        let read = read_back(&written);
+        assert_same_motions(&written, &read);
+    }
+}
+
+#[test]
+fn joints_that_count_angular_velocities_read_back_as_they_were() {
+    let body = |name: &str| format!(r#"<Body name="{name}"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body>"#);
+    let joint = |kind: &str, parent: &str, child: &str, count: usize, rest: &str| {
+        let coordinates: String = (0..count).map(|k| format!(r#"<Coordinate name="{child}{k}"/>"#)).collect();
+        format!(
+            r#"<{kind} name="{child}_joint"><socket_parent_frame>p</socket_parent_frame><socket_child_frame>/bodyset/{child}</socket_child_frame>
+            <frames><PhysicalOffsetFrame name="p"><socket_parent>{parent}</socket_parent><translation>0.1 0.2 0.3</translation>
+            <orientation>0.3 -0.2 0.4</orientation></PhysicalOffsetFrame></frames><coordinates>{coordinates}</coordinates>{rest}</{kind}>"#
+        )
+    };
+    let radii = "<radii_x_y_z>0.1 0.2 0.15</radii_x_y_z>";
+    let document = format!(
+        r#"<OpenSimDocument Version="40000"><Model name="m"><BodySet><objects>{}{}{}</objects></BodySet>
+        <JointSet><objects>{}{}{}</objects></JointSet></Model></OpenSimDocument>"#,
+        body("a"),
+        body("b"),
+        body("c"),
+        joint("FreeJoint", "/ground", "a", 6, ""),
+        joint("BallJoint", "/bodyset/a", "b", 3, ""),
+        joint("EllipsoidJoint", "/bodyset/b", "c", 3, radii),
+    );
+    let written = from_osim_bytes(document.as_bytes(), &mut Findings::default()).unwrap();
+    let read = read_back(&written);
+    assert_same_models(&written, &read);
+    assert_same_motions(&written, &read);
 }
 
 /// Values, slopes and curvatures agree far inside, at and beyond the knots.

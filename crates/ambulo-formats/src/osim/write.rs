@@ -18,7 +18,7 @@ impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// What this writer does not know: constraints but couplers of coordinates, ellipsoid joints; numbers that are not finite.
+    /// What this writer does not know: constraints but couplers of coordinates; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
@@ -84,15 +84,19 @@ fn joint(joint: &OsimJoint) -> Result<String, Error> {
     let mut content = element(5, "socket_parent_frame", &parent) + &element(5, "socket_child_frame", &child);
     content += &group(5, "coordinates", &coordinates);
     content += &group(5, "frames", &frames);
-    if let OsimJointKind::Custom(axes) = &joint.kind {
-        let axes = axes.iter().enumerate().map(|(i, a)| axis(i, a)).collect::<Result<String, Error>>()?;
-        content += &group(5, "SpatialTransform", &axes);
+    match &joint.kind {
+        OsimJointKind::Custom(axes) => {
+            let axes = axes.iter().enumerate().map(|(i, a)| axis(i, a)).collect::<Result<String, Error>>()?;
+            content += &group(5, "SpatialTransform", &axes);
+        }
+        OsimJointKind::Ellipsoid { radii_m } => content += &element(5, "radii_x_y_z", &numbers(radii_m)?),
+        _ => {}
     }
-    Ok(holder(4, tag(joint)?, &joint.name, &content))
+    Ok(holder(4, tag(joint), &joint.name, &content))
 }
 
-fn tag(joint: &OsimJoint) -> Result<&'static str, Error> {
-    Ok(match joint.kind {
+fn tag(joint: &OsimJoint) -> &'static str {
+    match joint.kind {
         OsimJointKind::Weld => "WeldJoint",
         OsimJointKind::Pin => "PinJoint",
         OsimJointKind::Slider => "SliderJoint",
@@ -102,11 +106,8 @@ fn tag(joint: &OsimJoint) -> Result<&'static str, Error> {
         OsimJointKind::Planar => "PlanarJoint",
         OsimJointKind::Free => "FreeJoint",
         OsimJointKind::Custom(_) => "CustomJoint",
-        OsimJointKind::Ellipsoid { .. } => {
-            let found = format!("the ellipsoid joint {}", quoted(&joint.name));
-            return Err(unknown(found, "any other joint"));
-        }
-    })
+        OsimJointKind::Ellipsoid { .. } => "EllipsoidJoint",
+    }
 }
 
 fn coordinate(coordinate: &OsimCoordinate) -> Result<String, Error> {

@@ -37,4 +37,4 @@ pub use prediction_checks::{
     CarriedBy, CarriedMass, CheckOrder, CheckedPrediction, PredictionCheck, PredictionChecks, prediction_checks,
 };
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
-pub use residual::{Residual, residual, residual_within};
+pub use residual::{Residual, residual, residual_sizes, residual_within};

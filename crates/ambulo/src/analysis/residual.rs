@@ -26,6 +26,21 @@ pub fn residual(model: &Model, forces: &Forces) -> Option<Residual> {
     residual_within(model, forces, 0..forces.reactions.first()?.len())
 }
 
+/// Length of the residual force [N] and moment [N.m] in every frame.
+#[must_use]
+pub fn residual_sizes(model: &Model, forces: &Forces) -> Vec<[f64; 2]> {
+    let frames = 0..forces.reactions.first().map_or(0, Vec::len);
+    sizes(model, forces, frames).collect()
+}
+
+fn sizes(model: &Model, forces: &Forces, frames: Range<usize>) -> impl Iterator<Item = [f64; 2]> {
+    let roots = Roots::of(model);
+    frames.map(move |frame| {
+        let total = roots.residual(|body| forces.reactions[body.index()][frame]);
+        [total.force.norm(), total.moment.norm()]
+    })
+}
+
 /// The residual over some of the frames: those in which all that the ground does was measured.
 #[must_use]
 pub fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> Option<Residual> {
@@ -33,12 +48,10 @@ pub fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> 
     if frames.is_empty() {
         return None;
     }
-    let roots = Roots::of(model);
     let (mut force, mut moment) = (Series::default(), Series::default());
-    for frame in frames {
-        let total = roots.residual(|body| forces.reactions[body.index()][frame]);
-        force.add(total.force.norm());
-        moment.add(total.moment.norm());
+    for [force_n, moment_nm] in sizes(model, forces, frames) {
+        force.add(force_n);
+        moment.add(moment_nm);
     }
     Some(Residual {
         force_rms_n: force.rms(),

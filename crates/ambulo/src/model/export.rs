@@ -37,7 +37,7 @@ const GROUND: &str = "ground";
 /// The document of a model: its bodies, joints with their curves, couplers of coordinates and markers.
 ///
 /// # Errors
-/// Joints that count angular velocities; coordinates that move no joint.
+/// Joints that count angular velocities about other axes than x, y, z in turn; coordinates that move no joint.
 pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
     check_coordinates(model)?;
     let joints = model.body_ids().map(|id| joint(model, id)).collect::<Result<_, _>>()?;
@@ -95,17 +95,14 @@ fn frame(body: String, pose: &Pose) -> OsimFrame {
 
 fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     let joint = &model.bodies()[id.index()].joint;
-    if joint.measure != Measure::Rates {
-        let expected = "joints whose forces go with the rates of their coordinates";
-        let found = "forces that go with angular velocity";
-        return Err(ExportError::Unknown { part: "joint", name: joint.name.clone(), found, expected });
-    }
     // In the order of the model, which may differ from that of the axes.
     let own: BTreeSet<CoordinateId> = joint.coordinates().into_iter().collect();
-    // OpenSim 4.6 breaks down over a custom joint without coordinates.
-    let (kind, on_parent) = match standing(joint) {
-        Some(standing) => (OsimJointKind::Weld, joint.parent_from_joint * standing),
-        None => (OsimJointKind::Custom(Box::new(axes(model, joint))), joint.parent_from_joint),
+    let as_stated = joint.parent_from_joint;
+    let (kind, on_parent) = match (ball_kind(joint)?, standing(joint)) {
+        (Some(kind), _) => (kind, as_stated),
+        // OpenSim 4.6 breaks down over a custom joint without coordinates.
+        (None, Some(standing)) => (OsimJointKind::Weld, as_stated * standing),
+        (None, None) => (OsimJointKind::Custom(Box::new(axes(model, joint))), as_stated),
     };
     Ok(OsimJoint {
         name: joint.name.clone(),
@@ -115,6 +112,34 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
         child: frame(name_of(model, Some(id)), &joint.child_from_joint),
         coordinates: own.into_iter().map(|id| coordinate(&model.coordinates()[id.index()])).collect(),
     })
+}
+
+/// The kind of a joint that counts angular velocities, whose axes a document does not state: x, y, z of the joint's frames, each with
+/// the coordinate of its place. `None` for joints that count the rates of their coordinates.
+fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
+    let in_turn = |axes: &[JointAxis]| {
+        let units = [Vec3::x(), Vec3::y(), Vec3::z()];
+        axes.len() == 3 && axes.iter().zip(units).all(|(axis, unit)| axis.direction == unit)
+    };
+    let leaders: Vec<CoordinateId> = joint.coordinates();
+    let is_known = in_turn(&joint.rotations) && leaders.is_sorted();
+    let slides = !joint.translations.is_empty();
+    match joint.measure {
+        Measure::Rates => Ok(None),
+        Measure::AngularVelocity if is_known && !slides => Ok(Some(OsimJointKind::Ball)),
+        Measure::AngularVelocity if is_known && in_turn(&joint.translations) && leaders.len() == 6 => {
+            Ok(Some(OsimJointKind::Free))
+        }
+        Measure::Ellipsoid(radii) if is_known && !slides => {
+            Ok(Some(OsimJointKind::Ellipsoid { radii_m: radii.into() }))
+        }
+        _ => Err(ExportError::Unknown {
+            part: "joint",
+            name: joint.name.clone(),
+            found: "forces that go with angular velocity about axes of its own",
+            expected: "turns about x, y, z, and shifts along x, y, z or none",
+        }),
+    }
 }
 
 /// Where the child's frame of a joint stands in the parent's; `None` where a coordinate moves it.

@@ -1,9 +1,11 @@
 //! The files of a run, as names and bytes.
 
 use super::cycle_table::{self, cycle_rows};
-use super::figure::{FigureError, Mark, moments_figure};
+use super::figures::{CycleFigures, Mark, residual_figure};
+use super::normative::dimensionless_speed;
+use super::plot::FigureError;
 use super::tables;
-use crate::analysis::feasibility::{Check, Reason};
+use crate::analysis::feasibility::{Check, Person, Reason};
 use crate::analysis::{Analysis, Cycle};
 use crate::model::{Model, Side};
 use ambulo_formats::Error;
@@ -56,20 +58,34 @@ pub fn output_files(
         files.push(file("external_loads.xml", tables::external_loads(model, analysis).write()));
         files.push(file("events.csv", tables::events_csv(analysis).into_bytes()));
     }
+    let caption = caption(model, analysis);
+    if let Some(svg) = residual_figure(model, analysis, &caption)? {
+        files.push(file("figures/quality.svg", svg.into_bytes()));
+    }
     if !rows.is_empty() {
         files.push(file("cycles.csv", cycle_table::csv(&rows).into_bytes()));
-        files.push(file(
-            "figures/moments.svg",
-            moments_figure(&rows, analysis.mass.kg, &caption(model, analysis), &marks(analysis))?.into_bytes(),
-        ));
+        let figures = CycleFigures {
+            rows: &rows,
+            mass_kg: analysis.mass.kg,
+            caption: &caption,
+            marks: &marks(analysis),
+            speed_dimensionless: speed_dimensionless(model, analysis),
+        };
+        files.extend(figures.files()?);
     }
     Ok(files)
 }
 
-/// Whose walk a figure shows: `subject01, 72.8 kg, 1.12 m/s`.
-fn caption(model: &Model, analysis: &Analysis) -> String {
+/// V / sqrt(g L), where the speed is known and the model has legs.
+fn speed_dimensionless(model: &Model, analysis: &Analysis) -> Option<f64> {
+    dimensionless_speed(analysis.speed_m_s?, model.gravity().norm(), Person::of_model(model).leg_length_m)
+}
+
+/// Whose walk a figure shows: `subject01, 72.8 kg, 1.12 m/s (V* 0.37)`.
+pub(super) fn caption(model: &Model, analysis: &Analysis) -> String {
     let speed = analysis.speed_m_s.map(|v| format!(", {v:.2} m/s")).unwrap_or_default();
-    format!("{}, {:.1} kg{speed}", model.name(), analysis.mass.kg)
+    let scaled = speed_dimensionless(model, analysis).map(|v| format!(" (V* = {v:.2})")).unwrap_or_default();
+    format!("{}, {:.1} kg{speed}{scaled}", model.name(), analysis.mass.kg)
 }
 
 /// What stands against the motion, by gait cycle. What has no side stands in the cycles of both feet.
@@ -80,7 +96,7 @@ fn marks(analysis: &Analysis) -> Vec<Mark> {
     let mark = |(reason, cycle): (&Reason, &Cycle)| {
         let [from, to] = reason.time_s.map(|t| (t - cycle.start_s) / (cycle.end_s - cycle.start_s));
         (to >= 0.0 && from <= 1.0).then(|| Mark {
-            coordinate: coordinate(reason),
+            quantity: quantity(reason),
             side: cycle.side,
             cycle: cycle.number,
             percent: [from, to].map(|share| 100.0 * share.clamp(0.0, 1.0)),
@@ -89,14 +105,13 @@ fn marks(analysis: &Analysis) -> Vec<Mark> {
     of_side.filter_map(mark).collect()
 }
 
-/// The coordinate of a reason without its side; `None` for those of feet and body.
-fn coordinate(reason: &Reason) -> Option<String> {
-    let suffixes: &[&str] = match reason.check {
-        Check::Strength => &["_moment", "_force"],
-        Check::Power => &["_power"],
-        Check::Range => &[""],
+/// The quantity of `cycles.csv` that a reason is about; `None` for those of feet and body.
+fn quantity(reason: &Reason) -> Option<String> {
+    let suffix = match reason.check {
+        Check::Strength | Check::Power => "",
+        Check::Range => "_angle",
         _ => return None,
     };
     let stem = Side::split_name(&reason.quantity).map_or_else(|| reason.quantity.clone(), |(_, stem)| stem);
-    suffixes.iter().find_map(|suffix| stem.strip_suffix(suffix)).map(str::to_owned)
+    Some(stem + suffix)
 }

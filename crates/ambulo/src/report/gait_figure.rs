@@ -1,6 +1,6 @@
 //! The angular laws of a walk with the sub-cycles of its state machines below: figure 1 of the 1997 paper, for any gait.
 
-use super::figure::{Area, DrawResult, FINE, FigureError, font, shown_at};
+use super::plot::{Area, COLORS, DrawResult, FINE, FigureError, GREY, GRID, font, shown_at};
 use crate::gait::machine::{StateRow, state_rows, walking_machine};
 use crate::gait::{Clock, Jet, LegAngles, Walk};
 use plotters::prelude::*;
@@ -29,13 +29,11 @@ struct Shown {
     angle: fn(&LegAngles) -> Jet,
 }
 
-/// Okabe and Ito's palette (unverified), as the other figures have it.
 const JOINTS: [Shown; 3] = [
-    Shown { name: "hip", machine: "right hip", color: RGBColor(0, 114, 178), angle: |leg| leg.hip },
-    Shown { name: "knee", machine: "right knee", color: RGBColor(213, 94, 0), angle: |leg| leg.knee },
-    Shown { name: "ankle", machine: "right ankle", color: RGBColor(0, 158, 115), angle: |leg| leg.ankle },
+    Shown { name: "hip", machine: "right hip", color: COLORS[0], angle: |leg| leg.hip },
+    Shown { name: "knee", machine: "right knee", color: COLORS[1], angle: |leg| leg.knee },
+    Shown { name: "ankle", machine: "right ankle", color: COLORS[2], angle: |leg| leg.ankle },
 ];
-const GREY: RGBColor = RGBColor(120, 120, 120);
 
 /// A part of the cycle with a name.
 struct Span {
@@ -105,7 +103,7 @@ fn draw_curves(area: &Area<'_>, walk: &Walk) -> DrawResult {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
+        .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(GREY.stroke_width(FINE))
         .label_style(font(11))
         .axis_desc_style(font(11))
@@ -167,7 +165,7 @@ fn draw_spans(area: &Area<'_>, rows: &[(&'static str, RGBColor, Vec<Span>)]) -> 
         .disable_y_mesh()
         .disable_y_axis()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
+        .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(GREY.stroke_width(FINE))
         .label_style(font(11))
         .axis_desc_style(font(11))

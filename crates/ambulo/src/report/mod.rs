@@ -4,18 +4,22 @@ pub mod clinical;
 mod consistency_summary;
 mod cycle_table;
 mod exchange;
-mod figure;
+pub mod figures;
 mod files;
 mod gait_figure;
 pub mod normative;
 pub mod page;
 mod paper_figure;
+mod plot;
 mod prediction_files;
 mod reproduction;
 mod scene_figures;
+mod scene_shapes;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
+mod stage;
+pub mod style;
 mod subject_summary;
 mod summary;
 mod tables;
@@ -27,20 +31,23 @@ pub use exchange::{
     GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
     skeleton_of, standing_recording, table_of_markers, trc_of_markers,
 };
-pub use figure::{FigureError, Mark, moments_figure};
+pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};
 pub use gait_figure::gait_figure;
 pub use paper_figure::paper_figure;
+pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use scene_figures::SceneCurves;
+pub use scene_shapes::scene_shapes;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };
 pub use scene_tables::SceneTables;
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
 pub use subject_summary::{
-    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, SegmentSummary, SubjectSummary,
+    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
+    SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,

@@ -1,6 +1,6 @@
 //! Figures of the 1997 paper, drawn from their numbers: axes side by side, a legend under each title.
 
-use super::figure::{Area, DrawResult, FINE, FigureError, font, shown_at};
+use super::plot::{Area, COLORS, DrawResult, FINE, FigureError, GREY, GRID, font, shown_at};
 use crate::reproduction::{PaperFigure, PaperPanel, PaperSeries, SeriesKind};
 use plotters::prelude::*;
 
@@ -19,10 +19,8 @@ const MARGIN: u32 = 10;
 /// Figures with more panels than this have them one below the other.
 const MOST_ABREAST: usize = 3;
 
-/// Told apart by colour-blind eyes (Okabe and Ito's palette, unverified).
-const COLORS: [RGBColor; 5] =
-    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167), RGBColor(0, 0, 0)];
-const GREY: RGBColor = RGBColor(120, 120, 120);
+/// Lines with names take turns with so many colours.
+const TURNS: usize = 5;
 const PALE: RGBColor = RGBColor(160, 160, 160);
 
 /// Draws a figure.
@@ -79,11 +77,11 @@ fn colors(panel: &PaperPanel) -> Vec<RGBColor> {
     let mut color_of = |series: &PaperSeries| match series.kind {
         SeriesKind::Line if !series.name.is_empty() => {
             next += 1;
-            COLORS[(next - 1) % COLORS.len()]
+            COLORS[(next - 1) % TURNS]
         }
         SeriesKind::Line => COLORS[0],
         SeriesKind::Faint => PALE,
-        SeriesKind::Dots => COLORS[next.saturating_sub(1) % COLORS.len()],
+        SeriesKind::Dots => COLORS[next.saturating_sub(1) % TURNS],
     };
     panel.series.iter().map(&mut color_of).collect()
 }
@@ -116,7 +114,7 @@ fn draw_panel(area: &Area<'_>, panel: &PaperPanel) -> DrawResult {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
+        .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(GREY.stroke_width(FINE))
         .label_style(font(11))
         .axis_desc_style(font(11))

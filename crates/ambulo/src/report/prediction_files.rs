@@ -1,16 +1,17 @@
 //! Files of a run with predicted ground forces: their standard deviations, and what plates measured.
 
-use super::files::{OutputError, OutputFile};
+use super::figures::prediction_figure;
+use super::files::{OutputError, OutputFile, caption};
 use super::tables::{self, Column};
 use crate::analysis::PredictedAnalysis;
 use crate::ground::predict::FootDeviation;
 use crate::model::{Model, Side};
 use crate::spatial::Vec3;
 
-/// `grf_sd.mot` and, where plates measured, `grf_measured.mot`, on the instants of `kinematics.mot`.
+/// `grf_sd.mot` and, where plates measured, `grf_measured.mot`, on the instants of `kinematics.mot`; `figures/prediction.svg`.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that no table can hold, a figure that could not be drawn.
 pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, OutputError> {
     let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
     let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
@@ -18,6 +19,9 @@ pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<
     if let Some(measured) = &predicted.measured {
         let bytes = tables::ground(model, measured)?.write_storage();
         files.push(OutputFile { name: "grf_measured.mot".to_owned(), bytes });
+    }
+    if let Some(svg) = prediction_figure(model, predicted, &caption(model, &predicted.analysis))? {
+        files.push(OutputFile { name: "figures/prediction.svg".to_owned(), bytes: svg.into_bytes() });
     }
     Ok(files)
 }

@@ -1,7 +1,7 @@
 //! Figures of a simulated scene: curves over time.
 
-use super::figure::{Area, DrawResult, FINE, FigureError, font, shown_at};
 use super::files::OutputFile;
+use super::plot::{Area, COLORS, DrawResult, FINE, FigureError, GREY, GRID, RED, font, shown_at};
 use super::scene_verdict::SceneVerdict;
 use crate::simulation::scene::{Frame, Plot, Scene};
 use plotters::prelude::*;
@@ -12,25 +12,13 @@ const PANEL: (u32, u32) = (700, 230);
 const NAMES: u32 = 210;
 const TITLE: u32 = 40;
 /// More curves than this are not told apart; those with the largest values are drawn.
-const MOST_CURVES: usize = 8;
+const MOST_CURVES: usize = COLORS.len();
 /// Height of the bar that marks what is not feasible, share of the panel's.
 const FAULT_BAR: f64 = 0.03;
 /// Forces below this along slides are rounding of coordinates that nothing holds [N].
 const ROUNDING_N: f64 = 1e-6;
 /// More points than this on a curve are not seen.
 const MOST_POINTS: usize = 1500;
-
-/// Told apart by colour-blind eyes (Okabe and Ito's palette, unverified), black and dark colours first.
-const COLORS: [RGBColor; MOST_CURVES] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(0, 0, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
-    RGBColor(120, 120, 120),
-];
 
 /// A quantity over time: (instant [s], value).
 type Curve = Vec<(f64, f64)>;
@@ -309,8 +297,8 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64), faults: 
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
-        .axis_style(RGBColor(120, 120, 120).stroke_width(FINE))
+        .bold_line_style(GRID.stroke_width(FINE))
+        .axis_style(GREY.stroke_width(FINE))
         .label_style(font(11))
         .axis_desc_style(font(11))
         .x_labels(8)
@@ -323,7 +311,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, (start, end): (f64, f64), faults: 
         })
         .draw()?;
     if low < 0.0 && high > 0.0 {
-        chart.draw_series(LineSeries::new([(start, 0.0), (end, 0.0)], RGBColor(120, 120, 120).stroke_width(FINE)))?;
+        chart.draw_series(LineSeries::new([(start, 0.0), (end, 0.0)], GREY.stroke_width(FINE)))?;
     }
     let bar = low + FAULT_BAR * (high - low);
     chart.draw_series(faults.iter().map(|[from, to]| {

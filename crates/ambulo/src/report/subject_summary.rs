@@ -5,6 +5,7 @@ use crate::ground::plates::PlateContact;
 use crate::kinematics::calibration::SegmentScale;
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Side;
+use crate::motion::PlateRecording;
 use serde::Serialize;
 
 /// How markers became a body in motion.
@@ -20,6 +21,8 @@ pub struct SubjectSummary {
     pub segments: Vec<SegmentSummary>,
     /// Whose foot loaded which plate, and when.
     pub plates: Vec<PlateContactSummary>,
+    /// Where the plates lie.
+    pub plate_corners_m: Vec<PlateCornersSummary>,
     /// Times during which every foot on the ground stood on a plate that saw all of it [s], the longest first: only there do totals
     /// and the forces at the pelvis mean anything.
     pub instrumented_windows_s: Vec<[f64; 2]>,
@@ -74,6 +77,15 @@ pub struct PlateContactSummary {
     pub reason: String,
 }
 
+/// Where a force plate lies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlateCornersSummary {
+    /// Name of the plate.
+    pub plate: String,
+    /// Its corners in turn, in world axes [m].
+    pub corners_m: [[f64; 3]; 4],
+}
+
 /// How well two sources of foot strikes and toe-offs agree.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EventAgreementSummary {
@@ -106,6 +118,7 @@ impl SubjectSummary {
             marker_sets: body.subject.sets.clone(),
             segments: segments.iter().map(SegmentSummary::new).collect(),
             plates: plate_contacts(body),
+            plate_corners_m: body.plates.iter().map(PlateCornersSummary::new).collect(),
             instrumented_windows_s: body.on_plates.windows.clone(),
             events: agreements(body, listed, measured),
             assumptions: report.map(|r| r.assumptions.clone()).unwrap_or_default(),
@@ -122,6 +135,7 @@ impl SubjectSummary {
             markers: MarkersSummary::new(fit),
             segments: Vec::new(),
             plates: Vec::new(),
+            plate_corners_m: Vec::new(),
             instrumented_windows_s: Vec::new(),
             events: Vec::new(),
             assumptions: Vec::new(),
@@ -153,6 +167,12 @@ fn agreements(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> Vec<
         kinds: event_agreement(events, with).to_vec(),
     };
     others.iter().map(agreement).collect()
+}
+
+impl PlateCornersSummary {
+    fn new(plate: &PlateRecording) -> PlateCornersSummary {
+        PlateCornersSummary { plate: plate.name.clone(), corners_m: plate.corners.map(Into::into) }
+    }
 }
 
 impl SegmentSummary {

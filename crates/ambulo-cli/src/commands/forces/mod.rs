@@ -190,27 +190,15 @@ impl Origin {
         let [from, to] = *followed.body.on_plates.windows.first()?;
         Some(Window { from_s: Some(from), to_s: Some(to) })
     }
+}
 
-    /// Files of its own: the body that was made for the person, or changed, for OpenSim and for later runs. What cannot be
-    /// written is noted.
-    fn files(&self, model: &Model, is_changed: bool, findings: &mut Findings) -> Vec<OutputFile> {
-        let is_made = match self {
-            _ if is_changed => true,
-            Origin::Coordinates => false,
-            Origin::Skeleton(_) => true,
-            Origin::Markers(followed) => {
-                followed.body.subject.calibration.is_some() || !followed.body.subject.scaled.is_empty()
-            }
-        };
-        if !is_made {
-            return Vec::new();
-        }
-        match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
-            Ok(bytes) => vec![OutputFile { name: "subject.osim".to_owned(), bytes }],
-            Err(reason) => {
-                findings.note("subject.not_written", format!("subject.osim was not written: {reason:#}"));
-                Vec::new()
-            }
+/// The body that was used, for OpenSim, for later runs and for pictures. What cannot be written is noted.
+fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
+    match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
+        Ok(bytes) => Some(OutputFile { name: "subject.osim".to_owned(), bytes }),
+        Err(reason) => {
+            findings.note("subject.not_written", format!("subject.osim was not written: {reason:#}"));
+            None
         }
     }
 }
@@ -233,12 +221,12 @@ fn compute(
     } else {
         by_plates(&recorded, settings, &mut findings, &mut clock)
     };
-    let Recorded { mut model, person, input, origin, mass_is_stated, .. } = recorded;
+    let Recorded { mut model, person, input, mass_is_stated, .. } = recorded;
     let Computed { mut analysis, subject, checks, comparison, mut files } =
         computed.map_err(|error| name_the_file(error, &input))?;
     let consistency = agreed::agree(args, &mut model, &mut analysis, &input, &settings, &mut findings)?;
     clock.lap("consistency");
-    files.extend(origin.files(&model, consistency.is_some(), &mut findings));
+    files.extend(body_file(&model, &mut findings));
     if let Some(device) = &device {
         device.report_cover(analysis.trajectory.grid(), &mut findings);
     }

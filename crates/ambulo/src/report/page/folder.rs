@@ -40,14 +40,14 @@ pub enum PageError {
 
 impl Folder<'_> {
     /// `summary.json`.
-    pub(super) fn summary(&self) -> Result<Value, PageError> {
+    pub(in crate::report) fn summary(&self) -> Result<Value, PageError> {
         let file = "summary.json";
         let bytes = (self.file)(file).ok_or_else(|| PageError::Missing { folder: self.name.clone(), file })?;
         serde_json::from_slice(&bytes).map_err(|error| self.unreadable(file, error.to_string()))
     }
 
     /// A table of time series, if it is there.
-    pub(super) fn table(&self, file: &str) -> Result<Option<Table>, PageError> {
+    pub(in crate::report) fn table(&self, file: &str) -> Result<Option<Table>, PageError> {
         let Some(bytes) = (self.file)(file) else { return Ok(None) };
         match Table::read_storage(&bytes) {
             Ok((table, _)) => Ok(Some(table)),
@@ -56,7 +56,7 @@ impl Folder<'_> {
     }
 
     /// A file of text, if it is there.
-    pub(super) fn text(&self, file: &str) -> Result<Option<String>, PageError> {
+    pub(in crate::report) fn text(&self, file: &str) -> Result<Option<String>, PageError> {
         let Some(bytes) = (self.file)(file) else { return Ok(None) };
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Some(text)),
@@ -64,7 +64,7 @@ impl Folder<'_> {
         }
     }
 
-    pub(super) fn unreadable(&self, file: &str, reason: String) -> PageError {
+    pub(in crate::report) fn unreadable(&self, file: &str, reason: String) -> PageError {
         PageError::Unreadable { folder: self.name.clone(), file: file.to_owned(), reason }
     }
 }

@@ -8,6 +8,7 @@ mod contract;
 mod folder;
 mod session;
 mod shell;
+mod view;
 
 use contract::FORMAT;
 

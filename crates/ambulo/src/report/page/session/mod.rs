@@ -23,6 +23,7 @@ mod time_distance;
 use super::block::Block;
 use super::contract::Session;
 use super::folder::{Folder, PageError};
+use super::view::view;
 use results::Results;
 use size::BodySize;
 
@@ -34,6 +35,8 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
 
 /// Of a recording or a synthetic walk.
 fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result<Session, PageError> {
+    let viewed = view(folder, block)?;
+    let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
@@ -41,6 +44,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let values = extracted::extracted(&results, &quantities);
     let mut groups = groups::groups(&results, &size, &quantities, block);
     let mut quality = quality::quality(&results, block);
+    missing.extend(missing::missing(&results, &size, &quantities, &strides));
     if let Some(verdict) = &feasibility {
         feasibility::mark(&mut groups, &verdict.red);
         feasibility::mark(&mut quality.groups, &verdict.red);
@@ -58,8 +62,8 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
         ],
         quality,
         feasibility,
-        view: None,
-        missing: missing::missing(&results, &size, &quantities, &strides),
+        view: viewed.view,
+        missing,
         events: results.events,
         cycles: results.cycles,
     })
