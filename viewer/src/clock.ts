@@ -12,6 +12,7 @@ export class Clock {
   #playing = false;
   #speed = 1;
   #wall: number | null = null;
+  #asked = false;
   readonly #listeners = new Set<(clock: Clock) => void>();
 
   constructor(axis: TimeAxis) {
@@ -45,7 +46,7 @@ export class Clock {
     }
     this.#playing = true;
     this.#wall = null;
-    requestAnimationFrame(this.#tick);
+    this.#ask();
     this.#tell();
   }
 
@@ -83,7 +84,16 @@ export class Clock {
     return () => this.#listeners.delete(listener);
   }
 
+  /** Asks for the next picture once, however often playing starts and stops until then. */
+  #ask(): void {
+    if (!this.#asked) {
+      this.#asked = true;
+      requestAnimationFrame(this.#tick);
+    }
+  }
+
   readonly #tick = (now: number): void => {
+    this.#asked = false;
     if (!this.#playing) {
       return;
     }
@@ -91,7 +101,7 @@ export class Clock {
     this.#wall = now;
     const time = this.#time + elapsed * this.#speed;
     this.seek(time > this.end ? this.start : time);
-    requestAnimationFrame(this.#tick);
+    this.#ask();
   };
 
   #tell(): void {

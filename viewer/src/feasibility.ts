@@ -14,9 +14,13 @@ export function feasibility(context: Context, panels: Panels): HTMLElement[] {
   const parts = judged.flatMap((session) =>
     session.feasibility ? one(context, panels, session, session.feasibility) : [],
   );
+  const closest = tableSection(
+    judged.map((session) => session.feasibility?.closest ?? null),
+    judged.map((session) => session.name),
+  );
   const title = element("h2", { id: "feasibility-title" }, "Feasibility");
   const attributes = { class: "chapter", id: "feasibility", "aria-labelledby": "feasibility-title" };
-  return [element("section", attributes, title, ...parts)];
+  return [element("section", attributes, title, ...parts, closest)];
 }
 
 function one(context: Context, panels: Panels, session: Session, verdict: Feasibility): HTMLElement[] {
@@ -31,7 +35,7 @@ function one(context: Context, panels: Panels, session: Session, verdict: Feasib
     }
   };
   const red = verdict.red.length > 0 ? [lanes(context, session, verdict.red, go), reasons(verdict.red, go)] : [];
-  return [...name, sentence, ...red, tableSection([verdict.closest], [session.name])];
+  return [...name, sentence, ...red];
 }
 
 /** A lane a check, over the whole recording. */

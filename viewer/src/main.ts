@@ -11,7 +11,7 @@ import { listenToKeys } from "./keyboard";
 import { legend } from "./legend";
 import { Panels } from "./panels";
 import { prepareForPaper } from "./paper";
-import { timeAt } from "./phase";
+import { cycleAt, timeAt } from "./phase";
 import { quality } from "./quality";
 import { readPage } from "./read_page";
 import { followSystem } from "./style";
@@ -24,7 +24,7 @@ import "./css/panel.css";
 import "./css/table.css";
 import "./css/print.css";
 
-/** Where in the first right cycle the page begins [%]: the leg is loaded and the picture has forces. */
+/** Where in a right cycle the page begins [%]: the leg is loaded and the picture has forces. */
 const BEGIN_PERCENT = 15;
 
 /** Draws the page, or says why it cannot be drawn. */
@@ -35,6 +35,7 @@ async function main(root: HTMLElement): Promise<void> {
   if (!first) {
     throw new Error("This report holds no session.");
   }
+  document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
   const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };
   const panels = new Panels(context);
   const host = element("div", { class: "view" });
@@ -54,6 +55,7 @@ async function main(root: HTMLElement): Promise<void> {
   listenToKeys(context, { ...actions, help: open });
   prepareForPaper(panels, view, still);
   begin(context);
+  panels.start();
   Object.defineProperty(window, "ambulo", {
     value: {
       page,
@@ -125,8 +127,9 @@ function figure(host: HTMLElement, context: Context): View3D | null {
 }
 
 function begin({ clock, first }: Context): void {
-  const cycle = first.cycles.find(({ side }) => side === "r") ?? first.cycles[0];
-  clock.seek(cycle ? timeAt(cycle, BEGIN_PERCENT) : clock.start);
+  const times = first.cycles.filter(({ side }) => side === "r").map((cycle) => timeAt(cycle, BEGIN_PERCENT));
+  const inBoth = times.find((time) => cycleAt(first.cycles, "l", time));
+  clock.seek(inBoth ?? times[0] ?? clock.start);
 }
 
 function ready(): void {

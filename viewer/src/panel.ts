@@ -5,11 +5,11 @@ import { type Drawing, drawing, type PanelSource } from "./drawing";
 import { button, element } from "./element";
 import { digitsFor, shortCitation, shown } from "./format";
 import type { Scheme } from "./look";
-import { plot } from "./plot";
+import { plot, ROOM } from "./plot";
 import { followPointer } from "./pointer";
 import { readings } from "./reading";
 import { saveCsv, savePng, saveSvg } from "./save";
-import { vector, type Words } from "./vector";
+import { directionWords, vector, type Words } from "./vector";
 
 /** Size of a plot on paper [CSS px]; it is stretched to its column. */
 const PRINT = { width: 240, height: 150, titled: false };
@@ -59,10 +59,10 @@ export class PanelView {
   /** Whether somebody can see it; draws it when that is so for the first time. */
   set visible(visible: boolean) {
     this.#visible = visible;
-    if (visible && !this.#chart) {
-      this.redraw();
+    if (visible) {
+      this.draw();
+      this.tick();
     }
-    this.tick();
   }
 
   /** Draws anew what another axis or other sides ask for; at once if visible, or else when it becomes so. */
@@ -72,7 +72,7 @@ export class PanelView {
     this.#chart?.destroy();
     this.#chart = null;
     if (this.#visible) {
-      this.redraw();
+      this.draw();
       this.tick();
     }
   }
@@ -100,8 +100,10 @@ export class PanelView {
     for (const reading of readings(this.#drawing, this.#context.first, this.#context.clock.time)) {
       const cursor = this.#cursors.get(reading.side) ?? this.#cursors.get(null);
       if (cursor) {
-        const x = reading.x === null ? -9 : this.#chart.valToPos(reading.x, "x");
-        cursor.style.transform = `translateX(${x.toFixed(1)}px)`;
+        const [from, to] = this.#drawing.x;
+        const width = this.#chart.width - ROOM.left - ROOM.right;
+        cursor.hidden = reading.x === null;
+        cursor.style.transform = `translateX(${((width * ((reading.x ?? from) - from)) / (to - from)).toFixed(1)}px)`;
       }
       const value = this.#values.get(reading.side);
       const text = shown(reading.value, digits);
@@ -118,10 +120,10 @@ export class PanelView {
     }
   }
 
-  /** Draws the plot at the size of its host. */
-  redraw(): void {
+  /** Draws the plot at the size of its host, if that has not been done. */
+  draw(): void {
     const { clientWidth, clientHeight } = this.#plot;
-    if (!this.#drawing || clientWidth === 0) {
+    if (!this.#drawing || this.#chart || clientWidth === 0) {
       return;
     }
     this.#plot.replaceChildren();
@@ -131,17 +133,12 @@ export class PanelView {
   }
 
   #addOverlay(chart: uPlot, now: Drawing): void {
-    const { positive, negative } = this.#words;
-    const words = [
-      ...(positive ? [element("span", { class: "direction up" }, `↑ ${positive}`)] : []),
-      ...(negative ? [element("span", { class: "direction down" }, `↓ ${negative}`)] : []),
-    ];
     this.#cursors.clear();
     const sides = now.axis === "time" ? [null] : this.#context.display.sides;
     for (const side of sides) {
       this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}` }));
     }
-    chart.over.append(...words, ...this.#cursors.values());
+    chart.over.append(...this.#cursors.values());
   }
 
   #scheme(): Scheme {
@@ -155,7 +152,8 @@ export class PanelView {
     }
     const head = element("figcaption", {}, title);
     if (this.#drawing) {
-      head.append(this.#readout(this.#drawing), this.#menu());
+      const signs = element("span", { class: "signs" }, directionWords(this.#words));
+      head.append(this.#menu(), element("div", { class: "caption-row" }, signs, this.#readout(this.#drawing)));
     }
     return head;
   }
@@ -187,7 +185,7 @@ export class PanelView {
       element("summary", { "aria-label": `Save ${this.#words.title}`, title: "Save" }, "⋯"),
       element(
         "div",
-        {},
+        { class: "choices" },
         save("PNG", (now) => void savePng(name, now, this.#scheme(), this.#words)),
         save("SVG", (now) => saveSvg(name, now, this.#scheme(), this.#words)),
         save("CSV", (now) => saveCsv(name, now, this.#words, sessions)),

@@ -35,6 +35,22 @@ export class Panels {
     }
   }
 
+  /** Draws what is in sight at once, without waiting for the observer, and the rest while the browser is idle. */
+  start(): void {
+    const waiting = this.#views.filter((view) => {
+      const inSight = view.host.getBoundingClientRect().top < innerHeight;
+      view.visible = inSight;
+      return !inSight;
+    });
+    const later = (): void => {
+      waiting.shift()?.draw();
+      if (waiting.length > 0) {
+        whenIdle(later);
+      }
+    };
+    whenIdle(later);
+  }
+
   /** Vector pictures of all panels, for paper. */
   prepareForPaper(): void {
     this.#each((view) => view.prepareForPaper());
@@ -75,5 +91,14 @@ export class Panels {
     for (const view of this.#views) {
       action(view);
     }
+  }
+}
+
+/** Not every browser tells when it is idle. */
+function whenIdle(action: () => void): void {
+  if (typeof requestIdleCallback === "function") {
+    requestIdleCallback(action, { timeout: 500 });
+  } else {
+    setTimeout(action, 50);
   }
 }

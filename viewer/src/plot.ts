@@ -5,7 +5,7 @@ import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
 import { colour, STYLE } from "./style";
 
 /** Room of the axes [CSS px]. */
-export const ROOM = { left: 34, bottom: 18, top: 6, right: 9 } as const;
+export const ROOM = { left: 32, bottom: 17, top: 5, right: 13 } as const;
 /** Height of the ticks of strikes and toe-offs [CSS px]. */
 export const MARK = 9;
 
@@ -13,12 +13,14 @@ export const MARK = 9;
 export function ticksOf(drawing: Drawing): { readonly x: number[]; readonly y: number[] } {
   const [from, to] = drawing.x;
   const x = drawing.axis === "cycle" ? [0, 20, 40, 60, 80, 100] : roundValues(from, to, 5);
-  return { x, y: roundValues(drawing.y[0], drawing.y[1], 4) };
+  return { x, y: roundValues(drawing.y[0], drawing.y[1], 5) };
 }
 
 /** Words at the ticks of the horizontal axis; the last one has the unit. */
 export function xWords(ticks: readonly number[], axis: Axis): string[] {
-  return ticks.map((tick, i) => (i === ticks.length - 1 ? `${tick} ${axis === "cycle" ? "%" : "s"}` : String(tick)));
+  return ticks.map((tick, i) =>
+    i === ticks.length - 1 ? (axis === "cycle" ? `${tick}%` : `${tick} s`) : String(tick),
+  );
 }
 
 /** Words at the ticks of the vertical axis, all with the same digits. */
@@ -162,6 +164,8 @@ function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   const { left, top, width, height } = chart.bbox;
   const ratio = devicePixelRatio;
   ctx.save();
+  ctx.globalAlpha = 1;
+  ctx.setLineDash([]);
   ctx.strokeStyle = colour("quiet");
   ctx.lineWidth = pixels(STYLE.lines_pt.zero) * ratio;
   if (drawing.y[0] < 0 && drawing.y[1] > 0) {

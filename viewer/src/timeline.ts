@@ -8,7 +8,7 @@ export function timeline(context: Context): HTMLElement {
   const length = Math.max(clock.end - clock.start, clock.step);
   const part = (time: number): number => Math.min(Math.max((100 * (time - clock.start)) / length, 0), 100);
   const bar = (kind: string, from: number, to: number): HTMLElement => {
-    const made = element("div", { class: `bar ${kind}` });
+    const made = element("div", { class: `stance ${kind}` });
     made.style.left = `${part(from)}%`;
     made.style.width = `${Math.max(part(to) - part(from), 0.3)}%`;
     return made;

@@ -40,8 +40,8 @@ export function vector(
   picture.append(...drawing.areas.map((area) => surface(area, frame, scheme)));
   picture.append(...shades(drawing, frame), ...grid(drawing, frame), ...axes(frame));
   picture.append(...drawing.lines.map((line) => curve(line, frame, scheme)), ...marks(drawing, frame, scheme));
-  picture.append(...directions(words, frame));
   if (size.titled) {
+    picture.append(...directions(words, frame));
     const attributes = { x: frame.left, y: 14, fill: colour("text"), "font-size": pixels(STYLE.font.panel_pt) };
     picture.append(svgElement("text", attributes, words.unit ? `${words.title} [${words.unit}]` : words.title));
   }
@@ -113,11 +113,8 @@ function grid(drawing: Drawing, frame: Frame): SVGElement[] {
   });
   const upright = xWords(ticks.x, drawing.axis).flatMap((word, i) => {
     const x = frame.x(ticks.x[i] ?? 0);
-    const text = { x, y: frame.bottom + 12, fill, "text-anchor": i === ticks.x.length - 1 ? "end" : "middle" };
-    return [
-      straight(x, frame.top, x, frame.bottom, colour("grid"), width),
-      svgElement("text", i === ticks.x.length - 1 ? { ...text, x: Math.min(x + 9, frame.right + 9) } : text, word),
-    ];
+    const text = { x, y: frame.bottom + 12, fill, "text-anchor": "middle" };
+    return [straight(x, frame.top, x, frame.bottom, colour("grid"), width), svgElement("text", text, word)];
   });
   const zero = frame.y(0);
   const inside = drawing.y[0] < 0 && drawing.y[1] > 0;
@@ -148,10 +145,20 @@ function marks(drawing: Drawing, frame: Frame, scheme: Scheme): SVGElement[] {
 }
 
 function directions(words: Words, frame: Frame): SVGElement[] {
-  const style = { x: frame.left + 4, fill: colour("quiet"), "font-size": pixels(STYLE.font.note_pt) };
-  const up = svgElement("text", { ...style, y: frame.top + 8 }, `↑ ${words.positive}`);
-  const down = svgElement("text", { ...style, y: frame.bottom - 5 }, `↓ ${words.negative}`);
-  return [...(words.positive ? [up] : []), ...(words.negative ? [down] : [])];
+  const text = directionWords(words);
+  const style = {
+    x: frame.right,
+    y: 13,
+    fill: colour("quiet"),
+    "font-size": pixels(STYLE.font.note_pt),
+    "text-anchor": "end",
+  };
+  return text === "" ? [] : [svgElement("text", style, text)];
+}
+
+/** What positive and negative values mean. */
+export function directionWords({ positive, negative }: Words): string {
+  return [...(positive ? [`↑ ${positive}`] : []), ...(negative ? [`↓ ${negative}`] : [])].join("   ");
 }
 
 function straight(x1: number, y1: number, x2: number, y2: number, stroke: string, width: number): SVGElement {

@@ -206,7 +206,7 @@ function panel(block: Block, quantity: Quantity, variant: Variant, red: readonly
   const value = (side: PageSide, phase: number, n: number): number =>
     variant.scale *
     quantity.wave(phase) *
-    (1 + (side === "l" ? 0.06 : 0) + 0.03 * Math.sin(3 * n + (side === "l" ? 1 : 0)));
+    (1 + (side === "l" ? 0.06 : 0) + 0.09 * Math.sin(3 * n + (side === "l" ? 1 : 0)));
   const percents = Array.from({ length: 101 }, (_, i) => i / 100);
   const all = variant.cycles ? cycles() : [];
   const { wave: _, ...words } = quantity;

@@ -129,14 +129,17 @@ pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64;
     [low - margin, high + margin]
 }
 
-/// Round numbers inside a range, four to seven, and the decimals that they need.
+/// Round numbers inside a range, three to six, and the decimals that they need.
 fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     let rough = (high - low) / 5.0;
     if !(rough > 0.0 && rough.is_finite()) {
         return (Vec::new(), 0);
     }
     let power = 10.0_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 2.5, 5.0, 10.0].map(|k| k * power).into_iter().find(|s| *s >= rough * 0.999).unwrap_or(rough);
+    // 25 is rounder than 20, but 0.25 needs a digit more than 0.2.
+    let quarter = if power >= 10.0 { 2.5 } else { 2.0 };
+    let step =
+        [1.0, 2.0, quarter, 5.0, 10.0].map(|k| k * power).into_iter().find(|s| *s >= rough * 0.999).unwrap_or(rough);
     let hidden = 1e-9 * step;
     let (first, last) = (((low - hidden) / step).ceil(), ((high + hidden) / step).floor());
     let mut digits = 0;

@@ -59,9 +59,14 @@ impl<'a> CyclePanel<'a> {
         Some((0..length).map(|i| curves.iter().map(|c| c.values[i]).sum::<f64>() / curves.len() as f64).collect())
     }
 
+    /// How many cycles of a side there are.
+    pub(super) fn cycles(&self, side: Side) -> usize {
+        self.of_side(side).len()
+    }
+
     /// Whether some cycles of a side are left out.
     pub(super) fn is_thinned(&self) -> bool {
-        Side::BOTH.iter().any(|side| self.of_side(*side).len() > MOST_CYCLES)
+        Side::BOTH.iter().any(|side| self.cycles(*side) > MOST_CYCLES)
     }
 
     /// What there is to be seen, in words.
@@ -106,14 +111,10 @@ impl<'a> CyclePanel<'a> {
             self.draw_mean(drawing, style, &axes, side);
         }
         self.draw_marks(drawing, style, &axes, marks);
-        let unit = match self.quantity.unit {
-            "deg" => "°",
-            "N.m/kg" => "N·m/kg",
-            unit => unit,
-        };
+        let unit = self.quantity.unit.replace("N.m", "N·m");
         let words = AxisWords {
             title: self.quantity.title,
-            unit,
+            unit: &unit,
             directions: [self.quantity.positive, self.quantity.negative],
             abscissa: slot.named.then_some("gait cycle (%)"),
         };
