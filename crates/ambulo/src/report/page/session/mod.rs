@@ -2,13 +2,17 @@
 //!
 //! `results` reads the files of a recording or walk; every other file makes one part of the page of them.
 
+mod cells;
 mod curves;
 mod cycles;
 mod cycles_file;
 mod events;
+mod feasibility;
 mod feet;
 mod groups;
 mod header;
+mod missing;
+mod quality;
 mod results;
 mod sides;
 mod size;
@@ -16,7 +20,7 @@ mod strides;
 mod time_distance;
 
 use super::block::Block;
-use super::contract::{Quality, Session};
+use super::contract::Session;
 use super::folder::{Folder, PageError};
 use super::view::view;
 use results::Results;
@@ -34,23 +38,26 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
     let viewed = view(folder, block)?;
+    let feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let mut groups = groups::groups(&results, &size, &quantities, block);
+    let mut quality = quality::quality(&results, block);
+    if let Some(verdict) = &feasibility {
+        feasibility::mark(&mut groups, &verdict.red);
+        feasibility::mark(&mut quality.groups, &verdict.red);
+    }
+    let mut missing = missing::missing(&results, &size, &quantities, &strides);
+    missing.extend(viewed.missing);
     Ok(Session {
         name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
         header: header::header(&results, &size, &strides),
         source: results.source,
         time: results.time(),
-        groups: groups::groups(&results, &size, &quantities, block),
+        groups,
         tables: vec![time_distance::table(&results, &size, &strides)],
-        quality: Quality {
-            facts: Vec::new(),
-            groups: Vec::new(),
-            tables: Vec::new(),
-            findings: Vec::new(),
-            assumptions: Vec::new(),
-        },
-        feasibility: None,
+        quality,
+        feasibility,
         view: viewed.view,
-        missing: viewed.missing,
+        missing,
         events: results.events,
         cycles: results.cycles,
     })

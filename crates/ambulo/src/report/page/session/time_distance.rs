@@ -1,5 +1,6 @@
 //! The table of times and distances, beside those of healthy people at the same speed.
 
+use super::cells::{mean_cell, number, text};
 use super::results::Results;
 use super::size::BodySize;
 use super::strides::Stride;
@@ -110,31 +111,4 @@ fn in_words(range: &NormalRange, digits: usize) -> String {
         (None, Some(mean)) => format!("about {mean:.digits$}"),
         (None, None) => String::new(),
     }
-}
-
-/// A cell of words.
-pub(super) fn text(words: &str) -> Cell {
-    Cell { text: words.to_owned(), value: None, outside: false }
-}
-
-/// A number, or a dash where there is none; marked where it is outside of a range.
-pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>) -> Cell {
-    let value = value.filter(|x| x.is_finite());
-    Cell {
-        text: value.map_or_else(|| "-".to_owned(), |x| format!("{x:.digits$}")),
-        value,
-        outside: value.zip(range).is_some_and(|(x, [low, high])| x < low || x > high),
-    }
-}
-
-/// The mean of several numbers, with their deviation from two on.
-pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) -> Cell {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let mut cell = number(Some(mean), digits, range);
-    if values.len() > 1 {
-        let sd = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-        cell.text += &format!(" ± {sd:.digits$}");
-    }
-    cell
 }
