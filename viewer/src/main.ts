@@ -1,3 +1,4 @@
+import { abreast, chapter } from "./chapter";
 import { Clock } from "./clock";
 import type { Context, Stage } from "./context";
 import { pageControls, playControls } from "./controls";
@@ -79,18 +80,11 @@ function content(context: Context, panels: Panels): HTMLElement {
   return element(
     "div",
     { class: "content" },
-    ...chapter("curves", "Curves", [legend(context), ...curves, ...sources(context)], curves.length),
+    ...chapter("curves", "Curves", curves.length > 0 ? [legend(context), ...curves, ...sources(context)] : []),
     ...feasibility(context, panels),
-    ...chapter("tables", "Numbers", [element("div", { class: "tables" }, ...numbers)], numbers.length),
-    quality(context, panels),
+    ...chapter("tables", "Numbers", abreast(numbers)),
+    ...quality(context, panels),
   );
-}
-
-function chapter(id: string, title: string, parts: readonly HTMLElement[], count: number): HTMLElement[] {
-  const heading = element("h2", { id: `${id}-title` }, title);
-  return count > 0
-    ? [element("section", { class: "chapter", id, "aria-labelledby": `${id}-title` }, heading, ...parts)]
-    : [];
 }
 
 /** Where the grey bands come from, in full. */

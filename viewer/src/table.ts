@@ -72,12 +72,15 @@ export function sideBySide(own: readonly (Table | null)[], names: readonly strin
 
 /** A table element; its caption is for screen readers, who see no heading beside it. */
 export function tableElement({ spans, heads, rows }: Columns, caption: string): HTMLTableElement {
+  const kinds = heads.map((_, column) => (rows.every((row) => isNumber(row[column])) ? "number" : "words"));
   const head = element("thead");
   if (spans.length > 0) {
     head.append(element("tr", { class: "spans" }, ...spans.map(spanHead)));
   }
-  head.append(element("tr", {}, ...heads.map((word) => element("th", { scope: "col" }, word))));
-  const body = element("tbody", {}, ...rows.map(rowElement));
+  head.append(
+    element("tr", {}, ...heads.map((word, i) => element("th", { scope: "col", class: kinds[i] ?? "words" }, word))),
+  );
+  const body = element("tbody", {}, ...rows.map((row) => rowElement(row, kinds)));
   return element("table", {}, element("caption", { class: "spoken" }, caption), head, body);
 }
 
@@ -87,14 +90,19 @@ function spanHead({ name, columns }: { readonly name: string; readonly columns: 
     : element("th", { scope: "colgroup", colspan: columns }, name);
 }
 
-function rowElement(row: readonly Cell[]): HTMLElement {
-  const [first, ...others] = row;
-  return element("tr", {}, element("th", { scope: "row" }, first?.text ?? ""), ...others.map(cellElement));
+/** Whether a cell may stand in a column of numbers, which is aligned to the right. */
+function isNumber(cell: Cell | undefined): boolean {
+  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|–?)$/.test(cell.text);
 }
 
-function cellElement(cell: Cell): HTMLElement {
-  const number = cell.value !== null || /^[−-]?\d/.test(cell.text);
-  const made = element("td", { class: `${number ? "number" : "words"}${cell.outside ? " outside" : ""}` }, cell.text);
+function rowElement(row: readonly Cell[], kinds: readonly string[]): HTMLElement {
+  const [first, ...others] = row;
+  const cells = others.map((cell, i) => cellElement(cell, kinds[i + 1] ?? "words"));
+  return element("tr", {}, element("th", { scope: "row" }, first?.text ?? ""), ...cells);
+}
+
+function cellElement(cell: Cell, kind: string): HTMLElement {
+  const made = element("td", { class: `${kind}${cell.outside ? " outside" : ""}` }, cell.text);
   if (cell.outside) {
     made.append(element("span", { class: "spoken" }, " (outside)"));
   }
