@@ -49,9 +49,6 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
         feasibility::mark(&mut groups, &verdict.red);
         feasibility::mark(&mut quality.groups, &verdict.red);
     }
-    let viewed = view(folder, block)?;
-    let mut missing = missing::missing(&results, &size, &quantities, &strides);
-    missing.extend(viewed.missing);
     Ok(Session {
         name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
         header: header::header(&results, &size, &strides),
