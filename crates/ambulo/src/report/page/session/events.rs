@@ -1,10 +1,13 @@
 //! Foot strikes and toe-offs, from `events.csv`.
 
-use crate::report::page::contract::{PageEvent, PageSide};
+use super::sides;
+use crate::model::Side;
+use crate::report::page::contract::PageEvent;
 use crate::report::page::folder::{Folder, PageError};
 
 const FILE: &str = "events.csv";
 
+/// All events in the file's order; none without the file.
 pub(super) fn events(folder: &Folder<'_>) -> Result<Vec<PageEvent>, PageError> {
     let text = folder.text(FILE)?.unwrap_or_default();
     text.lines().enumerate().skip(1).map(|(i, line)| event(folder, i + 1, line)).collect()
@@ -13,14 +16,16 @@ pub(super) fn events(folder: &Folder<'_>) -> Result<Vec<PageEvent>, PageError> {
 fn event(folder: &Folder<'_>, number: usize, line: &str) -> Result<PageEvent, PageError> {
     let cells: Vec<&str> = line.split(',').collect();
     let read = || {
-        let [side, kind, time] = cells[..] else { return None };
-        let side = match side {
-            "r" => PageSide::R,
-            "l" => PageSide::L,
+        let [letter, kind, time] = cells[..] else { return None };
+        let side = Side::BOTH.into_iter().find(|side| side.letter() == letter)?;
+        let strike = match kind {
+            "strike" => true,
+            "off" => false,
             _ => return None,
         };
-        Some(PageEvent { side, strike: kind == "strike", time_s: time.parse().ok()? })
+        let time_s: f64 = time.parse().ok()?;
+        time_s.is_finite().then_some(PageEvent { side: sides::page(side), strike, time_s })
     };
-    let refused = || format!("line {number}: found `{line}`; expected side (r, l), event and time");
+    let refused = || format!("line {number}: found `{line}`; expected side (r, l), event (strike, off) and time");
     read().ok_or_else(|| folder.unreadable(FILE, refused()))
 }

@@ -1,44 +1,70 @@
 //! What is shown of one folder.
+//!
+//! `results` reads the files of a recording or walk; every other file makes one part of the page of them.
 
+mod cells;
+mod curves;
+mod cycles;
+mod cycles_file;
 mod events;
+mod extracted;
+mod feasibility;
+mod feet;
+mod groups;
+mod header;
+mod missing;
+mod quality;
+mod results;
+mod sides;
+mod size;
+mod strides;
+mod time_distance;
 
 use super::block::Block;
-use super::contract::{PageSource, Quality, Session, TimeAxis};
+use super::contract::Session;
 use super::folder::{Folder, PageError};
 use super::view::view;
+use results::Results;
+use size::BodySize;
 
 /// The session of a folder; its numbers go into `block`.
 pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, PageError> {
     let summary = folder.summary()?;
-    let kinematics = folder.table("kinematics.mot")?;
-    let frames = kinematics.as_ref().map_or(0, |table| table.rows());
-    let start_s = summary["window_s"][0].as_f64().unwrap_or(0.0);
-    let step_s = summary["rate_hz"].as_f64().map_or(0.0, |rate| 1.0 / rate);
-    let source = match summary["ground"]["source"].as_str() {
-        Some("measured") => PageSource::Measured,
-        Some("predicted") => PageSource::Predicted,
-        Some("simulated") => PageSource::Simulated,
-        _ => PageSource::None,
-    };
+    recording(folder, Results::read(folder, summary)?, block)
+}
+
+/// Of a recording or a synthetic walk.
+fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result<Session, PageError> {
     let viewed = view(folder, block)?;
+    let mut missing = viewed.missing;
+    let quantities = groups::quantities(&results);
+    let strides = strides::strides(&results);
+    let size = BodySize::of(&results, &strides);
+    let feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let values = extracted::extracted(&results, &quantities);
+    let mut groups = groups::groups(&results, &size, &quantities, block);
+    let mut quality = quality::quality(&results, block);
+    missing.extend(missing::missing(&results, &size, &quantities, &strides));
+    if let Some(verdict) = &feasibility {
+        feasibility::mark(&mut groups, &verdict.red);
+        feasibility::mark(&mut quality.groups, &verdict.red);
+    }
     Ok(Session {
-        name: folder.name.clone(),
-        header: Vec::new(),
-        source,
-        time: viewed.time.unwrap_or(TimeAxis { start_s, step_s, frames }),
-        events: events::events(folder)?,
-        cycles: Vec::new(),
-        groups: Vec::new(),
-        tables: Vec::new(),
-        quality: Quality {
-            facts: Vec::new(),
-            groups: Vec::new(),
-            tables: Vec::new(),
-            findings: Vec::new(),
-            assumptions: Vec::new(),
-        },
-        feasibility: None,
+        name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
+        header: header::header(&results, &size, &strides),
+        source: results.source,
+        time: results.time(),
+        groups,
+        tables: vec![
+            time_distance::table(&results, &size, &strides),
+            extracted::table(&values),
+            extracted::symmetry(&values, &strides),
+        ],
+        quality,
+        feasibility,
         view: viewed.view,
-        missing: viewed.missing,
+        missing,
+        events: results.events,
+        cycles: results.cycles,
     })
 }

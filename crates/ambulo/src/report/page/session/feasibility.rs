@@ -1,0 +1,105 @@
+//! The verdict: whether a person could do this, and what stands against it, when and where.
+
+use super::cells::{Form, column, listed, table};
+use super::sides;
+use crate::model::Side;
+use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::report::page::contract::{Feasibility, Group, RedSpan, Table};
+use serde_json::Value;
+
+/// Panels that show what is no coordinate's, by check.
+const PANELS: [(&str, &str); 5] = [
+    ("friction", super::quality::FRICTION),
+    ("center_of_pressure", super::quality::CENTER_FORWARD),
+    ("flight", "ground_force_vertical"),
+    ("support", super::quality::RESIDUAL_FORCE),
+    ("balance", super::quality::RESIDUAL_MOMENT),
+];
+
+/// Of a verdict in the summary; `None` where nothing was judged.
+pub(super) fn feasibility(verdict: &Value, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
+    let feasible = verdict["feasible"].as_bool()?;
+    let red: Vec<RedSpan> = entries(verdict, "reasons").iter().filter_map(|reason| span(reason, quantities)).collect();
+    Some(Feasibility { feasible, sentence: sentence(verdict, feasible, &red), closest: closest(verdict), red })
+}
+
+fn entries<'a>(verdict: &'a Value, key: &str) -> &'a [Value] {
+    verdict[key].as_array().map_or(&[], Vec::as_slice)
+}
+
+fn sentence(verdict: &Value, feasible: bool, red: &[RedSpan]) -> String {
+    let person = match (verdict["mass_kg"].as_f64(), verdict["height_m"].as_f64()) {
+        (Some(mass), Some(height)) => format!("A person of {mass:.1} kg and {height:.2} m"),
+        _ => "A person of this size".to_owned(),
+    };
+    if feasible {
+        return format!("{person} could do this: every check that was made is within its limit.");
+    }
+    let mut checks: Vec<String> = red.iter().map(|span| in_words(&span.check)).collect();
+    checks.sort_unstable();
+    checks.dedup();
+    let times = if red.len() == 1 { "1 time".to_owned() } else { format!("{} times", red.len()) };
+    format!("{person} could not do this: limits are passed at {times} ({}).", checks.join(", "))
+}
+
+/// `center_of_pressure` as a reader has it.
+fn in_words(check: &str) -> String {
+    check.replace('_', " ")
+}
+
+fn span(reason: &Value, quantities: &[ClinicalQuantity]) -> Option<RedSpan> {
+    let check = reason["check"].as_str()?;
+    Some(RedSpan {
+        from_s: reason["time_s"][0].as_f64()?,
+        to_s: reason["time_s"][1].as_f64()?,
+        side: sides::of_letter(reason["side"].as_str()),
+        check: check.to_owned(),
+        sentence: reason["message"].as_str()?.to_owned(),
+        panel: panel(check, reason["quantity"].as_str().unwrap_or_default(), quantities),
+    })
+}
+
+/// The panel that shows a quantity of a verdict.
+fn panel(check: &str, quantity: &str, quantities: &[ClinicalQuantity]) -> Option<String> {
+    let stem = Side::split_name(quantity).map_or_else(|| quantity.to_owned(), |(_, stem)| stem);
+    let (group, name) = match check {
+        "strength" => (ClinicalGroup::Moments, stem),
+        "power" => (ClinicalGroup::Powers, stem),
+        "range" => (ClinicalGroup::Kinematics, format!("{stem}_angle")),
+        _ => return PANELS.iter().find(|(known, _)| *known == check).map(|(_, panel)| (*panel).to_owned()),
+    };
+    let shown = quantities.iter().find(|known| known.group == group && known.column == name)?;
+    Some(shown.id.to_owned())
+}
+
+fn closest(verdict: &Value) -> Table {
+    let not_judged: Vec<String> = entries(verdict, "not_judged")
+        .iter()
+        .filter_map(|left| Some(format!("{}: {}", in_words(left["check"].as_str()?), left["why"].as_str()?)))
+        .collect();
+    let note = match not_judged.is_empty() {
+        true => "How near every check comes to its limit.".to_owned(),
+        false => format!("How near every check comes to its limit. Not judged: {}.", not_judged.join("; ")),
+    };
+    let head = ["closest", "Closest to the limits", note.as_str()];
+    let columns = [
+        column("Check", "/check", Form::Check),
+        column("Quantity", "/quantity", Form::Words),
+        column("Time [s]", "/at_s", Form::Number(1.0, 2)),
+        column("Value", "/value", Form::Number(1.0, 3)),
+        column("Limit", "/limit", Form::Number(1.0, 3)),
+        column("Unit", "/unit", Form::Unit),
+        column("Used [%]", "/share", Form::AtMost(100.0, 0, 100.0)),
+    ];
+    listed(head, entries(verdict, "closest"), &columns).unwrap_or_else(|| Table {
+        empty: Some("No check could be made.".to_owned()),
+        ..table(head, Vec::new(), Vec::new())
+    })
+}
+
+/// Gives every panel the spans that it shows.
+pub(super) fn mark(groups: &mut [Group], red: &[RedSpan]) {
+    for panel in groups.iter_mut().flat_map(|group| &mut group.panels) {
+        panel.red = red.iter().filter(|span| span.panel.as_ref() == Some(&panel.id)).cloned().collect();
+    }
+}

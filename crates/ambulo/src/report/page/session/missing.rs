@@ -1,0 +1,82 @@
+//! What the page cannot show, and why.
+
+use super::results::Results;
+use super::size::BodySize;
+use super::strides::{Stride, other};
+use crate::model::Side;
+use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::report::page::contract::PageSource;
+
+/// Coordinates of the clinic that models often lack, with why.
+const LACKING: [(&str, &str); 4] = [
+    ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
+    ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
+    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only bends)"),
+    ("foot_progression_angle", "foot progression (no file has it)"),
+];
+
+/// A sentence for each part.
+pub(super) fn missing(
+    results: &Results,
+    size: &BodySize,
+    quantities: &[ClinicalQuantity],
+    strides: &[Stride],
+) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let mut say = |when: bool, sentence: String| {
+        if when {
+            sentences.push(sentence);
+        }
+    };
+    let no_ground = results.source == PageSource::None;
+    say(
+        no_ground,
+        "No ground forces: the run was made without them, so moments are those of a body in the air.".to_owned(),
+    );
+    say(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
+    let predicted_alone = results.source == PageSource::Predicted && results.measured.is_none();
+    say(predicted_alone, "No force plates: ground forces are predicted, and nothing measured them.".to_owned());
+    for side in Side::BOTH {
+        say(is_lost(results, side), leg(results, side));
+    }
+    let none = Side::BOTH.iter().all(|side| !has_curves(results, *side));
+    say(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
+    let untimed = !none && results.cycles.is_empty();
+    say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
+    let lengths = strides.iter().any(|stride| stride.stride_length_m.is_some());
+    say(!strides.is_empty() && !lengths, "No step lengths: the places of the feet are not known.".to_owned());
+    say(!none && size.walking_speed().is_none(), bands(size));
+    let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
+    let lacking: Vec<&str> = LACKING
+        .iter()
+        .filter(|(id, _)| !quantities.iter().any(|quantity| quantity.id == *id))
+        .map(|(_, words)| *words)
+        .collect();
+    say(angles && !lacking.is_empty(), format!("Not among the panels: {}.", lacking.join(", ")));
+    sentences
+}
+
+fn has_curves(results: &Results, side: Side) -> bool {
+    results.curves.iter().any(|curve| curve.side == side)
+}
+
+fn is_lost(results: &Results, side: Side) -> bool {
+    !has_curves(results, side) && has_curves(results, other(side))
+}
+
+fn leg(results: &Results, side: Side) -> String {
+    let why = match results.source {
+        PageSource::Measured => "no plate saw it strike, with its next strike known",
+        _ => "it was not seen to strike twice",
+    };
+    format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")
+}
+
+fn bands(size: &BodySize) -> String {
+    let why = match () {
+        () if size.runs => "this is running, and they are those of walking",
+        () if size.leg.is_none() => "the leg length is not known",
+        () => "the speed is not known",
+    };
+    format!("No bands of healthy people: {why}.")
+}
