@@ -12,7 +12,7 @@ import { saveCsv, savePng, saveSvg } from "./save";
 import { directionWords, vector, type Words } from "./vector";
 
 /** Size of a plot on paper [CSS px]; it is stretched to its column. */
-const PRINT = { width: 240, height: 150, titled: false };
+const PRINT = { width: 240, height: 128, titled: false };
 
 /** One quantity: title, plot, value at the cursor, menu to save it. */
 export class PanelView {
