@@ -15,9 +15,9 @@ async function inPlot(page: Page, panel: string, part: number): Promise<{ x: num
 /** Where the cursors of the panels in sight are. */
 function cursors(page: Page): Promise<string[]> {
   return page.evaluate(() =>
-    [...document.querySelectorAll<HTMLElement>(".u-over .now, .u-over [class*=cursor]")]
-      .map((line) => line.style.transform)
-      .filter((place) => place !== ""),
+    [...document.querySelectorAll<HTMLElement>(".plot .cursor")].map(
+      (line) => `${line.hidden} ${line.style.transform}`,
+    ),
   );
 }
 
