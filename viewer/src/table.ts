@@ -1,6 +1,11 @@
 import type { Cell, Session, Table } from "./contract";
 import { element } from "./element";
 
+/** Rows of a folded table; css/table.css hides the others. */
+const FEW_ROWS = 10;
+/** A table with more rows than this is folded at first. */
+const MANY_ROWS = 15;
+
 /** A table as it is shown: heads over groups of columns, heads, rows. */
 export interface Columns {
   /** Sessions over their columns; none of one session. */
@@ -31,8 +36,22 @@ export function tableSection(own: readonly (Table | null)[], names: readonly str
     return element("section", { class: "table" }, heading, element("p", { class: "empty" }, why));
   }
   const body = tableElement(sideBySide(own, names), first.title);
+  const fold = first.rows.length > MANY_ROWS ? [foldButton(body, first.rows.length)] : [];
   const scroll = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": first.title }, body);
-  return element("section", { class: "table" }, heading, scroll, ...note);
+  return element("section", { class: "table" }, heading, scroll, ...fold, ...note);
+}
+
+/** Folds a long table to its first rows (css/table.css), and unfolds it. */
+function foldButton(table: HTMLElement, rows: number): HTMLElement {
+  const made = element("button", { type: "button", class: "fold", "aria-expanded": "false" });
+  const set = (open: boolean): void => {
+    table.classList.toggle("folded", !open);
+    made.setAttribute("aria-expanded", String(open));
+    made.textContent = open ? `Show the first ${FEW_ROWS} rows` : `Show all ${rows} rows`;
+  };
+  made.addEventListener("click", () => set(made.getAttribute("aria-expanded") === "false"));
+  set(false);
+  return made;
 }
 
 /** Columns of all sessions in turn; those that all sessions have in common stand once, at the end. */
