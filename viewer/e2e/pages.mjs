@@ -29,15 +29,74 @@ export function makePages(folder) {
   const figure = ["--model", join(input, "figure.osim")];
   ambulo("walk", "--cycles", "9", "-o", at("long"));
   ambulo("walk", "--gait", "goose", "--mode", "paper", "-o", at("infeasible"));
-  ambulo("forces", join(recording, "walk.mot"), "--model", join(recording, "figure.osim"), "--loads", join(recording, "walk_grf.xml"), "-o", at("recording"));
-  ambulo("forces", join(input, "walk.mot"), ...figure, "--loads", join(input, "walk_grf.xml"), "--predict", "-o", at("predicted"));
+  ambulo(
+    "forces",
+    join(recording, "walk.mot"),
+    "--model",
+    join(recording, "figure.osim"),
+    "--loads",
+    join(recording, "walk_grf.xml"),
+    "-o",
+    at("recording"),
+  );
+  ambulo(
+    "forces",
+    join(input, "walk.mot"),
+    ...figure,
+    "--loads",
+    join(input, "walk_grf.xml"),
+    "--predict",
+    "-o",
+    at("predicted"),
+  );
   ambulo("forces", join(input, "walk.mot"), ...figure, "--no-ground", "-o", at("no_ground"));
-  ambulo("forces", join(input, "walk.mot"), ...figure, "--grf", join(input, "walk_grf.mot"), "--right", "calcn_r:ground_force_r_", "-o", at("one_leg"));
-  ambulo("forces", join(input, "walk.mot"), ...figure, "--loads", join(input, "walk_grf.xml"), "--from", "0.5", "--to", "0.9", "-o", at("no_cycles"));
+  ambulo(
+    "forces",
+    join(input, "walk.mot"),
+    ...figure,
+    "--grf",
+    join(input, "walk_grf.mot"),
+    "--right",
+    "calcn_r:ground_force_r_",
+    "-o",
+    at("one_leg"),
+  );
+  ambulo(
+    "forces",
+    join(input, "walk.mot"),
+    ...figure,
+    "--loads",
+    join(input, "walk_grf.xml"),
+    "--from",
+    "0.5",
+    "--to",
+    "0.9",
+    "-o",
+    at("no_cycles"),
+  );
   gaps(join(input, "walk.trc"), at("gaps.trc"));
-  ambulo("forces", at("gaps.trc"), ...figure, "--loads", join(input, "walk_grf.xml"), "--max-gap", "0.1", "-o", at("gaps"));
+  ambulo(
+    "forces",
+    at("gaps.trc"),
+    ...figure,
+    "--loads",
+    join(input, "walk_grf.xml"),
+    "--max-gap",
+    "0.1",
+    "-o",
+    at("gaps"),
+  );
   hostile(input, folder);
-  ambulo("forces", at("<img src=x onerror=hacked()>.mot"), "--model", at("hostile.osim"), "--loads", join(input, "walk_grf.xml"), "-o", at("hostile"));
+  ambulo(
+    "forces",
+    at("<img src=x onerror=hacked()>.mot"),
+    "--model",
+    at("hostile.osim"),
+    "--loads",
+    join(input, "walk_grf.xml"),
+    "-o",
+    at("hostile"),
+  );
   hostileSummary(at("hostile"));
   ambulo("report", at("hostile"));
   ambulo("simulate", join(repository, "examples/stumble.toml"), "-o", at("scene"));
@@ -74,7 +133,10 @@ const SCRIPT = "</script><script>hacked()</script><img src=x onerror=hacked()>";
 /** Names of file and model that hold script. */
 function hostile(input, folder) {
   const escaped = SCRIPT.replaceAll("<", "&lt;").replaceAll(">", "&gt;");
-  const model = readFileSync(join(input, "figure.osim"), "utf8").replace(/<Model name="[^"]*"/, `<Model name="${escaped}"`);
+  const model = readFileSync(join(input, "figure.osim"), "utf8").replace(
+    /<Model name="[^"]*"/,
+    `<Model name="${escaped}"`,
+  );
   writeFileSync(join(folder, "hostile.osim"), model);
   cpSync(join(input, "walk.mot"), join(folder, "<img src=x onerror=hacked()>.mot"));
 }
@@ -84,7 +146,9 @@ function hostileSummary(folder) {
   const path = join(folder, "summary.json");
   const within = (value, key) => {
     if (typeof value === "string") {
-      return ["message", "motion", "name", "citation", "note", "model", "path"].includes(key) ? `${value} ${SCRIPT}` : value;
+      return ["message", "motion", "name", "citation", "note", "model", "path"].includes(key)
+        ? `${value} ${SCRIPT}`
+        : value;
     }
     if (Array.isArray(value)) {
       return value.map((one) => within(one, key));

@@ -1,3 +1,4 @@
+import { chapter } from "./chapter";
 import type { Context } from "./context";
 import type { Feasibility, RedSpan, Session } from "./contract";
 import { sideName } from "./drawing";
@@ -18,9 +19,7 @@ export function feasibility(context: Context, panels: Panels): HTMLElement[] {
     judged.map((session) => session.feasibility?.closest ?? null),
     judged.map((session) => session.name),
   );
-  const title = element("h2", { id: "feasibility-title" }, "Feasibility");
-  const attributes = { class: "chapter", id: "feasibility", "aria-labelledby": "feasibility-title" };
-  return [element("section", attributes, title, ...parts, closest)];
+  return chapter("feasibility", "Feasibility", [...parts, closest]);
 }
 
 function one(context: Context, panels: Panels, session: Session, verdict: Feasibility): HTMLElement[] {

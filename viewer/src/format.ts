@@ -23,8 +23,8 @@ export function roundValues(low: number, high: number, about: number): number[] 
   return Array.from({ length: Math.max(last - first + 1, 0) }, (_, i) => Number(((first + i) * step).toPrecision(12)));
 }
 
-/** Who and when, of a citation: up to its first year. */
+/** Who and when, of a citation: the name before its first year; without one its first words. */
 export function shortCitation(citation: string): string {
-  const year = /^(.{1,60}?\b(?:19|20)\d\d)\b\)?/.exec(citation);
-  return year?.[1]?.replace("(", "").trim() ?? citation.split(/[;:,.]/, 1)[0] ?? citation;
+  const found = /(\p{Lu}[\p{L}'-]+(?:,? (?:and|&|\p{Lu}[\p{L}'-]+|et al\.))*),? \(?((?:19|20)\d\d)\b/u.exec(citation);
+  return found ? `${found[1]} ${found[2]}` : (citation.split(/[;:,.]/, 1)[0] ?? citation);
 }

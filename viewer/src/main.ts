@@ -1,3 +1,4 @@
+import { abreast, chapter } from "./chapter";
 import { Clock } from "./clock";
 import type { Context, Stage } from "./context";
 import { pageControls, playControls } from "./controls";
@@ -5,7 +6,7 @@ import { Display } from "./display";
 import { element } from "./element";
 import { feasibility } from "./feasibility";
 import { citations, groups } from "./groups";
-import { header } from "./header";
+import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
 import { legend } from "./legend";
@@ -40,17 +41,18 @@ async function main(root: HTMLElement): Promise<void> {
   const panels = new Panels(context);
   const host = element("div", { class: "view" });
   const still = element("img", { class: "still", alt: "The figure at the chosen time" });
-  const aside = element("section", { class: "stage", "aria-label": "Figure and time" }, host, still);
+  const aside = element("section", { class: "stage", "aria-label": "Figure and time" }, host);
+  const nav = element("nav", { class: "bar", "aria-label": "Page" });
   const report = content(context, panels);
-  const main = element("main", { class: "columns" }, aside, report);
-  const top = header(page);
-  root.replaceChildren(top, main);
+  report.prepend(about(page, still), nav);
+  const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
+  root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
   const view = figure(host, context);
   const stage: Stage = { ...context, view };
   const { dialog, open } = helpDialog();
   const { bar, actions } = playControls(stage);
   aside.append(bar);
-  top.append(element("nav", { class: "bar", "aria-label": "Page" }, contents(report), pageControls(stage, open)));
+  nav.append(contents(report), pageControls(stage, open));
   root.append(dialog);
   listenToKeys(context, { ...actions, help: open });
   prepareForPaper(panels, view, still);
@@ -79,18 +81,11 @@ function content(context: Context, panels: Panels): HTMLElement {
   return element(
     "div",
     { class: "content" },
-    ...chapter("curves", "Curves", [legend(context), ...curves, ...sources(context)], curves.length),
+    ...chapter("curves", "Curves", curves.length > 0 ? [legend(context), ...curves, ...sources(context)] : []),
     ...feasibility(context, panels),
-    ...chapter("tables", "Numbers", [element("div", { class: "tables" }, ...numbers)], numbers.length),
-    quality(context, panels),
+    ...chapter("tables", "Numbers", abreast(numbers)),
+    ...quality(context, panels),
   );
-}
-
-function chapter(id: string, title: string, parts: readonly HTMLElement[], count: number): HTMLElement[] {
-  const heading = element("h2", { id: `${id}-title` }, title);
-  return count > 0
-    ? [element("section", { class: "chapter", id, "aria-labelledby": `${id}-title` }, heading, ...parts)]
-    : [];
 }
 
 /** Where the grey bands come from, in full. */

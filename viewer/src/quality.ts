@@ -1,3 +1,4 @@
+import { abreast, chapter } from "./chapter";
 import type { Context } from "./context";
 import type { Judged, PageFinding, Session } from "./contract";
 import { element } from "./element";
@@ -6,18 +7,15 @@ import type { Panels } from "./panels";
 import { tables } from "./table";
 
 /** How far the numbers can be trusted. */
-export function quality(context: Context, panels: Panels): HTMLElement {
+export function quality(context: Context, panels: Panels): HTMLElement[] {
   const { sessions } = context.page;
   const facts = sessions.flatMap((session) => judged(session, sessions.length > 1));
-  return element(
-    "section",
-    { class: "chapter", id: "quality", "aria-labelledby": "quality-title" },
-    element("h2", { id: "quality-title" }, "Quality"),
+  return chapter("quality", "Quality", [
     ...facts,
     ...groups(context, panels, (session) => session.quality.groups),
-    element("div", { class: "tables" }, ...tables(sessions, (session) => session.quality.tables)),
+    ...abreast(tables(sessions, (session) => session.quality.tables)),
     ...sessions.flatMap((session) => remarks(session, sessions.length > 1)),
-  );
+  ]);
 }
 
 function judged(session: Session, named: boolean): HTMLElement[] {

@@ -1,6 +1,11 @@
 import type { Cell, Session, Table } from "./contract";
 import { element } from "./element";
 
+/** Rows of a folded table; css/table.css hides the others. */
+const FEW_ROWS = 10;
+/** A table with more rows than this is folded at first. */
+const MANY_ROWS = 15;
+
 /** A table as it is shown: heads over groups of columns, heads, rows. */
 export interface Columns {
   /** Sessions over their columns; none of one session. */
@@ -31,8 +36,22 @@ export function tableSection(own: readonly (Table | null)[], names: readonly str
     return element("section", { class: "table" }, heading, element("p", { class: "empty" }, why));
   }
   const body = tableElement(sideBySide(own, names), first.title);
+  const fold = first.rows.length > MANY_ROWS ? [foldButton(body, first.rows.length)] : [];
   const scroll = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": first.title }, body);
-  return element("section", { class: "table" }, heading, scroll, ...note);
+  return element("section", { class: "table" }, heading, scroll, ...fold, ...note);
+}
+
+/** Folds a long table to its first rows (css/table.css), and unfolds it. */
+function foldButton(table: HTMLElement, rows: number): HTMLElement {
+  const made = element("button", { type: "button", class: "fold", "aria-expanded": "false" });
+  const set = (open: boolean): void => {
+    table.classList.toggle("folded", !open);
+    made.setAttribute("aria-expanded", String(open));
+    made.textContent = open ? `Show the first ${FEW_ROWS} rows` : `Show all ${rows} rows`;
+  };
+  made.addEventListener("click", () => set(made.getAttribute("aria-expanded") === "false"));
+  set(false);
+  return made;
 }
 
 /** Columns of all sessions in turn; those that all sessions have in common stand once, at the end. */
@@ -72,12 +91,15 @@ export function sideBySide(own: readonly (Table | null)[], names: readonly strin
 
 /** A table element; its caption is for screen readers, who see no heading beside it. */
 export function tableElement({ spans, heads, rows }: Columns, caption: string): HTMLTableElement {
+  const kinds = heads.map((_, column) => (rows.every((row) => isNumber(row[column])) ? "number" : "words"));
   const head = element("thead");
   if (spans.length > 0) {
     head.append(element("tr", { class: "spans" }, ...spans.map(spanHead)));
   }
-  head.append(element("tr", {}, ...heads.map((word) => element("th", { scope: "col" }, word))));
-  const body = element("tbody", {}, ...rows.map(rowElement));
+  head.append(
+    element("tr", {}, ...heads.map((word, i) => element("th", { scope: "col", class: kinds[i] ?? "words" }, word))),
+  );
+  const body = element("tbody", {}, ...rows.map((row) => rowElement(row, kinds)));
   return element("table", {}, element("caption", { class: "spoken" }, caption), head, body);
 }
 
@@ -87,14 +109,19 @@ function spanHead({ name, columns }: { readonly name: string; readonly columns: 
     : element("th", { scope: "colgroup", colspan: columns }, name);
 }
 
-function rowElement(row: readonly Cell[]): HTMLElement {
-  const [first, ...others] = row;
-  return element("tr", {}, element("th", { scope: "row" }, first?.text ?? ""), ...others.map(cellElement));
+/** Whether a cell may stand in a column of numbers, which is aligned to the right. */
+function isNumber(cell: Cell | undefined): boolean {
+  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|–?)$/.test(cell.text);
 }
 
-function cellElement(cell: Cell): HTMLElement {
-  const number = cell.value !== null || /^[−-]?\d/.test(cell.text);
-  const made = element("td", { class: `${number ? "number" : "words"}${cell.outside ? " outside" : ""}` }, cell.text);
+function rowElement(row: readonly Cell[], kinds: readonly string[]): HTMLElement {
+  const [first, ...others] = row;
+  const cells = others.map((cell, i) => cellElement(cell, kinds[i + 1] ?? "words"));
+  return element("tr", {}, element("th", { scope: "row" }, first?.text ?? ""), ...cells);
+}
+
+function cellElement(cell: Cell, kind: string): HTMLElement {
+  const made = element("td", { class: `${kind}${cell.outside ? " outside" : ""}` }, cell.text);
   if (cell.outside) {
     made.append(element("span", { class: "spoken" }, " (outside)"));
   }

@@ -18,5 +18,10 @@ test("axis values are round and within the range", () => {
 test("a citation in short is author and year", () => {
   assert.equal(shortCitation("Schwartz et al. 2008, J Biomech 41:1639; 83 children"), "Schwartz et al. 2008");
   assert.equal(shortCitation("Winter (1991) Waterloo"), "Winter 1991");
+  assert.equal(
+    shortCitation("Mean ± 1 SD of typically developing children (Schwartz et al. 2008, n = 82) at V* = 0.43."),
+    "Schwartz et al. 2008",
+  );
+  assert.equal(shortCitation("Example and Sample 2018 (doi:10.0/0), 24 adults"), "Example and Sample 2018");
   assert.equal(shortCitation("Own laboratory, 12 people"), "Own laboratory");
 });

@@ -1,4 +1,4 @@
-import { Group, Vector3 } from "three";
+import { type Color, Group, Vector3 } from "three";
 import type { PageSide, View, ViewForce } from "../contract";
 import { Arrow } from "./arrow";
 import { addAll, OVER, onLayer } from "./layers";
@@ -19,7 +19,7 @@ interface Force {
   arrow: Arrow;
 }
 
-/** The forces of the ground as arrows: what the page rests on thick, what was measured beside it thin. */
+/** The forces of the ground as arrows: those that the numbers rest on thick, what was measured beside them and a ghost's thin. */
 export class Forces {
   readonly group = new Group();
   private readonly forces: Force[];
@@ -31,12 +31,14 @@ export class Forces {
     numbers: SeriesReader,
     height: number,
     private readonly scale: number,
+    ghost = false,
   ) {
-    this.forces = view.forces.map((source) => ({
+    const shown = view.forces.filter(({ role }) => role === "main" || !ghost);
+    this.forces = shown.map((source) => ({
       source,
       point: source.point.map((series) => numbers.read(series)),
       force: source.force.map((series) => numbers.read(series)),
-      arrow: new Arrow(height * (source.role === "measured" ? THIN : THICK)),
+      arrow: new Arrow(height * (source.role === "measured" || ghost ? THIN : THICK)),
     }));
     addAll(
       this.group,
@@ -45,10 +47,11 @@ export class Forces {
     onLayer(this.group, OVER);
   }
 
-  recolor(colors: Palette): void {
+  /** `own`: one colour for all. */
+  recolor(colors: Palette, own: Color | null = null): void {
     for (const { arrow, source } of this.forces) {
       const color = source.role === "measured" ? colors.measured : sideColor(colors, source.side);
-      arrow.recolor(color, colors.paper);
+      arrow.recolor(own ?? color, colors.paper);
     }
   }
 

@@ -6,7 +6,8 @@ const ZOOM = 1.15;
 
 /**
  * Leaves the page its scrolling: a finger turns the figure in the free view only, the wheel zooms only once the picture was clicked
- * or with Ctrl. With the picture focused, Shift and arrows turn it, + and - zoom.
+ * or with Ctrl. With the picture focused, the keys a d w s turn it, e and q
+ * come nearer and go away.
  */
 export function listen(canvas: HTMLCanvasElement, rig: CameraRig, changed: () => void): () => void {
   const ending = new AbortController();
@@ -47,21 +48,18 @@ export function touchAction(canvas: HTMLCanvasElement, rig: CameraRig): void {
 }
 
 function turned(event: KeyboardEvent, rig: CameraRig): boolean {
-  const turns: Record<string, [number, number]> = {
-    ArrowLeft: [-TURN, 0],
-    ArrowRight: [TURN, 0],
-    ArrowUp: [0, TURN],
-    ArrowDown: [0, -TURN],
-  };
-  const turn = event.shiftKey ? turns[event.key] : undefined;
-  if (turn) {
-    rig.turn(...turn);
-  } else if (event.key === "+" || event.key === "=") {
-    rig.zoom(ZOOM);
-  } else if (event.key === "-") {
-    rig.zoom(1 / ZOOM);
-  } else {
+  const turns: Record<string, [number, number]> = { a: [-TURN, 0], d: [TURN, 0], w: [0, TURN], s: [0, -TURN] };
+  const zooms: Record<string, number> = { e: ZOOM, q: 1 / ZOOM };
+  const key = event.key.toLowerCase();
+  const turn = turns[key];
+  const zoom = zooms[key];
+  if (event.ctrlKey || event.metaKey || event.altKey) {
     return false;
   }
-  return true;
+  if (turn) {
+    rig.turn(...turn);
+  } else if (zoom) {
+    rig.zoom(zoom);
+  }
+  return turn !== undefined || zoom !== undefined;
 }

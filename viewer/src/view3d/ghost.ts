@@ -1,7 +1,10 @@
 import { Color, Group, type Mesh, NotEqualStencilFunc, ShaderMaterial, Vector3 } from "three";
 import type { Session, View } from "../contract";
+import { arrowScale } from "./arrow";
 import { type Extent, extentOf } from "./extent";
 import { FIGURE_STENCIL, Figure } from "./figure";
+import { Forces } from "./forces";
+import type { ViewOptions } from "./options";
 import type { Palette } from "./palette";
 import { Path } from "./path";
 import { type Gait, gaitOf, matchingTime } from "./phase";
@@ -35,6 +38,7 @@ export class Ghost {
   readonly group = new Group();
   private readonly extent: Extent;
   private readonly figure: Figure;
+  private readonly forces: Forces;
   private readonly gait: Gait;
   private readonly path: Path;
   private readonly turn: number;
@@ -47,6 +51,7 @@ export class Ghost {
     private readonly view: View,
     numbers: SeriesReader,
     heading: Vector3,
+    height: number,
     private readonly index: number,
   ) {
     this.figure = new Figure(view, numbers);
@@ -61,7 +66,8 @@ export class Ghost {
         part.renderOrder = 2;
       }
     });
-    this.group.add(this.figure.group);
+    this.forces = new Forces(view, numbers, height, arrowScale(height, view.weight_n), true);
+    this.group.add(this.figure.group, this.forces.group);
   }
 
   /** Its room on a floor of this height [m]. */
@@ -71,16 +77,22 @@ export class Ghost {
   }
 
   recolor(colors: Palette): void {
-    (this.material.uniforms["color"] as { value: Color }).value.copy(
-      colors.sessions[this.index % colors.sessions.length] ?? colors.text,
-    );
+    const own = colors.sessions[this.index % colors.sessions.length] ?? colors.text;
+    (this.material.uniforms["color"] as { value: Color }).value.copy(own);
+    this.forces.recolor(colors, own);
+  }
+
+  show(options: ViewOptions): void {
+    this.group.visible = options.ghost;
+    this.forces.group.visible = options.forces;
   }
 
   /** `hips`: where the main figure's are; `floor`: height of its floor [m]. */
   pose(time: number, main: Gait, hips: Vector3, floor: number): void {
     const frame = this.gait.timeline.frameAt(matchingTime(time, main, this.gait));
     this.figure.pose(frame);
-    this.path.hips(frame, this.own);
+    this.forces.pose(frame);
+    this.figure.group.visible = this.path.hips(frame, this.own);
     this.group.quaternion.setFromAxisAngle(UP, this.turn);
     this.wanted.copy(this.own).applyQuaternion(this.group.quaternion);
     this.group.position.set(hips.x - this.wanted.x, floor - this.view.floor_m, hips.z - this.wanted.z);

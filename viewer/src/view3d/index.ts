@@ -58,6 +58,8 @@ class Picture implements View3D {
   private readonly stage: Stage;
   private readonly rig: CameraRig;
   private readonly place = new Vector3();
+  private width = 0;
+  private height = 0;
   private readonly endings: (() => void)[];
 
   constructor(
@@ -81,10 +83,9 @@ class Picture implements View3D {
     this.recolor();
     this.world.pose(clock.time, this.place);
     this.rig.follow(this.place);
-    this.resize();
+    this.measure();
     this.setCamera("side");
     this.endings = this.listeners();
-    this.stage.draw();
   }
 
   setCamera(kind: CameraKind): void {
@@ -127,7 +128,7 @@ class Picture implements View3D {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute(
       "aria-label",
-      `Figure of ${name} in 3-D with the forces of the ground. Shift and arrow keys turn it, plus and minus zoom.`,
+      `Figure of ${name} in 3-D with the forces of the ground. Keys a, d, w, s turn it, e and q zoom.`,
     );
     Object.assign(this.canvas.style, { display: "block", width: "100%", height: "100%" });
     this.host.append(this.canvas);
@@ -135,7 +136,7 @@ class Picture implements View3D {
 
   private listeners(): (() => void)[] {
     const changed = (): void => this.stage.invalidate();
-    const sizes = new ResizeObserver(() => this.resize());
+    const sizes = new ResizeObserver(() => this.measure() && this.stage.draw());
     sizes.observe(this.host);
     return [
       () => sizes.disconnect(),
@@ -146,19 +147,22 @@ class Picture implements View3D {
   }
 
   private recolor(): void {
-    const colors = palette(theme() === "dark");
+    const colors = palette(theme() === "dark", this.ghosts);
     this.world.recolor(colors);
     this.stage.recolor(colors);
     this.stage.invalidate();
   }
 
-  private resize(): void {
+  /** Takes the size of the host; whether it is another. An emptied canvas has to be drawn at once, or it flickers. */
+  private measure(): boolean {
     const { clientWidth, clientHeight } = this.host;
-    if (clientWidth > 0 && clientHeight > 0) {
+    const changed = clientWidth !== this.width || clientHeight !== this.height;
+    if (changed && clientWidth > 0 && clientHeight > 0) {
+      [this.width, this.height] = [clientWidth, clientHeight];
       this.stage.resize(clientWidth, clientHeight);
       this.rig.resize(clientWidth, clientHeight);
-      this.stage.draw();
     }
+    return changed;
   }
 }
 

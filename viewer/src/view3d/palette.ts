@@ -29,20 +29,23 @@ interface Pair {
 
 /** How much of a side's colour its limbs have. */
 const TINT = 0.75;
+/** The same of the left limbs where both sides have the session's colour. */
+const PALE = 0.35;
 
-/** The colours of a theme. */
-export function palette(dark: boolean): Palette {
+/** The colours of a theme; in a comparison the figure has the colour of its session's curves, its left side paler. */
+export function palette(dark: boolean, compared: boolean): Palette {
   const of = (pair: Pair): Color => new Color(dark ? pair.dark : pair.color);
   const neutral = new Color(dark ? "#9aa3ad" : "#d3d8de");
-  const right = of(looks.right);
-  const left = of(looks.left);
+  const own = looks.sessions[0] ?? looks.right;
+  const right = of(compared ? own : looks.right);
+  const left = of(compared ? own : looks.left);
   return {
     dark,
     neutral,
     right,
     left,
     rightLimb: neutral.clone().lerp(right, TINT),
-    leftLimb: neutral.clone().lerp(left, TINT),
+    leftLimb: neutral.clone().lerp(left, compared ? PALE : TINT),
     measured: of(looks.measured),
     infeasible: of(looks.infeasible),
     paper: of(looks.paper),

@@ -65,9 +65,9 @@ export class Stage {
 
   /** Draws now: first the figure, then the arrows over it. */
   draw(): void {
+    const { camera } = this.prepare();
     cancelAnimationFrame(this.asked);
     this.asked = 0;
-    const { camera } = this.prepare();
     this.renderer.clear();
     this.renderer.shadowMap.needsUpdate = true;
     camera.layers.set(SOLID);

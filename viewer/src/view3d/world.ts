@@ -54,7 +54,7 @@ export class World {
     const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
     this.still = [new Plates(view), new Obstacles(view), ruler];
     this.ghosts = page.sessions.flatMap((other, index) =>
-      index > 0 && other.view ? [new Ghost(other, other.view, numbers, this.path.heading, index)] : [],
+      index > 0 && other.view ? [new Ghost(other, other.view, numbers, this.path.heading, height, index)] : [],
     );
   }
 
@@ -86,7 +86,7 @@ export class World {
     this.trail.group.visible = options.trail;
     this.contacts.group.visible = options.contacts;
     for (const ghost of this.ghosts) {
-      ghost.group.visible = options.ghost;
+      ghost.show(options);
     }
   }
 

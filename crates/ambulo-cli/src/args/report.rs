@@ -28,8 +28,8 @@ pub(crate) struct ReportArgs {
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo view demo
 
-Opens report.html of a result folder, or the page itself, in the browser; where there is none, says where the page is. A folder without a
-page gets one.")]
+Opens report.html of a result folder, or the page itself, in the browser; where there is none, or BROWSER=none is set, says where the page is.
+A folder without a page gets one.")]
 pub(crate) struct ViewArgs {
     /// The folder of a run, or a page: .html.
     #[arg(value_name = "DIR_OR_FILE")]

@@ -6,7 +6,7 @@ use crate::args::SimulateArgs;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
-use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables, scene_verdict};
+use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables, scene_shapes, scene_verdict};
 use ambulo::simulation::scene::{Changes, SavedState, Scene, SceneFile};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
@@ -47,6 +47,9 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
     clock.lap("feasibility");
 
     let mut written = tables.files(&scene)?;
+    if scene.outputs().poses {
+        written.push(scene_shapes(&scene)?);
+    }
     if let Some(curves) = &curves {
         written.extend(curves.files(&scene, verdict.as_ref())?);
     }

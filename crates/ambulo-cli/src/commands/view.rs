@@ -39,5 +39,6 @@ fn page(asked: &Path) -> Result<PathBuf> {
 /// Whether a browser could show anything: on Linux a terminal may have no screen, and would get a text browser in its place.
 fn has_screen() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    !cfg!(target_os = "linux") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
+    let declined = std::env::var_os("BROWSER").is_some_and(|browser| browser == "none");
+    !declined && (!cfg!(target_os = "linux") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"))
 }

@@ -149,7 +149,7 @@ impl Workbench {
     fn wait(&self, command: &mut Command, args: &[&str]) -> Run {
         let number = self.runs.fetch_add(1, Ordering::Relaxed);
         let [out, err] = ["stdout", "stderr"].map(|s| self.folder.join(format!("{s}.{number}")));
-        command.current_dir(&self.folder).stdin(Stdio::null()).env("RUST_BACKTRACE", "0");
+        command.current_dir(&self.folder).stdin(Stdio::null()).env("RUST_BACKTRACE", "0").env("BROWSER", "none");
         command.stdout(File::create(&out).unwrap()).stderr(File::create(&err).unwrap());
         let start = Instant::now();
         let mut child = command.spawn().unwrap();

@@ -61,6 +61,12 @@ const FLAT: f64 = 1e-9;
 /// for a few degrees touches it with both of its edges, not with the lower one alone.
 const BESIDE: f64 = 0.05;
 
+/// At most `most` of `count` numbers from 0 on, evenly spread, both ends among them.
+fn spread(count: usize, most: usize) -> Vec<usize> {
+    let kept = count.min(most.max(2));
+    (0..kept).map(|k| k * (count - 1) / (kept - 1)).collect()
+}
+
 impl HeightField {
     pub(super) fn new([rows, columns]: [usize; 2], heights: Vec<f64>, size: [f64; 2]) -> HeightField {
         HeightField { rows, columns, heights, size }
@@ -71,6 +77,25 @@ impl HeightField {
         let (low, high) = self.heights.iter().fold((f64::MAX, f64::MIN), |(a, b), h| (a.min(*h), b.max(*h)));
         let [x, z] = self.size;
         (Vec3::new(-x / 2.0, low, -z / 2.0), Vec3::new(x / 2.0, high, z / 2.0))
+    }
+
+    /// Corners and triangles of the surface; where there are more rows or columns than `most`, of every few of them.
+    pub(super) fn surface(&self, most: usize) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let (rows, columns) = (spread(self.rows, most), spread(self.columns, most));
+        let share = |i: usize, count: usize| i as f64 / (count - 1) as f64 - 0.5;
+        let point = |&i: &usize, &j: &usize| {
+            let [x, z] = self.size;
+            Vec3::new(share(j, self.columns) * x, self.heights[i * self.columns + j], share(i, self.rows) * z)
+        };
+        let points = rows.iter().flat_map(|i| columns.iter().map(move |j| point(i, j))).collect();
+        let number = |i: usize, j: usize| u32::try_from(i * columns.len() + j).unwrap_or(u32::MAX);
+        let cells = (1..rows.len()).flat_map(|i| (1..columns.len()).map(move |j| (i, j)));
+        // Each cell is split from (i, j + 1) to (i + 1, j).
+        let halves = cells.flat_map(|(i, j)| {
+            let [a, b, c, d] = [number(i - 1, j - 1), number(i - 1, j), number(i, j - 1), number(i, j)];
+            [[a, c, b], [b, c, d]]
+        });
+        (points, halves.collect())
     }
 
     /// A ball, in the field's frame.

@@ -1,6 +1,7 @@
 //! Where bodies touch, the Coulomb cone, rigid and compliant laws.
 
 mod height_field;
+mod outline;
 mod polytope;
 mod shape;
 
@@ -17,4 +18,5 @@ pub use broad_phase::candidate_pairs;
 pub use compliant::{Creep, HuntCrossley, HuntCrossleyError};
 pub use cone::{Projection, onto_cone};
 pub use detect::{ContactPoint, contacts};
+pub use outline::Outline;
 pub use shape::{Shape, ShapeError};

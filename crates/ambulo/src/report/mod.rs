@@ -16,6 +16,7 @@ mod prediction_files;
 mod reproduction;
 mod reproduction_page;
 mod scene_figures;
+mod scene_shapes;
 mod scene_summary;
 mod scene_tables;
 mod scene_verdict;
@@ -29,8 +30,9 @@ mod walk_summary;
 pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use exchange::{
-    GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
-    skeleton_of, standing_recording, table_of_markers, trc_of_markers,
+    ExchangeError, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
+    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
+    table_of_markers, trc_of_markers,
 };
 pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};
@@ -41,6 +43,7 @@ pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_figures::SceneCurves;
+pub use scene_shapes::scene_shapes;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };

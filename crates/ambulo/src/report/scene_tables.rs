@@ -3,7 +3,7 @@
 use super::files::{OutputError, OutputFile};
 use crate::simulation::scene::{Frame, Outputs, Scene};
 use crate::simulation::{ContactForce, Joint, Owner, State, StepForces, World};
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use ambulo_formats::table::Table;
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::fmt::Write;
@@ -105,15 +105,22 @@ impl SceneTables {
     fn add_poses(&mut self, frame: &Frame<'_>) {
         let (world, state) = (frame.scene.world(), frame.scene.state());
         for ((body, pose), twist) in world.bodies.iter().zip(&state.poses).zip(&state.twists) {
-            let [w, x, y, z] = quaternion(&pose.rotation);
-            let text = &mut self.poses;
-            begin(text, state.time_s, &[&body.name]);
-            append(text, pose.translation.as_slice());
-            append(text, &[w, x, y, z]);
-            append(text, twist.linear.as_slice());
-            append(text, twist.angular.as_slice());
-            text.push('\n');
+            self.add_pose(state.time_s, &body.name, pose, twist);
         }
+        for obstacle in world.obstacles.iter().filter(|obstacle| obstacle.path.is_some()) {
+            let (pose, twist) = obstacle.at(state.time_s);
+            self.add_pose(state.time_s, &obstacle.name, &pose, &twist);
+        }
+    }
+
+    fn add_pose(&mut self, time_s: f64, name: &str, pose: &Pose, twist: &Twist) {
+        let text = &mut self.poses;
+        begin(text, time_s, &[name]);
+        append(text, pose.translation.as_slice());
+        append(text, &quaternion(&pose.rotation));
+        append(text, twist.linear.as_slice());
+        append(text, twist.angular.as_slice());
+        text.push('\n');
     }
 
     fn add_joints(&mut self, frame: &Frame<'_>) {

@@ -5,7 +5,7 @@
 //!
 //! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Version of the contract; a bundle refuses a page of another one.
 pub(super) const FORMAT: u32 = 1;
@@ -420,7 +420,7 @@ pub struct ViewBody {
 }
 
 /// A shape, lengths in metres.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]
 pub enum ViewShape {

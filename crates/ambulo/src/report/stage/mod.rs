@@ -3,20 +3,27 @@
 //! One description for the 3-D view of the page (which quantises it) and for animation files. World axes: x forward, y up, z right, m.
 
 mod arrow;
+mod contact_forces;
+mod csv_rows;
 mod figure;
 mod floor;
 mod foot;
+mod ground_plane;
 mod joint_places;
 mod limb;
 mod part;
 mod path;
 mod person;
+mod scene;
+#[cfg(test)]
+mod tests;
 mod torque;
 mod trunk;
 
+pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
 pub(crate) use path::BodyPath;
 
-use super::page::ViewShape;
+use super::page::{Folder, PageError, ViewShape};
 use crate::model::Side;
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
@@ -44,6 +51,17 @@ pub(crate) struct Stage {
     pub(crate) weight_n: f64,
     /// What is not shown and why, in sentences.
     pub(crate) missing: Vec<String>,
+}
+
+impl Stage {
+    /// Of a result folder; else why there is none.
+    ///
+    /// # Errors
+    /// A file that is not what its name says.
+    pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+        let is_scene = (folder.file)("kinematics.mot").is_none() && (folder.file)("poses.csv").is_some();
+        if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
+    }
 }
 
 /// A body with its shapes and its path.

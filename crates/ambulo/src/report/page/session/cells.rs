@@ -12,9 +12,18 @@ pub(super) fn text(words: &str) -> Cell {
 pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>) -> Cell {
     let value = value.filter(|x| x.is_finite());
     Cell {
-        text: value.map_or_else(|| "-".to_owned(), |x| format!("{x:.digits$}")),
+        text: value.map_or_else(|| "-".to_owned(), |x| rounded(x, digits)),
         value,
         outside: value.zip(range).is_some_and(|(x, [low, high])| x < low || x > high),
+    }
+}
+
+/// So many digits; nothing is less than nothing.
+fn rounded(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.chars().all(|letter| matches!(letter, '0' | '.')) => size.to_owned(),
+        _ => text,
     }
 }
 

@@ -43,7 +43,6 @@ pub(super) fn missing(
     say(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
     let untimed = !none && results.cycles.is_empty();
     say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
-    say(results.body.is_none(), "No body to draw: the folder has neither subject.osim nor figure.osim.".to_owned());
     let lengths = strides.iter().any(|stride| stride.stride_length_m.is_some());
     say(!strides.is_empty() && !lengths, "No step lengths: the places of the feet are not known.".to_owned());
     say(!none && size.walking_speed().is_none(), bands(size));

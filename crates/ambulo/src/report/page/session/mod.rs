@@ -7,6 +7,7 @@ mod curves;
 mod cycles;
 mod cycles_file;
 mod events;
+mod extracted;
 mod feasibility;
 mod feet;
 mod groups;
@@ -34,26 +35,31 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
 
 /// Of a recording or a synthetic walk.
 fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result<Session, PageError> {
+    let viewed = view(folder, block)?;
+    let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
     let feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let values = extracted::extracted(&results, &quantities);
     let mut groups = groups::groups(&results, &size, &quantities, block);
     let mut quality = quality::quality(&results, block);
+    missing.extend(missing::missing(&results, &size, &quantities, &strides));
     if let Some(verdict) = &feasibility {
         feasibility::mark(&mut groups, &verdict.red);
         feasibility::mark(&mut quality.groups, &verdict.red);
     }
-    let viewed = view(folder, block)?;
-    let mut missing = missing::missing(&results, &size, &quantities, &strides);
-    missing.extend(viewed.missing);
     Ok(Session {
         name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
         header: header::header(&results, &size, &strides),
         source: results.source,
         time: results.time(),
         groups,
-        tables: vec![time_distance::table(&results, &size, &strides)],
+        tables: vec![
+            time_distance::table(&results, &size, &strides),
+            extracted::table(&values),
+            extracted::symmetry(&values, &strides),
+        ],
         quality,
         feasibility,
         view: viewed.view,

@@ -93,6 +93,17 @@ fn speed_row(results: &Results) -> Vec<Cell> {
     vec![text("Speed"), text("m/s"), text(""), text(""), speed, text("")]
 }
 
+/// What is compared between the sides: name, unit, digits, means of right and left.
+pub(super) fn sides(strides: &[Stride]) -> Vec<(&'static str, &'static str, usize, [Option<f64>; 2])> {
+    const COMPARED: [&str; 5] = ["step_length", "step_width", "stance", "single_support", "double_support"];
+    let mean = |row: &Row, side: Side| {
+        let values: Vec<f64> = strides.iter().filter(|stride| stride.side == side).filter_map(row.of).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    };
+    let compared = ROWS.iter().filter(|row| COMPARED.contains(&row.normal));
+    compared.map(|row| (row.label, row.unit, row.digits, Side::BOTH.map(|side| mean(row, side)))).collect()
+}
+
 fn cells(row: &Row, strides: &[Stride], normal: &[NormalRange]) -> Vec<Cell> {
     let values = |side: Option<Side>| {
         let chosen = strides.iter().filter(|stride| side.is_none_or(|side| stride.side == side));

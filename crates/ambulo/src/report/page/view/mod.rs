@@ -24,7 +24,7 @@ pub(super) struct Viewed {
 /// # Errors
 /// A file that is not what its name says.
 pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, PageError> {
-    match Stage::of_figure(folder)? {
+    match Stage::of_folder(folder)? {
         Ok(stage) => Ok(drawn(&stage, block)),
         Err(reason) => Ok(Viewed { view: None, time: None, missing: vec![reason] }),
     }
