@@ -35,10 +35,11 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
 }
 
 /// The last part of a path of any system.
-fn file_name(path: &str) -> &str {
+pub(super) fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
+/// A line.
 pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) -> Fact {
     Fact { label: label.to_owned(), value: value.into(), note }
 }
