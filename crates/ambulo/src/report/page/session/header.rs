@@ -107,11 +107,11 @@ fn direction(results: &Results) -> Option<Fact> {
     Some(fact("Walking direction", value, Some("world: x forward, y up, z to the right".to_owned())))
 }
 
-/// An angle from world x towards z, in words.
+/// An angle from world x towards z, in words; less is sway of the pelvis.
 fn along(angle_deg: f64) -> String {
     let side = if angle_deg > 0.0 { "right" } else { "left" };
     match angle_deg.abs() {
-        small if small < 0.5 => "along world x".to_owned(),
+        small if small < 1.5 => "along world x".to_owned(),
         angle => format!("{angle:.0} deg to the {side} of world x"),
     }
 }
