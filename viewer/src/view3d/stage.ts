@@ -26,7 +26,6 @@ export class Stage {
     this.renderer = new WebGLRenderer({
       canvas,
       antialias: true,
-      alpha: true,
       stencil: true,
       preserveDrawingBuffer: true,
     });
@@ -40,6 +39,7 @@ export class Stage {
   }
 
   recolor(colors: Palette): void {
+    this.renderer.setClearColor(colors.paper);
     this.sky.groundColor.set(colors.dark ? 0x2a2f36 : 0xb4bac2);
     this.sky.intensity = colors.dark ? 1.5 : 2.0;
     this.sun.intensity = colors.dark ? 2.0 : 1.9;
