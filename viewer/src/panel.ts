@@ -142,7 +142,7 @@ export class PanelView {
     this.#cursors.clear();
     const sides = now.axis === "time" ? [null] : this.#context.display.sides;
     for (const side of sides) {
-      this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}` }));
+      this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}`, hidden: "" }));
     }
     chart.over.append(...this.#cursors.values());
   }

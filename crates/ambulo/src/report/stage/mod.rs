@@ -15,6 +15,8 @@ mod part;
 mod path;
 mod person;
 mod scene;
+#[cfg(test)]
+mod tests;
 mod torque;
 mod trunk;
 
