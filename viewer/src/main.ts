@@ -38,6 +38,9 @@ async function main(root: HTMLElement): Promise<void> {
   }
   document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
   const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };
+  if (page.sessions.every((session) => session.cycles.length === 0)) {
+    context.display.axis = "time";
+  }
   const panels = new Panels(context);
   const host = element("div", { class: "view" });
   const still = element("img", { class: "still", alt: "The figure at the chosen time" });
