@@ -347,6 +347,13 @@ fn a_scene_that_is_damaged_is_refused_with_file_and_line() {
     let unknown = refused("shapes.json", "\"format\":1", "\"format\":7");
     assert_eq!(unknown, "walk/shapes.json: format is 7; expected 1");
     assert!(refused("shapes.json", "\"bodies\"", "\"corpses\"").starts_with("walk/shapes.json: "));
+    let corner = refused("shapes.json", "[0,1,2]", "[0,1,3]");
+    assert_eq!(
+        corner,
+        "walk/shapes.json: `stone`: found a triangle with the corner 3; the mesh has 3 points, from 0 on"
+    );
+    let radius = refused("shapes.json", "\"radius\":0.1", "\"radius\":-1");
+    assert!(radius.contains("`ball, red`: found a capsule of radius -1 m"), "{radius}");
     let number = refused("poses.csv", "0.002,wall,0", "0.002,wall,x");
     assert_eq!(number, "walk/poses.csv: line 7, column 3: found `x`; expected a finite number");
     let lacking = refused("poses.csv", "0.002,wall", "0.002,hall");
