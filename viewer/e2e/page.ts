@@ -81,7 +81,7 @@ export function timeOf(page: Page): Promise<number> {
   return page.evaluate(() => window.ambulo.clock.time);
 }
 
-/** A fingerprint of the figure's picture, and how many of its pixels are drawn. */
+/** A fingerprint of the figure's picture, the share of its pixels that are not the ground's, and how many colours it has. */
 export function picture(page: Page): Promise<{ print: number; share: number; colors: number }> {
   return page.evaluate(async () => {
     const image = new Image();
@@ -93,16 +93,16 @@ export function picture(page: Page): Promise<{ print: number; share: number; col
     pen.drawImage(image, 0, 0);
     const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
     let print = 0;
-    let solid = 0;
+    let drawn = 0;
     const colors = new Set<number>();
     for (let i = 0; i < data.length; i += 4) {
-      const [r, g, b, a] = [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0, data[i + 3] ?? 0];
-      print = (Math.imul(print, 31) + r + 256 * g + 65536 * b + a) | 0;
-      if (a > 200) {
-        solid += 1;
+      const [r, g, b] = [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
+      print = (Math.imul(print, 31) + r + 256 * g + 65536 * b) | 0;
+      if (r !== data[0] || g !== data[1] || b !== data[2]) {
+        drawn += 1;
         colors.add(((r >> 4) << 8) | ((g >> 4) << 4) | (b >> 4));
       }
     }
-    return { print, share: solid / (data.length / 4), colors: colors.size };
+    return { print, share: drawn / (data.length / 4), colors: colors.size };
   });
 }

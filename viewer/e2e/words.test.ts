@@ -31,28 +31,17 @@ const SAID: [string, RegExp][] = [
   ["no_ground", /without ground forces|no ground forces/i],
   ["one_leg", /left/i],
   ["no_cycles", /cycle/i],
+  ["gaps", /was not seen at 1\.50/],
 ];
 
 for (const [name, words] of SAID) {
   test(`${name}: the page says what is missing`, async () => {
     await withPage(name, async ({ page }) => {
-      const sentences = await page.locator(".missing, .empty, .assumptions, .findings").allTextContents();
+      const sentences = await page.locator(".missing, .empty, #quality").allTextContents();
       assert.match(sentences.join("\n"), words);
     });
   });
 }
-
-test("gaps are gaps in the curves, and the figure is not there", async () => {
-  await withPage("gaps", async ({ page }) => {
-    const found = await page.evaluate(() => {
-      const { page: data, numbers } = window.ambulo;
-      const view = data.sessions[0]?.view;
-      const places = view?.bodies[0] ? numbers.read(view.bodies[0].position[0]) : new Float64Array();
-      return { frames: places.length, missing: places.filter((place) => Number.isNaN(place)).length };
-    });
-    assert.ok(found.missing >= 30 && found.missing < found.frames / 2, JSON.stringify(found));
-  });
-});
 
 test("what is not feasible is red, with the reason in words", async () => {
   await withPage("infeasible", async ({ page }) => {

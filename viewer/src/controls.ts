@@ -83,6 +83,7 @@ export function pageControls(stage: Stage, help: () => void): HTMLElement {
       display.sides = which === "rl" ? ["r", "l"] : [which];
     },
   );
+  display.subscribe(() => axes.choose(display.axis));
   return element(
     "div",
     { class: "page-controls" },

@@ -249,7 +249,11 @@ export function valueRange(lines: readonly Line[], areas: readonly Area[]): [num
   if (!(low <= high)) {
     return [-1, 1];
   }
-  const span = high - low || Math.abs(high) || 1;
+  if (low === high) {
+    const half = Math.abs(low) / 2 || 1;
+    return [low - half, low + half];
+  }
+  const span = high - low;
   low = low > 0 && low <= ZERO_WITHIN * span ? 0 : low;
   high = high < 0 && high >= -ZERO_WITHIN * span ? 0 : high;
   return [low === 0 ? 0 : low - ROOM * span, high === 0 ? 0 : high + ROOM * span];

@@ -3,6 +3,7 @@ import type { Context } from "./context";
 import type { Feasibility, RedSpan, Session } from "./contract";
 import { sideName } from "./drawing";
 import { button, element } from "./element";
+import { foldButton, MANY } from "./fold";
 import type { Panels } from "./panels";
 import { tableSection } from "./table";
 
@@ -33,7 +34,7 @@ function one(context: Context, panels: Panels, session: Session, verdict: Feasib
       panels.show(span.panel);
     }
   };
-  const red = verdict.red.length > 0 ? [lanes(context, session, verdict.red, go), reasons(verdict.red, go)] : [];
+  const red = verdict.red.length > 0 ? [lanes(context, session, verdict.red, go), ...reasons(verdict.red, go)] : [];
   return [...name, sentence, ...red];
 }
 
@@ -71,13 +72,15 @@ function lanes(context: Context, session: Session, red: readonly RedSpan[], go: 
   return made;
 }
 
-function reasons(red: readonly RedSpan[], go: (span: RedSpan) => void): HTMLElement {
+function reasons(red: readonly RedSpan[], go: (span: RedSpan) => void): HTMLElement[] {
   const items = red.map((span) => {
     const time = button(`Go to ${spanTime(span)}`, spanTime(span), () => go(span));
     const side = span.side ? ` (${sideName(span.side)})` : "";
-    return element("li", {}, time, " ", element("strong", {}, span.check + side), " ", span.sentence);
+    const why = element("span", {}, element("strong", {}, span.check + side), ` ${span.sentence}`);
+    return element("li", {}, time, why);
   });
-  return element("ol", { class: "reasons" }, ...items);
+  const list = element("ol", { class: "reasons" }, ...items);
+  return items.length > MANY ? [list, foldButton(list, items.length, "reasons")] : [list];
 }
 
 function spanTime(span: RedSpan): string {

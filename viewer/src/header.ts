@@ -9,22 +9,29 @@ const SOURCES: Readonly<Record<PageSource, string>> = {
   none: "No ground forces",
 };
 
-/** Who, with what, how: the top of the page. */
+/** Screens on which the settings are folded at first. */
+const NARROW = "(max-width: 900px)";
+
+/** The top of the page: whose it is and where the ground forces come from. */
 export function header(page: Page): HTMLElement {
-  const title = element("h1", {}, page.title);
   const badges = [...new Set(page.sessions.map((session) => session.source))].map((source) =>
     element("span", { class: `badge ${source}` }, SOURCES[source]),
   );
-  const top = element(
-    "div",
-    { class: "top" },
-    title,
-    ...badges,
-    element("span", { class: "program" }, `Ambulo ${page.program}`),
-  );
+  return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
+}
+
+/** Who, with what, how, beside a picture of the figure for paper; then what the page cannot show. */
+export function about(page: Page, still: HTMLImageElement): HTMLElement {
   const [first] = page.sessions;
   const facts = page.sessions.length === 1 && first ? factList(first) : factTable(page.sessions);
-  return element("header", { class: "header" }, top, facts, ...missing(page.sessions));
+  const details = element("details", { class: "settings" }, element("summary", {}, "Subject and settings"), facts);
+  details.open = !matchMedia(NARROW).matches;
+  return element(
+    "div",
+    { class: "about" },
+    element("div", { class: "beside" }, details, still),
+    ...missing(page.sessions),
+  );
 }
 
 function factList(session: Session): HTMLElement {

@@ -6,7 +6,7 @@ import { Display } from "./display";
 import { element } from "./element";
 import { feasibility } from "./feasibility";
 import { citations, groups } from "./groups";
-import { header } from "./header";
+import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
 import { legend } from "./legend";
@@ -38,20 +38,24 @@ async function main(root: HTMLElement): Promise<void> {
   }
   document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
   const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };
+  if (page.sessions.every((session) => session.cycles.length === 0)) {
+    context.display.axis = "time";
+  }
   const panels = new Panels(context);
   const host = element("div", { class: "view" });
   const still = element("img", { class: "still", alt: "The figure at the chosen time" });
-  const aside = element("section", { class: "stage", "aria-label": "Figure and time" }, host, still);
+  const aside = element("section", { class: "stage", "aria-label": "Figure and time" }, host);
+  const nav = element("nav", { class: "bar", "aria-label": "Page" });
   const report = content(context, panels);
-  const main = element("main", { class: "columns" }, aside, report);
-  const top = header(page);
-  root.replaceChildren(top, main);
+  report.prepend(about(page, still), nav);
+  const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
+  root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
   const view = figure(host, context);
   const stage: Stage = { ...context, view };
   const { dialog, open } = helpDialog();
   const { bar, actions } = playControls(stage);
   aside.append(bar);
-  top.append(element("nav", { class: "bar", "aria-label": "Page" }, contents(report), pageControls(stage, open)));
+  nav.append(contents(report), pageControls(stage, open));
   root.append(dialog);
   listenToKeys(context, { ...actions, help: open });
   prepareForPaper(panels, view, still);

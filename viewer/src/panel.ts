@@ -12,7 +12,7 @@ import { saveCsv, savePng, saveSvg } from "./save";
 import { directionWords, vector, type Words } from "./vector";
 
 /** Size of a plot on paper [CSS px]; it is stretched to its column. */
-const PRINT = { width: 240, height: 150, titled: false };
+const PRINT = { width: 240, height: 128, titled: false };
 
 /** One quantity: title, plot, value at the cursor, menu to save it. */
 export class PanelView {
@@ -23,6 +23,8 @@ export class PanelView {
   readonly #words: Words;
   readonly #plot: HTMLElement;
   readonly #paper: HTMLElement;
+  readonly #readout = element("span", { class: "readout", "aria-hidden": "true" });
+  readonly #source: HTMLElement;
   readonly #values = new Map<PageSide | null, HTMLElement>();
   readonly #cursors = new Map<PageSide | null, HTMLElement>();
   #drawing: Drawing | null;
@@ -35,11 +37,13 @@ export class PanelView {
     this.#sources = sources;
     this.#words = wordsOf(sources);
     this.#drawing = drawing(sources, context.numbers, context.display);
-    this.#plot = element("div", { class: "plot", role: "img", "aria-label": this.#summary() });
+    this.#plot = element("div", { class: "plot", role: "img" });
     this.#paper = element("div", { class: "paper", "aria-hidden": "true" });
+    this.#source = element("p", { class: "source" });
     this.figure = element("figure", { class: "panel", id: `panel-${id}` }, this.#head());
     if (this.#drawing) {
-      this.figure.append(this.#plot, this.#paper, ...this.#source());
+      this.figure.append(this.#plot, this.#paper, this.#source);
+      this.#fillWords(this.#drawing);
     } else {
       const why = sources.find(({ panel }) => panel.empty !== null)?.panel.empty;
       this.figure.append(element("p", { class: "empty" }, why ?? "There are no values of this quantity."));
@@ -68,7 +72,9 @@ export class PanelView {
   /** Draws anew what another axis or other sides ask for; at once if visible, or else when it becomes so. */
   update(): void {
     this.#drawing = drawing(this.#sources, this.#context.numbers, this.#context.display);
-    this.#plot.setAttribute("aria-label", this.#summary());
+    if (this.#drawing) {
+      this.#fillWords(this.#drawing);
+    }
     this.#chart?.destroy();
     this.#chart = null;
     if (this.#visible) {
@@ -136,7 +142,7 @@ export class PanelView {
     this.#cursors.clear();
     const sides = now.axis === "time" ? [null] : this.#context.display.sides;
     for (const side of sides) {
-      this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}` }));
+      this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}`, hidden: "" }));
     }
     chart.over.append(...this.#cursors.values());
   }
@@ -153,21 +159,30 @@ export class PanelView {
     const head = element("figcaption", {}, title);
     if (this.#drawing) {
       const signs = element("span", { class: "signs" }, directionWords(this.#words));
-      head.append(this.#menu(), element("div", { class: "caption-row" }, signs, this.#readout(this.#drawing)));
+      head.append(this.#menu(), element("div", { class: "caption-row" }, signs, this.#readout));
     }
     return head;
   }
 
-  #readout(now: Drawing): HTMLElement {
-    const readout = element("span", { class: "readout", "aria-hidden": "true" });
+  /** Words that depend on what is drawn: places of the values, source of the band, summary. */
+  #fillWords(now: Drawing): void {
     const sides = (["r", "l", null] as const).filter((side) => now.lines.some((line) => line.side === side));
-    const shownSides = sides.length > 1 ? sides.filter((side) => side !== null) : sides;
-    for (const side of shownSides) {
-      const value = element("span", { class: side ?? "both" }, "–");
-      this.#values.set(side, value);
-      readout.append(value);
+    const read = sides.length > 1 ? sides.filter((side) => side !== null) : sides;
+    this.#values.clear();
+    for (const side of read) {
+      this.#values.set(side, element("span", { class: side ?? "both" }, "–"));
     }
-    return readout;
+    this.#readout.replaceChildren(...this.#values.values());
+    this.#fillSource(now);
+    this.#plot.setAttribute("aria-label", this.#summary(now));
+  }
+
+  /** Whose the grey band is, in short; in full it stands below all panels. */
+  #fillSource(now: Drawing): void {
+    const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
+    const visible = band && now.areas.some((area) => area.kind === "band");
+    this.#source.textContent = visible ? shortCitation(band.citation) : "";
+    this.#source.title = visible ? band.citation : "";
   }
 
   #menu(): HTMLElement {
@@ -197,18 +212,8 @@ export class PanelView {
     return menu;
   }
 
-  /** Whose the grey band is, in short; in full it stands below all panels. */
-  #source(): HTMLElement[] {
-    const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
-    return band ? [element("p", { class: "source", title: band.citation }, shortCitation(band.citation))] : [];
-  }
-
   /** The plot in words, for those who cannot see it. */
-  #summary(): string {
-    const now = this.#drawing;
-    if (!now) {
-      return "";
-    }
+  #summary(now: Drawing): string {
     const { title, unit, positive, negative } = this.#words;
     const digits = digitsFor(...now.y);
     const over = now.axis === "cycle" ? "over the gait cycle" : "over time";

@@ -6,6 +6,9 @@ import { onThemeChange } from "./style";
 /** How far below the window panels are drawn in advance. */
 const MARGIN = "400px 0px";
 
+/** A panel out of sight is drawn after this time, even if the browser is never idle. */
+const LONGEST_WAIT_MS = 100;
+
 /** All panels of the page: draws those in sight, keeps them at the clock's time, the reader's choices and the theme. */
 export class Panels {
   readonly #views: PanelView[] = [];
@@ -22,7 +25,10 @@ export class Panels {
       }
     });
     context.clock.subscribe(() => this.#tick());
-    context.display.subscribe(() => this.#each((view) => view.update()));
+    context.display.subscribe(() => {
+      this.#each((view) => view.update());
+      this.#drawLater();
+    });
     onThemeChange(() => this.#each((view) => view.recolour()));
   }
 
@@ -37,18 +43,22 @@ export class Panels {
 
   /** Draws what is in sight at once, without waiting for the observer, and the rest while the browser is idle. */
   start(): void {
-    const waiting = this.#views.filter((view) => {
-      const inSight = view.host.getBoundingClientRect().top < innerHeight;
-      view.visible = inSight;
-      return !inSight;
+    this.#each((view) => {
+      view.visible = view.host.getBoundingClientRect().top < innerHeight;
     });
-    const later = (): void => {
+    this.#drawLater();
+  }
+
+  /** Draws what is not in sight while the browser is idle, one panel at a time. */
+  #drawLater(): void {
+    const waiting = [...this.#views];
+    const next = (): void => {
       waiting.shift()?.draw();
       if (waiting.length > 0) {
-        whenIdle(later);
+        whenIdle(next);
       }
     };
-    whenIdle(later);
+    whenIdle(next);
   }
 
   /** Vector pictures of all panels, for paper. */
@@ -97,7 +107,7 @@ export class Panels {
 /** Not every browser tells when it is idle. */
 function whenIdle(action: () => void): void {
   if (typeof requestIdleCallback === "function") {
-    requestIdleCallback(action, { timeout: 500 });
+    requestIdleCallback(action, { timeout: LONGEST_WAIT_MS });
   } else {
     setTimeout(action, 50);
   }

@@ -32,7 +32,8 @@ export function yWords(ticks: readonly number[]): string[] {
 /** Draws into a host of the given size. */
 export function plot(host: HTMLElement, drawing: Drawing, scheme: Scheme, width: number, height: number): uPlot {
   const ticks = ticksOf(drawing);
-  const font = `${pixels(STYLE.font.tick_pt)}px ${STYLE.font.family}`;
+  // uPlot enlarges whole pixels only on fine screens.
+  const font = `${Math.round(pixels(STYLE.font.tick_pt))}px ${STYLE.font.family}`;
   const axis = { font, stroke: () => colour("quiet"), ticks: { show: false } };
   const grid = { width: pixels(STYLE.lines_pt.grid), stroke: () => colour("grid") };
   const options: uPlot.Options = {

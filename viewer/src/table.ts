@@ -1,5 +1,6 @@
 import type { Cell, Session, Table } from "./contract";
 import { element } from "./element";
+import { foldButton, MANY } from "./fold";
 
 /** A table as it is shown: heads over groups of columns, heads, rows. */
 export interface Columns {
@@ -31,11 +32,12 @@ export function tableSection(own: readonly (Table | null)[], names: readonly str
     return element("section", { class: "table" }, heading, element("p", { class: "empty" }, why));
   }
   const body = tableElement(sideBySide(own, names), first.title);
+  const fold = first.rows.length > MANY ? [foldButton(body, first.rows.length, "rows")] : [];
   const scroll = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": first.title }, body);
-  return element("section", { class: "table" }, heading, scroll, ...note);
+  return element("section", { class: "table" }, heading, scroll, ...fold, ...note);
 }
 
-/** Columns of all sessions in turn; those that all sessions have in common stand once, at the end. */
+/** Columns of all sessions in turn; words that all sessions have in common, as normal ranges, stand once, at the end. */
 export function sideBySide(own: readonly (Table | null)[], names: readonly string[]): Columns {
   const present = own.flatMap((table, i) => (table && table.rows.length > 0 ? [{ table, name: names[i] ?? "" }] : []));
   const [first] = present;
@@ -49,23 +51,26 @@ export function sideBySide(own: readonly (Table | null)[], names: readonly strin
   const indices = heads.map((_, i) => i).slice(1);
   const common = indices.filter((column) =>
     keys.every((key) =>
-      present.every(({ table }) => cell(table, key, column).text === cell(first.table, key, column).text),
+      present.every(({ table }) => {
+        const { text, value } = cell(table, key, column);
+        return value === null && text === cell(first.table, key, column).text;
+      }),
     ),
   );
-  const own_ = indices.filter((column) => !common.includes(column));
+  const single = indices.filter((column) => !common.includes(column));
   const rows = keys.map((key) => [
     { text: key, value: null, outside: false },
-    ...present.flatMap(({ table }) => own_.map((column) => cell(table, key, column))),
+    ...present.flatMap(({ table }) => single.map((column) => cell(table, key, column))),
     ...common.map((column) => cell(first.table, key, column)),
   ]);
   const word = (column: number): string => heads[column] ?? "";
   return {
     spans: [
       { name: "", columns: 1 },
-      ...present.map(({ name }) => ({ name, columns: own_.length })),
+      ...present.map(({ name }) => ({ name, columns: single.length })),
       ...(common.length > 0 ? [{ name: "", columns: common.length }] : []),
     ].filter(({ columns }) => columns > 0),
-    heads: [word(0), ...present.flatMap(() => own_.map(word)), ...common.map(word)],
+    heads: [word(0), ...present.flatMap(() => single.map(word)), ...common.map(word)],
     rows,
   };
 }

@@ -26,8 +26,10 @@ export function timeline(context: Context): HTMLElement {
     step: "any",
   });
   slider.addEventListener("input", () => {
+    // Pausing tells all listeners, and that below puts the slider back to the clock's time.
+    const wanted = Number(slider.value);
     clock.pause();
-    clock.seek(Number(slider.value));
+    clock.seek(wanted);
   });
   clock.subscribe(() => {
     slider.value = String(clock.time);

@@ -132,4 +132,7 @@ test("a limit far away does not squeeze the curve, one near is shown", () => {
   assert.ok(valueRange([curve, line("limit", [22, 22])], [])[1] > 22);
   assert.ok(valueRange([curve, line("limit", [90, 90])], [])[1] < 30);
   assert.deepEqual(valueRange([line("main", [Number.NaN])], []), [-1, 1]);
+  assert.deepEqual(valueRange([line("main", [0, 0])], []), [-1, 1]);
+  assert.deepEqual(valueRange([line("main", [4, 4])], []), [2, 6]);
+  assert.equal(valueRange([line("main", [1, 9])], [])[0], 0);
 });

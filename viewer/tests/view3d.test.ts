@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Quaternion, Vector3 } from "three";
-import type { PageSide } from "../src/contract";
+import type { PageSide, View } from "../src/contract";
 import { arrowParts, arrowScale } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
@@ -10,6 +10,7 @@ import { filled, Path, smoothed } from "../src/view3d/path";
 import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
 import { marks } from "../src/view3d/ruler";
 import { sample, Timeline } from "../src/view3d/timeline";
+import { togglesOf } from "../src/view3d/toggles";
 import { arcAngle } from "../src/view3d/torques";
 import { contactStart, rings, trailPoints } from "../src/view3d/trail";
 import { ORDINARY, SampleNumbers, samplePage } from "./sample-view";
@@ -205,4 +206,12 @@ test("metres get fewer marks on a long way", () => {
   assert.deepEqual(marks(-0.5, 2.2, 20), [0, 1, 2]);
   const long = marks(0, 1000, 20);
   assert.ok(long.length <= 21 && long[1] === 100);
+});
+
+test("only what there is can be shown or hidden", () => {
+  const [session] = samplePage(new SampleNumbers()).sessions;
+  assert.ok(session?.view);
+  const words = (view: View, ghosts: boolean) => togglesOf(view, ghosts).map(({ word }) => word);
+  assert.deepEqual(words(session.view, false), ["Forces", "Moments", "Soles"]);
+  assert.deepEqual(words({ ...session.view, forces: [], torques: [], contacts: [] }, true), ["Ghost"]);
 });

@@ -10,7 +10,9 @@ import { addAll, release } from "./layers";
 import { FIRST_OPTIONS, type ViewOptions } from "./options";
 import { palette } from "./palette";
 import { Stage } from "./stage";
+import { toggleBar, togglesOf } from "./toggles";
 import { World } from "./world";
+import "../css/view3d.css";
 
 export type { CameraKind } from "./camera";
 export type { ViewOptions } from "./options";
@@ -54,6 +56,7 @@ class Picture implements View3D {
   readonly ghosts: boolean;
   readonly options: ViewOptions = { ...FIRST_OPTIONS };
   private readonly canvas = document.createElement("canvas");
+  private readonly toggles: ReturnType<typeof toggleBar>;
   private readonly world: World;
   private readonly stage: Stage;
   private readonly rig: CameraRig;
@@ -79,6 +82,8 @@ class Picture implements View3D {
     );
     this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
+    this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    host.append(this.toggles.bar);
     this.world.show(this.options);
     this.recolor();
     this.world.pose(clock.time, this.place);
@@ -97,6 +102,7 @@ class Picture implements View3D {
   setOptions(options: Partial<ViewOptions>): void {
     Object.assign(this.options, options);
     this.world.show(this.options);
+    this.toggles.refresh();
     this.stage.invalidate();
   }
 
@@ -113,6 +119,7 @@ class Picture implements View3D {
     this.rig.controls.dispose();
     this.stage.dispose();
     this.canvas.remove();
+    this.toggles.bar.remove();
   }
 
   /** Everything in its place for the next picture. */

@@ -35,7 +35,7 @@ const PALE = 0.35;
 /** The colours of a theme; in a comparison the figure has the colour of its session's curves, its left side paler. */
 export function palette(dark: boolean, compared: boolean): Palette {
   const of = (pair: Pair): Color => new Color(dark ? pair.dark : pair.color);
-  const neutral = new Color(dark ? "#9aa3ad" : "#d3d8de");
+  const neutral = new Color(dark ? "#b9c1ca" : "#d3d8de");
   const own = looks.sessions[0] ?? looks.right;
   const right = of(compared ? own : looks.right);
   const left = of(compared ? own : looks.left);
@@ -50,7 +50,7 @@ export function palette(dark: boolean, compared: boolean): Palette {
     infeasible: of(looks.infeasible),
     paper: of(looks.paper),
     text: of(looks.quiet),
-    grid: new Color(dark ? "#5b646e" : "#a3adb8"),
+    grid: new Color(dark ? "#4c545d" : "#a3adb8"),
     plate: new Color(dark ? "#6f7b88" : "#8d99a6"),
     obstacle: new Color(dark ? "#a58b52" : "#c9a968"),
     sessions: looks.sessions.map(of),

@@ -26,7 +26,6 @@ export class Stage {
     this.renderer = new WebGLRenderer({
       canvas,
       antialias: true,
-      alpha: true,
       stencil: true,
       preserveDrawingBuffer: true,
     });
@@ -40,6 +39,9 @@ export class Stage {
   }
 
   recolor(colors: Palette): void {
+    // An opaque ground: browsers may put a canvas that sticks to the window over black where it is transparent.
+    this.renderer.setClearColor(colors.paper, 1);
+    this.renderer.setClearColor(colors.paper);
     this.sky.groundColor.set(colors.dark ? 0x2a2f36 : 0xb4bac2);
     this.sky.intensity = colors.dark ? 1.5 : 2.0;
     this.sun.intensity = colors.dark ? 2.0 : 1.9;
