@@ -1,13 +1,26 @@
 //! What CI runs, in order, up to the first failure: `cargo xtask check`.
 //!
-//! The steps are plain cargo commands in the dev profile, so each can be run alone while something is mended.
+//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so each can be run alone while something is
+//! mended. Without npm or Chromium the viewer's steps are skipped, and it is said; where `CI` is set that is a failure.
 
 use crate::workspace;
+use std::path::PathBuf;
+use std::process::Command;
 use std::time::Instant;
 
-/// One cargo command.
+/// What runs a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tool {
+    /// In the root of the workspace.
+    Cargo,
+    /// In `viewer/`.
+    Npm,
+}
+
+/// One command.
 struct Step {
     name: &'static str,
+    tool: Tool,
     arguments: &'static [&'static str],
     /// Set for this step alone.
     variable: Option<(&'static str, &'static str)>,
@@ -15,21 +28,24 @@ struct Step {
     hint: &'static str,
 }
 
-const STEPS: [Step; 4] = [
+const STEPS: [Step; 7] = [
     Step {
         name: "format",
+        tool: Tool::Cargo,
         arguments: &["fmt", "--all", "--", "--check"],
         variable: None,
         hint: "run `cargo fmt --all`",
     },
     Step {
         name: "lints",
+        tool: Tool::Cargo,
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
     },
     Step {
         name: "tests",
+        tool: Tool::Cargo,
         // What a test measured or skipped is worth seeing when it passes, too.
         arguments: &["test", "--workspace", "--locked", "--", "--show-output"],
         variable: None,
@@ -37,9 +53,31 @@ const STEPS: [Step; 4] = [
     },
     Step {
         name: "documentation",
+        tool: Tool::Cargo,
         arguments: &["doc", "--workspace", "--no-deps", "--locked"],
         variable: Some(("RUSTDOCFLAGS", "-D warnings")),
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
+    },
+    Step {
+        name: "viewer's packages",
+        tool: Tool::Npm,
+        arguments: &["ci", "--no-audit", "--no-fund"],
+        variable: None,
+        hint: "`npm ci` in viewer/ needs the package registry; package-lock.json must agree with package.json",
+    },
+    Step {
+        name: "viewer",
+        tool: Tool::Npm,
+        arguments: &["run", "check"],
+        variable: None,
+        hint: "mend what the linter, the compiler or a test names; `npm run build` in viewer/ makes the bundle anew",
+    },
+    Step {
+        name: "pages in a browser",
+        tool: Tool::Npm,
+        arguments: &["run", "e2e"],
+        variable: None,
+        hint: "`npm run e2e` in viewer/ repeats this step with the `ambulo` that cargo built last",
     },
 ];
 
@@ -47,20 +85,60 @@ const STEPS: [Step; 4] = [
 #[expect(clippy::print_stdout, reason = "the steps and their times are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let start = Instant::now();
+    let lacking = lacking();
+    if let (Some(lacking), true) = (lacking, std::env::var_os("CI").is_some()) {
+        return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
+    }
     for (i, step) in STEPS.iter().enumerate() {
-        println!("[{}/{}] {}: cargo {}", i + 1, STEPS.len(), step.name, step.arguments.join(" "));
+        let head = format!("[{}/{}] {}", i + 1, STEPS.len(), step.name);
+        if let (Tool::Npm, Some(lacking)) = (step.tool, lacking) {
+            println!("{head}: skipped: no {lacking}");
+            continue;
+        }
+        println!("{head}: {} {}", step.tool.word(), step.arguments.join(" "));
         let step_start = Instant::now();
         run_step(step)?;
-        println!("[{}/{}] {}: {:.1} s", i + 1, STEPS.len(), step.name, step_start.elapsed().as_secs_f64());
+        println!("{head}: {:.1} s", step_start.elapsed().as_secs_f64());
     }
-    println!("all {} steps passed in {:.1} s", STEPS.len(), start.elapsed().as_secs_f64());
+    println!("all {} steps passed or skipped in {:.1} s", STEPS.len(), start.elapsed().as_secs_f64());
     Ok(())
 }
 
+/// What the viewer's steps need and the machine has not.
+fn lacking() -> Option<&'static str> {
+    let starts = |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    ["npm", "chromium"].into_iter().find(|name| !starts(name))
+}
+
+impl Tool {
+    fn word(self) -> &'static str {
+        match self {
+            Tool::Cargo => "cargo",
+            Tool::Npm => "npm",
+        }
+    }
+
+    fn command(self) -> Command {
+        match self {
+            Tool::Cargo => workspace::cargo(),
+            Tool::Npm => {
+                let mut command = Command::new("npm");
+                command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());
+                command
+            }
+        }
+    }
+}
+
+/// The `ambulo` command that the tests' step has built.
+fn debug_program() -> PathBuf {
+    workspace::target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
+}
+
 fn run_step(step: &Step) -> Result<(), String> {
-    let mut command = workspace::cargo();
+    let mut command = step.tool.command();
     command.args(step.arguments).envs(step.variable);
-    let status = command.status().map_err(|e| format!("{}: cargo cannot start: {e}", step.name))?;
+    let status = command.status().map_err(|e| format!("{}: {} cannot start: {e}", step.name, step.tool.word()))?;
     if status.success() {
         return Ok(());
     }

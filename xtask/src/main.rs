@@ -22,7 +22,7 @@ use std::process::ExitCode;
 const HELP: &str = "\
 usage: cargo xtask <command>
 
-  check             what CI runs: format, lints, tests, documentation; stops at the first failure
+  check             what CI runs: format, lints, tests, documentation, the viewer, its pages in a browser; stops at the first failure
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it, ours and OpenSim's  [--write: docs/BENCHMARKS_MARKERS.md]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]

@@ -60,6 +60,12 @@ impl Walk {
     }
 }
 
+/// The folder that cargo builds into: this program stands in <target>/<profile>.
+pub(crate) fn target() -> PathBuf {
+    let here = std::env::current_exe().unwrap_or_default();
+    here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
+}
+
 /// Builds the `ambulo` command in release and returns its path.
 pub(crate) fn build_program() -> Result<PathBuf, String> {
     let mut build = cargo();
@@ -68,9 +74,6 @@ pub(crate) fn build_program() -> Result<PathBuf, String> {
     if !status.success() {
         return Err(format!("ambulo-cli did not build ({status}), see above"));
     }
-    // This program stands in <target>/<profile>, so `ambulo` stands beside it or in the neighbouring folder.
-    let here = std::env::current_exe().map_err(|e| format!("this program's own path is unknown: {e}"))?;
-    let target = here.parent().and_then(Path::parent).unwrap_or(Path::new("target"));
-    let program = target.join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
+    let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
     if program.is_file() { Ok(program) } else { Err(format!("{}: not there after the build", program.display())) }
 }

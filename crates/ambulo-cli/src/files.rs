@@ -53,7 +53,8 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
 
 /// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
 /// never holds results of two runs.
-const RESULTS: [&str; 47] = [
+const RESULTS: &[&str] = &[
+    "report.html",
     "kinematics.mot",
     "moments.sto",
     "moments_biological.sto",
@@ -65,12 +66,19 @@ const RESULTS: [&str; 47] = [
     "external_loads.xml",
     "events.csv",
     "cycles.csv",
+    "figures/kinematics.svg",
     "figures/moments.svg",
+    "figures/powers.svg",
+    "figures/ground_forces.svg",
+    "figures/sagittal_2col.svg",
+    "figures/sagittal_1col.svg",
+    "figures/quality.svg",
+    "figures/prediction.svg",
     "figures/gait.svg",
     "figure.osim",
     "subject.osim",
-    "poses.csv",
     "shapes.json",
+    "poses.csv",
     "joints.csv",
     "reactions.csv",
     "contacts.csv",

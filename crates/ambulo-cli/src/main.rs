@@ -19,6 +19,8 @@ fn main() -> ExitCode {
         Some(Command::Demo(args)) => commands::demo::run(&args),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
         Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
+        Some(Command::Report(args)) => commands::report::run(&args),
+        Some(Command::View(args)) => commands::view::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Convert(args)) => commands::convert::run(&args),
         Some(Command::Events(args)) => commands::events::run(&args),

@@ -278,7 +278,7 @@ fn conversions_that_make_no_sense_are_refused_with_those_that_do() {
     refused(&["demo/input/walk.mot", "x.bvh"], &["expected --model FILE.osim"]);
     refused(&[walk, "x.trc", "--what", "analog"], &["--what is for .c3d to .csv only"]);
     refused(&["demo/input/walk.mot", "x.csv", "--world"], &["--world is for markers and joint centres only"]);
-    refused(&["demo/input/standing.c3d", "x.trc", "--model", figure], &["--model is for .bvh only"]);
+    refused(&["demo/input/standing.c3d", "x.trc", "--model", figure], &["--model is for .bvh and .glb only"]);
     refused(&["no.c3d", "x.trc"], &["no.c3d: there is no such file"]);
     bench.write("x.trc", "mine");
     refused(&[walk, "x.trc"], &["x.trc: this file is there already", "hint: --force writes over it"]);

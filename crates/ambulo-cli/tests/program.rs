@@ -16,6 +16,8 @@ fn alone_it_prints_a_guide() {
         "ambulo walk",
         "ambulo forces",
         "ambulo simulate",
+        "ambulo report",
+        "ambulo view",
         "ambulo info",
         "ambulo convert",
         "ambulo events",
@@ -30,7 +32,7 @@ fn alone_it_prints_a_guide() {
 #[test]
 fn help_of_every_verb_has_an_example() {
     let bench = Workbench::empty("help");
-    for verb in ["demo", "walk", "forces", "simulate", "info", "convert", "events", "compare"] {
+    for verb in ["demo", "walk", "forces", "simulate", "report", "view", "info", "convert", "events", "compare"] {
         let run = bench.run(&[verb, "--help"]).done();
         let example = run.stdout.split("Example").nth(1).unwrap_or_default();
         assert!(example.contains(&format!("ambulo {verb}")), "{}", run.stdout);

@@ -57,4 +57,22 @@ fn the_paper_is_recomputed_into_the_documented_files() {
             .starts_with("what,value,why,other,claim,headline,with_value,with_other,turns\n")
     );
     assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 13);
+    the_page_says_what_the_files_say(&bench.text("paper/report.html"), rows);
+}
+
+fn the_page_says_what_the_files_say(html: &str, claims: &[serde_json::Value]) {
+    assert!(!html.contains("src=\"http") && !html.contains("href=\"http") && !html.contains("<script"));
+    assert_eq!(html.matches("<svg ").count(), 7);
+    let held = claims.iter().filter(|claim| claim["pass"] == true).count();
+    assert!(html.contains(&format!("{held} of {} claims hold", claims.len())));
+    for claim in claims {
+        let id = claim["id"].as_str().unwrap();
+        let row = html.split(&format!("<tr id=\"{id}\">")).nth(1).unwrap().split("</tr>\n").next().unwrap();
+        let mark = if claim["pass"] == true { "✓ holds" } else { "✗ fails" };
+        assert!(row.contains(mark), "{id}: {row}");
+        let value = claim["paper_mode"][claim["headline"].as_str().unwrap()].as_f64().unwrap();
+        let cell = row.rsplit("<td class=\"number\">").nth(1).unwrap().split('<').next().unwrap();
+        let shown: f64 = cell.parse().unwrap();
+        assert!((shown - value).abs() <= 0.06 * value.abs(), "{id}: {shown} for {value}");
+    }
 }

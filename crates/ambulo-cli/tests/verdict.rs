@@ -43,7 +43,7 @@ fn the_built_in_walks_sliding_feet_are_found_by_the_built_in_limits() {
         assert!(reason["value"].as_f64().unwrap() > reason["limit"].as_f64().unwrap(), "{reason}");
     }
     let figure = bench.text("out/figures/moments.svg");
-    assert!(figure.contains("red: not feasible") && figure.contains("#DC0000"), "no red in the figure");
+    assert!(figure.contains("red: not feasible") && figure.contains("#C00018"), "no red in the figure");
     // Everything else is written as for a feasible motion.
     bench.forces(&[&RAW[..], &["-o", "lenient"]].concat()).done();
     assert_eq!(bench.read("out/moments.sto"), bench.read("lenient/moments.sto"));

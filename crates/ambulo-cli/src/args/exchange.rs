@@ -9,13 +9,16 @@ use std::path::PathBuf;
   ambulo convert demo/input/walk.mot walk.bvh --model demo/input/figure.osim
   ambulo convert demo/moments.sto moments.csv
   ambulo convert walk.bvh walk.trc --world
+  ambulo convert demo walk.glb
+  ambulo convert demo results.csv
 
 From .c3d to .trc (markers), .csv (--what markers, analog or forces), .mot or .sto (ground forces by foot, with external loads as .xml
-beside it); from .trc to .c3d or .csv; from .mot or .sto to each other and to .csv, with --model to .bvh; from .csv to .mot or .sto; from .bvh
-to .trc (joint centres) or .csv (channels). What the new format cannot hold is said. Positions are metres in .csv, millimetres in .trc and
+beside it); from .trc to .c3d or .csv; from .mot or .sto to each other and to .csv, with --model to .bvh (a skeleton) and .glb (an animated glTF file); from .csv to .mot or .sto; from .bvh
+to .trc (joint centres) or .csv (channels); from a folder of results to .glb (figure or scene, with ground forces as arrows), .bvh (the figure) or
+.csv (time, quantity, unit, value: all results over time). What the new format cannot hold is said. Positions are metres in .csv, millimetres in .trc and
 .c3d. An output that is there already is only written over with --force, the input never.")]
 pub(crate) struct ConvertArgs {
-    /// The file to read.
+    /// The file to read, or a folder of results.
     pub(crate) input: PathBuf,
     /// The file to write; its ending says the format.
     pub(crate) output: PathBuf,
@@ -25,7 +28,7 @@ pub(crate) struct ConvertArgs {
     /// Turn markers to x forward, y up, z right (ground forces always are).
     #[arg(long)]
     pub(crate) world: bool,
-    /// The body whose coordinates a .mot or .sto holds: .osim; for .bvh.
+    /// The body whose coordinates a .mot or .sto holds: .osim; for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
     /// Write over an output that is there already.

@@ -2,12 +2,14 @@
 
 mod exchange;
 mod forces;
+mod report;
 mod tools;
 mod values;
 mod walk;
 
 pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
 pub(crate) use forces::{Consistency, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
+pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{AddedMass, FootColumns, PlateFoot};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, WalkArgs, WalkMode};
@@ -34,6 +36,10 @@ pub(crate) enum Command {
     Simulate(SimulateArgs),
     /// Every figure and claim of the 1997 paper, recomputed.
     Reproduce(ReproduceArgs),
+    /// The report page of a result folder, made anew; two or three runs compared.
+    Report(ReportArgs),
+    /// The report page of a result folder, in the browser.
+    View(ViewArgs),
     /// What a file holds.
     Info(InfoArgs),
     /// From one format to another: c3d, trc, mot, sto, csv, bvh.

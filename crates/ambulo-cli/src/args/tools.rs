@@ -80,7 +80,8 @@ pub(crate) struct CompareArgs {
 #[command(after_help = "Example:
   ambulo reproduce -o paper
 
-The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: claims.json (each claim with
+The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR: report.html (all of it as a
+page; `ambulo view DIR` opens it), claims.json (each claim with
 the numbers found, whether it holds, and why), figures/figure1 to figure7 as .svg and .csv, muscles.csv (what net moments say
 about muscles), torques.csv and torques.toml (torque curves as harmonics), assumptions.csv (what the paper does not give, and
 what other values make of its claims). Results of an earlier run in DIR are removed. docs/REPRODUCTION.md describes them.

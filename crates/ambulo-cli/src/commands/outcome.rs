@@ -1,5 +1,6 @@
 //! From an analysis to a verdict, files and words: what recordings and synthetic walks share.
 
+use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::Voice;
 use crate::{Verdict, files, printer};
@@ -72,8 +73,14 @@ impl Outcome<'_> {
             (None, false) => summary.mass,
         };
         summary.prediction = self.checks;
+        let page = page_of_run(output, &written, &json(&summary)?);
+        clock.lap("report");
+        match page {
+            Ok(page) => files::write(&output.join(&page.name), &page.bytes)?,
+            Err(reason) => summary.findings.push(page_not_written(&reason)),
+        }
         summary.timing_ms = clock.into_laps();
-        write_summary(output, &summary)?;
+        files::write(&output.join("summary.json"), &json(&summary)?)?;
         printer::forces(&summary, output, voice)?;
         Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
     }
@@ -96,8 +103,8 @@ pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
     Thresholds::from_toml(&text).with_context(shown)
 }
 
-fn write_summary(output: &Path, summary: &Summary) -> Result<()> {
+fn json(summary: &Summary) -> Result<Vec<u8>> {
     let mut json = serde_json::to_vec_pretty(summary)?;
     json.push(b'\n');
-    files::write(&output.join("summary.json"), &json)
+    Ok(json)
 }

@@ -2,7 +2,7 @@
 
 use crate::args::ReproduceArgs;
 use crate::{Verdict, files, printer};
-use ambulo::report::reproduction_files;
+use ambulo::report::{reproduction_files, reproduction_page};
 use ambulo::reproduction::{Claim, Corrected, Evidence, Mode, Request, Scope, claims, paper_walk, sensitivities};
 use anyhow::Result;
 use std::time::Instant;
@@ -21,7 +21,8 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
         printer::progress("other values for what the paper leaves open", args.voice);
         sensitivities()?
     };
-    let written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
+    let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
+    written.push(reproduction_page(&claims, &others, &written));
     files::replace_results(&args.output, &written, &[])?;
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');

@@ -1,5 +1,6 @@
 //! `ambulo simulate`: a scene file stepped through time.
 
+use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::{Verdict, files, printer};
@@ -60,6 +61,11 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
     summary.timing_ms = clock.into_laps();
+    let page = page_of_run(&args.output, &written, &json(&summary)?);
+    match page {
+        Ok(page) => files::write(&args.output.join(&page.name), &page.bytes)?,
+        Err(reason) => summary.findings.push(page_not_written(&reason)),
+    }
     write_json(&args.output.join("summary.json"), &summary)?;
     printer::simulate(&summary, &args.output, args.voice)?;
     Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
@@ -114,7 +120,11 @@ fn refuse_to_write_over(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
 }
 
 fn write_json(path: &Path, content: &impl serde::Serialize) -> Result<()> {
+    files::write(path, &json(content)?)
+}
+
+fn json(content: &impl serde::Serialize) -> Result<Vec<u8>> {
     let mut json = serde_json::to_vec_pretty(content)?;
     json.push(b'\n');
-    files::write(path, &json)
+    Ok(json)
 }

@@ -5,12 +5,14 @@
 mod comparison;
 mod consistency;
 mod forces;
+mod report;
 mod reproduce;
 mod simulate;
 mod subject;
 mod tools;
 
 pub(crate) use forces::forces;
+pub(crate) use report::{report, view};
 pub(crate) use reproduce::reproduce;
 pub(crate) use simulate::simulate;
 pub(crate) use tools::{ComparedColumn, compare, convert, events, info};
@@ -41,6 +43,8 @@ pub(crate) fn guide() -> Result<()> {
   ambulo forces MOTION --model OSIM --grf GRF --loads XML    the same, from coordinates of an OpenSim model
   ambulo simulate SCENE.toml --plot                          a scene stepped through time
   ambulo reproduce -o paper                                  the claims of the 1997 paper, recomputed
+  ambulo view DIR                                            the report page of a run, in the browser
+  ambulo report DIR --compare DIR2                           the same page anew, two runs compared
   ambulo info FILE                                           what a file holds
   ambulo convert A B                                         from one format to another: c3d, trc, mot, sto, csv, bvh
   ambulo events FILE                                         when feet meet and leave the ground

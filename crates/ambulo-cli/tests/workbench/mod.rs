@@ -35,7 +35,7 @@ pub(crate) const FORCES: [&str; 10] = [
 pub(crate) const RAW: [&str; 4] = ["--cutoff", "off", "--force-cutoff", "off"];
 
 /// A run that takes longer than this hangs. The slowest, on 100 MB, takes a second or two.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A fresh folder.
 pub(crate) struct Workbench {
@@ -149,7 +149,7 @@ impl Workbench {
     fn wait(&self, command: &mut Command, args: &[&str]) -> Run {
         let number = self.runs.fetch_add(1, Ordering::Relaxed);
         let [out, err] = ["stdout", "stderr"].map(|s| self.folder.join(format!("{s}.{number}")));
-        command.current_dir(&self.folder).stdin(Stdio::null()).env("RUST_BACKTRACE", "0");
+        command.current_dir(&self.folder).stdin(Stdio::null()).env("RUST_BACKTRACE", "0").env("BROWSER", "none");
         command.stdout(File::create(&out).unwrap()).stderr(File::create(&err).unwrap());
         let start = Instant::now();
         let mut child = command.spawn().unwrap();

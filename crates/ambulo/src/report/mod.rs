@@ -7,12 +7,14 @@ mod exchange;
 pub mod figures;
 mod files;
 mod gait_figure;
+mod html;
 pub mod normative;
 pub mod page;
 mod paper_figure;
 mod plot;
 mod prediction_files;
 mod reproduction;
+mod reproduction_page;
 mod scene_figures;
 mod scene_shapes;
 mod scene_summary;
@@ -28,8 +30,9 @@ mod walk_summary;
 pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use exchange::{
-    GroundReactions, LaboratoryError, c3d_of_markers, ground_reactions, laboratory_recording, marker_paths,
-    skeleton_of, standing_recording, table_of_markers, trc_of_markers,
+    ExchangeError, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
+    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
+    table_of_markers, trc_of_markers,
 };
 pub use figures::{CycleFigures, Mark};
 pub use files::{OutputError, OutputFile, output_files};
@@ -38,6 +41,7 @@ pub use paper_figure::paper_figure;
 pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
+pub use reproduction_page::reproduction_page;
 pub use scene_figures::SceneCurves;
 pub use scene_shapes::scene_shapes;
 pub use scene_summary::{

@@ -69,7 +69,7 @@ pub fn band(quantity_id: &str, speed_dimensionless: f64) -> Option<NormativeBand
     };
     let mut citation = place.citation();
     if zero > 0.0 {
-        citation += &format!(" Shifted by -{zero:.1} deg: models count the pelvis' tilt from upright standing.");
+        citation += &format!(" Shifted by −{zero:.1}° because models count the pelvis' tilt from upright standing.");
     }
     Some(NormativeBand {
         mean: between(&curves.mean).into_iter().map(|x| x - zero).collect(),

@@ -1,5 +1,6 @@
 //! `ambulo convert`: from one format to another.
 
+mod folder;
 mod recording;
 mod skeleton;
 mod table;
@@ -15,8 +16,8 @@ use std::path::{Path, PathBuf};
 const PAIRS: [(&str, &[&str]); 6] = [
     ("c3d", &["trc", "csv", "mot", "sto"]),
     ("trc", &["c3d", "csv"]),
-    ("mot", &["sto", "csv", "bvh"]),
-    ("sto", &["mot", "csv", "bvh"]),
+    ("mot", &["sto", "csv", "bvh", "glb"]),
+    ("sto", &["mot", "csv", "bvh", "glb"]),
     ("csv", &["mot", "sto"]),
     ("bvh", &["trc", "csv"]),
 ];
@@ -29,15 +30,7 @@ struct Converted {
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
     let (from, to) = (files::ending(&args.input), files::ending(&args.output));
-    check_pair(&from, &to)?;
-    check_options(args, &from, &to)?;
-    let bytes = files::read(&args.input)?;
-    let converted = match from.as_str() {
-        "c3d" | "trc" => recording::convert(args, &bytes, &from, &to),
-        "bvh" => skeleton::convert(args, &bytes, &to),
-        _ if to == "bvh" => skeleton::make(args, &bytes),
-        _ => table::convert(args, &bytes, &from, &to),
-    }?;
+    let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
     for (path, _) in &converted.files {
         check_target(path, args)?;
     }
@@ -47,6 +40,29 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
     let written: Vec<String> = converted.files.iter().map(|(path, _)| path.display().to_string()).collect();
     printer::convert(&args.input.display().to_string(), &written, &converted.findings, args.voice)?;
     Ok(Verdict::Accepted)
+}
+
+fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
+    check_pair(from, to)?;
+    check_options(args, from, to)?;
+    let bytes = files::read(&args.input)?;
+    match from {
+        "c3d" | "trc" => recording::convert(args, &bytes, from, to),
+        "bvh" => skeleton::convert(args, &bytes, to),
+        _ if ["bvh", "glb"].contains(&to) => skeleton::make(args, &bytes, to),
+        _ => table::convert(args, &bytes, from, to),
+    }
+}
+
+fn of_folder(args: &ConvertArgs, to: &str) -> Result<Converted> {
+    if !folder::TARGETS.contains(&to) {
+        let found = if to.is_empty() { "a name without an ending".to_owned() } else { format!("`.{to}`") };
+        bail!("a folder of results becomes .glb, .bvh or .csv; found {found} for the output");
+    }
+    if args.what.is_some() || args.world || args.model.is_some() {
+        bail!("--what, --world and --model are for files; a folder of results has its own body and axes");
+    }
+    folder::convert(args, to)
 }
 
 fn check_pair(from: &str, to: &str) -> Result<()> {
@@ -72,11 +88,12 @@ fn check_options(args: &ConvertArgs, from: &str, to: &str) -> Result<()> {
     if args.world && !(["c3d", "trc", "bvh"].contains(&from) && ["trc", "c3d", "csv"].contains(&to)) {
         bail!("--world is for markers and joint centres only, which .{from} to .{to} has none of");
     }
-    if args.model.is_some() && to != "bvh" {
-        bail!("--model is for .bvh only");
+    let moves_a_body = ["bvh", "glb"].contains(&to);
+    if args.model.is_some() && !moves_a_body {
+        bail!("--model is for .bvh and .glb only");
     }
-    if to == "bvh" && args.model.is_none() {
-        bail!("a skeleton needs the body whose coordinates these are; expected --model FILE.osim");
+    if moves_a_body && args.model.is_none() {
+        bail!("a .{to} needs the body whose coordinates these are; expected --model FILE.osim");
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::from_osim;
 use ambulo::motion::skeleton::{joint_paths, skeleton_from_bvh};
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, coordinates_from_table, smooth};
-use ambulo::report::{skeleton_of, trc_of_markers};
+use ambulo::report::{glb_of_motion, skeleton_of, trc_of_markers};
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -67,8 +67,8 @@ fn channel_table(bvh: &Bvh) -> Result<Table> {
     Ok(Table::new("channels", columns)?)
 }
 
-/// A model's coordinates as a skeleton.
-pub(super) fn make(args: &ConvertArgs, bytes: &[u8]) -> Result<Converted> {
+/// A model's coordinates as a skeleton or an animation.
+pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();
     let model_path = args.model.clone().unwrap_or_default();
@@ -81,6 +81,12 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8]) -> Result<Converted> {
     let settings = SmoothSettings { smoother: Smoother::Off, window, rate_hz: None };
     let smoothed = smooth(&model, &motion, settings, &mut findings).with_context(|| shown.clone())?;
     let trajectory = Trajectory::complete(&model, &smoothed, &mut findings).with_context(|| shown.clone())?;
+    if to == "glb" {
+        lost(&mut findings, &["masses and inertias".to_owned()]);
+        findings.note("convert.axes", "lengths are in metres; x forward, y up, z right");
+        let bytes = glb_of_motion(&model, &trajectory).with_context(|| shown.clone())?;
+        return Ok(Converted { files: vec![(args.output.clone(), bytes)], findings });
+    }
     let bvh = skeleton_of(&model, &trajectory).with_context(|| shown.clone())?;
     let masses =
         ["masses and inertias".to_owned(), "ranges of the joints".to_owned(), "the time of the first frame".to_owned()];

@@ -1,11 +1,15 @@
-//! Recordings in the formats of other programs: markers as TRC, C3D and tables, plates as OpenSim's ground reactions, a model's motion
-//! as a BVH skeleton.
+//! Recordings and results in the formats of other programs: markers as TRC, C3D and tables, plates as OpenSim's ground reactions, a
+//! model's motion as a BVH skeleton and as an animated glTF file, results as one long table.
 
+mod folder;
+mod glb;
 mod laboratory;
+mod long_table;
 mod markers;
 mod plates;
 mod skeleton;
 
+pub use folder::{ExchangeError, bvh_of_folder, csv_of_folder, glb_of_folder, glb_of_motion};
 pub use laboratory::{LaboratoryError, laboratory_recording, marker_paths, standing_recording};
 pub use markers::{c3d_of_markers, table_of_markers, trc_of_markers};
 pub use plates::{GroundReactions, ground_reactions};

@@ -1,6 +1,6 @@
 //! Axes of a panel: from numbers to places on the paper, with ticks at round numbers.
 
-use super::svg::{Anchor, Drawing, Letters, Stroke};
+use super::svg::{Anchor, Drawing, Letters, Stroke, text_width};
 use crate::report::style::Style;
 
 /// A rectangle of the paper with the numbers that its edges stand for.
@@ -33,6 +33,8 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
+/// Bold letters are wider by so much.
+const BOLD: f64 = 1.07;
 
 impl Axes {
     pub(super) fn x(&self, number: f64) -> f64 {
@@ -95,8 +97,11 @@ impl Axes {
     fn draw_words(&self, drawing: &mut Drawing, style: &Style, words: AxisWords<'_>) {
         let [left, top, right, bottom] = self.place;
         let font = &style.font;
-        let title = Letters { bold: true, ..Letters::plain(font.panel_pt, &style.text.color, Anchor::Start) };
         let unit = Letters::plain(font.label_pt, &style.quiet.color, Anchor::End);
+        let room = right - (left - LEFT + 2.0) - text_width(words.unit, font.label_pt) - 4.0;
+        let fitting = room / (BOLD * text_width(words.title, 1.0)).max(f64::MIN_POSITIVE);
+        let size = font.panel_pt.min(fitting).max(font.note_pt);
+        let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
         let line = top - 4.5;
         drawing.text([left - LEFT + 2.0, line], words.title, title);
         drawing.text([right, line], words.unit, unit);
@@ -129,14 +134,17 @@ pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64;
     [low - margin, high + margin]
 }
 
-/// Round numbers inside a range, four to seven, and the decimals that they need.
+/// Round numbers inside a range, three to six, and the decimals that they need.
 fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     let rough = (high - low) / 5.0;
     if !(rough > 0.0 && rough.is_finite()) {
         return (Vec::new(), 0);
     }
     let power = 10.0_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 2.5, 5.0, 10.0].map(|k| k * power).into_iter().find(|s| *s >= rough * 0.999).unwrap_or(rough);
+    // 25 is rounder than 20, but 0.25 needs a digit more than 0.2.
+    let quarter = if power >= 10.0 { 2.5 } else { 2.0 };
+    let step =
+        [1.0, 2.0, quarter, 5.0, 10.0].map(|k| k * power).into_iter().find(|s| *s >= rough * 0.999).unwrap_or(rough);
     let hidden = 1e-9 * step;
     let (first, last) = (((low - hidden) / step).ceil(), ((high + hidden) / step).floor());
     let mut digits = 0;

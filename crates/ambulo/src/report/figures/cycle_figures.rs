@@ -10,6 +10,7 @@ use crate::report::cycle_table::CycleRow;
 use crate::report::files::OutputFile;
 use crate::report::normative;
 use crate::report::style::{Style, style};
+use std::ops::Range;
 
 /// What the figures over the gait cycle are drawn from.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +47,7 @@ const PLANS: [Plan; 6] = [
         only: &[],
         one_column: false,
         columns: 3,
-        panel_height: 84.0,
+        panel_height: 88.0,
     },
     Plan {
         name: "moments.svg",
@@ -112,6 +113,28 @@ const PLANS: [Plan; 6] = [
     },
 ];
 
+/// Whether a curve is one: by more than rounding and filters make of a constant.
+fn moves(row: &CycleRow) -> bool {
+    let least = if row.unit == "BW" { 1e-5 } else { 1e-3 };
+    let finite = || row.values.iter().copied().filter(|x| x.is_finite());
+    finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min) > least
+}
+
+/// Panels in rows of so many; where the pelvis has a row of its own, the hip and the trunk begin one, too.
+fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
+    let central = |number: usize| panels[number].quantity.central;
+    let pelvis = (0..panels.len()).take_while(|number| central(*number)).count();
+    let breaks = |number: usize| pelvis == columns && central(number) && !central(number - 1);
+    let mut rows: Vec<Range<usize>> = Vec::new();
+    for number in 0..panels.len() {
+        match rows.last_mut() {
+            Some(row) if row.len() < columns && !breaks(number) => row.end = number + 1,
+            _ => rows.push(number..number + 1),
+        }
+    }
+    rows
+}
+
 impl CycleFigures<'_> {
     /// The figures that the rows have something for: `figures/kinematics.svg`, `moments.svg`, `powers.svg`, `ground_forces.svg` in the
     /// width of two columns of a journal, and the sagittal plane in the width of two and of one.
@@ -139,13 +162,13 @@ impl CycleFigures<'_> {
             title: plan.title,
             caption: self.caption,
             width_mm: if plan.one_column { widths.one_column } else { widths.two_columns },
-            columns: plan.columns,
+            rows: rows(&panels, plan.columns),
             panel_height: plan.panel_height,
             legend: self.legend(style, &panels, &dash),
             notes: self.notes(&panels),
             description: panels.iter().map(CyclePanel::description).collect::<Vec<_>>().join(" "),
         };
-        Ok(Some(sheet.draw(panels.len(), |drawing, slot| panels[slot.number].draw(drawing, style, slot, self.marks))))
+        Ok(Some(sheet.draw(|drawing, slot| panels[slot.number].draw(drawing, style, slot, self.marks))))
     }
 
     fn panels(&self, plan: &Plan) -> Vec<CyclePanel<'_>> {
@@ -158,10 +181,10 @@ impl CycleFigures<'_> {
             quantities.retain(|quantity| plan.only.contains(&quantity.id));
             quantities.sort_by_key(|quantity| plan.only.iter().position(|id| *id == quantity.id));
         }
-        // Sideways forces and the like of a figure that moves in a plane.
-        quantities
-            .retain(|q| self.rows.iter().any(|row| row.quantity == q.column && row.values.iter().any(|x| *x != 0.0)));
-        let band = |id: &str| self.speed_dimensionless.and_then(|speed| normative::band(id, speed));
+        // Sideways forces of a figure that moves in a plane, joints that are locked.
+        quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row)));
+        let speed = self.speed_dimensionless.filter(|_| !self.runs());
+        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed));
         let panel = |quantity: ClinicalQuantity| {
             let band = band(quantity.id);
             CyclePanel::new(quantity, self.rows, self.mass_kg, knee_sign, band)
@@ -169,32 +192,38 @@ impl CycleFigures<'_> {
         quantities.into_iter().map(panel).collect()
     }
 
-    fn legend<'s>(
-        &self,
-        style: &'s Style,
-        panels: &[CyclePanel<'_>],
-        dash: &'s [f64],
-    ) -> Vec<(Sample<'s>, &'static str)> {
-        let has = |side: Side| panels.iter().any(|panel| panel.mean(side).is_some());
+    /// Whether both feet are in the air at times: the feet leave the ground before the middle of their cycles.
+    fn runs(&self) -> bool {
+        let offs: Vec<f64> = self.rows.iter().filter_map(|row| row.toe_off_percent).collect();
+        !offs.is_empty() && offs.iter().sum::<f64>() < 50.0 * offs.len() as f64
+    }
+
+    fn legend<'s>(&self, style: &'s Style, panels: &[CyclePanel<'_>], dash: &'s [f64]) -> Vec<(Sample<'s>, String)> {
         let mut legend = Vec::new();
-        if has(Side::Right) {
-            legend.push((Sample::Line(Stroke::solid(&style.right.color, style.lines_pt.mean)), "right, mean"));
+        let cycles = |side: Side| panels.iter().map(|panel| panel.cycles(side)).max().unwrap_or(0);
+        for side in Side::BOTH {
+            let dash = if side == Side::Left { dash } else { &[] };
+            let stroke = Stroke { dash, ..Stroke::solid(&style.side(side).color, style.lines_pt.mean) };
+            match cycles(side) {
+                0 => {}
+                1 => legend.push((Sample::Line(stroke), format!("{side}, 1 cycle"))),
+                several => legend.push((Sample::Line(stroke), format!("{side}, mean of {several} cycles"))),
+            }
         }
-        if has(Side::Left) {
-            let stroke = Stroke { dash, ..Stroke::solid(&style.left.color, style.lines_pt.mean) };
-            legend.push((Sample::Line(stroke), "left, mean"));
+        let first = if cycles(Side::Right) > 0 { &style.right.color } else { &style.left.color };
+        if Side::BOTH.iter().any(|side| cycles(*side) > 1) {
+            let stroke = Stroke { opacity: style.cycle_opacity, ..Stroke::solid(first, style.lines_pt.cycle) };
+            legend.push((Sample::Line(stroke), "single cycles".to_owned()));
         }
-        let cycle = Stroke { opacity: style.cycle_opacity, ..Stroke::solid(&style.right.color, style.lines_pt.cycle) };
-        legend.push((Sample::Line(cycle), "single cycles"));
-        legend.push((Sample::Tick(Stroke::solid(&style.right.color, style.lines_pt.tick)), "toe-off"));
+        if self.rows.iter().any(|row| row.toe_off_percent.is_some()) {
+            legend.push((Sample::Tick(Stroke::solid(first, style.lines_pt.tick)), "toe-off".to_owned()));
+        }
         if panels.iter().any(|panel| panel.band.is_some()) {
-            legend.push((Sample::Patch(&style.band.color, style.band.opacity), "children, mean ± SD"));
+            legend.push((Sample::Patch(&style.band.color, style.band.opacity), "children, mean ± SD".to_owned()));
         }
         if !self.marks.is_empty() {
-            legend.push((
-                Sample::Line(Stroke::solid(&style.infeasible.color, style.lines_pt.infeasible)),
-                "not feasible",
-            ));
+            let stroke = Stroke::solid(&style.infeasible.color, style.lines_pt.infeasible);
+            legend.push((Sample::Line(stroke), "red: not feasible".to_owned()));
         }
         legend
     }
@@ -207,8 +236,13 @@ impl CycleFigures<'_> {
             let longest = bands.max_by_key(|band| band.citation.len());
             let shifted = longest.and_then(|band| band.citation.strip_prefix(&shortest.citation));
             if let Some(shifted) = shifted.filter(|text| !text.trim().is_empty()) {
-                notes.push(format!("Pelvic tilt and hip flexion: {}", shifted.trim()));
+                notes.push(format!("Grey of pelvic tilt and hip flexion: {}", shifted.trim()));
             }
+        } else if self.runs() {
+            notes.push(
+                "No band of healthy people: the feet stand for less than half of the cycle, which is no walk."
+                    .to_owned(),
+            );
         } else if self.speed_dimensionless.is_none() {
             notes.push("No band of healthy people: the walking speed is not known.".to_owned());
         }

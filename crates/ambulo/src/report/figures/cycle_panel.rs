@@ -15,6 +15,8 @@ use crate::report::style::Style;
 pub(super) const MOST_CYCLES: usize = 30;
 /// Height of toe-off ticks, as a share of the panel's.
 const TICK: f64 = 0.06;
+/// Thickness of the bars at the bottom [pt].
+const BAR: f64 = 1.5;
 
 /// A row of `cycles.csv` in clinical sign and unit.
 #[derive(Debug, Clone)]
@@ -59,9 +61,14 @@ impl<'a> CyclePanel<'a> {
         Some((0..length).map(|i| curves.iter().map(|c| c.values[i]).sum::<f64>() / curves.len() as f64).collect())
     }
 
+    /// How many cycles of a side there are.
+    pub(super) fn cycles(&self, side: Side) -> usize {
+        self.of_side(side).len()
+    }
+
     /// Whether some cycles of a side are left out.
     pub(super) fn is_thinned(&self) -> bool {
-        Side::BOTH.iter().any(|side| self.of_side(*side).len() > MOST_CYCLES)
+        Side::BOTH.iter().any(|side| self.cycles(*side) > MOST_CYCLES)
     }
 
     /// What there is to be seen, in words.
@@ -106,14 +113,10 @@ impl<'a> CyclePanel<'a> {
             self.draw_mean(drawing, style, &axes, side);
         }
         self.draw_marks(drawing, style, &axes, marks);
-        let unit = match self.quantity.unit {
-            "deg" => "°",
-            "N.m/kg" => "N·m/kg",
-            unit => unit,
-        };
+        let unit = self.quantity.unit.replace("N.m", "N·m");
         let words = AxisWords {
             title: self.quantity.title,
-            unit,
+            unit: &unit,
             directions: [self.quantity.positive, self.quantity.negative],
             abscissa: slot.named.then_some("gait cycle (%)"),
         };
@@ -162,9 +165,9 @@ impl<'a> CyclePanel<'a> {
                     }
                     Some(_) => {}
                     None => {
-                        let y = bottom - if mark.side == Side::Right { 1.2 } else { 3.8 };
+                        let y = bottom - if mark.side == Side::Right { 1.1 } else { 3.0 };
                         let points = mark.percent.map(|percent| [axes.x(percent), y]);
-                        drawing.polyline(&points, stroke, &attributes);
+                        drawing.polyline(&points, Stroke { width: BAR, ..stroke }, &attributes);
                     }
                 }
             }

@@ -3,6 +3,7 @@
 use super::axes::{ABOVE, BELOW, BELOW_NAMELESS, LEFT};
 use super::svg::{Anchor, Drawing, Letters, Stroke, points, text_width};
 use crate::report::style::Style;
+use std::ops::Range;
 
 /// Margin of the paper, between panels, and between lines of the head [pt].
 const MARGIN: f64 = 6.0;
@@ -29,10 +30,11 @@ pub(super) struct Sheet<'a> {
     pub(super) title: &'a str,
     pub(super) caption: &'a str,
     pub(super) width_mm: f64,
-    pub(super) columns: usize,
+    /// The panels of each row.
+    pub(super) rows: Vec<Range<usize>>,
     /// Height of the axes [pt].
     pub(super) panel_height: f64,
-    pub(super) legend: Vec<(Sample<'a>, &'a str)>,
+    pub(super) legend: Vec<(Sample<'a>, String)>,
     pub(super) notes: Vec<String>,
     /// What the figure shows, for those who cannot see it.
     pub(super) description: String,
@@ -47,21 +49,21 @@ pub(super) struct Slot {
 }
 
 impl Sheet<'_> {
-    /// Draws head, `count` panels with `panel`, and notes.
-    pub(super) fn draw(&self, count: usize, mut panel: impl FnMut(&mut Drawing, Slot)) -> String {
+    /// Draws head, the panels with `panel`, and notes.
+    pub(super) fn draw(&self, mut panel: impl FnMut(&mut Drawing, Slot)) -> String {
         let mut drawing = Drawing::new(points(self.width_mm), &self.style.font.family);
         let mut y = self.draw_head(&mut drawing);
-        let columns = self.columns.min(count).max(1);
+        let columns = self.rows.iter().map(Range::len).max().unwrap_or(1).max(1);
         let cell = (drawing.width() - 2.0 * MARGIN + BETWEEN) / columns as f64;
-        for first in (0..count).step_by(columns) {
-            let row = first..(first + columns).min(count);
-            let named = |number: usize| number + columns >= count;
-            for number in row.clone() {
-                let left = MARGIN + (number - first) as f64 * cell;
-                let place = [left + LEFT, y + ABOVE, left + cell - BETWEEN - 2.0, y + ABOVE + self.panel_height];
-                panel(&mut drawing, Slot { number, place, named: named(number) });
+        for (number, row) in self.rows.iter().enumerate() {
+            let named = |column: usize| self.rows[number + 1..].iter().all(|below| below.len() <= column);
+            for (column, panel_number) in row.clone().enumerate() {
+                let left = MARGIN + column as f64 * cell;
+                let (top, right) = (y + ABOVE, left + cell - BETWEEN - 4.0);
+                let place = [left + LEFT, top, right, top + self.panel_height];
+                panel(&mut drawing, Slot { number: panel_number, place, named: named(column) });
             }
-            let below = if row.clone().any(named) { BELOW } else { BELOW_NAMELESS };
+            let below = if (0..row.len()).any(named) { BELOW } else { BELOW_NAMELESS };
             y += ABOVE + self.panel_height + below + 2.0;
         }
         y = self.draw_notes(&mut drawing, y);
@@ -81,7 +83,9 @@ impl Sheet<'_> {
             y += LEADING * font.label_pt;
             drawing.text([MARGIN, y], &line, caption);
         }
-        y += LEADING * font.label_pt + 1.0;
+        if !self.legend.is_empty() {
+            y += LEADING * font.label_pt + 1.0;
+        }
         let mut x = MARGIN;
         for (sample, name) in &self.legend {
             let wide = SAMPLE + 3.0 + text_width(name, font.label_pt);

@@ -122,15 +122,15 @@ pub fn prediction_figure(
     });
     let mut legend = Vec::new();
     for (side, name) in [(Side::Right, "right, predicted"), (Side::Left, "left, predicted")] {
-        legend.push((Sample::Line(shown.line(side)), name));
+        legend.push((Sample::Line(shown.line(side)), name.to_owned()));
     }
-    legend.push((Sample::Patch(&style.right.color, style.uncertainty_opacity), "90 % uncertainty"));
+    legend.push((Sample::Patch(&style.right.color, style.uncertainty_opacity), "90 % uncertainty".to_owned()));
     if predicted.measured.is_some() {
-        legend.push((Sample::Line(shown.measured(Side::Right)), "plates, right"));
-        legend.push((Sample::Line(shown.measured(Side::Left)), "plates, left"));
+        legend.push((Sample::Line(shown.measured(Side::Right)), "plates, right".to_owned()));
+        legend.push((Sample::Line(shown.measured(Side::Left)), "plates, left".to_owned()));
     }
     let notes = vec![format!(
-        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Double support divided by: {}.",
+        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Double support divided by: {}. Plates are drawn while they carry a load.",
         predicted.prediction.rule
     )];
     let figure = TimeFigure { style, title: "Predicted ground forces", caption, legend, notes };
@@ -177,7 +177,10 @@ impl<'a> Shown<'a> {
             });
         }
         for (side, foot) in predicted.measured.iter().flat_map(|measured| feet(model, &measured.ground)) {
-            let values = along(&foot);
+            // Without load it is not known whether the foot was on a plate at all.
+            let loaded = |frame: usize| !foot.center_of_pressure[frame].x.is_nan();
+            let known = |(frame, x)| if loaded(frame) { x } else { f64::NAN };
+            let values: Vec<f64> = along(&foot).into_iter().enumerate().map(known).collect();
             if values.len() == self.frames {
                 series.push(Series {
                     role: "measured",
@@ -197,7 +200,7 @@ struct TimeFigure<'a> {
     style: &'a Style,
     title: &'a str,
     caption: &'a str,
-    legend: Vec<(Sample<'a>, &'a str)>,
+    legend: Vec<(Sample<'a>, String)>,
     notes: Vec<String>,
 }
 
@@ -209,13 +212,13 @@ impl TimeFigure<'_> {
             title: self.title,
             caption: self.caption,
             width_mm: self.style.widths_mm.two_columns,
-            columns: 1,
+            rows: (0..panels.len()).map(|number| number..number + 1).collect(),
             panel_height: HEIGHT,
             legend: self.legend.clone(),
             description: words.chain(self.notes.iter().cloned()).collect::<Vec<_>>().join(" "),
             notes: self.notes.clone(),
         };
-        sheet.draw(panels.len(), |drawing, slot| self.draw_panel(drawing, &panels[slot.number], times, slot))
+        sheet.draw(|drawing, slot| self.draw_panel(drawing, &panels[slot.number], times, slot))
     }
 
     fn draw_panel(&self, drawing: &mut Drawing, panel: &Panel<'_>, times: &[f64], slot: Slot) {

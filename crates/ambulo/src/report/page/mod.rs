@@ -22,7 +22,14 @@ pub use folder::{Folder, PageError};
 /// A folder without a `summary.json` of this program, a table that cannot be read.
 pub fn report_page(folders: &[Folder<'_>]) -> Result<String, PageError> {
     let mut block = Block::default();
-    let sessions = folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;
+    let mut sessions =
+        folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;
+    if folders.len() > 1 {
+        // Several runs may be of one recording; their folders differ.
+        for (session, folder) in sessions.iter_mut().zip(folders) {
+            session.name.clone_from(&folder.name);
+        }
+    }
     let title = sessions.iter().map(|session| session.name.as_str()).collect::<Vec<_>>().join(" / ");
     let page = Page { format: FORMAT, program: env!("CARGO_PKG_VERSION").to_owned(), title, sessions };
     shell::html(&page, &block)

@@ -6,6 +6,7 @@
 use super::block::Block;
 use super::contract::Page;
 use super::folder::PageError;
+use crate::report::html::escaped;
 
 const SCRIPT: &str = include_str!("../../../data/report/viewer.js");
 const STYLE: &str = include_str!("../../../data/report/viewer.css");
@@ -37,19 +38,4 @@ pub(super) fn html(page: &Page, block: &Block) -> Result<String, PageError> {
 </html>
 "#
     ))
-}
-
-/// Text that HTML shows as it is.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }

@@ -19,20 +19,38 @@ use serde_json::Value;
 const MODELS: [&str; 2] = ["subject.osim", "figure.osim"];
 const MOTION: &str = "kinematics.mot";
 
+/// A body and its motion as a folder has them.
+pub(crate) struct FolderMotion {
+    /// The body.
+    pub(crate) model: Model,
+    /// `kinematics.mot`.
+    pub(crate) angles: Table,
+    /// The same for the model; rates are zero.
+    pub(crate) trajectory: Trajectory,
+}
+
+/// Body and motion of a folder; else why there is none.
+pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, PageError> {
+    let Some(angles) = folder.table(MOTION)? else {
+        return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
+    };
+    let Some(model) = model(folder)? else {
+        return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", MODELS.join(" or "))));
+    };
+    let trajectory = trajectory(&model, &angles).map_err(|reason| folder.unreadable(MOTION, reason))?;
+    Ok(Ok(FolderMotion { model, angles, trajectory }))
+}
+
 impl Stage {
     /// Of the figure of a result folder; else why there is none.
     ///
     /// # Errors
     /// A file that is not what its name says.
     pub(crate) fn of_figure(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
-        let Some(angles) = folder.table(MOTION)? else {
-            return Ok(Err(format!("There is no {MOTION}, so no motion can be drawn.")));
+        let FolderMotion { model, angles, trajectory } = match folder_motion(folder)? {
+            Ok(motion) => motion,
+            Err(reason) => return Ok(Err(reason)),
         };
-        let Some(model) = model(folder)? else {
-            return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", MODELS.join(" or "))));
-        };
-        let refused = |reason: String| folder.unreadable(MOTION, reason);
-        let trajectory = trajectory(&model, &angles).map_err(refused)?;
         let summary = folder.summary()?;
         let mut stage = Stage::of_motion(&model, &trajectory, summary["height_m"].as_f64());
         stage.plates = plates(&summary);

@@ -15,10 +15,12 @@ mod part;
 mod path;
 mod person;
 mod scene;
+#[cfg(test)]
+mod tests;
 mod torque;
 mod trunk;
 
-pub(crate) use figure::figure_shapes;
+pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
 pub(crate) use path::BodyPath;
 
 use super::page::{Folder, PageError, ViewShape};

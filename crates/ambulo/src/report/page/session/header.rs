@@ -34,6 +34,11 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
     lines.into_iter().flatten().collect()
 }
 
+/// What the page is called: the recording, the gait.
+pub(super) fn recording_name(results: &Results) -> Option<String> {
+    results.text("/input/motion").map(|motion| file_name(motion).to_owned())
+}
+
 /// The last part of a path of any system.
 pub(super) fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)

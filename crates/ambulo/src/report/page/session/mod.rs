@@ -55,7 +55,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
         feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);
     }
     Ok(Session {
-        name: folder.name.clone(),
+        name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
         header: header::header(&results, &size, &strides),
         source: results.source,
         time: results.time(),

@@ -1,0 +1,65 @@
+import assert from "node:assert/strict";
+import { statSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { addressOf, PAGES, picture, withPage } from "./page";
+
+const ALL = [
+  "demo",
+  "long",
+  "infeasible",
+  "recording",
+  "predicted",
+  "no_ground",
+  "one_leg",
+  "no_cycles",
+  "gaps",
+  "hostile",
+  "scene",
+  "compared",
+];
+/** Bytes of the page of a walk of ten seconds, at most. */
+const LARGEST = 1_500_000;
+/** Time to the first picture, at most [ms]: 1 s on a machine with a graphics card; here a processor draws and others may use it. */
+const SLOWEST_MS = 3000;
+
+for (const name of ALL) {
+  test(`${name}: opens from disk without a complaint and asks for nothing`, async () => {
+    await withPage(name, async ({ page, requests, complaints }) => {
+      assert.deepEqual(complaints, []);
+      assert.deepEqual(
+        requests.filter((url) => !/^(data|blob):/.test(url)),
+        [addressOf(name)],
+      );
+      assert.equal(await page.locator("[role=alert]").count(), 0);
+      const { share, colors } = await picture(page);
+      assert.ok(share > 0.02, `only ${share} of the picture is drawn`);
+      assert.ok(colors > 20, `${colors} colours in the picture`);
+    });
+  });
+}
+
+/** Time [ms] at which the figure's pixels can be read: the picture is done then, not only asked for. */
+function firstPixel(): number {
+  const gl = document.querySelector<HTMLCanvasElement>("canvas[role=img]")?.getContext("webgl2");
+  gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  return performance.now();
+}
+
+test("the page of ten seconds is small", (t) => {
+  const bytes = statSync(join(PAGES, "long/report.html")).size;
+  t.diagnostic(`page of a walk of ten seconds: ${bytes} bytes`);
+  assert.ok(bytes <= LARGEST, `${bytes} bytes`);
+});
+
+test("the first picture is there soon", async (t) => {
+  const times: number[] = [];
+  for (let run = 0; run < 3; run += 1) {
+    await withPage("long", async ({ page }) => {
+      times.push(await page.evaluate(firstPixel));
+    });
+  }
+  times.sort((a, b) => a - b);
+  t.diagnostic(`first picture after ${times.map((time) => time.toFixed(0)).join(", ")} ms, drawn by the processor`);
+  assert.ok((times[1] ?? Number.POSITIVE_INFINITY) < SLOWEST_MS, `${times}`);
+});

@@ -1,0 +1,111 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { type Column, readCycles, readTable } from "./files";
+import { PAGES, withPage } from "./page";
+
+/** A curve as the page draws it. */
+interface Drawn {
+  panel: string;
+  file: string;
+  column: string;
+  factor: number;
+  side: "r" | "l" | null;
+  cycle: number | null;
+  start: number;
+  frameStep: number;
+  values: number[];
+  /** Distance of neighbouring values in the page. */
+  step: number;
+  /** Whether the panel's own array holds the same. */
+  same: boolean;
+}
+
+/** Reads every curve that says where it comes from out of the page, on both axes. */
+async function curvesOf(name: string): Promise<Drawn[]> {
+  let found: Drawn[] = [];
+  await withPage(name, async ({ page }) => {
+    found = await page.evaluate(() => {
+      const { page: data, numbers, display } = window.ambulo;
+      const [session] = data.sessions;
+      if (!session) {
+        return [];
+      }
+      const out: Drawn[] = [];
+      const same = (panel: string, values: Float64Array): boolean =>
+        window.ambulo.panels[panel]?.lines.some(
+          ({ y }) => y.length === values.length && y.every((value, index) => Object.is(value, values[index])),
+        ) ?? false;
+      const groups = [...session.groups, ...session.quality.groups];
+      const base = { start: session.time.start_s, frameStep: session.time.step_s };
+      for (const axis of ["cycle", "time"] as const) {
+        display.axis = axis;
+        for (const panel of groups.flatMap((group) => group.panels)) {
+          const curves = axis === "cycle" ? panel.cycles : panel.traces;
+          for (const curve of curves) {
+            const values = numbers.read(curve.values);
+            if (curve.origin) {
+              const cycle = "number" in curve ? curve.number : null;
+              const drawn = { values: [...values], step: curve.values.step, same: same(panel.id, values) };
+              out.push({ panel: panel.id, ...curve.origin, side: curve.side, cycle, ...base, ...drawn });
+            }
+          }
+        }
+      }
+      return out;
+    });
+  });
+  return found;
+}
+
+/** Compares the curves of a page with the files beside it; returns how many numbers agree. */
+async function compare(name: string): Promise<{ curves: number; numbers: number }> {
+  const tables = new Map<string, Map<string, Column>>();
+  const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
+  let count = 0;
+  const curves = await curvesOf(name);
+  for (const curve of curves) {
+    const where = `${curve.panel} ${curve.file} ${curve.column} ${curve.side} ${curve.cycle ?? ""}`;
+    if (!tables.has(curve.file) && curve.file !== "cycles.csv") {
+      tables.set(curve.file, readTable(readFileSync(join(PAGES, name, curve.file), "utf8")));
+    }
+    const wanted =
+      curve.cycle === null
+        ? onFrames(tables.get(curve.file)?.get(curve.column), curve)
+        : cycles.get(`${curve.side} ${curve.cycle} ${curve.column}`);
+    assert.ok(wanted, `${where}: the file has no such column`);
+    assert.equal(curve.values.length, wanted.length, where);
+    assert.ok(curve.same, `${where}: the panel draws something else`);
+    for (const [index, drawn] of curve.values.entries()) {
+      const value = curve.factor * (wanted[index] ?? Number.NaN);
+      const near = Math.abs(drawn - value) <= 0.5001 * curve.step + 1e-9 * Math.abs(value);
+      assert.ok(
+        near || (Number.isNaN(drawn) && isGap(value, curve)),
+        `${where} [${index}]: drawn ${drawn}, file ${value}`,
+      );
+      count += 1;
+    }
+  }
+  return { curves: curves.length, numbers: count };
+}
+
+/** Ground forces are 0 in the file while a foot carries nothing; the page leaves a gap there. */
+function isGap(value: number, curve: Drawn): boolean {
+  return Number.isNaN(value) || (value === 0 && curve.file.startsWith("grf"));
+}
+
+function onFrames(column: Column | undefined, curve: Drawn): number[] | undefined {
+  return column?.values.filter((_, index) => {
+    const frame = ((column.times[index] ?? 0) - curve.start) / curve.frameStep;
+    return frame > -0.5 && frame < curve.values.length - 0.5;
+  });
+}
+
+for (const name of ["demo", "recording", "predicted"]) {
+  test(`${name}: every number drawn is the file's`, async (t) => {
+    const { curves, numbers } = await compare(name);
+    t.diagnostic(`${name}: ${numbers} numbers of ${curves} curves compared with the files`);
+    assert.ok(curves >= 20, `${curves} curves`);
+  });
+}

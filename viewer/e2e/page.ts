@@ -1,0 +1,108 @@
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { after } from "node:test";
+import { pathToFileURL } from "node:url";
+import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+
+/** Result folders with their pages, made by run.mjs. */
+export const PAGES = process.env["PAGES"] ?? "";
+export const SHOTS = process.env["SHOTS"] ?? "";
+export const DESKTOP = { width: 1400, height: 1000 };
+export const PHONE = { width: 390, height: 844 };
+
+/** Names under which Chromium is found, if CHROMIUM names none. */
+const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+/** WebGL without a graphics card. */
+const ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+let running: Promise<Browser> | null = null;
+
+function browser(): Promise<Browser> {
+  const executablePath = process.env["CHROMIUM"] ?? CHROMIUM.find((path) => existsSync(path));
+  if (!executablePath) {
+    throw new Error("no Chromium: install it, or name it in CHROMIUM");
+  }
+  running ??= chromium.launch({ executablePath, args: ARGUMENTS });
+  return running;
+}
+
+after(async () => {
+  await (await running)?.close();
+});
+
+/** A page that was opened, and what it did meanwhile. */
+export interface Opened {
+  page: Page;
+  /** Addresses that it asked for. */
+  requests: string[];
+  /** Errors and warnings of the console, exceptions. */
+  complaints: string[];
+}
+
+/** Opens a result's page, lets `use` look at it, and closes it; `before` is script that runs first. */
+export async function withPage(
+  name: string,
+  use: (opened: Opened) => Promise<void>,
+  options: BrowserContextOptions = {},
+  before = "",
+): Promise<void> {
+  const context = await (await browser()).newContext({ viewport: DESKTOP, ...options });
+  try {
+    await context.addInitScript(before);
+    const page = await context.newPage();
+    const opened: Opened = { page, requests: [], complaints: [] };
+    page.on("request", (request) => opened.requests.push(request.url()));
+    page.on("pageerror", (error) => opened.complaints.push(String(error)));
+    page.on("console", (message) => {
+      if (message.type() === "error" || message.type() === "warning") {
+        opened.complaints.push(message.text());
+      }
+    });
+    await page.goto(addressOf(name));
+    await page.waitForFunction(() => document.documentElement.dataset["ready"] === "true");
+    await use(opened);
+  } finally {
+    await context.close();
+  }
+}
+
+/** Address of a result's page. */
+export function addressOf(name: string): string {
+  return pathToFileURL(join(PAGES, name, "report.html")).href;
+}
+
+/** Lets the page draw what was asked for. */
+export async function drawn(page: Page): Promise<void> {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** The clock's time [s]. */
+export function timeOf(page: Page): Promise<number> {
+  return page.evaluate(() => window.ambulo.clock.time);
+}
+
+/** A fingerprint of the figure's picture, the share of its pixels that are not the ground's, and how many colours it has. */
+export function picture(page: Page): Promise<{ print: number; share: number; colors: number }> {
+  return page.evaluate(async () => {
+    const image = new Image();
+    image.src = window.ambulo.view?.still() ?? "";
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const pen = canvas.getContext("2d") as CanvasRenderingContext2D;
+    pen.drawImage(image, 0, 0);
+    const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
+    let print = 0;
+    let drawn = 0;
+    const colors = new Set<number>();
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
+      print = (Math.imul(print, 31) + r + 256 * g + 65536 * b) | 0;
+      if (r !== data[0] || g !== data[1] || b !== data[2]) {
+        drawn += 1;
+        colors.add(((r >> 4) << 8) | ((g >> 4) << 4) | (b >> 4));
+      }
+    }
+    return { print, share: drawn / (data.length / 4), colors: colors.size };
+  });
+}

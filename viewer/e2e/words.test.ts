@@ -1,0 +1,82 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Page } from "playwright-core";
+import { addressOf, withPage } from "./page";
+
+/** Panels, tables and the figure's place that hold neither a drawing nor a sentence. */
+function emptyBoxes(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const says = (box: Element): boolean => (box.querySelector(".empty")?.textContent ?? "").trim().length > 20;
+    const panels = [...document.querySelectorAll("figure.panel")].filter(
+      (box) => !says(box) && window.ambulo.panels[box.id.replace("panel-", "")] == null,
+    );
+    const views = [...document.querySelectorAll(".view")].filter((box) => !says(box) && !box.querySelector("canvas"));
+    const tables = [...document.querySelectorAll("table")].filter((box) => !box.querySelector("tbody tr"));
+    const chapters = [...document.querySelectorAll(".chapter")].filter((box) => box.children.length < 2);
+    return [...panels, ...views, ...tables, ...chapters].map(
+      (box) => box.id || box.className || box.outerHTML.slice(0, 80),
+    );
+  });
+}
+
+for (const name of ["demo", "recording", "no_ground", "one_leg", "no_cycles", "gaps", "scene"]) {
+  test(`${name}: every box holds a drawing or a sentence`, async () => {
+    await withPage(name, async ({ page }) => {
+      assert.deepEqual(await emptyBoxes(page), []);
+    });
+  });
+}
+
+const SAID: [string, RegExp][] = [
+  ["no_ground", /without ground forces|no ground forces/i],
+  ["one_leg", /left/i],
+  ["no_cycles", /cycle/i],
+  ["gaps", /was not seen at 1\.50/],
+];
+
+for (const [name, words] of SAID) {
+  test(`${name}: the page says what is missing`, async () => {
+    await withPage(name, async ({ page }) => {
+      const sentences = await page.locator(".missing, .empty, #quality").allTextContents();
+      assert.match(sentences.join("\n"), words);
+    });
+  });
+}
+
+test("what is not feasible is red, with the reason in words", async () => {
+  await withPage("infeasible", async ({ page }) => {
+    const spans = page.locator(".lane .span");
+    assert.ok((await spans.count()) > 0);
+    const color = await spans.first().evaluate((span) => getComputedStyle(span).backgroundColor);
+    const wanted = await page.evaluate(() => {
+      const sample = document.createElement("i");
+      sample.style.backgroundColor = "var(--infeasible)";
+      document.body.append(sample);
+      return getComputedStyle(sample).backgroundColor;
+    });
+    assert.equal(color, wanted);
+    const box = await spans.first().boundingBox();
+    assert.ok(box && box.width >= 3 && box.height >= 3, JSON.stringify(box));
+    const reasons = await page.locator(".reasons li").allTextContents();
+    assert.ok(reasons.length > 0 && reasons.every((reason) => /\d/.test(reason) && reason.length > 40));
+    await page.locator(".reasons button").first().click();
+    const from = await page.evaluate(() => window.ambulo.page.sessions[0]?.feasibility?.red[0]?.from_s ?? Number.NaN);
+    assert.ok(Math.abs((await page.evaluate(() => window.ambulo.clock.time)) - from) < 1e-6);
+  });
+});
+
+test("text of files is text: no script of it runs", async () => {
+  await withPage(
+    "hostile",
+    async ({ page, requests, complaints }) => {
+      const text = await page.evaluate(() => document.querySelector("#ambulo")?.textContent ?? "");
+      assert.ok(text.includes("onerror=hacked()"), "the names are shown as they are");
+      assert.equal(await page.locator("img[src=x]").count(), 0);
+      assert.equal(await page.evaluate(() => (window as { ran?: boolean }).ran ?? false), false);
+      assert.deepEqual(requests, [addressOf("hostile")]);
+      assert.deepEqual(complaints, []);
+    },
+    {},
+    "window.hacked = () => { window.ran = true; };",
+  );
+});

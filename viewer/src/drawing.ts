@@ -1,0 +1,283 @@
+import type { Origin, PageSide, Panel, RedSpan, Session, TimeAxis } from "./contract";
+import type { Numbers } from "./numbers";
+import { percentAt } from "./phase";
+
+/** What the horizontal axis is: percent of the gait cycle or time. */
+export type Axis = "cycle" | "time";
+
+/** What a line is; decides on its looks. */
+export type LineRole = "cycle" | "mean" | "main" | "measured" | "limit" | "infeasible";
+
+/** A curve in the panel's units. */
+export interface Line {
+  readonly name: string;
+  readonly role: LineRole;
+  readonly side: PageSide | null;
+  readonly session: number;
+  /** Number of the cycle, if it is one. */
+  readonly cycle: number | null;
+  readonly x: Float64Array;
+  readonly y: Float64Array;
+  readonly origin: Origin | null;
+}
+
+/** A surface between two curves. */
+export interface Area {
+  readonly kind: "band" | "deviation";
+  readonly side: PageSide | null;
+  readonly session: number;
+  readonly x: Float64Array;
+  readonly low: Float64Array;
+  readonly high: Float64Array;
+}
+
+/** A tick at the bottom. */
+export interface Mark {
+  readonly kind: "strike" | "toe-off";
+  readonly side: PageSide;
+  readonly session: number;
+  readonly x: number;
+}
+
+/** A time in which something is not feasible. */
+export interface Shade {
+  readonly from: number;
+  readonly to: number;
+}
+
+/** All that is drawn in a panel, in its units, back to front. */
+export interface Drawing {
+  readonly axis: Axis;
+  readonly x: readonly [number, number];
+  readonly y: readonly [number, number];
+  readonly areas: readonly Area[];
+  readonly shades: readonly Shade[];
+  readonly lines: readonly Line[];
+  readonly marks: readonly Mark[];
+}
+
+/** A panel of a session. */
+export interface PanelSource {
+  /** Place of the session in the page. */
+  readonly index: number;
+  readonly session: Session;
+  readonly panel: Panel;
+}
+
+/** What of the sources is to be drawn. */
+export interface DrawingChoice {
+  readonly axis: Axis;
+  /** Sides that are shown; what has no side always is. */
+  readonly sides: readonly PageSide[];
+}
+
+const PERCENT = Float64Array.from({ length: 101 }, (_, i) => i);
+/** Free room above and below, in parts of what is drawn. */
+const ROOM = 0.06;
+/** Zero is shown if it is not further away than this, in parts of what is drawn. */
+const ZERO_WITHIN = 0.35;
+/** A limit further away than this, in parts of what is drawn, does not squeeze the rest. */
+const LIMIT_WITHIN = 0.6;
+
+/** What is drawn of one quantity of one or more sessions; nothing if there is nothing. */
+export function drawing(sources: readonly PanelSource[], numbers: Numbers, choice: DrawingChoice): Drawing | null {
+  const axis = possibleAxis(sources, choice.axis);
+  if (axis === null) {
+    return null;
+  }
+  const part = axis === "cycle" ? cyclePart : timePart;
+  const parts = sources.map((source) => part(source, numbers, sources));
+  const shown = <T extends { readonly side: PageSide | null }>(item: T): boolean =>
+    item.side === null || choice.sides.includes(item.side);
+  const lines = parts.flatMap((one) => one.lines).filter(shown);
+  const areas = parts.flatMap((one) => one.areas).filter(shown);
+  return {
+    axis,
+    x: axis === "cycle" ? [0, 100] : timeRange(sources),
+    y: valueRange(lines, areas),
+    areas: inOrder(areas, (area) => (area.kind === "band" ? 0 : 1)),
+    shades: parts.flatMap((one) => one.shades),
+    lines: inOrder(lines, (line) => ORDER.indexOf(line.role)),
+    marks: parts.flatMap((one) => one.marks).filter(shown),
+  };
+}
+
+/** Back to front. */
+const ORDER: readonly LineRole[] = ["limit", "cycle", "main", "mean", "measured", "infeasible"];
+
+interface Part {
+  readonly lines: Line[];
+  readonly areas: Area[];
+  readonly marks: Mark[];
+  readonly shades: Shade[];
+}
+
+function possibleAxis(sources: readonly PanelSource[], wanted: Axis): Axis | null {
+  const cycle = sources.some(({ panel }) => panel.cycles.length + panel.means.length > 0);
+  const time = sources.some(({ panel }) => panel.traces.length > 0);
+  if (wanted === "cycle") {
+    return cycle ? "cycle" : time ? "time" : null;
+  }
+  return time ? "time" : cycle ? "cycle" : null;
+}
+
+function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSource[]): Part {
+  const { panel, index } = source;
+  const lines: Line[] = [];
+  const marks: Mark[] = [];
+  // Of several sessions only the means are drawn, so that they can be told apart; without means the cycles.
+  if (all.length === 1 || panel.means.length === 0) {
+    lines.push(...cycleLines(source, numbers));
+  }
+  for (const mean of panel.means) {
+    const name = `${sideName(mean.side)}, mean of ${mean.cycles}`;
+    const y = numbers.read(mean.values);
+    lines.push({ name, role: "mean", side: mean.side, session: index, cycle: null, x: PERCENT, y, origin: null });
+    if (mean.toe_off_percent !== null) {
+      marks.push({ kind: "toe-off", side: mean.side, session: index, x: mean.toe_off_percent });
+    }
+  }
+  return { lines, areas: index === firstWithBand(all) ? bandOf(panel, numbers) : [], marks, shades: [] };
+}
+
+function cycleLines(source: PanelSource, numbers: Numbers): Line[] {
+  const { panel, session, index } = source;
+  return panel.cycles.flatMap((curve) => {
+    const y = numbers.read(curve.values);
+    const name = `${sideName(curve.side)}, cycle ${curve.number}`;
+    const common = { side: curve.side, session: index, cycle: curve.number, x: PERCENT };
+    const line: Line = { name, role: "cycle", y, origin: curve.origin, ...common };
+    const cycle = session.cycles.find((one) => one.side === curve.side && one.number === curve.number);
+    const inside = (i: number): boolean =>
+      cycle !== undefined &&
+      panel.red.some(
+        (span) =>
+          (span.side ?? curve.side) === curve.side &&
+          percentAt(cycle, span.from_s) <= i + 0.5 &&
+          i - 0.5 <= percentAt(cycle, span.to_s),
+      );
+    const red = partOf(y, inside);
+    return red
+      ? [line, { name: `${name}, not feasible`, role: "infeasible", y: red, origin: null, ...common }]
+      : [line];
+  });
+}
+
+function bandOf(panel: Panel, numbers: Numbers): Area[] {
+  if (!panel.band) {
+    return [];
+  }
+  const mean = numbers.read(panel.band.mean);
+  const x = Float64Array.from(mean, (_, i) => (100 * i) / Math.max(mean.length - 1, 1));
+  return [{ kind: "band", side: null, session: 0, x, ...around(mean, numbers.read(panel.band.sd)) }];
+}
+
+function firstWithBand(all: readonly PanelSource[]): number {
+  return all.find(({ panel }) => panel.band !== null)?.index ?? -1;
+}
+
+function timePart(source: PanelSource, numbers: Numbers, all: readonly PanelSource[]): Part {
+  const { panel, session, index } = source;
+  const shift = timeShift(source, all);
+  const x = instants(session.time, shift);
+  const lines: Line[] = [];
+  const areas: Area[] = [];
+  for (const trace of panel.traces) {
+    const y = numbers.read(trace.values);
+    const common = { side: trace.side, session: index, cycle: null, x };
+    lines.push({ name: trace.name, role: trace.role, y, origin: trace.origin, ...common });
+    if (trace.sd) {
+      areas.push({ kind: "deviation", side: trace.side, session: index, x, ...around(y, numbers.read(trace.sd)) });
+    }
+    const red = trace.role === "main" ? partOf(y, (i) => isRed(panel.red, trace.side, (x[i] ?? 0) - shift)) : null;
+    if (red) {
+      lines.push({ name: `${trace.name}, not feasible`, role: "infeasible", y: red, origin: null, ...common });
+    }
+  }
+  const marks = session.events.map((event) => ({
+    kind: event.strike ? ("strike" as const) : ("toe-off" as const),
+    side: event.side,
+    session: index,
+    x: event.time_s + shift,
+  }));
+  const shades = panel.red.map((span) => ({ from: span.from_s + shift, to: span.to_s + shift }));
+  return { lines, areas, marks: all.length === 1 ? marks : [], shades: index === 0 ? shades : [] };
+}
+
+function isRed(spans: readonly RedSpan[], side: PageSide | null, time: number): boolean {
+  return spans.some(
+    (span) => (span.side === null || side === null || span.side === side) && span.from_s <= time && time <= span.to_s,
+  );
+}
+
+/** Sessions begin together. */
+function timeShift(source: PanelSource, all: readonly PanelSource[]): number {
+  const first = all[0] ?? source;
+  return first.session.time.start_s - source.session.time.start_s;
+}
+
+function timeRange(sources: readonly PanelSource[]): [number, number] {
+  const start = sources[0]?.session.time.start_s ?? 0;
+  const lengths = sources.map(({ session }) => session.time.step_s * Math.max(session.time.frames - 1, 1));
+  return [start, start + Math.max(...lengths)];
+}
+
+function instants(axis: TimeAxis, shift: number): Float64Array {
+  return Float64Array.from({ length: axis.frames }, (_, i) => axis.start_s + shift + i * axis.step_s);
+}
+
+function around(mean: Float64Array, sd: Float64Array): { low: Float64Array; high: Float64Array } {
+  return { low: mean.map((m, i) => m - (sd[i] ?? Number.NaN)), high: mean.map((m, i) => m + (sd[i] ?? Number.NaN)) };
+}
+
+/** The values at some places, gaps elsewhere; nothing if there are none. */
+function partOf(values: Float64Array, inside: (i: number) => boolean): Float64Array | null {
+  const part = values.map((value, i) => (inside(i) ? value : Number.NaN));
+  return part.some(Number.isFinite) ? part : null;
+}
+
+/** A range that shows everything with some room, and zero if it is near. */
+export function valueRange(lines: readonly Line[], areas: readonly Area[]): [number, number] {
+  const main = lines.filter((line) => line.role !== "limit").map((line) => line.y);
+  let [low, high] = extent([...main, ...areas.flatMap((area) => [area.low, area.high])]);
+  for (const limit of lines.filter((line) => line.role === "limit")) {
+    const [a, b] = extent([limit.y]);
+    const room = LIMIT_WITHIN * (high - low);
+    low = a >= low - room ? Math.min(low, a) : low;
+    high = b <= high + room ? Math.max(high, b) : high;
+  }
+  if (!(low <= high)) {
+    return [-1, 1];
+  }
+  if (low === high) {
+    const half = Math.abs(low) / 2 || 1;
+    return [low - half, low + half];
+  }
+  const span = high - low;
+  low = low > 0 && low <= ZERO_WITHIN * span ? 0 : low;
+  high = high < 0 && high >= -ZERO_WITHIN * span ? 0 : high;
+  return [low === 0 ? 0 : low - ROOM * span, high === 0 ? 0 : high + ROOM * span];
+}
+
+function extent(series: readonly Float64Array[]): [number, number] {
+  let low = Number.POSITIVE_INFINITY;
+  let high = Number.NEGATIVE_INFINITY;
+  for (const values of series) {
+    for (const value of values) {
+      if (Number.isFinite(value)) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
+    }
+  }
+  return [low, high];
+}
+
+function inOrder<T>(items: readonly T[], rank: (item: T) => number): T[] {
+  return [...items].sort((a, b) => rank(a) - rank(b));
+}
+
+/** A side in a word. */
+export function sideName(side: PageSide): string {
+  return side === "r" ? "right" : "left";
+}

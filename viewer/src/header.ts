@@ -1,0 +1,74 @@
+import type { Page, PageSource, Session } from "./contract";
+import { element } from "./element";
+import { tableElement } from "./table";
+
+const SOURCES: Readonly<Record<PageSource, string>> = {
+  measured: "Ground forces: measured",
+  predicted: "Ground forces: predicted",
+  simulated: "Ground forces: simulated",
+  none: "No ground forces",
+};
+
+/** Screens on which the settings are folded at first. */
+const NARROW = "(max-width: 900px)";
+
+/** The top of the page: whose it is and where the ground forces come from. */
+export function header(page: Page): HTMLElement {
+  const badges = [...new Set(page.sessions.map((session) => session.source))].map((source) =>
+    element("span", { class: `badge ${source}` }, SOURCES[source]),
+  );
+  return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
+}
+
+/** Who, with what, how, beside a picture of the figure for paper; then what the page cannot show. */
+export function about(page: Page, still: HTMLImageElement): HTMLElement {
+  const [first] = page.sessions;
+  const facts = page.sessions.length === 1 && first ? factList(first) : factTable(page.sessions);
+  const details = element("details", { class: "settings" }, element("summary", {}, "Subject and settings"), facts);
+  details.open = !matchMedia(NARROW).matches;
+  return element(
+    "div",
+    { class: "about" },
+    element("div", { class: "beside" }, details, still),
+    ...missing(page.sessions),
+  );
+}
+
+function factList(session: Session): HTMLElement {
+  return element(
+    "dl",
+    { class: "facts" },
+    ...session.header.map((fact) => {
+      const note = fact.note ? [" ", element("span", { class: "origin" }, fact.note)] : [];
+      return element("div", {}, element("dt", {}, fact.label), element("dd", {}, fact.value, ...note));
+    }),
+  );
+}
+
+function factTable(sessions: readonly Session[]): HTMLElement {
+  const labels = [...new Set(sessions.flatMap((session) => session.header.map((fact) => fact.label)))];
+  const cell = (text: string): { text: string; value: null; outside: false } => ({ text, value: null, outside: false });
+  const rows = labels.map((label) => [
+    cell(label),
+    ...sessions.map((session) => cell(session.header.find((fact) => fact.label === label)?.value ?? "")),
+  ]);
+  const heads = ["", ...sessions.map((session) => session.name)];
+  const body = tableElement({ spans: [], heads, rows }, "Subjects and settings");
+  return element(
+    "div",
+    { class: "scroll facts-table", tabindex: 0, role: "region", "aria-label": "Subjects and settings" },
+    body,
+  );
+}
+
+/** What the page cannot show. */
+function missing(sessions: readonly Session[]): HTMLElement[] {
+  const sentences = sessions.flatMap((session) =>
+    session.missing.map((sentence) => (sessions.length > 1 ? `${session.name}: ${sentence}` : sentence)),
+  );
+  if (sentences.length === 0) {
+    return [];
+  }
+  const list = element("ul", {}, ...sentences.map((sentence) => element("li", {}, sentence)));
+  return [element("section", { class: "missing", "aria-label": "Not shown" }, list)];
+}

@@ -1,0 +1,75 @@
+import type { Context } from "./context";
+import type { PageSide } from "./contract";
+import { element, svgElement } from "./element";
+import { citations } from "./groups";
+import { pixels, type Scheme, sideLook } from "./look";
+import { colour, onThemeChange, STYLE } from "./style";
+
+/** What colours and dashes mean; follows theme and choices. */
+export function legend(context: Context): HTMLElement {
+  const list = element("ul", { class: "legend", "aria-label": "Legend" });
+  const fill = (): void => list.replaceChildren(...entries(context).map((entry) => element("li", {}, ...entry)));
+  fill();
+  onThemeChange(fill);
+  context.display.subscribe(fill);
+  return list;
+}
+
+function entries(context: Context): (Node | string)[][] {
+  const { sessions } = context.page;
+  const { sides } = context.display;
+  const scheme: Scheme = { sessions: sessions.length, sides };
+  const entry = (word: string, side: PageSide | null, session: number): (Node | string)[] => {
+    const { colour, dash } = sideLook({ side, session }, scheme);
+    return [sample(colour, dash), word];
+  };
+  const lines =
+    sessions.length === 1
+      ? sides.map((side) => entry(side === "r" ? "right" : "left", side, 0))
+      : [
+          ...sessions.map((one, i) => entry(one.name, sides.length === 1 ? (sides[0] ?? null) : "r", i)),
+          [sideWords(sides)],
+        ];
+  return [...lines, ...(context.display.axis === "cycle" ? overCycle(context) : overTime(context))];
+}
+
+function sideWords(sides: readonly PageSide[]): string {
+  return sides.length > 1 ? "solid: right, dashed: left" : sides[0] === "r" ? "right side" : "left side";
+}
+
+function overCycle({ page }: Context): (Node | string)[][] {
+  const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
+  const band = citations(page.sessions).length > 0 ? [[swatch(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
+  return [[curves], ...band, ["ticks below: toe-off"]];
+}
+
+function overTime({ page }: Context): (Node | string)[][] {
+  const traces = page.sessions.flatMap((session) =>
+    [...session.groups, ...session.quality.groups].flatMap((group) => group.panels.flatMap((panel) => panel.traces)),
+  );
+  const measured = traces.some((trace) => trace.role === "measured");
+  const uncertain = traces.some((trace) => trace.sd !== null);
+  return [
+    ...(measured ? [[sample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
+    ...(uncertain ? [[swatch(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
+    ...(page.sessions.length === 1 ? [["ticks below: strike (short), toe-off (long)"]] : []),
+  ];
+}
+
+function sample(ink: string, dash: readonly number[], width = pixels(STYLE.lines_pt.mean)): SVGElement {
+  const line = svgElement("line", {
+    x1: 0,
+    x2: 26,
+    y1: 5,
+    y2: 5,
+    stroke: ink,
+    "stroke-width": width,
+    ...(dash.length > 0 ? { "stroke-dasharray": dash.join(" ") } : {}),
+  });
+  return svgElement("svg", { width: 26, height: 10, "aria-hidden": "true" }, line);
+}
+
+function swatch(fill: string, opacity: number): SVGElement {
+  const box = svgElement("rect", { width: 18, height: 10, fill, "fill-opacity": opacity });
+  return svgElement("svg", { width: 18, height: 10, "aria-hidden": "true" }, box);
+}

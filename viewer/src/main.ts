@@ -1,0 +1,144 @@
+import { abreast, chapter } from "./chapter";
+import { Clock } from "./clock";
+import type { Context, Stage } from "./context";
+import { pageControls, playControls } from "./controls";
+import { Display } from "./display";
+import { element } from "./element";
+import { feasibility } from "./feasibility";
+import { citations, groups } from "./groups";
+import { about, header } from "./header";
+import { helpDialog } from "./help";
+import { listenToKeys } from "./keyboard";
+import { legend } from "./legend";
+import { Panels } from "./panels";
+import { prepareForPaper } from "./paper";
+import { cycleAt, timeAt } from "./phase";
+import { quality } from "./quality";
+import { readPage } from "./read_page";
+import { followSystem } from "./style";
+import { tables } from "./table";
+import { createView, type View3D } from "./view3d";
+import "uplot/dist/uPlot.min.css";
+import "./css/page.css";
+import "./css/stage.css";
+import "./css/panel.css";
+import "./css/table.css";
+import "./css/print.css";
+
+/** Where in a right cycle the page begins [%]: the leg is loaded and the picture has forces. */
+const BEGIN_PERCENT = 15;
+
+/** Draws the page, or says why it cannot be drawn. */
+async function main(root: HTMLElement): Promise<void> {
+  followSystem();
+  const { page, numbers } = await readPage();
+  const [first] = page.sessions;
+  if (!first) {
+    throw new Error("This report holds no session.");
+  }
+  document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
+  const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };
+  if (page.sessions.every((session) => session.cycles.length === 0)) {
+    context.display.axis = "time";
+  }
+  const panels = new Panels(context);
+  const host = element("div", { class: "view" });
+  const still = element("img", { class: "still", alt: "The figure at the chosen time" });
+  const aside = element("section", { class: "stage", "aria-label": "Figure and time" }, host);
+  const nav = element("nav", { class: "bar", "aria-label": "Page" });
+  const report = content(context, panels);
+  report.prepend(about(page, still), nav);
+  const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
+  root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
+  const view = figure(host, context);
+  const stage: Stage = { ...context, view };
+  const { dialog, open } = helpDialog();
+  const { bar, actions } = playControls(stage);
+  aside.append(bar);
+  nav.append(contents(report), pageControls(stage, open));
+  root.append(dialog);
+  listenToKeys(context, { ...actions, help: open });
+  prepareForPaper(panels, view, still);
+  begin(context);
+  panels.start();
+  Object.defineProperty(window, "ambulo", {
+    value: {
+      page,
+      numbers,
+      clock: context.clock,
+      display: context.display,
+      view,
+      get panels() {
+        return panels.drawings();
+      },
+    },
+  });
+  requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(ready)));
+}
+
+/** Curves, tables, quality, feasibility. */
+function content(context: Context, panels: Panels): HTMLElement {
+  const { sessions } = context.page;
+  const curves = groups(context, panels, (session) => session.groups);
+  const numbers = tables(sessions, (session) => session.tables);
+  return element(
+    "div",
+    { class: "content" },
+    ...chapter("curves", "Curves", curves.length > 0 ? [legend(context), ...curves, ...sources(context)] : []),
+    ...feasibility(context, panels),
+    ...chapter("tables", "Numbers", abreast(numbers)),
+    ...quality(context, panels),
+  );
+}
+
+/** Where the grey bands come from, in full. */
+function sources(context: Context): HTMLElement[] {
+  const all = citations(context.page.sessions);
+  const items = all.map((citation) => element("li", {}, citation));
+  return all.length > 0
+    ? [element("section", { class: "sources" }, element("h3", {}, "Normal bands"), element("ul", {}, ...items))]
+    : [];
+}
+
+function contents(report: HTMLElement): HTMLElement {
+  const chapters = [...report.querySelectorAll<HTMLElement>(".chapter")];
+  const links = chapters.map((one) =>
+    element("a", { href: `#${one.id}` }, one.querySelector("h2")?.textContent ?? one.id),
+  );
+  return element("div", { class: "links" }, ...links);
+}
+
+/** The figure, or a sentence why there is none. */
+function figure(host: HTMLElement, context: Context): View3D | null {
+  if (context.page.sessions.every((session) => session.view === null)) {
+    host.replaceChildren(element("p", { class: "empty" }, "There is no body to show in 3-D."));
+    return null;
+  }
+  try {
+    return createView(host, context.page, context.numbers, context.clock);
+  } catch {
+    host.replaceChildren(
+      element("p", { class: "empty" }, "This browser cannot draw in 3-D (WebGL is missing or switched off)."),
+    );
+    return null;
+  }
+}
+
+function begin({ clock, first }: Context): void {
+  const times = first.cycles.filter(({ side }) => side === "r").map((cycle) => timeAt(cycle, BEGIN_PERCENT));
+  const inBoth = times.find((time) => cycleAt(first.cycles, "l", time));
+  clock.seek(inBoth ?? times[0] ?? clock.start);
+}
+
+function ready(): void {
+  document.documentElement.dataset["ready"] = "true";
+}
+
+const root = document.getElementById("ambulo");
+if (root) {
+  main(root).catch((error: unknown) => {
+    const message = error instanceof Error ? error.message : String(error);
+    root.replaceChildren(element("p", { class: "failure", role: "alert" }, message));
+    ready();
+  });
+}

@@ -1,0 +1,241 @@
+import type uPlot from "uplot";
+import type { Context } from "./context";
+import type { PageSide } from "./contract";
+import { type Drawing, drawing, type PanelSource } from "./drawing";
+import { button, element } from "./element";
+import { digitsFor, shortCitation, shown } from "./format";
+import type { Scheme } from "./look";
+import { plot, ROOM } from "./plot";
+import { followPointer } from "./pointer";
+import { readings } from "./reading";
+import { saveCsv, savePng, saveSvg } from "./save";
+import { directionWords, vector, type Words } from "./vector";
+
+/** Size of a plot on paper [CSS px]; it is stretched to its column. */
+const PRINT = { width: 240, height: 128, titled: false };
+
+/** One quantity: title, plot, value at the cursor, menu to save it. */
+export class PanelView {
+  readonly figure: HTMLElement;
+  readonly id: string;
+  readonly #context: Context;
+  readonly #sources: readonly PanelSource[];
+  readonly #words: Words;
+  readonly #plot: HTMLElement;
+  readonly #paper: HTMLElement;
+  readonly #readout = element("span", { class: "readout", "aria-hidden": "true" });
+  readonly #source: HTMLElement;
+  readonly #values = new Map<PageSide | null, HTMLElement>();
+  readonly #cursors = new Map<PageSide | null, HTMLElement>();
+  #drawing: Drawing | null;
+  #chart: uPlot | null = null;
+  #visible = false;
+
+  constructor(context: Context, id: string, sources: readonly PanelSource[]) {
+    this.id = id;
+    this.#context = context;
+    this.#sources = sources;
+    this.#words = wordsOf(sources);
+    this.#drawing = drawing(sources, context.numbers, context.display);
+    this.#plot = element("div", { class: "plot", role: "img" });
+    this.#paper = element("div", { class: "paper", "aria-hidden": "true" });
+    this.#source = element("p", { class: "source" });
+    this.figure = element("figure", { class: "panel", id: `panel-${id}` }, this.#head());
+    if (this.#drawing) {
+      this.figure.append(this.#plot, this.#paper, this.#source);
+      this.#fillWords(this.#drawing);
+    } else {
+      const why = sources.find(({ panel }) => panel.empty !== null)?.panel.empty;
+      this.figure.append(element("p", { class: "empty" }, why ?? "There are no values of this quantity."));
+    }
+  }
+
+  /** What is drawn. */
+  get drawing(): Drawing | null {
+    return this.#drawing;
+  }
+
+  /** The place of the plot on the screen. */
+  get host(): HTMLElement {
+    return this.#plot;
+  }
+
+  /** Whether somebody can see it; draws it when that is so for the first time. */
+  set visible(visible: boolean) {
+    this.#visible = visible;
+    if (visible) {
+      this.draw();
+      this.tick();
+    }
+  }
+
+  /** Draws anew what another axis or other sides ask for; at once if visible, or else when it becomes so. */
+  update(): void {
+    this.#drawing = drawing(this.#sources, this.#context.numbers, this.#context.display);
+    if (this.#drawing) {
+      this.#fillWords(this.#drawing);
+    }
+    this.#chart?.destroy();
+    this.#chart = null;
+    if (this.#visible) {
+      this.draw();
+      this.tick();
+    }
+  }
+
+  /** Colours of another theme. */
+  recolour(): void {
+    this.#chart?.redraw(false);
+  }
+
+  /** Another width of its column. */
+  resize(): void {
+    const { clientWidth, clientHeight } = this.#plot;
+    if (this.#chart && clientWidth > 0 && clientWidth !== this.#chart.width) {
+      this.#chart.setSize({ width: clientWidth, height: clientHeight });
+      this.tick();
+    }
+  }
+
+  /** Moves cursors and values to the clock's time. */
+  tick(): void {
+    if (!this.#visible || !this.#chart || !this.#drawing) {
+      return;
+    }
+    const digits = digitsFor(...this.#drawing.y);
+    for (const reading of readings(this.#drawing, this.#context.first, this.#context.clock.time)) {
+      const cursor = this.#cursors.get(reading.side) ?? this.#cursors.get(null);
+      if (cursor) {
+        const [from, to] = this.#drawing.x;
+        const width = this.#chart.width - ROOM.left - ROOM.right;
+        cursor.hidden = reading.x === null;
+        cursor.style.transform = `translateX(${((width * ((reading.x ?? from) - from)) / (to - from)).toFixed(1)}px)`;
+      }
+      const value = this.#values.get(reading.side);
+      const text = shown(reading.value, digits);
+      if (value && value.textContent !== text) {
+        value.textContent = text;
+      }
+    }
+  }
+
+  /** The plot as a vector picture, for paper. */
+  prepareForPaper(): void {
+    if (this.#drawing) {
+      this.#paper.replaceChildren(vector(this.#drawing, this.#scheme(), this.#words, PRINT));
+    }
+  }
+
+  /** Draws the plot at the size of its host, if that has not been done. */
+  draw(): void {
+    const { clientWidth, clientHeight } = this.#plot;
+    if (!this.#drawing || this.#chart || clientWidth === 0) {
+      return;
+    }
+    this.#plot.replaceChildren();
+    this.#chart = plot(this.#plot, this.#drawing, this.#scheme(), clientWidth, clientHeight);
+    this.#addOverlay(this.#chart, this.#drawing);
+    followPointer(this.#chart, this.#drawing, this.#context);
+  }
+
+  #addOverlay(chart: uPlot, now: Drawing): void {
+    this.#cursors.clear();
+    const sides = now.axis === "time" ? [null] : this.#context.display.sides;
+    for (const side of sides) {
+      this.#cursors.set(side, element("div", { class: `cursor ${side ?? "both"}`, hidden: "" }));
+    }
+    chart.over.append(...this.#cursors.values());
+  }
+
+  #scheme(): Scheme {
+    return { sessions: this.#context.page.sessions.length, sides: this.#context.display.sides };
+  }
+
+  #head(): HTMLElement {
+    const title = element("h4", {}, this.#words.title);
+    if (this.#words.unit) {
+      title.append(" ", element("span", { class: "unit" }, this.#words.unit));
+    }
+    const head = element("figcaption", {}, title);
+    if (this.#drawing) {
+      const signs = element("span", { class: "signs" }, directionWords(this.#words));
+      head.append(this.#menu(), element("div", { class: "caption-row" }, signs, this.#readout));
+    }
+    return head;
+  }
+
+  /** Words that depend on what is drawn: places of the values, source of the band, summary. */
+  #fillWords(now: Drawing): void {
+    const sides = (["r", "l", null] as const).filter((side) => now.lines.some((line) => line.side === side));
+    const read = sides.length > 1 ? sides.filter((side) => side !== null) : sides;
+    this.#values.clear();
+    for (const side of read) {
+      this.#values.set(side, element("span", { class: side ?? "both" }, "–"));
+    }
+    this.#readout.replaceChildren(...this.#values.values());
+    this.#fillSource(now);
+    this.#plot.setAttribute("aria-label", this.#summary(now));
+  }
+
+  /** Whose the grey band is, in short; in full it stands below all panels. */
+  #fillSource(now: Drawing): void {
+    const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
+    const visible = band && now.areas.some((area) => area.kind === "band");
+    this.#source.textContent = visible ? shortCitation(band.citation) : "";
+    this.#source.title = visible ? band.citation : "";
+  }
+
+  #menu(): HTMLElement {
+    const menu = element("details", { class: "menu" });
+    const name = this.id;
+    const sessions = this.#context.page.sessions.map((session) => session.name);
+    const save = (kind: string, action: (now: Drawing) => void): HTMLElement =>
+      button(`${this.#words.title} as ${kind}`, kind, () => {
+        menu.open = false;
+        if (this.#drawing) {
+          action(this.#drawing);
+        }
+      });
+    menu.append(
+      element("summary", { "aria-label": `Save ${this.#words.title}`, title: "Save" }, "⋯"),
+      element(
+        "div",
+        { class: "choices" },
+        save("PNG", (now) => void savePng(name, now, this.#scheme(), this.#words)),
+        save("SVG", (now) => saveSvg(name, now, this.#scheme(), this.#words)),
+        save("CSV", (now) => saveCsv(name, now, this.#words, sessions)),
+      ),
+    );
+    menu.addEventListener("focusout", (event) => {
+      menu.open = menu.open && event.relatedTarget instanceof Node && menu.contains(event.relatedTarget);
+    });
+    return menu;
+  }
+
+  /** The plot in words, for those who cannot see it. */
+  #summary(now: Drawing): string {
+    const { title, unit, positive, negative } = this.#words;
+    const digits = digitsFor(...now.y);
+    const over = now.axis === "cycle" ? "over the gait cycle" : "over time";
+    const curves = now.lines
+      .filter((line) => line.role === "mean" || line.role === "main")
+      .map((line) => `${line.name}: ${extremes(line.y, digits)}`);
+    const red = now.shades.length > 0 ? [`${now.shades.length} parts are not feasible`] : [];
+    const signs = positive ? [`positive is ${positive}${negative ? `, negative ${negative}` : ""}`] : [];
+    const compared = this.#context.page.sessions.length > 1 ? [`${this.#sources.length} sessions`] : [];
+    return [`${title}${unit ? ` in ${unit}` : ""} ${over}`, ...signs, ...compared, ...curves, ...red].join("; ");
+  }
+}
+
+function extremes(values: Float64Array, digits: number): string {
+  const finite = values.filter(Number.isFinite);
+  const low = finite.reduce((a, b) => Math.min(a, b), Number.POSITIVE_INFINITY);
+  const high = finite.reduce((a, b) => Math.max(a, b), Number.NEGATIVE_INFINITY);
+  return finite.length > 0 ? `${shown(low, digits)} to ${shown(high, digits)}` : "no values";
+}
+
+function wordsOf(sources: readonly PanelSource[]): Words {
+  const panel = sources[0]?.panel;
+  const { title = "", unit = "", positive = "", negative = "" } = panel ?? {};
+  return { title, unit: unit.replace("N.m", "N·m"), positive, negative };
+}

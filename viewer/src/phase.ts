@@ -1,0 +1,30 @@
+import type { PageCycle, PageSide } from "./contract";
+
+/** The cycle of a side that a time lies in. */
+export function cycleAt(cycles: readonly PageCycle[], side: PageSide, time: number): PageCycle | null {
+  return cycles.find((cycle) => cycle.side === side && cycle.start_s <= time && time <= cycle.end_s) ?? null;
+}
+
+/** The cycle of a side that is nearest to a time; the time is within it or as close as can be. */
+export function nearestCycle(cycles: readonly PageCycle[], side: PageSide, time: number): PageCycle | null {
+  let nearest: PageCycle | null = null;
+  let shortest = Number.POSITIVE_INFINITY;
+  for (const cycle of cycles) {
+    const distance = Math.max(cycle.start_s - time, time - cycle.end_s, 0);
+    if (cycle.side === side && distance < shortest) {
+      nearest = cycle;
+      shortest = distance;
+    }
+  }
+  return nearest;
+}
+
+/** Where in a cycle a time is [%]. */
+export function percentAt(cycle: PageCycle, time: number): number {
+  return (100 * (time - cycle.start_s)) / (cycle.end_s - cycle.start_s);
+}
+
+/** When a cycle is so far [s]. */
+export function timeAt(cycle: PageCycle, percent: number): number {
+  return cycle.start_s + (percent / 100) * (cycle.end_s - cycle.start_s);
+}

@@ -1,0 +1,65 @@
+import type uPlot from "uplot";
+import type { Context } from "./context";
+import type { PageSide } from "./contract";
+import type { Drawing } from "./drawing";
+import { nearestCycle, timeAt } from "./phase";
+
+/** Makes a plot move the clock: by hovering while it stands still, by pressing and dragging always. */
+export function followPointer(chart: uPlot, drawing: Drawing, context: Context): void {
+  const { over } = chart;
+  const seek = (event: PointerEvent): void => {
+    const box = over.getBoundingClientRect();
+    const time = timeUnder(chart, drawing, context, event.clientX - box.left, event.clientY - box.top);
+    if (time !== null) {
+      context.clock.seek(time);
+    }
+  };
+  over.addEventListener("pointerdown", (event) => {
+    context.clock.pause();
+    over.setPointerCapture(event.pointerId);
+    seek(event);
+  });
+  over.addEventListener("pointermove", (event) => {
+    const hovers = event.pointerType === "mouse" && !context.clock.playing;
+    if (hovers || event.buttons > 0) {
+      seek(event);
+    }
+  });
+}
+
+/** The time that a place of a plot stands for; over the gait cycle that of the nearest curve's cycle. */
+function timeUnder(chart: uPlot, drawing: Drawing, context: Context, left: number, top: number): number | null {
+  const x = Math.min(Math.max(chart.posToVal(left, "x"), drawing.x[0]), drawing.x[1]);
+  if (drawing.axis === "time") {
+    return x;
+  }
+  const nearest = nearestLine(chart, drawing, Math.round(x), top);
+  if (!nearest) {
+    return null;
+  }
+  const { cycles } = context.first;
+  const own = cycles.find((cycle) => cycle.side === nearest.side && cycle.number === nearest.cycle);
+  const cycle = own ?? nearestCycle(cycles, nearest.side, context.clock.time);
+  return cycle ? timeAt(cycle, x) : null;
+}
+
+/** The first session's curve nearest to a height above or below a percentage; a mean stands for no certain cycle. */
+function nearestLine(
+  chart: uPlot,
+  drawing: Drawing,
+  percent: number,
+  top: number,
+): { readonly side: PageSide; readonly cycle: number | null } | null {
+  let nearest: { side: PageSide; cycle: number | null } | null = null;
+  let shortest = Number.POSITIVE_INFINITY;
+  for (const line of drawing.lines) {
+    const value = line.y[percent];
+    const fits = line.session === 0 && line.side !== null && value !== undefined && Number.isFinite(value);
+    const distance = fits ? Math.abs(chart.valToPos(value, "y") - top) : Number.POSITIVE_INFINITY;
+    if (distance < shortest && line.side !== null) {
+      nearest = { side: line.side, cycle: line.cycle };
+      shortest = distance;
+    }
+  }
+  return nearest;
+}

@@ -1,0 +1,77 @@
+import type { Color } from "three";
+import {
+  BackSide,
+  ConeGeometry,
+  CylinderGeometry,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  Quaternion,
+  Vector3,
+} from "three";
+import { addAll } from "./layers";
+
+const UP = new Vector3(0, 1, 0);
+/** Head's length and radius, and the halo's breadth, in radii of the shaft. */
+const HEAD_LENGTH = 6.5;
+const HEAD_RADIUS = 2.7;
+const HALO = 0.55;
+/** A head takes at most this part of an arrow. */
+const HEAD_PART = 0.45;
+
+/** Length of the arrow of one body weight, in heights of the figure: it ends about at the navel. */
+const WEIGHT_HEIGHTS = 0.55;
+
+/** Length of an arrow for each newton [m/N]. */
+export function arrowScale(height_m: number, weight_n: number): number {
+  return weight_n > 0 && height_m > 0 ? (WEIGHT_HEIGHTS * height_m) / weight_n : 0;
+}
+
+/** How an arrow of a length is parted [m]; short ones shrink as a whole. */
+export function arrowParts(length: number, radius: number): { shaft: number; head: number; headRadius: number } {
+  const head = Math.min(HEAD_LENGTH * radius, HEAD_PART * length);
+  return { shaft: length - head, head, headRadius: (HEAD_RADIUS / HEAD_LENGTH) * head };
+}
+
+/** An arrow with a halo of the ground's colour, so that it stands out from what is behind. */
+export class Arrow {
+  readonly group = new Group();
+  private readonly material = new MeshLambertMaterial();
+  private readonly halo = new MeshBasicMaterial({ side: BackSide });
+  private readonly shafts: Mesh[];
+  private readonly heads: Mesh[];
+  private readonly turn = new Quaternion();
+  private readonly unit = new Vector3();
+
+  constructor(private readonly radius: number) {
+    const shaft = new CylinderGeometry(1, 1, 1, 20).translate(0, 0.5, 0);
+    const head = new ConeGeometry(1, 1, 28).translate(0, 0.5, 0);
+    this.shafts = [new Mesh(shaft, this.material), new Mesh(shaft, this.halo)];
+    this.heads = [new Mesh(head, this.material), new Mesh(head, this.halo)];
+    addAll(this.group, [...this.shafts, ...this.heads]);
+  }
+
+  recolor(color: Color, halo: Color): void {
+    this.material.color.copy(color);
+    this.material.emissive.copy(color).multiplyScalar(0.5);
+    this.halo.color.copy(halo);
+  }
+
+  /** From a point along a vector, both in metres; nothing is drawn if it is very short or not a number. */
+  set(point: Vector3, vector: Vector3): void {
+    const length = vector.length();
+    this.group.visible = Number.isFinite(point.x + point.y + point.z + length) && length > this.radius;
+    if (!this.group.visible) return;
+    const { shaft, head, headRadius } = arrowParts(length, this.radius);
+    this.group.position.copy(point);
+    this.group.quaternion.copy(this.turn.setFromUnitVectors(UP, this.unit.copy(vector).divideScalar(length)));
+    const edge = HALO * this.radius;
+    this.shafts[0]?.scale.set(this.radius, shaft, this.radius);
+    this.shafts[1]?.scale.set(this.radius + edge, shaft, this.radius + edge);
+    this.heads[0]?.scale.set(headRadius, head, headRadius);
+    this.heads[1]?.scale.set(headRadius + 1.6 * edge, head + 2.4 * edge, headRadius + 1.6 * edge);
+    this.heads[0]?.position.set(0, shaft, 0);
+    this.heads[1]?.position.set(0, shaft - 0.7 * edge, 0);
+  }
+}

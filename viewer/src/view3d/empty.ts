@@ -1,0 +1,8 @@
+/** A sentence where the picture would be. */
+export function say(host: HTMLElement, sentence: string): HTMLElement {
+  const paragraph = document.createElement("p");
+  paragraph.className = "empty";
+  paragraph.textContent = sentence;
+  host.append(paragraph);
+  return paragraph;
+}

@@ -1,0 +1,60 @@
+import { Quaternion, Vector3 } from "three";
+import type { View } from "../contract";
+import { Motion } from "./motion";
+import type { Path } from "./path";
+import type { SeriesReader } from "./reader";
+import { shapePoints } from "./shape";
+import type { Timeline } from "./timeline";
+
+const LOOKS = 30;
+
+/** Room that the figure takes up around its smoothed way [m]. */
+export interface Extent {
+  bottom: number;
+  top: number;
+  /** Furthest reach ahead and behind. */
+  along: number;
+  /** Furthest reach to a side. */
+  across: number;
+}
+
+/** Looks at the figure at some thirty instants. */
+export function extentOf(view: View, numbers: SeriesReader, path: Path, timeline: Timeline): Extent {
+  const extent: Extent = { bottom: view.floor_m, top: view.floor_m + 0.3, along: 0.3, across: 0.2 };
+  const bodies = view.bodies.map((body) => ({
+    motion: new Motion(body, numbers),
+    shapes: body.shapes.map(shapePoints),
+  }));
+  const place = new Vector3();
+  const turn = new Quaternion();
+  const center = new Vector3();
+  const point = new Vector3();
+  for (let frame = 0; frame < timeline.frames; frame += Math.max(1, Math.floor(timeline.frames / LOOKS))) {
+    path.smooth(frame, center);
+    for (const { motion, shapes } of bodies) {
+      if (!motion.at(frame, place, turn)) continue;
+      for (const { points, radius } of shapes) {
+        for (const corner of points)
+          grow(extent, point.copy(corner).applyQuaternion(turn).add(place).sub(center), radius, path.heading);
+      }
+    }
+  }
+  return extent;
+}
+
+/** Room for both. */
+export function union(a: Extent, b: Extent): Extent {
+  return {
+    bottom: Math.min(a.bottom, b.bottom),
+    top: Math.max(a.top, b.top),
+    along: Math.max(a.along, b.along),
+    across: Math.max(a.across, b.across),
+  };
+}
+
+function grow(extent: Extent, point: Vector3, radius: number, heading: Vector3): void {
+  extent.top = Math.max(extent.top, point.y + radius);
+  extent.bottom = Math.min(extent.bottom, point.y - radius);
+  extent.along = Math.max(extent.along, Math.abs(point.x * heading.x + point.z * heading.z) + radius);
+  extent.across = Math.max(extent.across, Math.abs(point.z * heading.x - point.x * heading.z) + radius);
+}

@@ -1,0 +1,58 @@
+import { Group, MeshStandardMaterial, ReplaceStencilOp } from "three";
+import type { PageSide, View } from "../contract";
+import { addAll } from "./layers";
+import { Motion } from "./motion";
+import { limbColor, type Palette } from "./palette";
+import type { SeriesReader } from "./reader";
+import { shapeMesh } from "./shape";
+
+/** Written where the main figure is seen. */
+export const FIGURE_STENCIL = 1;
+
+interface Limb {
+  group: Group;
+  motion: Motion;
+}
+
+/** The bodies that move. */
+export class Figure {
+  readonly group = new Group();
+  /** Bodies as they stand now, in the order of the page. */
+  readonly limbs: Limb[];
+  private readonly materials: { material: MeshStandardMaterial; side: PageSide | null }[] = [];
+
+  constructor(view: View, numbers: SeriesReader) {
+    this.limbs = view.bodies.map((body) => {
+      const material = new MeshStandardMaterial({
+        roughness: 0.62,
+        metalness: 0,
+        stencilWrite: true,
+        stencilRef: FIGURE_STENCIL,
+        stencilZPass: ReplaceStencilOp,
+      });
+      this.materials.push({ material, side: body.side });
+      const group = new Group();
+      addAll(
+        group,
+        body.shapes.map((shape) => shapeMesh(shape, material)),
+      );
+      return { group, motion: new Motion(body, numbers) };
+    });
+    for (const limb of this.limbs) {
+      this.group.add(limb.group);
+    }
+  }
+
+  recolor(colors: Palette): void {
+    for (const { material, side } of this.materials) {
+      material.color.copy(limbColor(colors, side));
+    }
+  }
+
+  /** Takes the pose of a frame; a body in a gap is not drawn. */
+  pose(frame: number): void {
+    for (const { group, motion } of this.limbs) {
+      group.visible = motion.at(frame, group.position, group.quaternion);
+    }
+  }
+}

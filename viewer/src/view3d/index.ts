@@ -1,0 +1,187 @@
+import { Vector3 } from "three";
+import type { Clock } from "../clock";
+import type { Page, View } from "../contract";
+import type { Numbers } from "../numbers";
+import { onThemeChange, theme } from "../style";
+import { type CameraKind, CameraRig } from "./camera";
+import { say } from "./empty";
+import { listen, touchAction } from "./gestures";
+import { addAll, release } from "./layers";
+import { FIRST_OPTIONS, type ViewOptions } from "./options";
+import { palette } from "./palette";
+import { Stage } from "./stage";
+import { toggleBar, togglesOf } from "./toggles";
+import { World } from "./world";
+import "../css/view3d.css";
+
+export type { CameraKind } from "./camera";
+export type { ViewOptions } from "./options";
+
+/** The figure in 3-D. */
+export interface View3D {
+  /** Whether there is a picture; else a sentence stands in its place. */
+  readonly drawn: boolean;
+  /** Whether another session can be shown as a ghost. */
+  readonly ghosts: boolean;
+  /** What is shown now; not to be changed. */
+  readonly options: Readonly<ViewOptions>;
+  setCamera(kind: CameraKind): void;
+  /** Shows or hides parts. */
+  setOptions(options: Partial<ViewOptions>): void;
+  /** The picture of now as a PNG data URL; empty if there is none. */
+  still(): string;
+  dispose(): void;
+}
+
+const NO_WEBGL =
+  "This browser offers no WebGL, so the figure cannot be shown in 3-D; curves and tables do not need it.";
+const NO_VIEW = "There is no figure to be shown: the report holds no poses of a body.";
+
+/** Puts a canvas into the host and keeps it at the clock's time. */
+export function createView(host: HTMLElement, page: Page, numbers: Numbers, clock: Clock): View3D {
+  const view = page.sessions[0]?.view;
+  if (!view || view.bodies.length === 0) {
+    return nothing(host, NO_VIEW);
+  }
+  try {
+    return new Picture(host, page, view, numbers, clock);
+  } catch (error) {
+    console.error(error);
+    return nothing(host, NO_WEBGL);
+  }
+}
+
+class Picture implements View3D {
+  readonly drawn = true;
+  readonly ghosts: boolean;
+  readonly options: ViewOptions = { ...FIRST_OPTIONS };
+  private readonly canvas = document.createElement("canvas");
+  private readonly toggles: ReturnType<typeof toggleBar>;
+  private readonly world: World;
+  private readonly stage: Stage;
+  private readonly rig: CameraRig;
+  private readonly place = new Vector3();
+  private width = 0;
+  private height = 0;
+  private readonly endings: (() => void)[];
+
+  constructor(
+    private readonly host: HTMLElement,
+    page: Page,
+    view: View,
+    numbers: Numbers,
+    private readonly clock: Clock,
+  ) {
+    const session = page.sessions[0] as Page["sessions"][number];
+    this.world = new World(page, session, view, numbers);
+    this.ghosts = this.world.ghosts.length > 0;
+    this.stage = new Stage(this.canvas, this.world.height, () => this.now());
+    addAll(
+      this.stage.scene,
+      this.world.parts.map((part) => part.group),
+    );
+    this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
+    this.attach(session.name);
+    this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    host.append(this.toggles.bar);
+    this.world.show(this.options);
+    this.recolor();
+    this.world.pose(clock.time, this.place);
+    this.rig.follow(this.place);
+    this.measure();
+    this.setCamera("side");
+    this.endings = this.listeners();
+  }
+
+  setCamera(kind: CameraKind): void {
+    this.rig.set(kind);
+    touchAction(this.canvas, this.rig);
+    this.stage.invalidate();
+  }
+
+  setOptions(options: Partial<ViewOptions>): void {
+    Object.assign(this.options, options);
+    this.world.show(this.options);
+    this.toggles.refresh();
+    this.stage.invalidate();
+  }
+
+  still(): string {
+    this.stage.draw();
+    return this.canvas.toDataURL("image/png");
+  }
+
+  dispose(): void {
+    for (const end of this.endings) {
+      end();
+    }
+    release(this.stage.scene);
+    this.rig.controls.dispose();
+    this.stage.dispose();
+    this.canvas.remove();
+    this.toggles.bar.remove();
+  }
+
+  /** Everything in its place for the next picture. */
+  private now(): CameraRig {
+    this.world.pose(this.clock.time, this.place);
+    this.rig.follow(this.place);
+    this.stage.follow(this.place);
+    return this.rig;
+  }
+
+  private attach(name: string): void {
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute(
+      "aria-label",
+      `Figure of ${name} in 3-D with the forces of the ground. Keys a, d, w, s turn it, e and q zoom.`,
+    );
+    Object.assign(this.canvas.style, { display: "block", width: "100%", height: "100%" });
+    this.host.append(this.canvas);
+  }
+
+  private listeners(): (() => void)[] {
+    const changed = (): void => this.stage.invalidate();
+    const sizes = new ResizeObserver(() => this.measure() && this.stage.draw());
+    sizes.observe(this.host);
+    return [
+      () => sizes.disconnect(),
+      this.clock.subscribe(changed),
+      onThemeChange(() => this.recolor()),
+      listen(this.canvas, this.rig, changed),
+    ];
+  }
+
+  private recolor(): void {
+    const colors = palette(theme() === "dark", this.ghosts);
+    this.world.recolor(colors);
+    this.stage.recolor(colors);
+    this.stage.invalidate();
+  }
+
+  /** Takes the size of the host; whether it is another. An emptied canvas has to be drawn at once, or it flickers. */
+  private measure(): boolean {
+    const { clientWidth, clientHeight } = this.host;
+    const changed = clientWidth !== this.width || clientHeight !== this.height;
+    if (changed && clientWidth > 0 && clientHeight > 0) {
+      [this.width, this.height] = [clientWidth, clientHeight];
+      this.stage.resize(clientWidth, clientHeight);
+      this.rig.resize(clientWidth, clientHeight);
+    }
+    return changed;
+  }
+}
+
+function nothing(host: HTMLElement, sentence: string): View3D {
+  const paragraph = say(host, sentence);
+  return {
+    drawn: false,
+    ghosts: false,
+    options: FIRST_OPTIONS,
+    setCamera() {},
+    setOptions() {},
+    still: () => "",
+    dispose: () => paragraph.remove(),
+  };
+}

@@ -1,0 +1,35 @@
+import type { TimeAxis } from "../contract";
+
+/** The uniform instants of a session, and numbers between them. */
+export class Timeline {
+  readonly start: number;
+  readonly step: number;
+  readonly frames: number;
+
+  constructor(axis: TimeAxis) {
+    this.start = axis.start_s;
+    this.step = axis.step_s;
+    this.frames = axis.frames;
+  }
+
+  /** Time of the last frame [s]. */
+  get end(): number {
+    return this.start + this.step * Math.max(0, this.frames - 1);
+  }
+
+  /** Frame at a time [s], with its fraction, within the recording. */
+  frameAt(time: number): number {
+    const frame = this.step > 0 ? (time - this.start) / this.step : 0;
+    return Math.min(Math.max(frame, 0), Math.max(0, this.frames - 1));
+  }
+}
+
+/** A number between two frames on a straight line; not a number beside a gap. */
+export function sample(values: Float64Array, frame: number): number {
+  const before = Math.floor(frame);
+  const part = frame - before;
+  const first = values[before] ?? Number.NaN;
+  if (part < 1e-6) return first;
+  const second = values[before + 1] ?? Number.NaN;
+  return first + (second - first) * part;
+}

@@ -1,0 +1,48 @@
+import type { View } from "../contract";
+import { button, element } from "../element";
+import type { ViewOptions } from "./options";
+
+/** A word for the reader and what it shows. */
+interface Toggle {
+  readonly word: string;
+  readonly hint: string;
+  readonly keys: readonly (keyof ViewOptions)[];
+}
+
+const FORCES: Toggle = { word: "Forces", hint: "Arrows of the ground's forces", keys: ["forces"] };
+const MOMENTS: Toggle = { word: "Moments", hint: "Arcs of the joint moments", keys: ["torques"] };
+const SOLES: Toggle = { word: "Soles", hint: "Centre of pressure and points that carry", keys: ["trail", "contacts"] };
+const GHOST: Toggle = { word: "Ghost", hint: "Figure of the session compared with", keys: ["ghost"] };
+
+/** What of a view can be shown or hidden. */
+export function togglesOf(view: View, ghosts: boolean): Toggle[] {
+  return [
+    ...(view.forces.length > 0 ? [FORCES] : []),
+    ...(view.torques.length > 0 ? [MOMENTS] : []),
+    ...(view.forces.length + view.contacts.length > 0 ? [SOLES] : []),
+    ...(ghosts ? [GHOST] : []),
+  ];
+}
+
+/** Buttons in a corner of the picture that show and hide parts of it; `refresh` after the options changed. */
+export function toggleBar(
+  toggles: Toggle[],
+  now: ViewOptions,
+  choose: (options: Partial<ViewOptions>) => void,
+): { readonly bar: HTMLElement; refresh(): void } {
+  const shown = ({ keys }: Toggle): boolean => keys.every((key) => now[key]);
+  const buttons = toggles.map((toggle) => {
+    const flip = (): void => choose(Object.fromEntries(toggle.keys.map((key) => [key, !shown(toggle)])));
+    const made = button(toggle.word, toggle.word, flip);
+    made.title = toggle.hint;
+    return [toggle, made] as const;
+  });
+  const refresh = (): void => {
+    for (const [toggle, made] of buttons) {
+      made.setAttribute("aria-pressed", String(shown(toggle)));
+    }
+  };
+  refresh();
+  const attributes = { class: "view-toggles", role: "group", "aria-label": "Shown in the picture" };
+  return { bar: element("div", attributes, ...buttons.map(([, made]) => made)), refresh };
+}

@@ -1,0 +1,155 @@
+import { BufferAttribute, BufferGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
+import type { View, ViewForce } from "../contract";
+import { OVER, onLayer } from "./layers";
+import { type Palette, sideColor } from "./palette";
+import type { SeriesReader } from "./reader";
+
+/** Radius of the line [m] and of the present point. */
+const LINE_M = 0.006;
+const POINT_M = 0.013;
+/** Corners around the line. */
+const SIDES = 6;
+/** Longest jump between two frames that is still one trail [m]. */
+const JUMP_M = 0.15;
+
+/** First frame of the contact that a frame is in: all from there on have a point; -1 out of contact. */
+export function contactStart(x: Float64Array, frame: number): number {
+  if (!Number.isFinite(x[frame] ?? Number.NaN)) {
+    return -1;
+  }
+  let first = frame;
+  while (first > 0 && Number.isFinite(x[first - 1] ?? Number.NaN)) {
+    first -= 1;
+  }
+  return first;
+}
+
+/** Corners of rings around points on the floor, `SIDES` for each, and how strong each ring is: 0.08 at the oldest point, 1 at the last. */
+export function rings(
+  points: [number, number][],
+  radius: number,
+): { corners: [number, number, number][]; strength: number[] } {
+  const corners: [number, number, number][] = [];
+  const strength: number[] = [];
+  for (const [index, point] of points.entries()) {
+    const before = points[Math.max(0, index - 1)] ?? point;
+    const after = points[Math.min(points.length - 1, index + 1)] ?? point;
+    const [x, z] = [after[0] - before[0], after[1] - before[1]];
+    const length = Math.hypot(x, z) || 1;
+    for (let side = 0; side < SIDES; side += 1) {
+      const angle = (2 * Math.PI * side) / SIDES;
+      const across = radius * Math.cos(angle);
+      corners.push([point[0] - (z / length) * across, radius * Math.sin(angle), point[1] + (x / length) * across]);
+    }
+    strength.push(0.08 + (0.92 * (index + 1)) / points.length);
+  }
+  return { corners, strength };
+}
+
+interface Track {
+  source: ViewForce;
+  x: Float64Array;
+  z: Float64Array;
+  line: Mesh<BufferGeometry, MeshBasicMaterial>;
+  point: Mesh<SphereGeometry, MeshBasicMaterial>;
+}
+
+/** Where the centres of pressure of the present contacts have been. */
+export class Trail {
+  readonly group = new Group();
+  private readonly tracks: Track[];
+
+  constructor(
+    view: View,
+    numbers: SeriesReader,
+    private readonly floor: number,
+  ) {
+    this.tracks = view.forces
+      .filter((force) => force.role === "main")
+      .map((source) => track(source, numbers.read(source.point[0]), numbers.read(source.point[2])));
+    for (const { line, point } of this.tracks) {
+      this.group.add(line, point);
+    }
+    onLayer(this.group, OVER);
+  }
+
+  recolor(colors: Palette): void {
+    for (const { source, line, point } of this.tracks) {
+      line.material.color.copy(sideColor(colors, source.side));
+      point.material.color.copy(sideColor(colors, source.side));
+    }
+  }
+
+  pose(frame: number): void {
+    for (const one of this.tracks) {
+      const points = trailPoints(one.x, one.z, Math.floor(frame));
+      one.line.visible = points.length > 1;
+      one.point.visible = points.length > 0;
+      const last = points[points.length - 1];
+      if (last) {
+        one.point.position.set(last[0], this.floor, last[1]);
+      }
+      if (points.length > 1) {
+        fill(one.line.geometry, points, this.floor);
+      }
+    }
+  }
+}
+
+/** Points of the contact up to a frame, after the last jump. */
+export function trailPoints(x: Float64Array, z: Float64Array, frame: number): [number, number][] {
+  const start = contactStart(x, frame);
+  const points: [number, number][] = [];
+  for (let index = start; start >= 0 && index <= frame; index += 1) {
+    const point: [number, number] = [x[index] ?? Number.NaN, z[index] ?? Number.NaN];
+    const last = points[points.length - 1];
+    if (last && Math.hypot(point[0] - last[0], point[1] - last[1]) > JUMP_M) {
+      points.length = 0;
+    }
+    points.push(point);
+  }
+  return points;
+}
+
+function track(source: ViewForce, x: Float64Array, z: Float64Array): Track {
+  const line = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ transparent: true, vertexColors: true }));
+  line.frustumCulled = false;
+  const point = new Mesh(new SphereGeometry(POINT_M, 20, 14), new MeshBasicMaterial());
+  return { source, x, z, line, point };
+}
+
+function fill(geometry: BufferGeometry, points: [number, number][], height: number): void {
+  const { corners, strength } = rings(points, LINE_M);
+  const position = room(geometry, points.length);
+  const color = geometry.getAttribute("color") as BufferAttribute;
+  for (const [index, [x, y, z]] of corners.entries()) {
+    position.setXYZ(index, x, height + y, z);
+    color.setXYZW(index, 1, 1, 1, strength[Math.floor(index / SIDES)] ?? 0);
+  }
+  position.needsUpdate = true;
+  color.needsUpdate = true;
+  geometry.setDrawRange(0, 6 * SIDES * (points.length - 1));
+}
+
+/** The corners' buffer, with room for so many rings. */
+function room(geometry: BufferGeometry, count: number): BufferAttribute {
+  const known = geometry.getAttribute("position") as BufferAttribute | undefined;
+  if (known && known.count >= count * SIDES) {
+    return known;
+  }
+  const most = Math.max(64, 2 * count);
+  const position = new BufferAttribute(new Float32Array(3 * SIDES * most), 3);
+  const index: number[] = [];
+  for (let ring = 0; ring + 1 < most; ring += 1) {
+    for (let side = 0; side < SIDES; side += 1) {
+      const a = ring * SIDES + side;
+      const b = ring * SIDES + ((side + 1) % SIDES);
+      index.push(a, b, a + SIDES, b, b + SIDES, a + SIDES);
+    }
+  }
+  geometry.dispose();
+  geometry.setAttribute("position", position);
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(4 * SIDES * most), 4));
+  geometry.setIndex(index);
+  return position;
+}

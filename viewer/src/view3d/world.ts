@@ -1,0 +1,109 @@
+import { Vector3 } from "three";
+import type { Page, Session, View } from "../contract";
+import { arrowScale } from "./arrow";
+import { Contacts } from "./contacts";
+import { type Extent, extentOf, union } from "./extent";
+import { Figure } from "./figure";
+import { Floor } from "./floor";
+import { Forces } from "./forces";
+import { Ghost } from "./ghost";
+import { Obstacles } from "./obstacles";
+import type { ViewOptions } from "./options";
+import type { Palette } from "./palette";
+import { Path } from "./path";
+import { type Gait, gaitOf } from "./phase";
+import { Plates } from "./plates";
+import type { SeriesReader } from "./reader";
+import { Ruler } from "./ruler";
+import { Torques } from "./torques";
+import { Trail } from "./trail";
+
+/** Everything that is seen, at a time. */
+export class World {
+  readonly path: Path;
+  private readonly extent: Extent;
+  readonly ghosts: Ghost[];
+  private readonly gait: Gait;
+  private readonly figure: Figure;
+  private readonly floor: Floor;
+  private readonly forces: Forces;
+  private readonly torques: Torques;
+  private readonly trail: Trail;
+  private readonly contacts: Contacts;
+  private readonly still: (Plates | Obstacles | Ruler)[];
+  private readonly hips = new Vector3();
+
+  constructor(
+    page: Page,
+    session: Session,
+    private readonly view: View,
+    numbers: SeriesReader,
+  ) {
+    this.gait = gaitOf(session);
+    const { timeline } = this.gait;
+    this.path = new Path(view, numbers, timeline);
+    this.extent = extentOf(view, numbers, this.path, timeline);
+    const height = this.height;
+    this.figure = new Figure(view, numbers);
+    this.floor = new Floor(view.floor_m);
+    this.forces = new Forces(view, numbers, height, arrowScale(height, view.weight_n));
+    this.torques = new Torques(view, numbers, session.feasibility?.red ?? [], height);
+    this.trail = new Trail(view, numbers, view.floor_m);
+    this.contacts = new Contacts(view, height, view.floor_m);
+    const [from, to] = [0, timeline.frames - 1].map((frame) => this.path.smooth(frame, new Vector3()));
+    const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
+    this.still = [new Plates(view), new Obstacles(view), ruler];
+    this.ghosts = page.sessions.flatMap((other, index) =>
+      index > 0 && other.view ? [new Ghost(other, other.view, numbers, this.path.heading, height, index)] : [],
+    );
+  }
+
+  /** All that has colours and stands in the scene. */
+  get parts(): (Figure | Floor | Forces | Torques | Trail | Contacts | Ghost | Plates | Obstacles | Ruler)[] {
+    const { figure, floor, forces, torques, trail, contacts } = this;
+    return [figure, floor, forces, torques, trail, contacts, ...this.ghosts, ...this.still];
+  }
+
+  /** Room for the figure with its ghosts. */
+  get room(): Extent {
+    return this.ghosts.reduce((room, ghost) => union(room, ghost.extentOn(this.view.floor_m)), this.extent);
+  }
+
+  /** Height of the figure [m]. */
+  get height(): number {
+    return this.extent.top - this.view.floor_m;
+  }
+
+  recolor(colors: Palette): void {
+    for (const part of this.parts) {
+      part.recolor(colors);
+    }
+  }
+
+  show(options: ViewOptions): void {
+    this.forces.group.visible = options.forces;
+    this.torques.group.visible = options.torques;
+    this.trail.group.visible = options.trail;
+    this.contacts.group.visible = options.contacts;
+    for (const ghost of this.ghosts) {
+      ghost.show(options);
+    }
+  }
+
+  /** Everything as it is at a time [s]; `place` becomes the figure's place on the floor. */
+  pose(time: number, place: Vector3): void {
+    const frame = this.gait.timeline.frameAt(time);
+    this.path.smooth(frame, place);
+    this.floor.follow(place);
+    this.figure.pose(frame);
+    this.forces.pose(frame);
+    this.torques.pose(frame, time, this.figure);
+    this.trail.pose(frame);
+    this.contacts.pose(frame, this.figure, this.forces);
+    if (this.ghosts.length > 0 && this.path.hips(frame, this.hips)) {
+      for (const ghost of this.ghosts) {
+        ghost.pose(time, this.gait, this.hips, this.view.floor_m);
+      }
+    }
+  }
+}

@@ -1,0 +1,138 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Page } from "../src/contract";
+import { type Drawing, drawing, type PanelSource, valueRange } from "../src/drawing";
+import { Numbers } from "../src/numbers";
+import { readings } from "../src/reading";
+import { Block } from "./block";
+import { samplePage, type Variant } from "./sample";
+
+const WHOLE: Variant = { name: "one", scale: 1, cycles: true, red: true };
+const BOTH = { axis: "cycle", sides: ["r", "l"] } as const;
+
+async function pageOf(...variants: Variant[]): Promise<{ page: Page; numbers: Numbers }> {
+  const block = new Block();
+  const page = samplePage(block, variants);
+  return { page, numbers: await Numbers.decode(block.encode()) };
+}
+
+function sourcesOf(page: Page, id: string): PanelSource[] {
+  return page.sessions.flatMap((session, index) => {
+    const groups = [...session.groups, ...session.quality.groups];
+    const panel = groups.flatMap((group) => group.panels).find((one) => one.id === id);
+    return panel ? [{ index, session, panel }] : [];
+  });
+}
+
+const count = (of: Drawing | null, role: string): number => of?.lines.filter((line) => line.role === role).length ?? 0;
+
+test("every cycle, a mean a side, the band and toe-offs are drawn over the cycle", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
+  assert.equal(count(now, "cycle"), 5);
+  assert.equal(count(now, "mean"), 2);
+  assert.deepEqual(
+    now?.areas.map((area) => area.kind),
+    ["band"],
+  );
+  assert.deepEqual(
+    now?.marks.map((mark) => mark.x),
+    [61.6, 63.2],
+  );
+  assert.deepEqual(now?.x, [0, 100]);
+});
+
+test("a side alone leaves out the other one", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const now = drawing(sourcesOf(page, "knee_flexion"), numbers, { axis: "cycle", sides: ["l"] });
+  assert.equal(count(now, "mean"), 1);
+  assert.ok(now?.lines.every((line) => line.side === "l"));
+});
+
+test("of several sessions the means are drawn", async () => {
+  const { page, numbers } = await pageOf(WHOLE, { ...WHOLE, name: "two", scale: 1.2 });
+  const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
+  assert.equal(count(now, "cycle"), 0);
+  assert.deepEqual(
+    now?.lines.map((line) => line.session),
+    [0, 0, 1, 1],
+  );
+  assert.equal(now?.areas.length, 1);
+});
+
+test("without cycles the panel is over time, with deviations and events", async () => {
+  const { page, numbers } = await pageOf({ ...WHOLE, cycles: false });
+  const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
+  assert.equal(now?.axis, "time");
+  assert.equal(count(now, "main"), 2);
+  assert.deepEqual(
+    now?.areas.map((area) => area.kind),
+    ["deviation", "deviation"],
+  );
+  assert.equal(now?.marks.length, page.sessions[0]?.events.length);
+  assert.equal(now?.x[0], page.sessions[0]?.time.start_s);
+});
+
+test("red spans shade the time and redden the curve of their side only", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const now = drawing(sourcesOf(page, "ankle_moment"), numbers, { ...BOTH, axis: "time" });
+  assert.equal(now?.shades.length, 2);
+  const red = now?.lines.filter((line) => line.role === "infeasible") ?? [];
+  assert.deepEqual(
+    red.map((line) => line.side),
+    ["r"],
+  );
+  const times = red.flatMap((line) => [...line.x].filter((_, i) => Number.isFinite(line.y[i])));
+  assert.ok(times.length > 20);
+  assert.ok(times.every((t) => (t >= 1.299 && t <= 1.441) || (t >= 2.399 && t <= 2.521)));
+});
+
+test("over the cycle the red part lies where the span is", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const now = drawing(sourcesOf(page, "ankle_moment"), numbers, BOTH);
+  const red = now?.lines.filter((line) => line.role === "infeasible") ?? [];
+  // The spans 1.30-1.44 s and 2.40-2.52 s, the right cycles from 0.45 s on with 1.12 s each.
+  assert.deepEqual(
+    red.map((line) => line.cycle),
+    [1, 2],
+  );
+  const percents = [...(red[0]?.y ?? [])].flatMap((value, i) => (Number.isFinite(value) ? [i] : []));
+  assert.deepEqual([percents[0], percents.at(-1)], [76, 88]);
+});
+
+test("an empty panel is no drawing", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  assert.equal(drawing(sourcesOf(page, "plates_predicted"), numbers, BOTH), null);
+});
+
+test("the reading is the value of the curve at the time", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const [session] = page.sessions;
+  const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
+  assert.ok(now && session);
+  const [right, left] = readings(now, session, 0.45 + 0.3 * 1.12);
+  const curve = now.lines.find((line) => line.role === "cycle" && line.side === "r" && line.cycle === 1);
+  assert.equal(right?.x?.toFixed(6), "30.000000");
+  assert.equal(right?.value, curve?.y[30]);
+  assert.deepEqual(left, { side: "l", x: null, value: undefined });
+});
+
+test("a limit far away does not squeeze the curve, one near is shown", () => {
+  const line = (role: "main" | "limit", values: number[]) => ({
+    name: "",
+    role,
+    side: null,
+    session: 0,
+    cycle: null,
+    x: Float64Array.from(values, (_, i) => i),
+    y: Float64Array.from(values),
+    origin: null,
+  });
+  const curve = line("main", [10, 20]);
+  assert.ok(valueRange([curve, line("limit", [22, 22])], [])[1] > 22);
+  assert.ok(valueRange([curve, line("limit", [90, 90])], [])[1] < 30);
+  assert.deepEqual(valueRange([line("main", [Number.NaN])], []), [-1, 1]);
+  assert.deepEqual(valueRange([line("main", [0, 0])], []), [-1, 1]);
+  assert.deepEqual(valueRange([line("main", [4, 4])], []), [2, 6]);
+  assert.equal(valueRange([line("main", [1, 9])], [])[0], 0);
+});

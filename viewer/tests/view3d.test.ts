@@ -1,0 +1,217 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Quaternion, Vector3 } from "three";
+import type { PageSide, View } from "../src/contract";
+import { arrowParts, arrowScale } from "../src/view3d/arrow";
+import { directionOf, fittingDistance } from "../src/view3d/camera";
+import { extentOf } from "../src/view3d/extent";
+import { Motion } from "../src/view3d/motion";
+import { filled, Path, smoothed } from "../src/view3d/path";
+import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
+import { marks } from "../src/view3d/ruler";
+import { sample, Timeline } from "../src/view3d/timeline";
+import { togglesOf } from "../src/view3d/toggles";
+import { arcAngle } from "../src/view3d/torques";
+import { contactStart, rings, trailPoints } from "../src/view3d/trail";
+import { ORDINARY, SampleNumbers, samplePage } from "./sample-view";
+
+const NONE = Number.NaN;
+
+function close(found: number, wanted: number, tolerance = 1e-9): void {
+  assert.ok(Math.abs(found - wanted) <= tolerance, `${found} is not ${wanted}`);
+}
+
+function gait(start: number, end: number, right: number[], left: number[] = []): Gait {
+  const strikes: Record<PageSide, number[]> = { r: right, l: left };
+  return {
+    timeline: new Timeline({ start_s: start, step_s: 0.01, frames: Math.round((end - start) / 0.01) + 1 }),
+    strikes,
+  };
+}
+
+test("frames between instants, held at the ends", () => {
+  const timeline = new Timeline({ start_s: 2, step_s: 0.01, frames: 101 });
+  close(timeline.end, 3);
+  close(timeline.frameAt(2.005), 0.5);
+  close(timeline.frameAt(0), 0);
+  close(timeline.frameAt(9), 100);
+});
+
+test("a number beside a gap is none, one on an instant is itself", () => {
+  const values = Float64Array.of(1, 3, NONE, 5);
+  close(sample(values, 0.25), 1.5);
+  close(sample(values, 1), 3);
+  assert.ok(Number.isNaN(sample(values, 1.5)));
+  assert.ok(Number.isNaN(sample(values, 2)));
+  close(sample(values, 3), 5);
+});
+
+test("poses turn on great arcs and are missing in gaps", () => {
+  const numbers = new SampleNumbers();
+  const half = Math.SQRT1_2;
+  const of = (...values: number[]) => numbers.add(values);
+  const motion = new Motion(
+    {
+      name: "b",
+      side: null,
+      shapes: [],
+      position: [of(0, 2, 4), of(1, 1, NONE), of(0, 0, 0)],
+      rotation: [of(0, 0, 0), of(0, 0, 0), of(0, half, 1), of(1, half, 0)],
+    },
+    numbers,
+  );
+  const place = new Vector3();
+  const turn = new Quaternion();
+  assert.equal(motion.at(0.5, place, turn), true);
+  close(place.x, 1, 1e-4);
+  close(2 * Math.atan2(turn.z, turn.w), Math.PI / 4, 1e-4);
+  assert.equal(motion.at(1.5, place, turn), false);
+});
+
+test("the same phase: strikes of the same foot fall together", () => {
+  const main = gait(0, 4, [0.5, 1.5, 2.5]);
+  const slow = gait(0, 9, [1, 3, 5, 7]);
+  close(matchingTime(0.5, main, slow), 1);
+  close(matchingTime(1.0, main, slow), 2);
+  close(matchingTime(2.5, main, slow), 5);
+  close(matchingTime(3.0, main, slow), 6);
+});
+
+test("beyond its recording a ghost walks on from its first cycle", () => {
+  const main = gait(0, 6, [0.5, 1.5, 2.5, 3.5, 4.5]);
+  const short = gait(0, 2.2, [0.1, 1.1, 2.1]);
+  close(matchingTime(3.0, main, short), 0.6);
+  const found = matchingTime(0.1, main, short);
+  assert.ok(found >= 0 && found <= 2.2, `${found}`);
+});
+
+test("a session compared with itself stands in itself at all times", () => {
+  const [session] = samplePage(new SampleNumbers()).sessions;
+  assert.ok(session);
+  const own = gaitOf(session);
+  for (const time of [0, 0.3, 1.7, 3.99]) {
+    close(matchingTime(time, own, own), time);
+  }
+});
+
+test("without cycles the same time from the start", () => {
+  const main = gait(2, 4, []);
+  const other = gait(7, 8, [7.1, 7.9]);
+  close(matchingTime(2.5, main, other), 7.5);
+  close(matchingTime(3.9, main, other), 8);
+});
+
+test("the left foot leads where only it has cycles in both", () => {
+  close(matchingTime(1, gait(0, 3, [0.2], [1, 2]), gait(0, 3, [0, 1], [0.5, 1.5])), 0.5);
+});
+
+test("one body weight is an arrow of 0.55 heights", () => {
+  close(arrowScale(1.8, 800) * 800, 0.99);
+  assert.equal(arrowScale(1.8, 0), 0);
+});
+
+test("heads of short arrows shrink, lengths stay", () => {
+  const long = arrowParts(1, 0.01);
+  close(long.head, 0.065);
+  const short = arrowParts(0.05, 0.01);
+  close(short.shaft + short.head, 0.05);
+  assert.ok(short.headRadius < long.headRadius);
+});
+
+test("arcs grow with the moment up to a full one and keep its sign", () => {
+  assert.equal(arcAngle(0.01), 0);
+  assert.equal(arcAngle(NONE), 0);
+  close(arcAngle(-0.8), -arcAngle(0.8));
+  close(arcAngle(5), arcAngle(1.6));
+  assert.ok(arcAngle(1.2) > arcAngle(0.6));
+});
+
+test("a trail begins with its contact and after the last jump", () => {
+  const x = Float64Array.of(9, NONE, 1, 1.01, 1.02, 2, 2.01);
+  const z = x.map(() => 0);
+  assert.equal(contactStart(x, 4), 2);
+  assert.equal(contactStart(x, 1), -1);
+  assert.deepEqual(
+    trailPoints(x, z, 4).map(([a]) => a),
+    [1, 1.01, 1.02],
+  );
+  assert.deepEqual(
+    trailPoints(x, z, 6).map(([a]) => a),
+    [2, 2.01],
+  );
+  assert.deepEqual(trailPoints(x, z, 1), []);
+});
+
+test("the trail's line lies around its points and fades backwards", () => {
+  const { corners, strength } = rings(
+    [
+      [0, 0],
+      [1, 0],
+      [2, 0],
+    ],
+    0.2,
+  );
+  assert.deepEqual(corners[0], [0, 0, 0.2]);
+  assert.equal(corners.length, 18);
+  assert.ok(corners.every(([, y, z]) => Math.abs(Math.hypot(y, z) - 0.2) < 1e-9));
+  assert.ok((strength[0] ?? 1) < (strength[2] ?? 0));
+  close(strength[2] ?? 0, 1);
+});
+
+test("gaps of the way are bridged, sway is smoothed, travel is not", () => {
+  assert.deepEqual([...filled(Float64Array.of(NONE, 1, NONE, 3, NONE))], [1, 1, 2, 3, 3]);
+  assert.deepEqual([...filled(Float64Array.of(NONE, NONE))], [0, 0]);
+  const ramp = Float64Array.from({ length: 50 }, (_, index) => 0.1 * index);
+  for (const [index, value] of smoothed(ramp, 8).entries()) {
+    close(value, ramp[index] ?? NONE);
+  }
+  const sway = ramp.map((_, index) => (index % 2 === 0 ? 1 : -1));
+  close(smoothed(sway, 8)[25] ?? NONE, 0, 0.1);
+});
+
+test("the sample goes to +x and fits its extent", () => {
+  const numbers = new SampleNumbers();
+  const [session] = samplePage(numbers).sessions;
+  assert.ok(session?.view);
+  const timeline = new Timeline(session.time);
+  const path = new Path(session.view, numbers, timeline);
+  close(path.heading.x, 1, 1e-6);
+  const extent = extentOf(session.view, numbers, path, timeline);
+  assert.ok(extent.top > 1.5 && extent.top < 2, `${extent.top}`);
+  assert.ok(extent.along < 1 && extent.across < 0.5);
+});
+
+test("walking on the spot looks where the pelvis looks", () => {
+  const numbers = new SampleNumbers();
+  const [session] = samplePage(numbers, [{ ...ORDINARY, speed: 0 }]).sessions;
+  assert.ok(session?.view);
+  close(new Path(session.view, numbers, new Timeline(session.time)).heading.x, 1, 1e-6);
+});
+
+test("from the side the way goes to the right of the picture", () => {
+  for (const heading of [new Vector3(1, 0, 0), new Vector3(0, 0, -1), new Vector3(-1, 0, 0)]) {
+    const towards = directionOf("side", heading);
+    const right = new Vector3(0, 1, 0).cross(towards).normalize();
+    assert.ok(right.dot(heading) > 0.99);
+    assert.ok(directionOf("front", heading).dot(heading) > 0.9);
+  }
+});
+
+test("the narrower side of a picture decides about the distance", () => {
+  close(fittingDistance(1, 0.1, 0, 1), fittingDistance(1, 0.5, 0, 2));
+  assert.ok(fittingDistance(1, 0.8, 0, 0.4) > fittingDistance(1, 0.1, 0, 0.4));
+});
+
+test("metres get fewer marks on a long way", () => {
+  assert.deepEqual(marks(-0.5, 2.2, 20), [0, 1, 2]);
+  const long = marks(0, 1000, 20);
+  assert.ok(long.length <= 21 && long[1] === 100);
+});
+
+test("only what there is can be shown or hidden", () => {
+  const [session] = samplePage(new SampleNumbers()).sessions;
+  assert.ok(session?.view);
+  const words = (view: View, ghosts: boolean) => togglesOf(view, ghosts).map(({ word }) => word);
+  assert.deepEqual(words(session.view, false), ["Forces", "Moments", "Soles"]);
+  assert.deepEqual(words({ ...session.view, forces: [], torques: [], contacts: [] }, true), ["Ghost"]);
+});
