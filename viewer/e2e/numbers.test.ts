@@ -22,11 +22,12 @@ interface Drawn {
   same: boolean;
 }
 
-/** Reads every curve that says where it comes from out of the page, on both axes. */
-async function curvesOf(name: string): Promise<Drawn[]> {
-  let found: Drawn[] = [];
+/** Reads every curve that says where it comes from out of the page, on both axes; and which panels have none of these. */
+async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string[] }> {
+  let curves: Drawn[] = [];
+  let untold: string[] = [];
   await withPage(name, async ({ page }) => {
-    found = await page.evaluate(() => {
+    curves = await page.evaluate(() => {
       const { page: data, numbers, display } = window.ambulo;
       const [session] = data.sessions;
       if (!session) {
@@ -55,8 +56,16 @@ async function curvesOf(name: string): Promise<Drawn[]> {
       }
       return out;
     });
+    untold = await page.evaluate(() => {
+      const [session] = window.ambulo.page.sessions;
+      const panels = [...(session?.groups ?? []), ...(session?.quality.groups ?? [])].flatMap((group) => group.panels);
+      const tells = (curve: { origin: unknown }): boolean => curve.origin !== null;
+      return panels
+        .filter((panel) => panel.empty === null && ![...panel.cycles, ...panel.traces].some(tells))
+        .map((panel) => panel.id);
+    });
   });
-  return found;
+  return { curves, untold };
 }
 
 /** Compares the curves of a page with the files beside it; returns how many numbers agree. */
@@ -64,7 +73,8 @@ async function compare(name: string): Promise<{ curves: number; numbers: number 
   const tables = new Map<string, Map<string, Column>>();
   const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
   let count = 0;
-  const curves = await curvesOf(name);
+  const { curves, untold } = await curvesOf(name);
+  assert.deepEqual(untold, [], "panels without a curve of a file");
   for (const curve of curves) {
     const where = `${curve.panel} ${curve.file} ${curve.column} ${curve.side} ${curve.cycle ?? ""}`;
     if (!tables.has(curve.file) && curve.file !== "cycles.csv") {
