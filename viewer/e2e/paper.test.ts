@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { DESKTOP, drawn, PHONE, SHOTS, withPage } from "./page";
+import { SHOTS, withPage } from "./page";
 
 /** A4 in points. */
 const A4 = { width: 595, height: 842 };
@@ -27,23 +27,3 @@ test("prints on A4 with the figure as a still", async () => {
     assert.ok(still > 100, `the still is ${still} pixels wide`);
   });
 });
-
-for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
-  for (const colorScheme of ["light", "dark"] as const) {
-    test(`${device}, ${colorScheme}: nothing is wider than the window`, async () => {
-      mkdirSync(SHOTS, { recursive: true });
-      for (const name of ["demo", "infeasible", "compared", "predicted"]) {
-        await withPage(
-          name,
-          async ({ page }) => {
-            await drawn(page);
-            const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-            assert.ok(wide <= viewport.width, `${name} is ${wide} wide`);
-            await page.screenshot({ path: join(SHOTS, `${name}-${device}-${colorScheme}.png`) });
-          },
-          { viewport, colorScheme },
-        );
-      }
-    });
-  }
-}

@@ -14,15 +14,21 @@ use std::time::{Duration, Instant};
 const PICTURES: [&str; 1] = ["moments"];
 /// Names under which Chromium is installed, in the order in which they are tried.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+/// CSS pixels in a millimetre: 96 in an inch.
+const PIXELS_A_MILLIMETRE: f64 = 96.0 / 25.4;
 /// Chromium takes about a second; after this it hangs.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Pause between two looks at whether Chromium has ended.
 const PAUSE: Duration = Duration::from_millis(20);
-/// Quiet, offline, no sandbox (containers forbid it), two picture points for each SVG unit.
-const FLAGS: [&str; 8] = [
+/// What of the report page is shown [CSS pixels].
+const PAGE: [u32; 2] = [1400, 1000];
+/// Quiet, offline, no sandbox (containers forbid it), three dimensions in software, time to draw a page, two picture points for each unit.
+const FLAGS: [&str; 10] = [
     "--headless=new",
     "--no-sandbox",
-    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--virtual-time-budget=6000",
     "--disable-quic",
     "--no-first-run",
     "--disable-background-networking",
@@ -51,9 +57,12 @@ pub(crate) fn run() -> Result<(), String> {
     for name in PICTURES {
         let svg = folder.join("figures").join(name).with_extension("svg");
         let png = images.join(name).with_extension("png");
-        draw(browser, &svg, &png)?;
+        draw_svg(browser, &svg, &png)?;
         println!("written: {}", png.display());
     }
+    let png = images.join("report.png");
+    draw(browser, &folder.join("report.html"), PAGE, &png)?;
+    println!("written: {}", png.display());
     Ok(())
 }
 
@@ -71,11 +80,15 @@ fn find_browser() -> Result<&'static str, String> {
 }
 
 /// One SVG file as PNG.
-fn draw(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
+fn draw_svg(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
     let at = svg.display();
     let text = fs::read_to_string(svg).map_err(|e| format!("{at}: cannot read: {e}"))?;
-    let [width, height] = size(&text).map_err(|e| format!("{at}: {e}"))?;
-    let address = file_address(svg)?;
+    draw(browser, svg, size(&text).map_err(|e| format!("{at}: {e}"))?, png)
+}
+
+/// What a browser shows of a file in a window of this size, as PNG.
+fn draw(browser: &str, file: &Path, [width, height]: [u32; 2], png: &Path) -> Result<(), String> {
+    let address = file_address(file)?;
     // A profile of its own: a running Chromium would otherwise take the request and draw nothing.
     let profile = std::env::temp_dir().join(format!("ambulo-figures-{}", std::process::id()));
     let written_before = modified(png);
@@ -139,7 +152,12 @@ fn size(svg: &str) -> Result<[u32; 2], String> {
 fn length(tag: &str, name: &str) -> Result<u32, String> {
     let after = tag.split_once(&format!(" {name}=\"")).ok_or_else(|| format!("<svg> has no {name}"))?.1;
     let value = after.split('"').next().unwrap_or_default();
-    let number: f64 = value.trim_end_matches("px").parse().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
+    let (digits, pixels) = match value.strip_suffix("mm") {
+        Some(digits) => (digits, PIXELS_A_MILLIMETRE),
+        None => (value.trim_end_matches("px"), 1.0),
+    };
+    let number: f64 = digits.parse().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
+    let number = number * pixels;
     if !(number > 0.0 && number < 1e5) {
         return Err(format!("<svg {name}=\"{value}\">, expected a length above 0"));
     }
@@ -154,6 +172,7 @@ mod tests {
     fn the_size_is_that_of_the_svg_element_alone() {
         let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect width=\"5\"/></svg>";
         assert_eq!(size(svg), Ok([990, 316]));
+        assert_eq!(size("<svg width=\"25.4mm\" height=\"50.8mm\">"), Ok([96, 192]));
         let message = size("<svg stroke-width=\"2\"><rect width=\"5\" height=\"5\"/></svg>").unwrap_err();
         assert_eq!(message, "<svg> has no width");
         assert!(size("<svg width=\"100%\" height=\"5\">").unwrap_err().starts_with("<svg width=\"100%\">"));

@@ -44,10 +44,12 @@ impl Cycles {
     /// The mean over a side's cycles as a panel shows it; `None` without any.
     fn mean(&self, quantity: &ClinicalQuantity, side: Side, mass_kg: f64) -> Option<Vec<f64>> {
         let factor = quantity.factor(mass_kg, side, self.knee_sign());
-        let of_side = self.0.iter().filter(|((name, letter, _), _)| *name == quantity.column && letter == side.letter());
+        let of_side =
+            self.0.iter().filter(|((name, letter, _), _)| *name == quantity.column && letter == side.letter());
         let curves: Vec<&Vec<f64>> = of_side.map(|(_, values)| values).collect();
         let count = curves.len() as f64;
-        (!curves.is_empty()).then(|| (0..101).map(|i| factor * curves.iter().map(|c| c[i]).sum::<f64>() / count).collect())
+        (!curves.is_empty())
+            .then(|| (0..101).map(|i| factor * curves.iter().map(|c| c[i]).sum::<f64>() / count).collect())
     }
 }
 
@@ -58,7 +60,8 @@ fn figure(bench: &Workbench, name: &str) -> Figure {
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
     let (ma, mb) = (mean(a), mean(b));
-    let product = |x: &[f64], mx: f64, y: &[f64], my: f64| x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum::<f64>();
+    let product =
+        |x: &[f64], mx: f64, y: &[f64], my: f64| x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum::<f64>();
     product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }
 
@@ -108,10 +111,17 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
     // Speed of the gait `free`. What is asked of the correlation is far above what a turned sign would give.
     let speed = bench.json("out/summary.json")["walk"]["speed_dimensionless"].as_f64().unwrap();
     let alike = [
-        ("hip_flexion_angle", 0.95), ("knee_flexion_angle", 0.95), ("ankle_dorsiflexion_angle", 0.9),
-        ("hip_flexion_moment", 0.85), ("knee_flexion_moment", 0.75), ("ankle_dorsiflexion_moment", 0.9),
-        ("hip_flexion_power", 0.8), ("knee_flexion_power", 0.65), ("ankle_dorsiflexion_power", 0.8),
-        ("ground_force_vertical", 0.95), ("ground_force_fore_aft", 0.95),
+        ("hip_flexion_angle", 0.95),
+        ("knee_flexion_angle", 0.95),
+        ("ankle_dorsiflexion_angle", 0.9),
+        ("hip_flexion_moment", 0.85),
+        ("knee_flexion_moment", 0.75),
+        ("ankle_dorsiflexion_moment", 0.9),
+        ("hip_flexion_power", 0.8),
+        ("knee_flexion_power", 0.65),
+        ("ankle_dorsiflexion_power", 0.8),
+        ("ground_force_vertical", 0.95),
+        ("ground_force_fore_aft", 0.95),
     ];
     for (id, least) in alike {
         let found = with_band(&bench, id, speed);
@@ -137,8 +147,14 @@ fn frontal_and_transverse_signs_agree_with_healthy_people_on_both_sides() {
     let run = bench.run(&["forces", &markers, "--model", &model, "--grf", &forces, "--loads", &loads, "-o", "out"]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
     let alike = [
-        "pelvis_obliquity_angle", "pelvis_rotation_angle", "hip_adduction_angle", "hip_adduction_moment",
-        "hip_flexion_angle", "knee_flexion_angle", "ankle_dorsiflexion_angle", "ankle_dorsiflexion_moment",
+        "pelvis_obliquity_angle",
+        "pelvis_rotation_angle",
+        "hip_adduction_angle",
+        "hip_adduction_moment",
+        "hip_flexion_angle",
+        "knee_flexion_angle",
+        "ankle_dorsiflexion_angle",
+        "ankle_dorsiflexion_moment",
     ];
     for id in alike {
         let found = with_band(&bench, id, 0.42);
@@ -182,7 +198,11 @@ fn a_prediction_is_drawn_with_its_uncertainty_beside_the_plates() {
 fn a_trial_without_forces_or_cycles_has_the_figures_that_it_can_have() {
     let bench = Workbench::new("figures_missing");
     bench.run(&["forces", "walk.mot", "--model", "figure.osim", "--no-ground", "-o", "out"]);
-    assert!(bench.exists("out/moments.sto") && !bench.exists("out/figures/moments.svg") && !bench.exists("out/figures/quality.svg"));
+    assert!(
+        bench.exists("out/moments.sto")
+            && !bench.exists("out/figures/moments.svg")
+            && !bench.exists("out/figures/quality.svg")
+    );
     bench.forces(&["--from", "0.6", "--to", "0.9"]);
     assert!(bench.exists("out/grf.mot") && !bench.exists("out/figures/kinematics.svg"));
     assert_eq!(figure(&bench, "quality").panels.len(), 2);
@@ -193,11 +213,19 @@ fn a_models_name_does_not_get_out_of_its_text() {
     let bench = Workbench::new("figures_name");
     let text = bench.text("figure.osim");
     let name = text.split("<Model name=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap().to_owned();
-    bench.edit("figure.osim", &format!("<Model name=\"{name}\""), "<Model name=\"&lt;script&gt;alert(1)&lt;/script&gt; &amp; co\"");
+    bench.edit(
+        "figure.osim",
+        &format!("<Model name=\"{name}\""),
+        "<Model name=\"&lt;script&gt;alert(1)&lt;/script&gt; &amp; co\"",
+    );
     bench.forces(&[]);
     for name in CYCLE_FIGURES.into_iter().chain(["quality"]) {
         let figure = figure(&bench, name);
         assert!(!figure.elements.iter().any(|element| element == "script"), "{name}");
-        assert!(figure.texts.iter().any(|text| text.contains("<script>alert(1)</script> & co")), "{name}: {:?}", figure.texts);
+        assert!(
+            figure.texts.iter().any(|text| text.contains("<script>alert(1)</script> & co")),
+            "{name}: {:?}",
+            figure.texts
+        );
     }
 }

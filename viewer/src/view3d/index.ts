@@ -56,7 +56,7 @@ class Picture implements View3D {
   readonly ghosts: boolean;
   readonly options: ViewOptions = { ...FIRST_OPTIONS };
   private readonly canvas = document.createElement("canvas");
-  private readonly bar: HTMLElement;
+  private readonly toggles: ReturnType<typeof toggleBar>;
   private readonly world: World;
   private readonly stage: Stage;
   private readonly rig: CameraRig;
@@ -82,8 +82,8 @@ class Picture implements View3D {
     );
     this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
-    this.bar = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
-    host.append(this.bar);
+    this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    host.append(this.toggles.bar);
     this.world.show(this.options);
     this.recolor();
     this.world.pose(clock.time, this.place);
@@ -102,6 +102,7 @@ class Picture implements View3D {
   setOptions(options: Partial<ViewOptions>): void {
     Object.assign(this.options, options);
     this.world.show(this.options);
+    this.toggles.refresh();
     this.stage.invalidate();
   }
 
@@ -118,7 +119,7 @@ class Picture implements View3D {
     this.rig.controls.dispose();
     this.stage.dispose();
     this.canvas.remove();
-    this.bar.remove();
+    this.toggles.bar.remove();
   }
 
   /** Everything in its place for the next picture. */

@@ -24,23 +24,25 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   ];
 }
 
-/** Buttons in a corner of the picture that show and hide parts of it. */
+/** Buttons in a corner of the picture that show and hide parts of it; `refresh` after the options changed. */
 export function toggleBar(
   toggles: Toggle[],
   now: ViewOptions,
   choose: (options: Partial<ViewOptions>) => void,
-): HTMLElement {
-  const bar = element("div", { class: "view-toggles", role: "group", "aria-label": "Shown in the picture" });
-  for (const { word, hint, keys } of toggles) {
-    const shown = (): boolean => keys.every((key) => now[key]);
-    const made = button(word, word, () => {
-      const wanted = !shown();
-      choose(Object.fromEntries(keys.map((key) => [key, wanted])));
-      made.setAttribute("aria-pressed", String(shown()));
-    });
-    made.title = hint;
-    made.setAttribute("aria-pressed", String(shown()));
-    bar.append(made);
-  }
-  return bar;
+): { readonly bar: HTMLElement; refresh(): void } {
+  const shown = ({ keys }: Toggle): boolean => keys.every((key) => now[key]);
+  const buttons = toggles.map((toggle) => {
+    const flip = (): void => choose(Object.fromEntries(toggle.keys.map((key) => [key, !shown(toggle)])));
+    const made = button(toggle.word, toggle.word, flip);
+    made.title = toggle.hint;
+    return [toggle, made] as const;
+  });
+  const refresh = (): void => {
+    for (const [toggle, made] of buttons) {
+      made.setAttribute("aria-pressed", String(shown(toggle)));
+    }
+  };
+  refresh();
+  const attributes = { class: "view-toggles", role: "group", "aria-label": "Shown in the picture" };
+  return { bar: element("div", attributes, ...buttons.map(([, made]) => made)), refresh };
 }

@@ -3,8 +3,8 @@
 use crate::report::page::{Folder, PageError};
 
 /// A row with its number in the file.
-pub(super) struct Row<'a> {
-    pub(super) line: usize,
+pub(in crate::report) struct Row<'a> {
+    pub(in crate::report) line: usize,
     cells: Vec<String>,
     file: &'static str,
     folder: &'a Folder<'a>,
@@ -12,7 +12,7 @@ pub(super) struct Row<'a> {
 
 impl<'a> Row<'a> {
     /// The rows below the head of a file, which must begin with these names.
-    pub(super) fn all<'t>(
+    pub(in crate::report) fn all<'t>(
         folder: &'a Folder<'a>,
         file: &'static str,
         text: &'t str,
@@ -28,12 +28,12 @@ impl<'a> Row<'a> {
     }
 
     /// A word.
-    pub(super) fn word(&self, column: usize) -> Result<&str, PageError> {
+    pub(in crate::report) fn word(&self, column: usize) -> Result<&str, PageError> {
         self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
     }
 
     /// Finite numbers from a column on.
-    pub(super) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], PageError> {
+    pub(in crate::report) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], PageError> {
         let mut numbers = [0.0; N];
         for (column, number) in (from..).zip(&mut numbers) {
             let cell = self.cells.get(column).map_or("the end of the line", String::as_str);
@@ -41,6 +41,14 @@ impl<'a> Row<'a> {
             *number = read.ok_or_else(|| self.refused(column, cell, "a finite number"))?;
         }
         Ok(numbers)
+    }
+
+    /// A finite number, or not a number where the cell is empty.
+    pub(in crate::report) fn number_or_gap(&self, column: usize) -> Result<f64, PageError> {
+        match self.cells.get(column).map(String::as_str) {
+            Some("") => Ok(f64::NAN),
+            _ => Ok(self.numbers::<1>(column)?[0]),
+        }
     }
 
     fn refused(&self, column: usize, found: &str, expected: &str) -> PageError {

@@ -4,7 +4,7 @@
 
 mod arrow;
 mod contact_forces;
-mod csv_rows;
+pub(in crate::report) mod csv_rows;
 mod figure;
 mod floor;
 mod foot;
@@ -15,6 +15,8 @@ mod part;
 mod path;
 mod person;
 mod scene;
+#[cfg(test)]
+mod tests;
 mod torque;
 mod trunk;
 

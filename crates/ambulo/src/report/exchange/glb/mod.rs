@@ -13,6 +13,8 @@ mod buffer;
 mod container;
 mod material;
 mod mesh;
+#[cfg(test)]
+mod tests;
 
 use crate::report::stage::{BodyPath, Stage, StageBody, StagePlate};
 use animation::Animation;

@@ -97,9 +97,18 @@ fn closest(verdict: &Value) -> Table {
     })
 }
 
-/// Gives every panel the spans that it shows.
-pub(super) fn mark(groups: &mut [Group], red: &[RedSpan]) {
-    for panel in groups.iter_mut().flat_map(|group| &mut group.panels) {
+/// A table of no checks.
+pub(super) fn no_checks() -> Table {
+    closest(&Value::Null)
+}
+
+/// Gives every panel the spans that it shows; spans whose panel there is not point at none.
+pub(super) fn mark(groups: &mut [&mut Vec<Group>], red: &mut [RedSpan]) {
+    let panels = || groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.panels);
+    for span in red.iter_mut() {
+        span.panel = span.panel.take().filter(|id| panels().any(|panel| panel.id == *id));
+    }
+    for panel in groups.iter_mut().flat_map(|groups| groups.iter_mut()).flat_map(|group| &mut group.panels) {
         panel.red = red.iter().filter(|span| span.panel.as_ref() == Some(&panel.id)).cloned().collect();
     }
 }

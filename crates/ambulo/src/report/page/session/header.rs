@@ -40,10 +40,11 @@ pub(super) fn recording_name(results: &Results) -> Option<String> {
 }
 
 /// The last part of a path of any system.
-fn file_name(path: &str) -> &str {
+pub(super) fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
+/// A line.
 pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) -> Fact {
     Fact { label: label.to_owned(), value: value.into(), note }
 }
@@ -111,11 +112,11 @@ fn direction(results: &Results) -> Option<Fact> {
     Some(fact("Walking direction", value, Some("world: x forward, y up, z to the right".to_owned())))
 }
 
-/// An angle from world x towards z, in words.
+/// An angle from world x towards z, in words; less is sway of the pelvis.
 fn along(angle_deg: f64) -> String {
     let side = if angle_deg > 0.0 { "right" } else { "left" };
     match angle_deg.abs() {
-        small if small < 0.5 => "along world x".to_owned(),
+        small if small < 1.5 => "along world x".to_owned(),
         angle => format!("{angle:.0} deg to the {side} of world x"),
     }
 }

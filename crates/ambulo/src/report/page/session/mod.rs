@@ -1,6 +1,7 @@
 //! What is shown of one folder.
 //!
-//! `results` reads the files of a recording or walk; every other file makes one part of the page of them.
+//! `results` reads the files of a recording or walk; every other file makes one part of the page of them. `scene` does the same for
+//! simulated scenes.
 
 mod cells;
 mod curves;
@@ -13,8 +14,10 @@ mod feet;
 mod groups;
 mod header;
 mod missing;
+mod peaks;
 mod quality;
 mod results;
+mod scene;
 mod sides;
 mod size;
 mod strides;
@@ -30,7 +33,10 @@ use size::BodySize;
 /// The session of a folder; its numbers go into `block`.
 pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, PageError> {
     let summary = folder.summary()?;
-    recording(folder, Results::read(folder, summary)?, block)
+    match summary["world"].is_object() {
+        true => scene::session(folder, &summary, block),
+        false => recording(folder, Results::read(folder, summary)?, block),
+    }
 }
 
 /// Of a recording or a synthetic walk.
@@ -40,14 +46,13 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let quantities = groups::quantities(&results);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
-    let feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let mut feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
     let values = extracted::extracted(&results, &quantities);
     let mut groups = groups::groups(&results, &size, &quantities, block);
     let mut quality = quality::quality(&results, block);
     missing.extend(missing::missing(&results, &size, &quantities, &strides));
-    if let Some(verdict) = &feasibility {
-        feasibility::mark(&mut groups, &verdict.red);
-        feasibility::mark(&mut quality.groups, &verdict.red);
+    if let Some(verdict) = &mut feasibility {
+        feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);
     }
     Ok(Session {
         name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
@@ -59,6 +64,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
             time_distance::table(&results, &size, &strides),
             extracted::table(&values),
             extracted::symmetry(&values, &strides),
+            peaks::peaks(&results.summary),
         ],
         quality,
         feasibility,

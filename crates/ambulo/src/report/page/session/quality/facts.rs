@@ -33,7 +33,8 @@ pub(super) fn facts(results: &Results) -> Vec<Judged> {
     facts
 }
 
-pub(super) fn plain(label: &str, value: String) -> Judged {
+/// A number that nobody judges.
+pub(in crate::report::page::session) fn plain(label: &str, value: String) -> Judged {
     Judged { label: label.to_owned(), value, allowed: None, good: None }
 }
 

@@ -6,6 +6,8 @@ mod ground_points;
 mod residual;
 mod tables;
 
+pub(super) use facts::plain;
+
 use super::results::Results;
 use crate::report::page::block::Block;
 use crate::report::page::contract::{Group, PageFinding, Panel, Quality, Trace};

@@ -1,8 +1,9 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import { test } from "node:test";
-import { DESKTOP, PHONE, withPage } from "./page";
+import { DESKTOP, drawn, PHONE, SHOTS, withPage } from "./page";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -15,10 +16,15 @@ interface Finding {
 for (const name of ["demo", "infeasible", "compared"]) {
   for (const colorScheme of ["light", "dark"] as const) {
     for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
-      test(`${name}, ${colorScheme}, ${device}: nothing serious for those who see or move differently`, async () => {
+      test(`${name}, ${colorScheme}, ${device}: all can use it, nothing is wider than the window`, async () => {
         await withPage(
           name,
           async ({ page }) => {
+            await drawn(page);
+            mkdirSync(SHOTS, { recursive: true });
+            await page.screenshot({ path: join(SHOTS, `${name}-${device}-${colorScheme}.png`) });
+            const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+            assert.ok(wide <= viewport.width, `${name} is ${wide} wide`);
             await page.evaluate(AXE);
             const findings = await page.evaluate(async () => {
               const { axe } = window as unknown as { axe: { run(): Promise<{ violations: Finding[] }> } };
