@@ -12,14 +12,16 @@ async function inPlot(page: Page, panel: string, part: number): Promise<{ x: num
   return { x: box.x + part * box.width, y: box.y + box.height / 2 };
 }
 
-/** Where the cursors of the drawn panels are, by panel and side. */
+/** Where the cursors of the panels in sight are, by panel and side. */
 function cursors(page: Page): Promise<Record<string, string>> {
   return page.evaluate(() =>
     Object.fromEntries(
-      [...document.querySelectorAll<HTMLElement>(".plot .cursor")].map((line) => [
-        `${line.closest("figure")?.id} ${line.className}`,
-        `${line.hidden} ${line.style.transform}`,
-      ]),
+      [...document.querySelectorAll<HTMLElement>(".plot .cursor")]
+        .filter((line) => {
+          const box = line.closest("figure")?.getBoundingClientRect();
+          return box && box.top >= 0 && box.bottom <= innerHeight;
+        })
+        .map((line) => [`${line.closest("figure")?.id} ${line.className}`, `${line.hidden} ${line.style.transform}`]),
     ),
   );
 }

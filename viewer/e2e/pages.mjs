@@ -101,7 +101,8 @@ export function makePages(folder) {
   ambulo("report", at("hostile"));
   ambulo("simulate", join(repository, "examples/stumble.toml"), "-o", at("scene"));
   cpSync(at("demo"), at("compared"), { recursive: true });
-  ambulo("report", at("compared"), "--compare", at("long"));
+  ambulo("walk", "--speed", "0.8", "-o", at("slow"));
+  ambulo("report", at("compared"), "--compare", at("slow"));
   return folder;
 }
 

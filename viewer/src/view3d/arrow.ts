@@ -22,10 +22,12 @@ const HEAD_PART = 0.45;
 
 /** Length of the arrow of one body weight, in heights of the figure: it ends about at the navel. */
 const WEIGHT_HEIGHTS = 0.55;
+/** The longest arrow, in heights of the figure: the scale shrinks for larger peaks. */
+const LONGEST_HEIGHTS = 0.95;
 
-/** Length of an arrow for each newton [m/N]. */
-export function arrowScale(height_m: number, weight_n: number): number {
-  return weight_n > 0 && height_m > 0 ? (WEIGHT_HEIGHTS * height_m) / weight_n : 0;
+/** Length of an arrow for each body weight [m], where the largest force is `peak` body weights. */
+export function arrowScale(height_m: number, peak: number): number {
+  return height_m * Math.min(WEIGHT_HEIGHTS, peak > 0 ? LONGEST_HEIGHTS / peak : WEIGHT_HEIGHTS);
 }
 
 /** How an arrow of a length is parted [m]; short ones shrink as a whole. */

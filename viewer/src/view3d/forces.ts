@@ -12,6 +12,19 @@ const THIN = 0.0034;
 /** Vertical force from which on a foot is loaded [N], as in the events. */
 const LOADED_N = 20;
 
+/** Largest force [body weights]. */
+export function peakOf(view: View, numbers: SeriesReader): number {
+  let peak = 0;
+  for (const { force } of view.forces) {
+    const [x, y, z] = force.map((series) => numbers.read(series)) as [Float64Array, Float64Array, Float64Array];
+    for (const [index, up] of y.entries()) {
+      const size = Math.hypot(x[index] ?? 0, up, z[index] ?? 0);
+      peak = size > peak ? size : peak;
+    }
+  }
+  return view.weight_n > 0 ? peak / view.weight_n : 0;
+}
+
 interface Force {
   source: ViewForce;
   point: Float64Array[];
@@ -23,16 +36,12 @@ interface Force {
 export class Forces {
   readonly group = new Group();
   private readonly forces: Force[];
+  private readonly scale: number;
   private readonly at = new Vector3();
   private readonly vector = new Vector3();
 
-  constructor(
-    view: View,
-    numbers: SeriesReader,
-    height: number,
-    private readonly scale: number,
-    ghost = false,
-  ) {
+  constructor(view: View, numbers: SeriesReader, height: number, weight_m: number, ghost = false) {
+    this.scale = view.weight_n > 0 ? weight_m / view.weight_n : 0;
     const shown = view.forces.filter(({ role }) => role === "main" || !ghost);
     this.forces = shown.map((source) => ({
       source,

@@ -1,6 +1,5 @@
 import { Color, Group, type Mesh, NotEqualStencilFunc, ShaderMaterial, Vector3 } from "three";
 import type { Session, View } from "../contract";
-import { arrowScale } from "./arrow";
 import { type Extent, extentOf } from "./extent";
 import { FIGURE_STENCIL, Figure } from "./figure";
 import { Forces } from "./forces";
@@ -52,6 +51,7 @@ export class Ghost {
     numbers: SeriesReader,
     heading: Vector3,
     height: number,
+    weight_m: number,
     private readonly index: number,
   ) {
     this.figure = new Figure(view, numbers);
@@ -66,7 +66,7 @@ export class Ghost {
         part.renderOrder = 2;
       }
     });
-    this.forces = new Forces(view, numbers, height, arrowScale(height, view.weight_n), true);
+    this.forces = new Forces(view, numbers, height, weight_m, true);
     this.group.add(this.figure.group, this.forces.group);
   }
 

@@ -5,7 +5,7 @@ import { Contacts } from "./contacts";
 import { type Extent, extentOf, union } from "./extent";
 import { Figure } from "./figure";
 import { Floor } from "./floor";
-import { Forces } from "./forces";
+import { Forces, peakOf } from "./forces";
 import { Ghost } from "./ghost";
 import { Obstacles } from "./obstacles";
 import type { ViewOptions } from "./options";
@@ -44,9 +44,11 @@ export class World {
     this.path = new Path(view, numbers, timeline);
     this.extent = extentOf(view, numbers, this.path, timeline);
     const height = this.height;
+    const views = page.sessions.flatMap((one) => one.view ?? []);
+    const weight_m = arrowScale(height, Math.max(...views.map((one) => peakOf(one, numbers))));
     this.figure = new Figure(view, numbers);
     this.floor = new Floor(view.floor_m);
-    this.forces = new Forces(view, numbers, height, arrowScale(height, view.weight_n));
+    this.forces = new Forces(view, numbers, height, weight_m);
     this.torques = new Torques(view, numbers, session.feasibility?.red ?? [], height);
     this.trail = new Trail(view, numbers, view.floor_m);
     this.contacts = new Contacts(view, height, view.floor_m);
@@ -54,7 +56,9 @@ export class World {
     const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
     this.still = [new Plates(view), new Obstacles(view), ruler];
     this.ghosts = page.sessions.flatMap((other, index) =>
-      index > 0 && other.view ? [new Ghost(other, other.view, numbers, this.path.heading, height, index)] : [],
+      index > 0 && other.view
+        ? [new Ghost(other, other.view, numbers, this.path.heading, height, weight_m, index)]
+        : [],
     );
   }
 
