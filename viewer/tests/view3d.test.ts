@@ -5,6 +5,7 @@ import type { PageSide, View } from "../src/contract";
 import { arrowParts, arrowScale } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
+import { peakOf } from "../src/view3d/forces";
 import { Motion } from "../src/view3d/motion";
 import { filled, Path, smoothed } from "../src/view3d/path";
 import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
@@ -109,6 +110,18 @@ test("one body weight is an arrow of 0.55 heights unless the peak would leave th
   close(arrowScale(1.8, 1.2), 0.99);
   close(arrowScale(1.8, 0), 0.99);
   close(arrowScale(2, 4) * 4, 1.9);
+});
+
+test("a blow does not shrink the other arrows", () => {
+  const numbers = new SampleNumbers();
+  const view = samplePage(numbers).sessions[0]?.view;
+  assert.ok(view?.forces[0]);
+  const ordinary = peakOf(view, numbers);
+  close(ordinary, 1.12, 0.05);
+  const blow = [...numbers.read(view.forces[0].force[1])];
+  blow[10] = 1e5;
+  view.forces[0].force[1] = numbers.add(blow);
+  close(peakOf(view, numbers), ordinary, 0.02);
 });
 
 test("heads of short arrows shrink, lengths stay", () => {
