@@ -50,6 +50,8 @@ function lanes(context: Context, session: Session, red: readonly RedSpan[], go: 
       .map((span) => {
         const made = button(`${spanTime(span)}: ${span.sentence}`, "", () => go(span));
         made.className = "span";
+        // The list of reasons below has the same for the keyboard.
+        made.tabIndex = -1;
         made.style.left = `${part(span.from_s)}%`;
         made.style.width = `max(4px, ${part(span.to_s) - part(span.from_s)}%)`;
         return made;

@@ -63,9 +63,11 @@ function factTable(sessions: readonly Session[]): HTMLElement {
 
 /** What the page cannot show. */
 function missing(sessions: readonly Session[]): HTMLElement[] {
-  const sentences = sessions.flatMap((session) =>
-    session.missing.map((sentence) => (sessions.length > 1 ? `${session.name}: ${sentence}` : sentence)),
-  );
+  const all = [...new Set(sessions.flatMap((session) => session.missing))];
+  const sentences = all.map((sentence) => {
+    const own = sessions.filter((session) => session.missing.includes(sentence));
+    return own.length === sessions.length ? sentence : `${own.map((session) => session.name).join(", ")}: ${sentence}`;
+  });
   if (sentences.length === 0) {
     return [];
   }

@@ -31,10 +31,21 @@ export function helpDialog(): { readonly dialog: HTMLDialogElement; open(): void
     element("ul", {}, ...HINTS.map((hint) => element("li", {}, hint))),
   );
   dialog.append(button("Close", "Close", () => dialog.close()));
+  dialog.addEventListener("click", (event) => {
+    if (event.target === dialog && outside(dialog, event)) {
+      dialog.close();
+    }
+  });
   const open = (): void => {
     if (!dialog.open) {
       dialog.showModal();
     }
   };
   return { dialog, open };
+}
+
+/** Whether a click was beside the dialog. */
+function outside(dialog: HTMLElement, event: MouseEvent): boolean {
+  const { left, right, top, bottom } = dialog.getBoundingClientRect();
+  return event.clientX < left || event.clientX > right || event.clientY < top || event.clientY > bottom;
 }

@@ -30,7 +30,11 @@ function entries(context: Context): (Node | string)[][] {
           ...sessions.map((one, i) => entry(one.name, sides.length === 1 ? (sides[0] ?? null) : "r", i)),
           [sideWords(sides)],
         ];
-  return [...lines, ...(context.display.axis === "cycle" ? overCycle(context) : overTime(context))];
+  const red = sessions.some((session) =>
+    session.groups.some((group) => group.panels.some((panel) => panel.red.length > 0)),
+  );
+  const wrong = red ? [[sample(colour("infeasible"), [], pixels(STYLE.lines_pt.infeasible)), "not feasible"]] : [];
+  return [...lines, ...(context.display.axis === "cycle" ? overCycle(context) : overTime(context)), ...wrong];
 }
 
 function sideWords(sides: readonly PageSide[]): string {
@@ -52,7 +56,9 @@ function overTime({ page }: Context): (Node | string)[][] {
   return [
     ...(measured ? [[sample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
     ...(uncertain ? [[swatch(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
-    ...(page.sessions.length === 1 ? [["ticks below: strike (short), toe-off (long)"]] : []),
+    ...(page.sessions.length === 1 && page.sessions.some((one) => one.events.length > 0)
+      ? [["ticks below: strike (short), toe-off (long)"]]
+      : []),
   ];
 }
 

@@ -1,4 +1,5 @@
 import type uPlot from "uplot";
+import { directionWords, type Words } from "./caption";
 import type { Context } from "./context";
 import type { PageSide } from "./contract";
 import { type Drawing, drawing, type PanelSource } from "./drawing";
@@ -9,10 +10,10 @@ import { plot, ROOM } from "./plot";
 import { followPointer } from "./pointer";
 import { readings } from "./reading";
 import { saveCsv, savePng, saveSvg } from "./save";
-import { directionWords, vector, type Words } from "./vector";
+import { vector } from "./vector";
 
 /** Size of a plot on paper [CSS px]; it is stretched to its column. */
-const PRINT = { width: 240, height: 128, titled: false };
+const PRINT = { width: 240, height: 128, above: 0, below: 0 };
 
 /** One quantity: title, plot, value at the cursor, menu to save it. */
 export class PanelView {
@@ -122,7 +123,7 @@ export class PanelView {
   /** The plot as a vector picture, for paper. */
   prepareForPaper(): void {
     if (this.#drawing) {
-      this.#paper.replaceChildren(vector(this.#drawing, this.#scheme(), this.#words, PRINT));
+      this.#paper.replaceChildren(vector(this.#drawing, this.#scheme(), PRINT));
     }
   }
 
@@ -181,7 +182,7 @@ export class PanelView {
   #fillSource(now: Drawing): void {
     const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
     const visible = band && now.areas.some((area) => area.kind === "band");
-    this.#source.textContent = visible ? shortCitation(band.citation) : "";
+    this.#source.textContent = visible ? this.#words.band : "";
     this.#source.title = visible ? band.citation : "";
   }
 
@@ -201,8 +202,8 @@ export class PanelView {
       element(
         "div",
         { class: "choices" },
-        save("PNG", (now) => void savePng(name, now, this.#scheme(), this.#words)),
-        save("SVG", (now) => saveSvg(name, now, this.#scheme(), this.#words)),
+        save("PNG", (now) => void savePng(name, now, this.#scheme(), this.#words, sessions)),
+        save("SVG", (now) => saveSvg(name, now, this.#scheme(), this.#words, sessions)),
         save("CSV", (now) => saveCsv(name, now, this.#words, sessions)),
       ),
     );
@@ -237,5 +238,7 @@ function extremes(values: Float64Array, digits: number): string {
 function wordsOf(sources: readonly PanelSource[]): Words {
   const panel = sources[0]?.panel;
   const { title = "", unit = "", positive = "", negative = "" } = panel ?? {};
-  return { title, unit: unit.replace("N.m", "N·m"), positive, negative };
+  const citation = sources.find((source) => source.panel.band !== null)?.panel.band?.citation;
+  const band = citation === undefined ? "" : shortCitation(citation);
+  return { title, unit: unit.replace("N.m", "N·m"), positive, negative, band };
 }

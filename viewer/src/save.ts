@@ -1,22 +1,35 @@
+import { CAPTIONS, captions, type Words } from "./caption";
 import type { Drawing, Line } from "./drawing";
 import type { Scheme } from "./look";
 import { colour } from "./style";
-import { vector, type Words } from "./vector";
+import { vector } from "./vector";
 
 /** Size of a saved picture [CSS px]: one column of a journal, 85 mm. */
-const SIZE = { width: 321, height: 230, titled: true };
+const SIZE = { width: 321, height: 254, ...CAPTIONS };
 /** Dots of a saved PNG in a CSS pixel: 576 dots an inch. */
 const DOTS = 6;
 
 /** Saves a drawing as SVG. */
-export function saveSvg(name: string, drawing: Drawing, scheme: Scheme, words: Words): void {
-  save(`${name}.svg`, new Blob([svgText(drawing, scheme, words)], { type: "image/svg+xml" }));
+export function saveSvg(
+  name: string,
+  drawing: Drawing,
+  scheme: Scheme,
+  words: Words,
+  sessions: readonly string[],
+): void {
+  save(`${name}.svg`, new Blob([svgText(drawing, scheme, words, sessions)], { type: "image/svg+xml" }));
 }
 
 /** Saves a drawing as PNG on the ground of the theme. */
-export async function savePng(name: string, drawing: Drawing, scheme: Scheme, words: Words): Promise<void> {
+export async function savePng(
+  name: string,
+  drawing: Drawing,
+  scheme: Scheme,
+  words: Words,
+  sessions: readonly string[],
+): Promise<void> {
   const image = new Image();
-  image.src = URL.createObjectURL(new Blob([svgText(drawing, scheme, words)], { type: "image/svg+xml" }));
+  image.src = URL.createObjectURL(new Blob([svgText(drawing, scheme, words, sessions)], { type: "image/svg+xml" }));
   await image.decode();
   URL.revokeObjectURL(image.src);
   const canvas = document.createElement("canvas");
@@ -69,8 +82,10 @@ function quoted(text: string): string {
   return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }
 
-function svgText(drawing: Drawing, scheme: Scheme, words: Words): string {
-  return new XMLSerializer().serializeToString(vector(drawing, scheme, words, SIZE));
+function svgText(drawing: Drawing, scheme: Scheme, words: Words, sessions: readonly string[]): string {
+  const picture = vector(drawing, scheme, SIZE);
+  picture.append(...captions(drawing, scheme, words, SIZE, sessions));
+  return new XMLSerializer().serializeToString(picture);
 }
 
 function save(name: string, blob: Blob): void {

@@ -82,11 +82,13 @@ export function tableElement({ spans, heads, rows }: Columns, caption: string): 
   if (spans.length > 0) {
     head.append(element("tr", { class: "spans" }, ...spans.map(spanHead)));
   }
-  head.append(
-    element("tr", {}, ...heads.map((word, i) => element("th", { scope: "col", class: kinds[i] ?? "words" }, word))),
-  );
+  head.append(element("tr", {}, ...heads.map((word, i) => headCell(word, kinds[i] ?? "words"))));
   const body = element("tbody", {}, ...rows.map((row) => rowElement(row, kinds)));
   return element("table", {}, element("caption", { class: "spoken" }, caption), head, body);
+}
+
+function headCell(word: string, kind: string): HTMLElement {
+  return word === "" ? element("td") : element("th", { scope: "col", class: kind }, word);
 }
 
 function spanHead({ name, columns }: { readonly name: string; readonly columns: number }): HTMLElement {

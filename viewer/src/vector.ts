@@ -4,14 +4,6 @@ import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
 import { MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
 import { colour, STYLE } from "./style";
 
-/** Words around a drawing. */
-export interface Words {
-  readonly title: string;
-  readonly unit: string;
-  readonly positive: string;
-  readonly negative: string;
-}
-
 /** Places of values in a picture [CSS px]. */
 interface Frame {
   readonly left: number;
@@ -22,13 +14,16 @@ interface Frame {
   y(value: number): number;
 }
 
-/** A drawing as SVG, as the screen shows it: for print and for saving. With `words` its title stands above. */
-export function vector(
-  drawing: Drawing,
-  scheme: Scheme,
-  words: Words,
-  size: { width: number; height: number; titled: boolean },
-): SVGSVGElement {
+/** Size of a picture [CSS px], and the room that words above and below take of it. */
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+  readonly above: number;
+  readonly below: number;
+}
+
+/** A drawing as SVG, as the screen shows it: for print, where the page has the words, and for saving, with `captions` around it. */
+export function vector(drawing: Drawing, scheme: Scheme, size: Size): SVGSVGElement {
   const frame = frameOf(drawing, size);
   const picture = svgElement("svg", {
     viewBox: `0 0 ${size.width} ${size.height}`,
@@ -40,19 +35,14 @@ export function vector(
   picture.append(...drawing.areas.map((area) => surface(area, frame, scheme)));
   picture.append(...shades(drawing, frame), ...grid(drawing, frame), ...axes(frame));
   picture.append(...drawing.lines.map((line) => curve(line, frame, scheme)), ...marks(drawing, frame, scheme));
-  if (size.titled) {
-    picture.append(...directions(words, frame));
-    const attributes = { x: frame.left, y: 14, fill: colour("text"), "font-size": pixels(STYLE.font.panel_pt) };
-    picture.append(svgElement("text", attributes, words.unit ? `${words.title} [${words.unit}]` : words.title));
-  }
   return picture;
 }
 
-function frameOf(drawing: Drawing, size: { width: number; height: number; titled: boolean }): Frame {
+function frameOf(drawing: Drawing, size: Size): Frame {
   const left = ROOM.left;
   const right = size.width - ROOM.right;
-  const top = ROOM.top + (size.titled ? 18 : 0);
-  const bottom = size.height - ROOM.bottom;
+  const top = ROOM.top + size.above;
+  const bottom = size.height - size.below - ROOM.bottom;
   const x = (value: number): number => left + ((value - drawing.x[0]) / (drawing.x[1] - drawing.x[0])) * (right - left);
   const y = (value: number): number =>
     bottom - ((value - drawing.y[0]) / (drawing.y[1] - drawing.y[0])) * (bottom - top);
@@ -142,23 +132,6 @@ function marks(drawing: Drawing, frame: Frame, scheme: Scheme): SVGElement[] {
     }
     return line;
   });
-}
-
-function directions(words: Words, frame: Frame): SVGElement[] {
-  const text = directionWords(words);
-  const style = {
-    x: frame.right,
-    y: 13,
-    fill: colour("quiet"),
-    "font-size": pixels(STYLE.font.note_pt),
-    "text-anchor": "end",
-  };
-  return text === "" ? [] : [svgElement("text", style, text)];
-}
-
-/** What positive and negative values mean. */
-export function directionWords({ positive, negative }: Words): string {
-  return [...(positive ? [`↑ ${positive}`] : []), ...(negative ? [`↓ ${negative}`] : [])].join("   ");
 }
 
 function straight(x1: number, y1: number, x2: number, y2: number, stroke: string, width: number): SVGElement {

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import type { Drawing, Line } from "../src/drawing";
 import { csvText } from "../src/save";
 
-const WORDS = { title: "Hip", unit: "deg", positive: "", negative: "" };
+const WORDS = { title: "Hip", unit: "deg", positive: "", negative: "", band: "" };
 const line = (name: string, x: number[], y: number[], session = 0): Line => ({
   name,
   role: "mean",

@@ -17,8 +17,10 @@ fn table(header: &str) -> Vec<Vec<String>> {
     rows.map(cells).collect()
 }
 
-fn sign(text: &str) -> f64 {
-    if text == "+" { 1.0 } else { -1.0 }
+/// Whether a cell says plus.
+fn plus(cell: &str) -> bool {
+    assert!(["+", "-"].contains(&cell), "{cell}");
+    cell == "+"
 }
 
 fn sides(word: &str) -> Vec<Side> {
@@ -33,14 +35,14 @@ fn all() -> Vec<ClinicalQuantity> {
     clinical_quantities(|name| !name.contains("knee_flexion") && !name.contains("abduction"))
 }
 
-/// The sign of a coordinate during a movement, by the table of movements.
-fn during(movement: &str, coordinate: &str, side: Side) -> f64 {
+/// Whether a coordinate grows during a movement, by the table of movements.
+fn during(movement: &str, coordinate: &str, side: Side) -> bool {
     let movements = table("| movement | side | coordinate | sign | point | moves |");
     let sided = format!("{coordinate}_{}", side.letter());
     let fits = |row: &&Vec<String>| row[0] == movement && (row[2] == sided || row[2] == coordinate);
     let row =
         movements.iter().find(fits).unwrap_or_else(|| panic!("no movement `{movement}` of `{coordinate}`, {side}"));
-    sign(&row[3])
+    plus(&row[3])
 }
 
 #[test]
@@ -50,13 +52,13 @@ fn every_panel_has_the_sign_of_its_row() {
     for row in &rows {
         let quantity = all().into_iter().find(|q| q.id == row[0]).unwrap_or_else(|| panic!("no quantity {}", row[0]));
         for side in sides(&row[1]) {
-            let in_file = sign(&row[3]);
+            let in_file = plus(&row[3]);
             let moves = matches!(quantity.group, ClinicalGroup::Kinematics | ClinicalGroup::Moments);
             if moves && !ELSEWHERE.contains(&quantity.coordinate) {
                 assert_eq!(in_file, during(&row[2], quantity.coordinate, side), "{row:?}");
             }
             let factor = quantity.factor(MASS_KG, side, -1.0);
-            assert_eq!((factor * in_file).signum(), sign(&row[4]), "{row:?}, {side}: factor {factor}");
+            assert_eq!((factor > 0.0) == in_file, plus(&row[4]), "{row:?}, {side}: factor {factor}");
             let size = match quantity.group {
                 ClinicalGroup::Moments | ClinicalGroup::Powers => 1.0 / MASS_KG,
                 _ => 1.0,

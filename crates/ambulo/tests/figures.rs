@@ -129,6 +129,20 @@ fn bands_toe_off_and_units_are_there_and_the_source_is_named() {
 }
 
 #[test]
+fn a_run_is_not_compared_with_walks() {
+    let mut rows = rows(&Side::BOTH, 1);
+    rows.iter_mut().for_each(|row| row.toe_off_percent = Some(38.0));
+    for (name, figure) in draw(&rows, "someone", &[]) {
+        assert!(figure.panels.iter().all(|panel| panel.bands == 0), "{name}");
+        assert!(
+            figure.texts.iter().any(|text| text.contains("the feet stand for less than half")),
+            "{name}: {:?}",
+            figure.texts
+        );
+    }
+}
+
+#[test]
 fn figures_have_the_widths_of_journals() {
     let figures = draw(&rows(&Side::BOTH, 1), "someone", &[]);
     for (name, figure) in &figures {

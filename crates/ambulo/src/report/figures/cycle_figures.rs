@@ -183,12 +183,19 @@ impl CycleFigures<'_> {
         }
         // Sideways forces of a figure that moves in a plane, joints that are locked.
         quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row)));
-        let band = |id: &str| self.speed_dimensionless.and_then(|speed| normative::band(id, speed));
+        let speed = self.speed_dimensionless.filter(|_| !self.runs());
+        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed));
         let panel = |quantity: ClinicalQuantity| {
             let band = band(quantity.id);
             CyclePanel::new(quantity, self.rows, self.mass_kg, knee_sign, band)
         };
         quantities.into_iter().map(panel).collect()
+    }
+
+    /// Whether both feet are in the air at times: the feet leave the ground before the middle of their cycles.
+    fn runs(&self) -> bool {
+        let offs: Vec<f64> = self.rows.iter().filter_map(|row| row.toe_off_percent).collect();
+        !offs.is_empty() && offs.iter().sum::<f64>() < 50.0 * offs.len() as f64
     }
 
     fn legend<'s>(&self, style: &'s Style, panels: &[CyclePanel<'_>], dash: &'s [f64]) -> Vec<(Sample<'s>, String)> {
@@ -231,6 +238,11 @@ impl CycleFigures<'_> {
             if let Some(shifted) = shifted.filter(|text| !text.trim().is_empty()) {
                 notes.push(format!("Grey of pelvic tilt and hip flexion: {}", shifted.trim()));
             }
+        } else if self.runs() {
+            notes.push(
+                "No band of healthy people: the feet stand for less than half of the cycle, which is no walk."
+                    .to_owned(),
+            );
         } else if self.speed_dimensionless.is_none() {
             notes.push("No band of healthy people: the walking speed is not known.".to_owned());
         }

@@ -1,0 +1,89 @@
+import { type Drawing, type Line, sideName } from "./drawing";
+import { svgElement } from "./element";
+import { lineLook, pixels, type Scheme } from "./look";
+import { ROOM } from "./plot";
+import { colour, STYLE } from "./style";
+import type { Size } from "./vector";
+
+/** Words around a drawing. */
+export interface Words {
+  readonly title: string;
+  readonly unit: string;
+  readonly positive: string;
+  readonly negative: string;
+  /** Whose the grey band is, in short; empty if there is none. */
+  readonly band: string;
+}
+
+/** Room that the captions of a saved picture take [CSS px]. */
+export const CAPTIONS = { above: 20, below: 34 } as const;
+
+const SAMPLE = 20;
+
+/** What positive and negative values mean. */
+export function directionWords({ positive, negative }: Words): string {
+  return [...(positive ? [`↑ ${positive}`] : []), ...(negative ? [`↓ ${negative}`] : [])].join("   ");
+}
+
+/** Title, axis and legend of a saved picture. */
+export function captions(
+  drawing: Drawing,
+  scheme: Scheme,
+  words: Words,
+  size: Size,
+  sessions: readonly string[],
+): SVGElement[] {
+  const small = { fill: colour("quiet"), "font-size": pixels(STYLE.font.note_pt) };
+  const title = words.unit ? `${words.title} [${words.unit}]` : words.title;
+  const middle = (ROOM.left + size.width - ROOM.right) / 2;
+  const below = size.height - CAPTIONS.below;
+  const axis = drawing.axis === "cycle" ? "Gait cycle" : "Time";
+  const banded = drawing.areas.some((area) => area.kind === "band") && words.band !== "";
+  return [
+    text(title, { x: ROOM.left, y: 14, fill: colour("text"), "font-size": pixels(STYLE.font.panel_pt) }),
+    text(directionWords(words), { ...small, x: size.width - ROOM.right, y: 13, "text-anchor": "end" }),
+    text(axis, { ...small, x: middle, y: below + 9, "text-anchor": "middle" }),
+    ...legend(drawing, scheme, size, sessions),
+    ...(banded
+      ? [
+          text(`grey: ${words.band}`, {
+            ...small,
+            x: size.width - ROOM.right,
+            y: size.height - 6,
+            "text-anchor": "end",
+          }),
+        ]
+      : []),
+  ];
+}
+
+/** A sample and a name for every side of every session. */
+function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly string[]): SVGElement[] {
+  const thick = drawing.lines.filter((line) => line.role === "mean" || line.role === "main");
+  const y = size.height - 9;
+  let x: number = ROOM.left;
+  return thick.flatMap((line) => {
+    const name = nameOf(line, sessions);
+    const look = lineLook(line, scheme);
+    const dash = look.dash.length > 0 ? { "stroke-dasharray": look.dash.join(" ") } : {};
+    const sample = { x1: x, x2: x + SAMPLE, y1: y, y2: y, stroke: look.colour, "stroke-width": look.width, ...dash };
+    const word = text(name, {
+      x: x + SAMPLE + 4,
+      y: y + 3,
+      fill: colour("quiet"),
+      "font-size": pixels(STYLE.font.note_pt),
+    });
+    // Letters are about half as wide as high.
+    x += SAMPLE + 14 + name.length * 0.52 * pixels(STYLE.font.note_pt);
+    return [svgElement("line", sample), word];
+  });
+}
+
+function nameOf(line: Line, sessions: readonly string[]): string {
+  const side = line.side === null ? line.name : sideName(line.side);
+  return sessions.length > 1 ? `${sessions[line.session] ?? ""} ${side}` : side;
+}
+
+function text(words: string, attributes: Readonly<Record<string, string | number>>): SVGElement {
+  return svgElement("text", attributes, words);
+}
