@@ -80,7 +80,7 @@ function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly
 }
 
 function nameOf(line: Line, sessions: readonly string[]): string {
-  const side = line.side === null ? line.name : sideName(line.side);
+  const side = line.side === null || line.variant > 0 ? line.name : sideName(line.side);
   return sessions.length > 1 ? `${sessions[line.session] ?? ""} ${side}` : side;
 }
 

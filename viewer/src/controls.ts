@@ -3,6 +3,7 @@ import type { PageSide } from "./contract";
 import type { Axis } from "./drawing";
 import { button, choice, element } from "./element";
 import { icon } from "./icon";
+import { hasSide } from "./legend";
 import { cycleAt, percentAt } from "./phase";
 import { switchTheme } from "./style";
 import { timeline } from "./timeline";
@@ -88,7 +89,7 @@ export function pageControls(stage: Stage, help: () => void): HTMLElement {
     "div",
     { class: "page-controls" },
     ...(stage.page.sessions.some((session) => session.cycles.length > 0) ? [axes.group] : []),
-    sides.group,
+    ...(hasSide(stage.page.sessions, "r") && hasSide(stage.page.sessions, "l") ? [sides.group] : []),
     button("Dark or light", icon("theme"), switchTheme),
     button("Print", icon("print"), () => print()),
     button("Help", icon("help"), help),

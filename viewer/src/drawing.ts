@@ -16,6 +16,8 @@ export interface Line {
   readonly session: number;
   /** Number of the cycle, if it is one. */
   readonly cycle: number | null;
+  /** Which of several main lines of one side over time, from 0. */
+  readonly variant: number;
   readonly x: Float64Array;
   readonly y: Float64Array;
   readonly origin: Origin | null;
@@ -76,6 +78,8 @@ const PERCENT = Float64Array.from({ length: 101 }, (_, i) => i);
 const ROOM = 0.06;
 /** Zero is shown if it is not further away than this, in parts of what is drawn. */
 const ZERO_WITHIN = 0.35;
+/** Values that differ by less are the same: no unit of a panel means anything there but rounding. */
+const NOISE = 1e-9;
 /** A limit further away than this, in parts of what is drawn, does not squeeze the rest. */
 const LIMIT_WITHIN = 0.6;
 
@@ -132,7 +136,17 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
   for (const mean of panel.means) {
     const name = `${sideName(mean.side)}, mean of ${mean.cycles}`;
     const y = numbers.read(mean.values);
-    lines.push({ name, role: "mean", side: mean.side, session: index, cycle: null, x: PERCENT, y, origin: null });
+    lines.push({
+      name,
+      role: "mean",
+      side: mean.side,
+      session: index,
+      cycle: null,
+      variant: 0,
+      x: PERCENT,
+      y,
+      origin: null,
+    });
     if (mean.toe_off_percent !== null) {
       marks.push({ kind: "toe-off", side: mean.side, session: index, x: mean.toe_off_percent });
     }
@@ -145,7 +159,7 @@ function cycleLines(source: PanelSource, numbers: Numbers): Line[] {
   return panel.cycles.flatMap((curve) => {
     const y = numbers.read(curve.values);
     const name = `${sideName(curve.side)}, cycle ${curve.number}`;
-    const common = { side: curve.side, session: index, cycle: curve.number, x: PERCENT };
+    const common = { side: curve.side, session: index, cycle: curve.number, variant: 0, x: PERCENT };
     const line: Line = { name, role: "cycle", y, origin: curve.origin, ...common };
     const cycle = session.cycles.find((one) => one.side === curve.side && one.number === curve.number);
     const inside = (i: number): boolean =>
@@ -184,7 +198,9 @@ function timePart(source: PanelSource, numbers: Numbers, all: readonly PanelSour
   const areas: Area[] = [];
   for (const trace of panel.traces) {
     const y = numbers.read(trace.values);
-    const common = { side: trace.side, session: index, cycle: null, x };
+    const main = panel.traces.filter((one) => one.role === "main" && one.side === trace.side);
+    const variant = Math.max(main.indexOf(trace), 0);
+    const common = { side: trace.side, session: index, cycle: null, variant, x };
     lines.push({ name: trace.name, role: trace.role, y, origin: trace.origin, ...common });
     if (trace.sd) {
       areas.push({ kind: "deviation", side: trace.side, session: index, x, ...around(y, numbers.read(trace.sd)) });
@@ -249,7 +265,7 @@ export function valueRange(lines: readonly Line[], areas: readonly Area[]): [num
   if (!(low <= high)) {
     return [-1, 1];
   }
-  if (low === high) {
+  if (high - low < NOISE) {
     const half = Math.abs(low) / 2 || 1;
     return [low - half, low + half];
   }

@@ -27,14 +27,17 @@ function one(context: Context, panels: Panels, session: Session, verdict: Feasib
   const name = context.page.sessions.length > 1 ? [element("h3", {}, session.name)] : [];
   const mark = element("span", { class: "mark", "aria-hidden": "true" }, verdict.feasible ? "✓" : "✗");
   const sentence = element("p", { class: `verdict ${verdict.feasible ? "good" : "bad"}` }, mark, verdict.sentence);
-  const go = (span: RedSpan): void => {
+  const seek = (span: RedSpan): void => {
     context.clock.pause();
     context.clock.seek(span.from_s + context.first.time.start_s - session.time.start_s);
+  };
+  const show = (span: RedSpan): void => {
+    seek(span);
     if (span.panel) {
       panels.show(span.panel);
     }
   };
-  const red = verdict.red.length > 0 ? [lanes(context, session, verdict.red, go), ...reasons(verdict.red, go)] : [];
+  const red = verdict.red.length > 0 ? [lanes(context, session, verdict.red, seek), ...reasons(verdict.red, show)] : [];
   return [...name, sentence, ...red];
 }
 

@@ -1,8 +1,9 @@
 import type { Context } from "./context";
-import type { PageSide } from "./contract";
-import { element, svgElement } from "./element";
+import type { PageSide, Session } from "./contract";
+import { element } from "./element";
 import { citations } from "./groups";
 import { pixels, type Scheme, sideLook } from "./look";
+import { areaSample, lineSample } from "./sample";
 import { colour, onThemeChange, STYLE } from "./style";
 
 /** What colours and dashes mean; follows theme and choices. */
@@ -17,24 +18,32 @@ export function legend(context: Context): HTMLElement {
 
 function entries(context: Context): (Node | string)[][] {
   const { sessions } = context.page;
-  const { sides } = context.display;
+  const sides = context.display.sides.filter((side) => hasSide(sessions, side));
   const scheme: Scheme = { sessions: sessions.length, sides };
   const entry = (word: string, side: PageSide | null, session: number): (Node | string)[] => {
     const { colour, dash } = sideLook({ side, session }, scheme);
-    return [sample(colour, dash), word];
+    return [lineSample(colour, dash), word];
   };
   const lines =
     sessions.length === 1
       ? sides.map((side) => entry(side === "r" ? "right" : "left", side, 0))
       : [
           ...sessions.map((one, i) => entry(one.name, sides.length === 1 ? (sides[0] ?? null) : "r", i)),
-          [sideWords(sides)],
+          ...(sides.length > 0 ? [[sideWords(sides)]] : []),
         ];
   const red = sessions.some((session) =>
     session.groups.some((group) => group.panels.some((panel) => panel.red.length > 0)),
   );
-  const wrong = red ? [[sample(colour("infeasible"), [], pixels(STYLE.lines_pt.infeasible)), "not feasible"]] : [];
+  const wrong = red ? [[lineSample(colour("infeasible"), [], pixels(STYLE.lines_pt.infeasible)), "not feasible"]] : [];
   return [...lines, ...(context.display.axis === "cycle" ? overCycle(context) : overTime(context)), ...wrong];
+}
+
+/** Whether anything of a side is drawn. */
+export function hasSide(sessions: readonly Session[], side: PageSide): boolean {
+  const groups = sessions.flatMap((session) => [...session.groups, ...session.quality.groups]);
+  return groups.some((group) =>
+    group.panels.some((panel) => [...panel.means, ...panel.traces].some((curve) => curve.side === side)),
+  );
 }
 
 function sideWords(sides: readonly PageSide[]): string {
@@ -43,7 +52,7 @@ function sideWords(sides: readonly PageSide[]): string {
 
 function overCycle({ page }: Context): (Node | string)[][] {
   const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
-  const band = citations(page.sessions).length > 0 ? [[swatch(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
+  const band = citations(page.sessions).length > 0 ? [[areaSample(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
   return [[curves], ...band, ["ticks below: toe-off"]];
 }
 
@@ -54,28 +63,10 @@ function overTime({ page }: Context): (Node | string)[][] {
   const measured = traces.some((trace) => trace.role === "measured");
   const uncertain = traces.some((trace) => trace.sd !== null);
   return [
-    ...(measured ? [[sample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
-    ...(uncertain ? [[swatch(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
+    ...(measured ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
+    ...(uncertain ? [[areaSample(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
     ...(page.sessions.length === 1 && page.sessions.some((one) => one.events.length > 0)
       ? [["ticks below: strike (short), toe-off (long)"]]
       : []),
   ];
-}
-
-function sample(ink: string, dash: readonly number[], width = pixels(STYLE.lines_pt.mean)): SVGElement {
-  const line = svgElement("line", {
-    x1: 0,
-    x2: 26,
-    y1: 5,
-    y2: 5,
-    stroke: ink,
-    "stroke-width": width,
-    ...(dash.length > 0 ? { "stroke-dasharray": dash.join(" ") } : {}),
-  });
-  return svgElement("svg", { width: 26, height: 10, "aria-hidden": "true" }, line);
-}
-
-function swatch(fill: string, opacity: number): SVGElement {
-  const box = svgElement("rect", { width: 18, height: 10, fill, "fill-opacity": opacity });
-  return svgElement("svg", { width: 18, height: 10, "aria-hidden": "true" }, box);
 }

@@ -32,7 +32,7 @@ export function lineLook(line: Line, scheme: Scheme): Look {
       return { ...sideLook(line, scheme), width: pixels(widths.cycle), opacity: STYLE.cycle_opacity };
     case "mean":
     case "main":
-      return { ...sideLook(line, scheme), width: pixels(widths.mean), opacity: 1 };
+      return { ...mainLook(line, scheme), width: pixels(widths.mean), opacity: 1 };
     case "measured":
       return { colour: colour("measured"), width: pixels(widths.axis), dash: sideDash(line.side), opacity: 1 };
     case "limit":
@@ -62,6 +62,24 @@ export function sideLook(
   const dash = scheme.sides.length === 1 ? own.map(scaled) : sideDash(item.side);
   return { colour: sessionColour(item.session), dash };
 }
+
+/** Looks of the first main line of a side are those of the side; others differ by dash and, without a side, by colour. */
+function mainLook(line: Line, scheme: Scheme): { readonly colour: string; readonly dash: readonly number[] } {
+  const own = sideLook(line, scheme);
+  if (line.variant === 0) {
+    return own;
+  }
+  const dash = (VARIANT_DASHES[(line.variant - 1) % VARIANT_DASHES.length] ?? []).map(scaled);
+  const free = line.side === null && scheme.sessions === 1;
+  return { colour: free ? sessionColour(line.variant + 1) : own.colour, dash };
+}
+
+/** Dashes of the second, third, ... main line of a side, in widths of a mean's line. */
+const VARIANT_DASHES: readonly (readonly number[])[] = [
+  [5, 1.5],
+  [1, 1.3],
+  [5, 1.3, 1, 1.3],
+];
 
 function sideDash(side: PageSide | null): number[] {
   return side === "l" ? STYLE.left.dash.map(scaled) : [];

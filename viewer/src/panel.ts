@@ -5,10 +5,11 @@ import type { PageSide } from "./contract";
 import { type Drawing, drawing, type PanelSource } from "./drawing";
 import { button, element } from "./element";
 import { digitsFor, shortCitation, shown } from "./format";
-import type { Scheme } from "./look";
+import { lineLook, type Scheme } from "./look";
 import { plot, ROOM } from "./plot";
 import { followPointer } from "./pointer";
 import { readings } from "./reading";
+import { lineSample } from "./sample";
 import { saveCsv, savePng, saveSvg } from "./save";
 import { vector } from "./vector";
 
@@ -26,7 +27,8 @@ export class PanelView {
   readonly #paper: HTMLElement;
   readonly #readout = element("span", { class: "readout", "aria-hidden": "true" });
   readonly #source: HTMLElement;
-  readonly #values = new Map<PageSide | null, HTMLElement>();
+  readonly #key = element("p", { class: "key", "aria-hidden": "true" });
+  readonly #values = new Map<string, HTMLElement>();
   readonly #cursors = new Map<PageSide | null, HTMLElement>();
   #drawing: Drawing | null;
   #chart: uPlot | null = null;
@@ -43,7 +45,7 @@ export class PanelView {
     this.#source = element("p", { class: "source" });
     this.figure = element("figure", { class: "panel", id: `panel-${id}` }, this.#head());
     if (this.#drawing) {
-      this.figure.append(this.#plot, this.#paper, this.#source);
+      this.figure.append(this.#plot, this.#paper, this.#key, this.#source);
       this.#fillWords(this.#drawing);
     } else {
       const why = sources.find(({ panel }) => panel.empty !== null)?.panel.empty;
@@ -86,6 +88,9 @@ export class PanelView {
 
   /** Colours of another theme. */
   recolour(): void {
+    if (this.#drawing && this.#key.childElementCount > 0) {
+      this.#key.replaceChildren(...this.#keyEntries(this.#drawing));
+    }
     this.#chart?.redraw(false);
   }
 
@@ -112,7 +117,7 @@ export class PanelView {
         cursor.hidden = reading.x === null;
         cursor.style.transform = `translateX(${((width * ((reading.x ?? from) - from)) / (to - from)).toFixed(1)}px)`;
       }
-      const value = this.#values.get(reading.side);
+      const value = this.#values.get(keyOf(reading));
       const text = shown(reading.value, digits);
       if (value && value.textContent !== text) {
         value.textContent = text;
@@ -167,15 +172,25 @@ export class PanelView {
 
   /** Words that depend on what is drawn: places of the values, source of the band, summary. */
   #fillWords(now: Drawing): void {
-    const sides = (["r", "l", null] as const).filter((side) => now.lines.some((line) => line.side === side));
-    const read = sides.length > 1 ? sides.filter((side) => side !== null) : sides;
     this.#values.clear();
-    for (const side of read) {
-      this.#values.set(side, element("span", { class: side ?? "both" }, "–"));
+    const read = readings(now, this.#context.first, this.#context.clock.time);
+    for (const reading of read) {
+      this.#values.set(keyOf(reading), element("span", { class: reading.side ?? "both" }, "–"));
     }
-    this.#readout.replaceChildren(...this.#values.values());
+    const many = read.some((reading) => reading.variant > 0);
+    this.#readout.replaceChildren(...(many ? [] : this.#values.values()));
+    this.#key.replaceChildren(...(many ? this.#keyEntries(now) : []));
     this.#fillSource(now);
     this.#plot.setAttribute("aria-label", this.#summary(now));
+  }
+
+  /** Names and values of several main lines of a side. */
+  #keyEntries(now: Drawing): HTMLElement[] {
+    const main = now.lines.filter((line) => line.role === "main" && line.session === 0);
+    return main.map((line) => {
+      const look = lineLook(line, this.#scheme());
+      return element("span", {}, lineSample(look.colour, look.dash), line.name, this.#values.get(keyOf(line)) ?? "");
+    });
   }
 
   /** Whose the grey band is, in short; in full it stands below all panels. */
@@ -226,6 +241,11 @@ export class PanelView {
     const compared = this.#context.page.sessions.length > 1 ? [`${this.#sources.length} sessions`] : [];
     return [`${title}${unit ? ` in ${unit}` : ""} ${over}`, ...signs, ...compared, ...curves, ...red].join("; ");
   }
+}
+
+/** Main lines are known by their side and number. */
+function keyOf(line: { readonly side: PageSide | null; readonly variant: number }): string {
+  return `${line.side}${line.variant}`;
 }
 
 function extremes(values: Float64Array, digits: number): string {

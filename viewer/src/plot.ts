@@ -25,6 +25,10 @@ export function xWords(ticks: readonly number[], axis: Axis): string[] {
 
 /** Words at the ticks of the vertical axis, all with the same digits. */
 export function yWords(ticks: readonly number[]): string[] {
+  const largest = Math.max(...ticks.map(Math.abs));
+  if (largest < 1e-3 || largest >= 1e6) {
+    return ticks.map((tick) => (tick === 0 ? "0" : tick.toExponential(0).replaceAll("-", "−")));
+  }
   const digits = Math.max(0, ...ticks.map((tick) => (String(tick).split(".")[1] ?? "").length));
   return ticks.map((tick) => shown(tick, digits));
 }

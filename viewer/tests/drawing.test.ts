@@ -114,7 +114,7 @@ test("the reading is the value of the curve at the time", async () => {
   const curve = now.lines.find((line) => line.role === "cycle" && line.side === "r" && line.cycle === 1);
   assert.equal(right?.x?.toFixed(6), "30.000000");
   assert.equal(right?.value, curve?.y[30]);
-  assert.deepEqual(left, { side: "l", x: null, value: undefined });
+  assert.deepEqual(left, { side: "l", variant: 0, x: null, value: undefined });
 });
 
 test("a limit far away does not squeeze the curve, one near is shown", () => {
@@ -124,6 +124,7 @@ test("a limit far away does not squeeze the curve, one near is shown", () => {
     side: null,
     session: 0,
     cycle: null,
+    variant: 0,
     x: Float64Array.from(values, (_, i) => i),
     y: Float64Array.from(values),
     origin: null,

@@ -10,6 +10,7 @@ const line = (name: string, x: number[], y: number[], session = 0): Line => ({
   side: "r",
   session,
   cycle: null,
+  variant: 0,
   x: Float64Array.from(x),
   y: Float64Array.from(y),
   origin: null,
