@@ -22,11 +22,12 @@ interface Drawn {
   same: boolean;
 }
 
-/** Reads every curve that says where it comes from out of the page, on both axes. */
-async function curvesOf(name: string): Promise<Drawn[]> {
-  let found: Drawn[] = [];
+/** Reads every curve that says where it comes from out of the page, on both axes; and which panels have none of these. */
+async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string[] }> {
+  let curves: Drawn[] = [];
+  let untold: string[] = [];
   await withPage(name, async ({ page }) => {
-    found = await page.evaluate(() => {
+    curves = await page.evaluate(() => {
       const { page: data, numbers, display } = window.ambulo;
       const [session] = data.sessions;
       if (!session) {
@@ -55,16 +56,28 @@ async function curvesOf(name: string): Promise<Drawn[]> {
       }
       return out;
     });
+    untold = await page.evaluate(() => {
+      const [session] = window.ambulo.page.sessions;
+      const panels = [...(session?.groups ?? []), ...(session?.quality.groups ?? [])].flatMap((group) => group.panels);
+      const tells = (curve: { origin: unknown }): boolean => curve.origin !== null;
+      return panels
+        .filter((panel) => panel.empty === null && ![...panel.cycles, ...panel.traces].some(tells))
+        .map((panel) => panel.id);
+    });
   });
-  return found;
+  return { curves, untold };
 }
+
+/** Panels whose curves are computed from several columns. */
+const DERIVED = ["friction_use"];
 
 /** Compares the curves of a page with the files beside it; returns how many numbers agree. */
 async function compare(name: string): Promise<{ curves: number; numbers: number }> {
   const tables = new Map<string, Map<string, Column>>();
   const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
   let count = 0;
-  const curves = await curvesOf(name);
+  const { curves, untold } = await curvesOf(name);
+  assert.deepEqual(untold, DERIVED, "panels without a curve of a file");
   for (const curve of curves) {
     const where = `${curve.panel} ${curve.file} ${curve.column} ${curve.side} ${curve.cycle ?? ""}`;
     if (!tables.has(curve.file) && curve.file !== "cycles.csv") {
@@ -109,3 +122,30 @@ for (const name of ["demo", "recording", "predicted"]) {
     assert.ok(curves >= 20, `${curves} curves`);
   });
 }
+
+test("the friction used is that of the ground forces in the file", async () => {
+  const table = readTable(readFileSync(join(PAGES, "demo", "grf.mot"), "utf8"));
+  const column = (side: string, axis: string): number[] => table.get(`ground_force_${side}_v${axis}`)?.values ?? [];
+  await withPage("demo", async ({ page }) => {
+    const traces = await page.evaluate(() => {
+      const { page: data, numbers } = window.ambulo;
+      const panels = data.sessions[0]?.quality.groups.flatMap((group) => group.panels) ?? [];
+      const panel = panels.find(({ id }) => id === "friction_use");
+      const main = panel?.traces.filter(({ role }) => role === "main") ?? [];
+      return main.map(({ side, values }) => ({ side, step: values.step, values: [...numbers.read(values)] }));
+    });
+    assert.deepEqual(traces.map(({ side }) => side).sort(), ["l", "r"]);
+    for (const { side, step, values } of traces) {
+      const [x, y, z] = ["x", "y", "z"].map((axis) => column(side ?? "", axis)) as [number[], number[], number[]];
+      const drawn = [...values.entries()].filter(([, value]) => Number.isFinite(value));
+      assert.ok(drawn.length > 50, `${drawn.length} values`);
+      for (const [index, value] of drawn) {
+        const wanted = Math.hypot(x[index] ?? Number.NaN, z[index] ?? Number.NaN) / (y[index] ?? Number.NaN);
+        assert.ok(
+          Math.abs(value - wanted) <= 0.5001 * step + 1e-9,
+          `${side} [${index}]: drawn ${value}, file ${wanted}`,
+        );
+      }
+    }
+  });
+});

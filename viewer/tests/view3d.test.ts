@@ -1,18 +1,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Quaternion, Vector3 } from "three";
-import type { PageSide, View } from "../src/contract";
+import { type Material, type Mesh, Quaternion, Vector3 } from "three";
+import type { PageSide, View, ViewShape } from "../src/contract";
 import { arrowParts, arrowScale } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
+import { peakOf } from "../src/view3d/forces";
 import { Motion } from "../src/view3d/motion";
+import { Obstacles } from "../src/view3d/obstacles";
 import { filled, Path, smoothed } from "../src/view3d/path";
 import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
 import { marks } from "../src/view3d/ruler";
 import { sample, Timeline } from "../src/view3d/timeline";
 import { togglesOf } from "../src/view3d/toggles";
 import { arcAngle } from "../src/view3d/torques";
-import { contactStart, rings, trailPoints } from "../src/view3d/trail";
+import { contactStart, type Place, rings, trailPoints } from "../src/view3d/trail";
 import { ORDINARY, SampleNumbers, samplePage } from "./sample-view";
 
 const NONE = Number.NaN;
@@ -111,6 +113,18 @@ test("one body weight is an arrow of 0.55 heights unless the peak would leave th
   close(arrowScale(2, 4) * 4, 1.9);
 });
 
+test("a blow does not shrink the other arrows", () => {
+  const numbers = new SampleNumbers();
+  const view = samplePage(numbers).sessions[0]?.view;
+  assert.ok(view?.forces[0]);
+  const ordinary = peakOf(view, numbers);
+  close(ordinary, 0.98, 0.02);
+  const blow = [...numbers.read(view.forces[0].force[1])];
+  blow[10] = 1e5;
+  view.forces[0].force[1] = numbers.add(blow);
+  close(peakOf(view, numbers), ordinary, 0.02);
+});
+
 test("heads of short arrows shrink, lengths stay", () => {
   const long = arrowParts(1, 0.01);
   close(long.head, 0.065);
@@ -129,34 +143,34 @@ test("arcs grow with the moment up to a full one and keep its sign", () => {
 
 test("a trail begins with its contact and after the last jump", () => {
   const x = Float64Array.of(9, NONE, 1, 1.01, 1.02, 2, 2.01);
-  const z = x.map(() => 0);
+  const level = x.map(() => 0);
+  const along = (frame: number): number[] => trailPoints([x, level, level], frame).map(([a]) => a);
   assert.equal(contactStart(x, 4), 2);
   assert.equal(contactStart(x, 1), -1);
-  assert.deepEqual(
-    trailPoints(x, z, 4).map(([a]) => a),
-    [1, 1.01, 1.02],
-  );
-  assert.deepEqual(
-    trailPoints(x, z, 6).map(([a]) => a),
-    [2, 2.01],
-  );
-  assert.deepEqual(trailPoints(x, z, 1), []);
+  assert.deepEqual(along(4), [1, 1.01, 1.02]);
+  assert.deepEqual(along(6), [2, 2.01]);
+  assert.deepEqual(along(1), []);
 });
 
 test("the trail's line lies around its points and fades backwards", () => {
-  const { corners, strength } = rings(
-    [
-      [0, 0],
-      [1, 0],
-      [2, 0],
-    ],
-    0.2,
-  );
-  assert.deepEqual(corners[0], [0, 0, 0.2]);
+  const points: Place[] = [0, 1, 2].map((x) => [x, 0.5, 0]);
+  const { corners, strength } = rings(points, 0.2);
+  assert.deepEqual(corners[0], [0, 0.5, 0.2]);
   assert.equal(corners.length, 18);
-  assert.ok(corners.every(([, y, z]) => Math.abs(Math.hypot(y, z) - 0.2) < 1e-9));
+  assert.ok(corners.every(([, y, z]) => Math.abs(Math.hypot(y - 0.5, z) - 0.2) < 1e-9));
   assert.ok((strength[0] ?? 1) < (strength[2] ?? 0));
   close(strength[2] ?? 0, 1);
+});
+
+test("an obstacle before the figure is clear, others are not", () => {
+  const box = (x: number): ViewShape => ({ kind: "box", center: [x, 0, 0], half: [0.1, 1, 1], turn: [0, 0, 0, 1] });
+  const view = samplePage(new SampleNumbers()).sessions[0]?.view;
+  assert.ok(view);
+  const obstacles = new Obstacles({ ...view, fixed: [box(2), box(-2)] });
+  obstacles.group.updateMatrixWorld(true);
+  obstacles.clear(new Vector3(5, 0, 0), new Vector3(0, 0, 0));
+  const clear = obstacles.group.children.map((part) => ((part as Mesh).material as Material).transparent);
+  assert.deepEqual(clear, [true, false]);
 });
 
 test("gaps of the way are bridged, sway is smoothed, travel is not", () => {

@@ -134,7 +134,11 @@ fn a_run_is_not_compared_with_walks() {
     rows.iter_mut().for_each(|row| row.toe_off_percent = Some(38.0));
     for (name, figure) in draw(&rows, "someone", &[]) {
         assert!(figure.panels.iter().all(|panel| panel.bands == 0), "{name}");
-        assert!(figure.texts.iter().any(|text| text.contains("which is no walk")), "{name}: {:?}", figure.texts);
+        assert!(
+            figure.texts.iter().any(|text| text.contains("the feet stand for less than half")),
+            "{name}: {:?}",
+            figure.texts
+        );
     }
 }
 

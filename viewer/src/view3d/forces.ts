@@ -12,16 +12,23 @@ const THIN = 0.0034;
 /** Vertical force from which on a foot is loaded [N], as in the events. */
 const LOADED_N = 20;
 
-/** Largest force [body weights]. */
+/** Forces beyond this part of all are blows, for which the other arrows should not shrink. */
+const ORDINARY_PART = 0.97;
+
+/** Largest force but for blows [body weights]. */
 export function peakOf(view: View, numbers: SeriesReader): number {
-  let peak = 0;
+  const sizes: number[] = [];
   for (const { force } of view.forces) {
     const [x, y, z] = force.map((series) => numbers.read(series)) as [Float64Array, Float64Array, Float64Array];
     for (const [index, up] of y.entries()) {
       const size = Math.hypot(x[index] ?? 0, up, z[index] ?? 0);
-      peak = size > peak ? size : peak;
+      if (size > LOADED_N) {
+        sizes.push(size);
+      }
     }
   }
+  sizes.sort((a, b) => a - b);
+  const peak = sizes[Math.floor(ORDINARY_PART * (sizes.length - 1))] ?? 0;
   return view.weight_n > 0 ? peak / view.weight_n : 0;
 }
 

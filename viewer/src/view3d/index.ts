@@ -127,6 +127,7 @@ class Picture implements View3D {
     this.world.pose(this.clock.time, this.place);
     this.rig.follow(this.place);
     this.stage.follow(this.place);
+    this.world.clear(this.rig.camera.position, this.rig.controls.target);
     return this.rig;
   }
 

@@ -1,22 +1,42 @@
-import { Group, MeshStandardMaterial } from "three";
+import { Group, type Mesh, MeshStandardMaterial, Raycaster, Vector3 } from "three";
 import type { View } from "../contract";
 import { addAll } from "./layers";
 import type { Palette } from "./palette";
 import { shapeMesh } from "./shape";
 
-/** What stands still in a scene. */
+const LOOK = { roughness: 0.8, metalness: 0 };
+
+/** What stands still in a scene; what stands between eye and figure is clear. */
 export class Obstacles {
   readonly group = new Group();
-  private readonly material = new MeshStandardMaterial({ roughness: 0.8, metalness: 0 });
+  private readonly solid = new MeshStandardMaterial(LOOK);
+  private readonly clearing = new MeshStandardMaterial({
+    ...LOOK,
+    transparent: true,
+    opacity: 0.16,
+    depthWrite: false,
+  });
+  private readonly meshes: Mesh[];
+  private readonly ray = new Raycaster();
+  private readonly way = new Vector3();
 
   constructor(view: View) {
-    addAll(
-      this.group,
-      view.fixed.map((shape) => shapeMesh(shape, this.material)),
-    );
+    this.meshes = view.fixed.map((shape) => shapeMesh(shape, this.solid));
+    addAll(this.group, this.meshes);
   }
 
   recolor(colors: Palette): void {
-    this.material.color.copy(colors.obstacle);
+    this.solid.color.copy(colors.obstacle);
+    this.clearing.color.copy(colors.obstacle);
+  }
+
+  /** Lets the eye through to a place. */
+  clear(eye: Vector3, target: Vector3): void {
+    this.way.copy(target).sub(eye);
+    this.ray.far = this.way.length();
+    this.ray.set(eye, this.way.normalize());
+    for (const mesh of this.meshes) {
+      mesh.material = this.ray.intersectObject(mesh).length > 0 ? this.clearing : this.solid;
+    }
   }
 }

@@ -1,6 +1,7 @@
 import type { View } from "../contract";
 import { button, element } from "../element";
 import type { ViewOptions } from "./options";
+import { leavesTrail } from "./trail";
 
 /** A word for the reader and what it shows. */
 interface Toggle {
@@ -19,7 +20,7 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   return [
     ...(view.forces.length > 0 ? [FORCES] : []),
     ...(view.torques.length > 0 ? [MOMENTS] : []),
-    ...(view.forces.length + view.contacts.length > 0 ? [SOLES] : []),
+    ...(view.forces.some(leavesTrail) || view.contacts.length > 0 ? [SOLES] : []),
     ...(ghosts ? [GHOST] : []),
   ];
 }

@@ -24,22 +24,22 @@ export function contactStart(x: Float64Array, frame: number): number {
   return first;
 }
 
-/** Corners of rings around points on the floor, `SIDES` for each, and how strong each ring is: 0.08 at the oldest point, 1 at the last. */
-export function rings(
-  points: [number, number][],
-  radius: number,
-): { corners: [number, number, number][]; strength: number[] } {
-  const corners: [number, number, number][] = [];
+/** A place in the world [m]. */
+export type Place = [x: number, y: number, z: number];
+
+/** Corners of level rings around points, `SIDES` for each, and how strong each ring is: 0.08 at the oldest point, 1 at the last. */
+export function rings(points: Place[], radius: number): { corners: Place[]; strength: number[] } {
+  const corners: Place[] = [];
   const strength: number[] = [];
-  for (const [index, point] of points.entries()) {
-    const before = points[Math.max(0, index - 1)] ?? point;
-    const after = points[Math.min(points.length - 1, index + 1)] ?? point;
-    const [x, z] = [after[0] - before[0], after[1] - before[1]];
+  for (const [index, [px, py, pz]] of points.entries()) {
+    const before = points[Math.max(0, index - 1)] ?? [px, py, pz];
+    const after = points[Math.min(points.length - 1, index + 1)] ?? [px, py, pz];
+    const [x, z] = [after[0] - before[0], after[2] - before[2]];
     const length = Math.hypot(x, z) || 1;
     for (let side = 0; side < SIDES; side += 1) {
       const angle = (2 * Math.PI * side) / SIDES;
       const across = radius * Math.cos(angle);
-      corners.push([point[0] - (z / length) * across, radius * Math.sin(angle), point[1] + (x / length) * across]);
+      corners.push([px - (z / length) * across, py + radius * Math.sin(angle), pz + (x / length) * across]);
     }
     strength.push(0.08 + (0.92 * (index + 1)) / points.length);
   }
@@ -48,8 +48,8 @@ export function rings(
 
 interface Track {
   source: ViewForce;
-  x: Float64Array;
-  z: Float64Array;
+  /** Where the force acts: x, y, z [m]. */
+  place: [Float64Array, Float64Array, Float64Array];
   line: Mesh<BufferGeometry, MeshBasicMaterial>;
   point: Mesh<SphereGeometry, MeshBasicMaterial>;
 }
@@ -59,14 +59,8 @@ export class Trail {
   readonly group = new Group();
   private readonly tracks: Track[];
 
-  constructor(
-    view: View,
-    numbers: SeriesReader,
-    private readonly floor: number,
-  ) {
-    this.tracks = view.forces
-      .filter((force) => force.role === "main")
-      .map((source) => track(source, numbers.read(source.point[0]), numbers.read(source.point[2])));
+  constructor(view: View, numbers: SeriesReader) {
+    this.tracks = view.forces.filter(leavesTrail).map((source) => track(source, numbers));
     for (const { line, point } of this.tracks) {
       this.group.add(line, point);
     }
@@ -82,28 +76,33 @@ export class Trail {
 
   pose(frame: number): void {
     for (const one of this.tracks) {
-      const points = trailPoints(one.x, one.z, Math.floor(frame));
+      const points = trailPoints(one.place, Math.floor(frame));
       one.line.visible = points.length > 1;
       one.point.visible = points.length > 0;
       const last = points[points.length - 1];
       if (last) {
-        one.point.position.set(last[0], this.floor, last[1]);
+        one.point.position.set(...last);
       }
       if (points.length > 1) {
-        fill(one.line.geometry, points, this.floor);
+        fill(one.line.geometry, points);
       }
     }
   }
 }
 
+/** Feet leave trails; what lies on anything else does not. */
+export function leavesTrail(force: ViewForce): boolean {
+  return force.role === "main" && force.side !== null;
+}
+
 /** Points of the contact up to a frame, after the last jump. */
-export function trailPoints(x: Float64Array, z: Float64Array, frame: number): [number, number][] {
+export function trailPoints([x, y, z]: Track["place"], frame: number): Place[] {
   const start = contactStart(x, frame);
-  const points: [number, number][] = [];
+  const points: Place[] = [];
   for (let index = start; start >= 0 && index <= frame; index += 1) {
-    const point: [number, number] = [x[index] ?? Number.NaN, z[index] ?? Number.NaN];
+    const point: Place = [x[index] ?? Number.NaN, y[index] ?? Number.NaN, z[index] ?? Number.NaN];
     const last = points[points.length - 1];
-    if (last && Math.hypot(point[0] - last[0], point[1] - last[1]) > JUMP_M) {
+    if (last && Math.hypot(point[0] - last[0], point[2] - last[2]) > JUMP_M) {
       points.length = 0;
     }
     points.push(point);
@@ -111,19 +110,20 @@ export function trailPoints(x: Float64Array, z: Float64Array, frame: number): [n
   return points;
 }
 
-function track(source: ViewForce, x: Float64Array, z: Float64Array): Track {
+function track(source: ViewForce, numbers: SeriesReader): Track {
   const line = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ transparent: true, vertexColors: true }));
   line.frustumCulled = false;
   const point = new Mesh(new SphereGeometry(POINT_M, 20, 14), new MeshBasicMaterial());
-  return { source, x, z, line, point };
+  const place = source.point.map((series) => numbers.read(series)) as Track["place"];
+  return { source, place, line, point };
 }
 
-function fill(geometry: BufferGeometry, points: [number, number][], height: number): void {
+function fill(geometry: BufferGeometry, points: Place[]): void {
   const { corners, strength } = rings(points, LINE_M);
   const position = room(geometry, points.length);
   const color = geometry.getAttribute("color") as BufferAttribute;
-  for (const [index, [x, y, z]] of corners.entries()) {
-    position.setXYZ(index, x, height + y, z);
+  for (const [index, corner] of corners.entries()) {
+    position.setXYZ(index, ...corner);
     color.setXYZW(index, 1, 1, 1, strength[Math.floor(index / SIDES)] ?? 0);
   }
   position.needsUpdate = true;

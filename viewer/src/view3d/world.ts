@@ -30,6 +30,7 @@ export class World {
   private readonly torques: Torques;
   private readonly trail: Trail;
   private readonly contacts: Contacts;
+  private readonly obstacles: Obstacles;
   private readonly still: (Plates | Obstacles | Ruler)[];
   private readonly hips = new Vector3();
 
@@ -50,11 +51,12 @@ export class World {
     this.floor = new Floor(view.floor_m);
     this.forces = new Forces(view, numbers, height, weight_m);
     this.torques = new Torques(view, numbers, session.feasibility?.red ?? [], height);
-    this.trail = new Trail(view, numbers, view.floor_m);
+    this.trail = new Trail(view, numbers);
     this.contacts = new Contacts(view, height, view.floor_m);
     const [from, to] = [0, timeline.frames - 1].map((frame) => this.path.smooth(frame, new Vector3()));
     const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
-    this.still = [new Plates(view), new Obstacles(view), ruler];
+    this.obstacles = new Obstacles(view);
+    this.still = [new Plates(view), this.obstacles, ruler];
     this.ghosts = page.sessions.flatMap((other, index) =>
       index > 0 && other.view
         ? [new Ghost(other, other.view, numbers, this.path.heading, height, weight_m, index)]
@@ -92,6 +94,11 @@ export class World {
     for (const ghost of this.ghosts) {
       ghost.show(options);
     }
+  }
+
+  /** Lets the eye through to the figure. */
+  clear(eye: Vector3, target: Vector3): void {
+    this.obstacles.clear(eye, target);
   }
 
   /** Everything as it is at a time [s]; `place` becomes the figure's place on the floor. */

@@ -41,9 +41,14 @@ pub(super) fn page_of_folders(folders: &[&Path]) -> Result<String> {
     let folders: Vec<Folder<'_>> = folders
         .iter()
         .zip(&readers)
-        .map(|(folder, file)| Folder { name: folder.display().to_string(), file })
+        .map(|(folder, file)| Folder { name: last(folder), file })
         .collect();
     Ok(report_page(&folders)?)
+}
+
+/// Name of a folder without the way to it.
+fn last(folder: &Path) -> String {
+    folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// A run whose page cannot be made keeps its other results.
@@ -58,6 +63,6 @@ pub(super) fn page_of_run(name: &Path, written: &[OutputFile], summary: &[u8]) -
         "summary.json" => Some(summary.to_vec()),
         _ => written.iter().find(|file| file.name == name).map(|file| file.bytes.clone()),
     };
-    let html = report_page(&[Folder { name: name.display().to_string(), file: &file }])?;
+    let html = report_page(&[Folder { name: last(name), file: &file }])?;
     Ok(OutputFile { name: PAGE.to_owned(), bytes: html.into_bytes() })
 }

@@ -64,14 +64,26 @@ impl Stage {
             stage.torques = torque::torques(&model, &moments, &angles, mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
+        stage.put_soles_on_the_floor(&model, summary["height_m"].as_f64());
         Ok(Ok(stage))
+    }
+
+    fn put_soles_on_the_floor(&mut self, model: &Model, stature_m: Option<f64>) {
+        let places = JointPlaces::new(model);
+        let stature = person::stature(&places, stature_m);
+        let Some(size) = person::lengths(stature) else { return };
+        let (shapes, contacts) = shapes(&places, stature, &size, foot::sunk(self));
+        for (body, shapes) in self.bodies.iter_mut().zip(shapes) {
+            body.shapes = shapes;
+        }
+        self.contacts = contacts;
     }
 
     /// Of a model's motion alone; the stature [m] where it is known.
     pub(crate) fn of_motion(model: &Model, trajectory: &Trajectory, stature_m: Option<f64>) -> Stage {
         let places = JointPlaces::new(model);
         let stature = person::stature(&places, stature_m);
-        let shapes = person::lengths(stature).map(|size| shapes(&places, stature, &size));
+        let shapes = person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]));
         let (shapes, contacts) = shapes.unwrap_or_default();
         let paths = paths(model, trajectory);
         let body = |((body, shapes), path): ((BodyId, Vec<ViewShape>), BodyPath)| {
@@ -105,15 +117,16 @@ impl Stage {
 pub(crate) fn figure_shapes(model: &Model) -> Vec<Vec<ViewShape>> {
     let places = JointPlaces::new(model);
     let stature = person::stature(&places, None);
-    person::lengths(stature).map(|size| shapes(&places, stature, &size).0).unwrap_or_default()
+    person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]).0).unwrap_or_default()
 }
 
 fn shapes(
     places: &JointPlaces<'_>,
     stature: f64,
     size: &Dimensions,
+    sunk: [f64; 2],
 ) -> (Vec<Vec<ViewShape>>, Vec<super::StageContact>) {
-    let feet = foot::feet(places, stature, size);
+    let feet = foot::feet(places, stature, size, sunk);
     let of = |body: BodyId| match places.part(body) {
         _ if let Some(foot) = feet.iter().find(|foot| foot.rear == body) => foot.rear_shapes(places, size),
         _ if let Some(foot) = feet.iter().find(|foot| foot.toes == Some(body)) => foot.toe_shapes(places, size),

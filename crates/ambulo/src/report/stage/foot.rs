@@ -2,17 +2,23 @@
 //!
 //! A foot is a triangle of capsules from heel, ankle and ball, as thick as the heel's and the ball's spheres of published foot models,
 //! and the toes before it. Soles of the built figures stand where their markers `heel_s`, `ball_s`, `toe_s` say, those of other models
-//! where a person of this stature has them ([`Sole`]).
+//! where a person of this stature has them ([`Sole`]), moved up or down so that they meet the floor while plates or a prediction carry
+//! the foot: models differ by a few centimetres in how high an ankle stands.
 
-use super::StageContact;
 use super::capsule;
 use super::joint_places::JointPlaces;
 use super::part::Part;
+use super::{Stage, StageContact};
 use crate::ground::sole::{Sole, SolePoint};
 use crate::model::anthropometry::{ContactSphere, Dimensions};
 use crate::model::{BodyId, Side};
 use crate::report::page::ViewShape;
 use crate::spatial::Vec3;
+
+/// Share of the weight that a foot carries when it surely stands.
+const ENOUGH: f64 = 0.2;
+/// Soles are not moved further than this [m]: more is another error, which the picture shows.
+const MOST_SUNK: f64 = 0.04;
 
 /// A foot on its sole.
 pub(super) struct Foot {
@@ -24,16 +30,35 @@ pub(super) struct Foot {
     pub(super) toes: Option<BodyId>,
 }
 
-/// Both feet, where a model has them by the usual names.
-pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions) -> Vec<Foot> {
-    Side::BOTH.into_iter().filter_map(|side| Foot::new(places, side, stature, size)).collect()
+/// Both feet, where a model has them by the usual names; estimated soles lower by `sunk` [m] on the right and the left.
+pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, sunk: [f64; 2]) -> Vec<Foot> {
+    let sides = Side::BOTH.into_iter().zip(sunk);
+    sides.filter_map(|(side, sunk)| Foot::new(places, side, stature, size, sunk)).collect()
+}
+
+/// How far the estimated soles of both feet have to go down to meet the floor: the median over all instants in which a fifth of the
+/// weight is on the foot, at most [`MOST_SUNK`].
+pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
+    Side::BOTH.map(|side| {
+        let force = stage.forces.iter().find(|force| force.side == Some(side) && !force.beside);
+        let carries = |instant: &usize| force.is_some_and(|f| f.force[*instant].y > ENOUGH * stage.weight_n);
+        let lowest = |instant: usize| {
+            let soles = stage.contacts.iter().filter(|contact| contact.side == Some(side));
+            let heights = soles.map(|contact| stage.bodies[contact.body].path.place(instant, contact.place).y);
+            heights.min_by(f64::total_cmp)
+        };
+        let mut gaps: Vec<f64> = (0..stage.grid.frames).filter(carries).filter_map(lowest).collect();
+        gaps.sort_by(f64::total_cmp);
+        let median = gaps.get(gaps.len() / 2).map_or(0.0, |height| height - stage.floor_m);
+        median.clamp(-MOST_SUNK, MOST_SUNK)
+    })
 }
 
 impl Foot {
-    fn new(places: &JointPlaces<'_>, side: Side, stature: f64, size: &Dimensions) -> Option<Foot> {
+    fn new(places: &JointPlaces<'_>, side: Side, stature: f64, size: &Dimensions, sunk: f64) -> Option<Foot> {
         let half_width = 0.5 * size.foot_width;
         let sole = Sole::of_spheres(&spheres(places, side, size), side, half_width)
-            .or_else(|| Sole::estimated(places.model, &places.rest, side, stature))?;
+            .or_else(|| Some(lowered(places, Sole::estimated(places.model, &places.rest, side, stature)?, sunk)))?;
         let rear = sole.points[0].body;
         let toes = places.children(rear).find(|id| places.part(*id) == Part::Toes);
         let points = sole.points.map(|point| match toes {
@@ -76,7 +101,7 @@ impl Foot {
         self.toes.map(|toes| self.front(places, toes, size)).unwrap_or_default()
     }
 
-    /// From the ball to the tip, two abreast, in the frame of a body.
+    /// From the ball to the tip, three abreast, in the frame of a body.
     fn front(&self, places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
         let up = places.up(body);
         let [_, ball, tip] = self.sole.points.map(|point| places.seen_from(body, world(places, point)));
@@ -85,7 +110,9 @@ impl Foot {
         let tip = tip + ahead * (0.5 * size.foot_width - size.toe_radius).max(0.0);
         let (ball, tip) = (ball + up * size.toe_radius, tip + up * size.toe_radius);
         let aside = up.cross(&ahead) * (0.5 * size.foot_width - size.ball_radius).max(0.0);
-        [1.0, -1.0].map(|sign| capsule(ball + aside * sign, tip + aside * sign * 0.5, size.toe_radius)).to_vec()
+        let shorter = tip - (tip - ball) * 0.12;
+        let beside = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
+        vec![capsule(ball, tip, size.toe_radius), beside(1.0), beside(-1.0)]
     }
 
     fn in_rear(&self, places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {
@@ -99,6 +126,12 @@ impl Foot {
             places.children(shank).find(|id| *id == self.rear || places.children(*id).any(|c| c == self.rear))?;
         Some(places.joint_of(below, self.rear))
     }
+}
+
+/// The sole further down along the foot.
+fn lowered(places: &JointPlaces<'_>, sole: Sole, by: f64) -> Sole {
+    let lower = |point: SolePoint| SolePoint { place: point.place - places.up(point.body) * by, ..point };
+    Sole { points: sole.points.map(lower), ..sole }
 }
 
 fn world(places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {

@@ -19,9 +19,8 @@ const SLENDER: f64 = 0.1;
 const LIMITS: [f64; 2] = [0.04, 0.3];
 /// Radius of a body without extent, over stature.
 const DOT: f64 = 0.012;
-/// Where a limb is thickest, over its length, and how thick its ends are over that.
-const BELLY: [f64; 2] = [0.1, 0.5];
-const THIN: f64 = 0.78;
+/// Parts of a limb: from where to where over its length, and how thick over its thickest part, where muscles are.
+const PARTS: [[f64; 3]; 3] = [[0.0, 1.0, 0.78], [0.06, 0.64, 0.9], [0.12, 0.46, 1.0]];
 /// A segment shorter than this over stature is a dot.
 const SHORT: f64 = 0.02;
 
@@ -41,16 +40,14 @@ pub(super) fn radius(length: f64, mass: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Capsules between two places for a body of this mass: one over the whole length, and one about the upper part, where muscles are
-/// thick. A dot where the places are the same.
+/// Capsules between two places for a body of this mass, within each other; a dot where the places are the same.
 fn flesh(from: Vec3, to: Vec3, mass: f64, stature: f64) -> Vec<ViewShape> {
     let along = to - from;
     if along.norm() < SHORT * stature {
         return vec![dot(from, stature)];
     }
     let thick = radius(along.norm(), mass);
-    let belly = BELLY.map(|share| from + along * share);
-    vec![capsule(from, to, thick * THIN), capsule(belly[0], belly[1], thick)]
+    PARTS.map(|[start, end, share]| capsule(from + along * start, from + along * end, thick * share)).to_vec()
 }
 
 /// A small ball.

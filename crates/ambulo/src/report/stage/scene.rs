@@ -59,7 +59,28 @@ fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, PageError
     if shapes.format != FORMAT {
         return Err(folder.unreadable(FILE, format!("format is {}; expected {FORMAT}", shapes.format)));
     }
+    let named = shapes.bodies.iter().map(|body| (&body.name, &body.shapes));
+    let obstacles = shapes.obstacles.iter().map(|obstacle| (&obstacle.name, &obstacle.shapes));
+    for (name, shape) in named.chain(obstacles).flat_map(|(name, list)| list.iter().map(move |shape| (name, shape))) {
+        if let Some(reason) = defect(shape) {
+            return Err(folder.unreadable(FILE, format!("`{name}`: {reason}")));
+        }
+    }
     Ok(shapes)
+}
+
+/// What is wrong with a shape.
+fn defect(shape: &ViewShape) -> Option<String> {
+    match shape {
+        ViewShape::Capsule { radius, .. } if *radius <= 0.0 => {
+            Some(format!("found a capsule of radius {radius} m; expected more than zero"))
+        }
+        ViewShape::Mesh { points, triangles } => {
+            let beyond = triangles.iter().flatten().find(|corner| **corner as usize >= points.len())?;
+            Some(format!("found a triangle with the corner {beyond}; the mesh has {} points, from 0 on", points.len()))
+        }
+        _ => None,
+    }
 }
 
 /// All rows of `poses.csv`.

@@ -199,6 +199,20 @@ fn a_moment_turns_its_body_about_its_axis() {
     }
 }
 
+/// Two instants of a right foot with this force at this height.
+fn one_foot(force: f64, height: f64) -> Vec<u8> {
+    let value = |name: &str| match name {
+        "vy" => force,
+        "py" => height,
+        _ => 0.0,
+    };
+    let mut columns = vec![("time".to_owned(), vec![0.0, 0.1])];
+    for name in ["vx", "vy", "vz", "px", "py", "pz"] {
+        columns.push((format!("ground_force_r_{name}"), vec![value(name); 2]));
+    }
+    Table::new("Ground Reactions", columns).unwrap().write_storage()
+}
+
 #[test]
 fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
     let part = |name: &str, place: &str| {
@@ -233,7 +247,7 @@ fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
         hinge("knee_angle_r", "/bodyset/femur_r", "tibia_r", "0 -0.42 0"),
         hinge("ankle_angle_r", "/bodyset/tibia_r", "calcn_r", "0 -0.41 0"),
     ];
-    let table = Table::new("c", vec![("time".into(), vec![0.0, 0.1]), ("pelvis_tilt".into(), vec![0.0, 0.1])]).unwrap();
+    let table = Table::new("c", vec![("time".into(), vec![0.0, 0.1]), ("pelvis_tilt".into(), vec![0.0; 2])]).unwrap();
     for (count, soles) in [(4, 3), (1, 0)] {
         let mut files = folder(&body());
         files.insert("subject.osim".into(), model(&bodies[..count], &joints[..count]).into_bytes());
@@ -241,6 +255,12 @@ fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
         let stage = stage(&files).unwrap();
         assert_eq!((stage.bodies.len(), stage.contacts.len()), (count, soles));
         assert!(stage.bodies.iter().all(|body| !body.shapes.is_empty()));
+        // The foot stands 20 mm below where the proportions of a person put its sole: the sole follows.
+        files.insert("grf.mot".into(), one_foot(30.0, -0.02));
+        let standing = self::stage(&files).unwrap();
+        let heights = standing.contacts.iter().map(|c| standing.bodies[c.body].path.place(0, c.place).y);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        assert!(count == 1 || (lowest + 0.02).abs() < 1e-3, "{lowest}");
         let finite = |shape: &ViewShape| match shape {
             ViewShape::Capsule { from, to, radius } => from.iter().chain(to).chain([radius]).all(|x| x.is_finite()),
             _ => false,
@@ -327,6 +347,13 @@ fn a_scene_that_is_damaged_is_refused_with_file_and_line() {
     let unknown = refused("shapes.json", "\"format\":1", "\"format\":7");
     assert_eq!(unknown, "walk/shapes.json: format is 7; expected 1");
     assert!(refused("shapes.json", "\"bodies\"", "\"corpses\"").starts_with("walk/shapes.json: "));
+    let corner = refused("shapes.json", "[0,1,2]", "[0,1,3]");
+    assert_eq!(
+        corner,
+        "walk/shapes.json: `stone`: found a triangle with the corner 3; the mesh has 3 points, from 0 on"
+    );
+    let radius = refused("shapes.json", "\"radius\":0.1", "\"radius\":-1");
+    assert!(radius.contains("`ball, red`: found a capsule of radius -1 m"), "{radius}");
     let number = refused("poses.csv", "0.002,wall,0", "0.002,wall,x");
     assert_eq!(number, "walk/poses.csv: line 7, column 3: found `x`; expected a finite number");
     let lacking = refused("poses.csv", "0.002,wall", "0.002,hall");

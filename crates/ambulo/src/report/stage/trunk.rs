@@ -17,6 +17,7 @@ use crate::spatial::Vec3;
 const HEAD: f64 = 0.38;
 /// Thickness of the parts of the trunk over stature, chosen so that chest and arms do not touch.
 const CHEST: f64 = 0.062;
+const HIP: f64 = 0.05;
 const SHOULDER: f64 = 0.032;
 const NECK: f64 = 0.028;
 /// How far apart both halves of the chest are, over the distance of the shoulders: at the waist, at the top.
@@ -28,7 +29,7 @@ pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) 
     let middle = middle(&hips).unwrap_or_else(|| places.own(body));
     let thick = CHEST * size.height;
     let mut shapes: Vec<ViewShape> = match hips[..] {
-        [a, b] => vec![capsule(a, b, thick)],
+        [a, b] => vec![capsule(a, b, HIP * size.height)],
         _ => vec![capsule(middle, middle, thick)],
     };
     let above = places.joints_to(body, Part::Trunk);
@@ -49,6 +50,9 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
         capsule(base + apart * PARTED[0], top - up * thick + apart * PARTED[1], thick)
     };
     let mut shapes = vec![half(1.0), half(-1.0), capsule(left, right, SHOULDER * size.height)];
+    if let [a, b] = places.joints_to(body, Part::Thigh)[..] {
+        shapes.push(capsule(a, b, HIP * size.height));
+    }
     if places.model.body_ids().all(|id| places.part(id) != Part::Head) {
         let vertex = marker(places, body, "vertex").unwrap_or(top + up * above_shoulders(size));
         shapes.extend(head_below(vertex, top, size));
