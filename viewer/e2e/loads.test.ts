@@ -20,8 +20,11 @@ const ALL = [
 ];
 /** Bytes of the page of a walk of ten seconds, at most. */
 const LARGEST = 1_500_000;
-/** Time to the first picture, at most [ms]: 1 s on a machine with a graphics card; here a processor draws and others may use it. */
-const SLOWEST_MS = 3000;
+/**
+ * Time to the first picture, at most [ms]. The page wants 1 s on a machine with a graphics card; here a processor draws, which takes
+ * most of the time.
+ */
+const SLOWEST_MS = 2000;
 
 for (const name of ALL) {
   test(`${name}: opens from disk without a complaint and asks for nothing`, async () => {
@@ -52,14 +55,27 @@ test("the page of ten seconds is small", (t) => {
   assert.ok(bytes <= LARGEST, `${bytes} bytes`);
 });
 
+/** How much longer than its work a program takes here now: 1 on an idle machine, more where others compute too. */
+function crowding(): number {
+  const [started, work] = [performance.now(), process.cpuUsage()];
+  const used = (): number => process.cpuUsage(work).user / 1000;
+  while (used() < 100) {
+    Math.hypot(used(), 1);
+  }
+  return Math.max(1, (performance.now() - started) / used());
+}
+
 test("the first picture is there soon", async (t) => {
   const times: number[] = [];
+  const crowd = crowding();
   for (let run = 0; run < 3; run += 1) {
     await withPage("long", async ({ page }) => {
       times.push(await page.evaluate(firstPixel));
     });
   }
   times.sort((a, b) => a - b);
-  t.diagnostic(`first picture after ${times.map((time) => time.toFixed(0)).join(", ")} ms, drawn by the processor`);
-  assert.ok((times[1] ?? Number.POSITIVE_INFINITY) < SLOWEST_MS, `${times}`);
+  const most = SLOWEST_MS * Math.max(crowd, crowding());
+  const words = times.map((time) => time.toFixed(0)).join(", ");
+  t.diagnostic(`first picture after ${words} ms, drawn by the processor; ${most.toFixed(0)} ms allowed`);
+  assert.ok((times[1] ?? Number.POSITIVE_INFINITY) < most, words);
 });

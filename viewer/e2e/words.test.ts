@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { addressOf, withPage } from "./page";
+import { addressOf, type Opened, withPage } from "./page";
 
 /** Panels, tables and the figure's place that hold neither a drawing nor a sentence. */
 function emptyBoxes(page: Page): Promise<string[]> {
@@ -63,6 +63,24 @@ test("what is not feasible is red, with the reason in words", async () => {
     const from = await page.evaluate(() => window.ambulo.page.sessions[0]?.feasibility?.red[0]?.from_s ?? Number.NaN);
     assert.ok(Math.abs((await page.evaluate(() => window.ambulo.clock.time)) - from) < 1e-6);
   });
+});
+
+/** A browser without WebGL. */
+const NO_WEBGL = `
+  const get = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest);
+  };`;
+
+test("without WebGL a sentence stands in place of the figure, and all else works", async () => {
+  const look = async ({ page }: Opened): Promise<void> => {
+    assert.match(await page.locator(".view").innerText(), /WebGL/);
+    assert.deepEqual(await emptyBoxes(page), []);
+    await page.keyboard.press("End");
+    assert.equal(await page.evaluate(() => window.ambulo.clock.time === window.ambulo.clock.end), true);
+    assert.ok((await page.locator(".plot canvas").count()) > 0);
+  };
+  await withPage("demo", look, {}, NO_WEBGL);
 });
 
 test("text of files is text: no script of it runs", async () => {

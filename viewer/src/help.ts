@@ -7,6 +7,7 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["Home, End", "to the beginning, to the end"],
   ["+ −", "play faster, slower"],
   ["1 2 3", "camera: side, front, free"],
+  ["A D W S, Q E", "turn the figure, zoom (click it first)"],
   ["C", "gait cycle or time"],
   ["T", "dark or light"],
   ["?", "this help"],

@@ -146,6 +146,7 @@ class Picture implements View3D {
     const changed = (): void => this.stage.invalidate();
     const sizes = new ResizeObserver(() => this.measure() && this.stage.draw());
     sizes.observe(this.host);
+    this.canvas.addEventListener("webglcontextrestored", changed);
     return [
       () => sizes.disconnect(),
       this.clock.subscribe(changed),
