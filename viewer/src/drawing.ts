@@ -266,8 +266,7 @@ export function valueRange(lines: readonly Line[], areas: readonly Area[]): [num
     return [-1, 1];
   }
   if (high - low < NOISE) {
-    const half = Math.abs(low) / 2 || 1;
-    return [low - half, low + half];
+    return Math.abs(low) < NOISE ? [-1, 1] : [low - Math.abs(low) / 2, low + Math.abs(low) / 2];
   }
   const span = high - low;
   low = low > 0 && low <= ZERO_WITHIN * span ? 0 : low;

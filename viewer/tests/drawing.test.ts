@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Page } from "../src/contract";
+import type { Page, Trace } from "../src/contract";
 import { type Drawing, drawing, type PanelSource, valueRange } from "../src/drawing";
 import { Numbers } from "../src/numbers";
 import { readings } from "../src/reading";
@@ -117,7 +117,7 @@ test("the reading is the value of the curve at the time", async () => {
   assert.deepEqual(left, { side: "l", variant: 0, x: null, value: undefined });
 });
 
-test("a limit far away does not squeeze the curve, one near is shown", () => {
+test("the range shows a limit if it is near, zero if it is near, and no rounding", () => {
   const line = (role: "main" | "limit", values: number[]) => ({
     name: "",
     role,
@@ -135,5 +135,30 @@ test("a limit far away does not squeeze the curve, one near is shown", () => {
   assert.deepEqual(valueRange([line("main", [Number.NaN])], []), [-1, 1]);
   assert.deepEqual(valueRange([line("main", [0, 0])], []), [-1, 1]);
   assert.deepEqual(valueRange([line("main", [4, 4])], []), [2, 6]);
+  assert.deepEqual(valueRange([line("main", [1e-16, -3e-16])], []), [-1, 1]);
   assert.equal(valueRange([line("main", [1, 9])], [])[0], 0);
+});
+
+test("several lines without a side have numbers, and a reading each", async () => {
+  const block = new Block();
+  const page = samplePage(block, [WHOLE]);
+  const [session] = page.sessions;
+  const [source] = sourcesOf(page, "residual");
+  assert.ok(session && source);
+  const values = block.add(Array.from({ length: session.time.frames }, (_, i) => i));
+  const second: Trace = { name: "up", side: null, role: "main", values, sd: null, origin: null };
+  const panel = { ...source.panel, traces: [...source.panel.traces, second] };
+  const numbers = await Numbers.decode(block.encode());
+  const now = drawing([{ ...source, panel }], numbers, BOTH);
+  assert.ok(now);
+  const main = now.lines.filter((line) => line.role === "main");
+  assert.deepEqual(
+    main.map((line) => line.variant),
+    [0, 1],
+  );
+  const read = readings(now, session, session.time.start_s + 7 * session.time.step_s);
+  assert.deepEqual(
+    read.map((reading) => reading.value?.toFixed(1)),
+    [main[0]?.y[7]?.toFixed(1), "7.0"],
+  );
 });

@@ -72,10 +72,10 @@ fn curves_of_a_scene_are_those_of_its_tables() {
     let time = &shown.session()["time"];
     assert_eq!((time["frames"].as_u64(), shown.session()["source"].as_str()), (Some(50), Some("simulated")));
     assert!((time["step_s"].as_f64().unwrap() - STEP_S).abs() < 1e-12);
-    let (door, energy) = (trace(&shown, "joint_1", "door, hinge angle"), trace(&shown, "energy", "kinetic"));
+    let (door, energy) = (trace(&shown, "joint_1", "door, hinge angle"), trace(&shown, "energy_kinetic", "kinetic"));
     let (effort, moment) =
         (trace(&shown, "effort_1", "door, hinge angle"), trace(&shown, "hip_flexion_moment", "left"));
-    let contact = trace(&shown, "contact_normal", "floor on ann/calcn_r");
+    let contact = trace(&shown, "contact_1_normal", "right");
     for i in 0..INSTANTS {
         let t = i as f64 * STEP_S;
         // Half a step of the 16-bit numbers: 58 deg, 2 J and 1 N.m/kg over 65534.

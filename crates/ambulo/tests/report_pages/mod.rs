@@ -4,12 +4,13 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{PredictOrder, Settings, analyse, analyse_predicted};
 use ambulo::findings::Findings;
+use ambulo::ground::predict::PredictSettings;
 use ambulo::model::from_osim_bytes;
 use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
 use ambulo::report::page::{Folder, PageError, report_page};
-use ambulo::report::{GroundSource, Input, output_files, summary};
+use ambulo::report::{GroundSource, Input, output_files, prediction_files, summary};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use base64::Engine;
@@ -69,6 +70,36 @@ pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &Extern
     let mut files: Files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
     files.insert("subject.osim".to_owned(), body.to_vec());
     files.insert("summary.json".to_owned(), serde_json::to_vec(&summary).unwrap());
+    files
+}
+
+/// The folder that `ambulo forces --predict` writes of the invented recording.
+pub(crate) fn predicted() -> Files {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-cli/tests/recording");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let (mut files, mut findings) = (recorded(), Findings::default());
+    let model = from_osim_bytes(&read("figure.osim"), &mut findings).unwrap();
+    let table = |name: &str| Table::read_storage(&read(name)).unwrap().0;
+    let motion = coordinates_from_table(&model, &table("walk.mot"), "walk.mot", &mut findings).unwrap();
+    let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;
+    let plates = force_recordings(&model, &loads, &table("walk_grf.mot"), &mut findings).unwrap();
+    let settings = Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: Window::default(),
+        rate_hz: None,
+        instrumented: None,
+    };
+    let person = Person::of_model(&model);
+    let order = PredictOrder { soles: &person.soles, settings: &PredictSettings::default(), plates_filter: None };
+    let predicted = analyse_predicted(&model, &motion, &plates, settings, &order, &mut findings, &mut |_| {}).unwrap();
+    let written = output_files(&model, &predicted.analysis, None).unwrap();
+    let beside = prediction_files(&model, &predicted).unwrap();
+    files.extend(written.into_iter().chain(beside).map(|file| (file.name, file.bytes)));
+    with_summary(&mut files, |summary| {
+        summary["ground"] = serde_json::json!({"source": "predicted", "rule": "lever rule", "threshold_n": 20.0});
+        summary["mass_kg"] = serde_json::json!(predicted.analysis.mass.kg);
+    });
     files
 }
 

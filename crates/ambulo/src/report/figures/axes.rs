@@ -169,7 +169,7 @@ mod tests {
     fn ticks_are_round_and_inside() {
         assert_eq!(ticks([0.0, 100.0]), (vec![0.0, 20.0, 40.0, 60.0, 80.0, 100.0], 0));
         let (rows, digits) = ticks([-0.83, 1.41]);
-        assert_eq!((rows.len(), digits), (5, 1), "{rows:?}");
+        assert_eq!((rows.len(), digits), (4, 1), "{rows:?}");
         assert!(rows.iter().all(|x| (-0.83..1.41).contains(x)));
         assert_eq!(ticks([1.0, 1.0]).0.len(), 0);
         assert_eq!(number_text(-0.0, 1), "0.0");

@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_text_is_wrapped_and_a_word_without_end_is_cut() {
-        let lines = wrapped("one two three four", 10.0, text_width("one two t", 10.0));
+        let lines = wrapped("one two three four", 10.0, text_width("one two", 10.0) + 0.1);
         assert_eq!(lines, ["one two", "three", "four"]);
         let long = wrapped(&"x".repeat(500), 6.0, 100.0);
         assert!(long.len() == 1 && long[0].ends_with('…') && text_width(&long[0], 6.0) <= 106.0, "{long:?}");

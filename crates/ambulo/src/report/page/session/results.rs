@@ -99,6 +99,12 @@ impl Results {
         self.summary.pointer(path).and_then(Value::as_array).map_or(&[], Vec::as_slice)
     }
 
+    /// The limit that a check of the verdict judged by.
+    pub(super) fn limit(&self, check: &str) -> Option<f64> {
+        let judged = self.list("/verdict/closest").iter().find(|entry| entry["check"].as_str() == Some(check))?;
+        judged["limit"].as_f64().filter(|limit| limit.is_finite())
+    }
+
     /// Cycles of one foot.
     pub(super) fn cycles_of(&self, side: Side) -> impl Iterator<Item = &PageCycle> {
         let side = super::sides::page(side);

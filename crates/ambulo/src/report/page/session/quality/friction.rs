@@ -25,7 +25,7 @@ pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
         .iter()
         .map(|(side, values)| trace(&side.to_string(), Some(sides::page(*side)), Role::Main, block.add(values)))
         .collect();
-    let limit = limit(results).unwrap_or(usual.friction);
+    let limit = results.limit("friction").unwrap_or(usual.friction);
     traces.push(trace("limit", None, Role::Limit, block.add(&vec![limit; results.grid.frames])));
     let note = format!(
         "Horizontal over vertical force of each foot while it carries at least {:.1} body weights; the limit is {limit:.2}.",
@@ -41,10 +41,4 @@ fn use_of(results: &Results, side: Side, least_n: f64) -> Option<Vec<f64>> {
     let [x, y, z] = ["x", "y", "z"].map(|axis| table.column(&format!("ground_force_{}_v{axis}", side.letter())));
     let triples = x?.iter().zip(y?).zip(z?);
     Some(triples.map(|((x, y), z)| if *y >= least_n { x.hypot(*z) / y } else { f64::NAN }).collect())
-}
-
-/// The limit that the motion was judged by.
-fn limit(results: &Results) -> Option<f64> {
-    let judged = results.list("/verdict/closest").iter().find(|entry| entry["check"].as_str() == Some("friction"))?;
-    judged["limit"].as_f64().filter(|limit| limit.is_finite())
 }

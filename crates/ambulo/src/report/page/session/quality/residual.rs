@@ -2,40 +2,60 @@
 
 use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::report::page::block::Block;
-use crate::report::page::contract::{Group, Origin, PageSource, Role, Trace};
+use crate::report::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
 use crate::report::page::session::results::{MOMENTS, Results};
 
-/// Columns of the root in `moments.sto`, as OpenSim's models and the built-in bodies call them, with what a reader calls them.
-const FORCES: [(&str, &str); 3] =
-    [("pelvis_tx_force", "forward"), ("pelvis_ty_force", "up"), ("pelvis_tz_force", "to the right")];
-const MOMENTS_OF_ROOT: [(&str, &str); 3] =
-    [("pelvis_tilt_moment", "tilt"), ("pelvis_list_moment", "list"), ("pelvis_rotation_moment", "rotation")];
+/// A column of the root in `moments.sto`, as OpenSim's models and the built-in bodies call it, and its panel: word, heading, unit,
+/// directions.
+type Component = (&'static str, [&'static str; 3], [&'static str; 2]);
 
-/// Force in N and in per cent of body weight, and moment; `None` without moments of a root.
+const FORCES: [Component; 3] = [
+    ("pelvis_tx_force", ["residual_force_x", "Residual force, fore-aft", "N"], ["forward", "backward"]),
+    ("pelvis_ty_force", ["residual_force_y", "Residual force, vertical", "N"], ["up", "down"]),
+    ("pelvis_tz_force", ["residual_force_z", "Residual force, sideways", "N"], ["right", "left"]),
+];
+const MOMENTS_OF_ROOT: [Component; 3] = [
+    ("pelvis_tilt_moment", [RESIDUAL_MOMENT, "Residual moment, tilt", "N.m"], ["", ""]),
+    ("pelvis_list_moment", ["residual_moment_list", "Residual moment, list", "N.m"], ["", ""]),
+    ("pelvis_rotation_moment", ["residual_moment_rotation", "Residual moment, rotation", "N.m"], ["", ""]),
+];
+
+/// Components of force and moment, and the size of the force in per cent of body weight; `None` without moments of a root.
 pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
-    let mut of = |columns: &[(&str, &str)], factor: f64| traces(results, columns, factor, block);
-    let percent = 100.0 / results.weight_n;
-    let (newtons, shares, moments) = (of(&FORCES, 1.0), of(&FORCES, percent), of(&MOMENTS_OF_ROOT, 1.0));
-    if newtons.is_empty() && moments.is_empty() {
+    let mut panels: Vec<Panel> =
+        FORCES.iter().chain(&MOMENTS_OF_ROOT).filter_map(|component| panel(results, component, block)).collect();
+    if panels.is_empty() {
         return None;
     }
-    let panels = vec![
-        over_time(["residual_force_n", "Residual force", "N"], ["", ""], newtons),
-        over_time([RESIDUAL_FORCE, "Residual force", "%BW"], ["", ""], shares),
-        over_time([RESIDUAL_MOMENT, "Residual moment", "N.m"], ["", ""], moments),
-    ];
+    panels.extend(size(results, block));
     Some(group("residual", "Residual at the pelvis", note(results), 3, panels))
 }
 
-fn traces(results: &Results, columns: &[(&str, &str)], factor: f64, block: &mut Block) -> Vec<Trace> {
-    let Some(table) = &results.moments else { return Vec::new() };
-    let trace = |(column, name): &(&str, &str)| {
-        let values: Vec<f64> = table.column(column)?.iter().map(|x| factor * x).collect();
-        let origin = Origin { file: MOMENTS.to_owned(), column: (*column).to_owned(), factor };
-        let values = block.add(&values);
-        Some(Trace { name: (*name).to_owned(), side: None, role: Role::Main, values, sd: None, origin: Some(origin) })
-    };
-    columns.iter().filter_map(trace).collect()
+fn trace(name: &str, role: Role, values: &[f64], origin: Option<Origin>, block: &mut Block) -> Trace {
+    Trace { name: name.to_owned(), side: None, role, values: block.add(values), sd: None, origin }
+}
+
+fn panel(results: &Results, (column, head, directions): &Component, block: &mut Block) -> Option<Panel> {
+    let values = results.moments.as_ref()?.column(column)?;
+    let origin = Origin { file: MOMENTS.to_owned(), column: (*column).to_owned(), factor: 1.0 };
+    Some(over_time(*head, *directions, vec![trace("residual", Role::Main, values, Some(origin), block)]))
+}
+
+/// Length of the force, with the limit that it was judged by.
+fn size(results: &Results, block: &mut Block) -> Option<Panel> {
+    let table = results.moments.as_ref()?;
+    let axes: Vec<&[f64]> = FORCES.iter().filter_map(|(column, ..)| table.column(column)).collect();
+    let percent = 100.0 / results.weight_n;
+    let length = |frame: usize| percent * axes.iter().map(|axis| axis[frame].powi(2)).sum::<f64>().sqrt();
+    if axes.is_empty() {
+        return None;
+    }
+    let lengths: Vec<f64> = (0..results.grid.frames).map(length).collect();
+    let mut traces = vec![trace("residual", Role::Main, &lengths, None, block)];
+    if let Some(limit) = results.limit("support").filter(|_| results.source != PageSource::None) {
+        traces.push(trace("limit", Role::Limit, &vec![100.0 * limit; lengths.len()], None, block));
+    }
+    Some(over_time([RESIDUAL_FORCE, "Residual force, size", "%BW"], ["", ""], traces))
 }
 
 fn note(results: &Results) -> String {
@@ -56,7 +76,7 @@ fn windows(results: &Results) -> String {
         .iter()
         .filter_map(|span| Some(format!("{:.2} to {:.2} s", span[0].as_f64()?, span[1].as_f64()?)))
         .collect();
-    match spans.is_empty() {
+    match spans.is_empty() || results.source != PageSource::Measured {
         true => String::new(),
         false => format!(
             " It means something only while every foot on the ground stands on a plate that sees all of it: {}.",

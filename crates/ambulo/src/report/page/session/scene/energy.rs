@@ -10,14 +10,15 @@ use crate::report::stage::csv_rows::Row;
 const FILE: &str = "energy.csv";
 const HEAD: &str = "time,kinetic,gravity,springs,total,iterations,factorizations,residual";
 
-/// A column: its place in the file and its name.
-type Column = (usize, &'static str);
-
-/// Panels with their unit and columns.
-const PANELS: [([&str; 3], &[Column]); 3] = [
-    (["energy", "Energy", "J"], &[(1, "kinetic"), (2, "gravity"), (3, "springs"), (4, "total")]),
-    (["iterations", "Solves a step", ""], &[(5, "iterations"), (6, "factorizations")]),
-    (["solver_residual", "Residual of the solver, relative", ""], &[(7, "residual")]),
+/// Columns: place in the file, name, heading, unit.
+const COLUMNS: [(usize, &str, &str, &str); 7] = [
+    (4, "total", "Total energy", "J"),
+    (1, "kinetic", "Kinetic energy", "J"),
+    (2, "gravity", "Energy in gravity", "J"),
+    (3, "springs", "Energy in springs", "J"),
+    (5, "iterations", "Tree solves a step", ""),
+    (6, "factorizations", "Factorisations a step", ""),
+    (7, "residual", "Residual of the solver, relative", ""),
 ];
 
 /// The grid; none without the file.
@@ -30,16 +31,17 @@ pub(super) fn groups(folder: &Folder<'_>, instants: &Instants, block: &mut Block
             values.push((time, row.number_or_gap(column)?));
         }
     }
-    let mut trace = |&(column, name): &Column| Trace {
-        name: name.to_owned(),
-        side: None,
-        role: Role::Main,
-        values: block.add(&instants.nearest(&columns[column])),
-        sd: None,
-        origin: Some(Origin { file: FILE.to_owned(), column: name.to_owned(), factor: 1.0 }),
-    };
-    let panels =
-        PANELS.iter().map(|(head, traces)| over_time(*head, ["", ""], traces.iter().map(&mut trace).collect()));
+    let panels = COLUMNS.iter().map(|&(column, name, title, unit)| {
+        let trace = Trace {
+            name: name.to_owned(),
+            side: None,
+            role: Role::Main,
+            values: block.add(&instants.nearest(&columns[column])),
+            sd: None,
+            origin: Some(Origin { file: FILE.to_owned(), column: name.to_owned(), factor: 1.0 }),
+        };
+        over_time([&format!("energy_{name}"), title, unit], ["", ""], vec![trace])
+    });
     Ok(Some(Group {
         id: "energy".to_owned(),
         title: "Energy and solver".to_owned(),
