@@ -51,8 +51,8 @@ fn a_run_writes_the_documented_files_with_the_documented_columns() {
         let text = bench.text(&format!("out/{file}"));
         assert!(text.lines().all(|line| line.split(',').count() == width), "{file}");
     }
-    // 61 instants: the start and 0.6 s at 100 Hz; three bodies.
-    assert_eq!(bench.text("out/poses.csv").lines().count(), 1 + 61 * 3);
+    // 61 instants: the start and 0.6 s at 100 Hz; three bodies, and the obstacle that moves.
+    assert_eq!(bench.text("out/poses.csv").lines().count(), 1 + 61 * 4);
     assert!(bench.text("out/poses.csv").contains("\n0.35,box,"), "instants without rounding noise");
     for figure in ["joints", "bodies", "contacts"] {
         assert!(bench.text(&format!("out/figures/{figure}.svg")).ends_with("</svg>\n"), "{figure}");

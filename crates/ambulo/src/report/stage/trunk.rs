@@ -15,11 +15,15 @@ use crate::spatial::Vec3;
 /// Half breadth of a head over its height from chin to vertex: 155 of 230 mm (Drillis and Contini 1966, as in Winter, figure 4.1;
 /// unverified), widened by the depth.
 const HEAD: f64 = 0.38;
-/// Thickness of the parts of the trunk over stature, chosen so that chest and arms do not touch.
+/// Thickness of the parts of the trunk over the stature of a person of [`USUAL_BUILD`], chosen so that chest and arms do not touch.
 const CHEST: f64 = 0.062;
 const HIP: f64 = 0.05;
 const SHOULDER: f64 = 0.032;
 const NECK: f64 = 0.028;
+/// Mass over stature squared at which these thicknesses hold: 75 kg and 1.75 m [kg/m²].
+const USUAL_BUILD: f64 = 24.5;
+/// Thinnest and thickest over that.
+const BUILDS: [f64; 2] = [0.6, 1.6];
 /// How far apart both halves of the chest are, over the distance of the shoulders: at the waist, at the top.
 const PARTED: [f64; 2] = [0.1, 0.22];
 
@@ -27,9 +31,9 @@ const PARTED: [f64; 2] = [0.1, 0.22];
 pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
     let hips = places.joints_to(body, Part::Thigh);
     let middle = middle(&hips).unwrap_or_else(|| places.own(body));
-    let thick = CHEST * size.height;
+    let thick = CHEST * girth(places, size);
     let mut shapes: Vec<ViewShape> = match hips[..] {
-        [a, b] => vec![capsule(a, b, HIP * size.height)],
+        [a, b] => vec![capsule(a, b, HIP * girth(places, size))],
         _ => vec![capsule(middle, middle, thick)],
     };
     let above = places.joints_to(body, Part::Trunk);
@@ -43,15 +47,15 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
     let own = places.own(body);
     let up = upwards(places, body);
     let [right, left] = shoulders(places, body, size, hips).unwrap_or([own + up * size.shoulder_height; 2]);
-    let (base, top) = (own + up * (0.5 * CHEST * size.height), (right + left) * 0.5);
-    let thick = CHEST * size.height;
+    let thick = CHEST * girth(places, size);
+    let (base, top) = (own + up * (0.5 * thick), (right + left) * 0.5);
     let half = |sign: f64| {
         let apart = (right - left) * sign;
         capsule(base + apart * PARTED[0], top - up * thick + apart * PARTED[1], thick)
     };
-    let mut shapes = vec![half(1.0), half(-1.0), capsule(left, right, SHOULDER * size.height)];
+    let mut shapes = vec![half(1.0), half(-1.0), capsule(left, right, SHOULDER * girth(places, size))];
     if let [a, b] = places.joints_to(body, Part::Thigh)[..] {
-        shapes.push(capsule(a, b, HIP * size.height));
+        shapes.push(capsule(a, b, HIP * girth(places, size)));
     }
     if places.model.body_ids().all(|id| places.part(id) != Part::Head) {
         let vertex = marker(places, body, "vertex").unwrap_or(top + up * above_shoulders(size));
@@ -80,6 +84,12 @@ fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
     let thick = HEAD * size.head;
     let chin = vertex - up * (size.head - thick);
     [capsule(chin, vertex - up * thick, thick), capsule(foot, chin, NECK * size.height)]
+}
+
+/// The stature [m], less for thin and more for heavy people: at equal length thickness goes with the root of mass.
+fn girth(places: &JointPlaces<'_>, size: &Dimensions) -> f64 {
+    let build = (places.model.mass() / size.height.powi(2) / USUAL_BUILD).sqrt();
+    size.height * build.clamp(BUILDS[0], BUILDS[1])
 }
 
 /// Shoulder centres to vertex [m].
