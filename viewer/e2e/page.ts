@@ -26,9 +26,14 @@ function browser(): Promise<Browser> {
   return running;
 }
 
-after(async () => {
-  await (await running)?.close();
-});
+/** Ends the browser, without which this process would not end. */
+export async function closeBrowser(): Promise<void> {
+  const was = running;
+  running = null;
+  await (await was)?.close();
+}
+
+after(closeBrowser);
 
 /** A page that was opened, and what it did meanwhile. */
 export interface Opened {

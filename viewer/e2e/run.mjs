@@ -11,8 +11,11 @@ const here = dirname(fileURLToPath(import.meta.url));
 const out = join(here, "../out/e2e");
 mkdirSync(out, { recursive: true });
 const tests = readdirSync(here).filter((name) => name.endsWith(".test.ts"));
+// Node 18 does not run `after` outside of suites: a last test closes the browser.
+const last =
+  'import { test } from "node:test"; import { closeBrowser } from "./page"; test("the browser ends", closeBrowser);';
 await build({
-  stdin: { contents: tests.map((name) => `import "./${name}";`).join("\n"), resolveDir: here },
+  stdin: { contents: [...tests.map((name) => `import "./${name}";`), last].join("\n"), resolveDir: here },
   outfile: join(out, "all.mjs"),
   bundle: true,
   packages: "external",
