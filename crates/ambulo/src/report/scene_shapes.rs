@@ -1,7 +1,7 @@
 //! `shapes.json` of a simulated scene: what its bodies and obstacles look like (docs/OUTPUTS.md).
 //!
-//! Bodies have the surfaces that touch; those of figures also look like a person. A body without a surface is a stick from its mass
-//! centre to its joints, or, where it has none, the box that has its inertia: with mass m and principal moments I, the half sides obey
+//! Bodies have the surfaces that touch; those of figures also look like a person. Other bodies also have sticks from their mass centre to
+//! their joints; one without surface and joint is the box that has its inertia: with mass m and principal moments I, the half sides obey
 //! h_x² = 3 (I_y + I_z - I_x) / (2 m), and so on.
 
 use super::files::OutputFile;
@@ -14,6 +14,7 @@ use crate::simulation::{Owner, Surface, World};
 use crate::spatial::{Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// Name of the file.
 pub(super) const FILE: &str = "shapes.json";
@@ -98,17 +99,23 @@ fn bodies(scene: &Scene) -> Vec<BodyShapes> {
             BodyShapes { name: body.name.clone(), mass_kg: body.mass, side: None, shapes }
         })
         .collect();
+    let mut drawn = BTreeSet::new();
     for (name, figure) in scene.figure_names().zip(&world.figures) {
         for (described, shapes) in figure.model.bodies().iter().zip(figure_shapes(&figure.model)) {
             let full = format!("{name}/{}", described.name);
-            let Some(body) = bodies.iter_mut().find(|body| body.name == full) else { continue };
+            let Some(number) = bodies.iter().position(|body| body.name == full) else { continue };
+            drawn.insert(number);
+            let body = &mut bodies[number];
             let center_from_body = Pose::at(-described.inertia.center());
             body.side = Side::of_name(&described.name).and_then(|side| side.letter().chars().next());
             body.shapes.extend(shapes.iter().map(|shape| moved(shape, &center_from_body)));
         }
     }
-    for (number, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.shapes.is_empty()) {
-        body.shapes = substitute(world, number);
+    for (number, body) in bodies.iter_mut().enumerate().filter(|(number, _)| !drawn.contains(number)) {
+        body.shapes.extend(sticks(world, number));
+        if body.shapes.is_empty() {
+            body.shapes.push(box_of_inertia(&world.bodies[number]));
+        }
     }
     bodies
 }
@@ -165,14 +172,13 @@ fn moved(shape: &ViewShape, outer_from_inner: &Pose) -> ViewShape {
     }
 }
 
-/// What stands for a body without surfaces.
-fn substitute(world: &World, number: usize) -> Vec<ViewShape> {
+/// From the mass centre of a body to its joints.
+fn sticks(world: &World, number: usize) -> Vec<ViewShape> {
     let own = world.joints.iter().filter(|joint| joint.child == number).map(|joint| joint.child_from_joint.translation);
     let carried = world.joints.iter().filter(|joint| joint.parent == Some(number));
     let joints = own.chain(carried.map(|joint| joint.parent_from_joint.translation));
     let stick = |end: Vec3| ViewShape::Capsule { from: [0.0; 3], to: end.into(), radius: STICK * end.norm() };
-    let sticks: Vec<ViewShape> = joints.filter(|end| end.norm() > 1e-6).map(stick).collect();
-    if sticks.is_empty() { vec![box_of_inertia(&world.bodies[number])] } else { sticks }
+    joints.filter(|end| end.norm() > 1e-6).map(stick).collect()
 }
 
 fn box_of_inertia(body: &crate::simulation::Body) -> ViewShape {
