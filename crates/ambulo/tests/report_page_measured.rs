@@ -1,7 +1,5 @@
 //! The page of a prediction beside plates, and of a recorded person.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 mod report_pages;
 mod shared_data;
 

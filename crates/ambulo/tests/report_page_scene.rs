@@ -99,7 +99,7 @@ fn the_verdict_of_a_walker_stands_on_its_panel() {
     assert_eq!((red.len(), red[0]["sentence"].as_str()), (1, Some("ann: the hip needs 300 N.m")));
     let feasibility = &shown.session()["feasibility"];
     assert_eq!(feasibility["feasible"], false);
-    assert_eq!(feasibility["closest"]["rows"][0][1]["text"], "ann/hip_flexion_l_moment");
+    assert_eq!(feasibility["closest"]["rows"][0][1]["text"], "ann: left hip flexion moment");
     assert_eq!(feasibility["closest"]["rows"][0][6]["outside"], true);
     let facts = shown.session()["quality"]["facts"].as_array().unwrap();
     let steps = facts.iter().find(|fact| fact["label"] == "Steps above the solver's tolerance").unwrap();

@@ -38,11 +38,8 @@ pub(super) fn page_of_folders(folders: &[&Path]) -> Result<String> {
             move |name: &str| Some(folder.join(name)).filter(|p| p.is_file()).and_then(|p| files::read(&p).ok())
         })
         .collect();
-    let folders: Vec<Folder<'_>> = folders
-        .iter()
-        .zip(&readers)
-        .map(|(folder, file)| Folder { name: last(folder), file })
-        .collect();
+    let folders: Vec<Folder<'_>> =
+        folders.iter().zip(&readers).map(|(folder, file)| Folder { name: last(folder), file }).collect();
     Ok(report_page(&folders)?)
 }
 

@@ -1,9 +1,9 @@
 //! The verdict: whether a person could do this, and what stands against it, when and where.
 
 use super::cells::{Form, column, listed, table};
-use super::sides;
+use super::{sides, words};
 use crate::model::Side;
-use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::report::clinical::ClinicalQuantity;
 use crate::report::page::contract::{Feasibility, Group, RedSpan, Table};
 use serde_json::Value;
 
@@ -16,11 +16,19 @@ const PANELS: [(&str, &str); 5] = [
     ("balance", super::quality::RESIDUAL_MOMENT),
 ];
 
+/// Place of the quantity in a row of the table of limits.
+pub(super) const QUANTITY: usize = 1;
+
 /// Of a verdict in the summary; `None` where nothing was judged.
 pub(super) fn feasibility(verdict: &Value, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
     let feasible = verdict["feasible"].as_bool()?;
     let red: Vec<RedSpan> = entries(verdict, "reasons").iter().filter_map(|reason| span(reason, quantities)).collect();
-    Some(Feasibility { feasible, sentence: sentence(verdict, feasible, &red), closest: closest(verdict), red })
+    Some(Feasibility {
+        feasible,
+        sentence: sentence(verdict, feasible, &red),
+        closest: closest(verdict, quantities),
+        red,
+    })
 }
 
 fn entries<'a>(verdict: &'a Value, key: &str) -> &'a [Value] {
@@ -61,18 +69,16 @@ fn span(reason: &Value, quantities: &[ClinicalQuantity]) -> Option<RedSpan> {
 
 /// The panel that shows a quantity of a verdict.
 fn panel(check: &str, quantity: &str, quantities: &[ClinicalQuantity]) -> Option<String> {
+    if let Some((_, panel)) = PANELS.iter().find(|(known, _)| *known == check) {
+        return Some((*panel).to_owned());
+    }
     let stem = Side::split_name(quantity).map_or_else(|| quantity.to_owned(), |(_, stem)| stem);
-    let (group, name) = match check {
-        "strength" => (ClinicalGroup::Moments, stem),
-        "power" => (ClinicalGroup::Powers, stem),
-        "range" => (ClinicalGroup::Kinematics, format!("{stem}_angle")),
-        _ => return PANELS.iter().find(|(known, _)| *known == check).map(|(_, panel)| (*panel).to_owned()),
-    };
-    let shown = quantities.iter().find(|known| known.group == group && known.column == name)?;
+    let coordinates = ["strength", "power", "range"];
+    let shown = coordinates.contains(&check).then(|| words::known(&stem, quantities)).flatten()?;
     Some(shown.id.to_owned())
 }
 
-fn closest(verdict: &Value) -> Table {
+fn closest(verdict: &Value, quantities: &[ClinicalQuantity]) -> Table {
     let not_judged: Vec<String> = entries(verdict, "not_judged")
         .iter()
         .filter_map(|left| Some(format!("{}: {}", in_words(left["check"].as_str()?), left["why"].as_str()?)))
@@ -91,15 +97,17 @@ fn closest(verdict: &Value) -> Table {
         column("Unit", "/unit", Form::Unit),
         column("Used [%]", "/share", Form::AtMost(100.0, 0, 100.0)),
     ];
-    listed(head, entries(verdict, "closest"), &columns).unwrap_or_else(|| Table {
+    let mut closest = listed(head, entries(verdict, "closest"), &columns).unwrap_or_else(|| Table {
         empty: Some("No check could be made.".to_owned()),
         ..table(head, Vec::new(), Vec::new())
-    })
+    });
+    words::reword(&mut closest, QUANTITY, quantities);
+    closest
 }
 
 /// A table of no checks.
 pub(super) fn no_checks() -> Table {
-    closest(&Value::Null)
+    closest(&Value::Null, &[])
 }
 
 /// Gives every panel the spans that it shows; spans whose panel there is not point at none.

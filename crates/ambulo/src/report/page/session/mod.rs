@@ -22,6 +22,7 @@ mod sides;
 mod size;
 mod strides;
 mod time_distance;
+mod words;
 
 use super::block::Block;
 use super::contract::Session;
@@ -49,7 +50,7 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let mut feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
     let values = extracted::extracted(&results, &quantities);
     let mut groups = groups::groups(&results, &size, &quantities, block);
-    let mut quality = quality::quality(&results, block);
+    let mut quality = quality::quality(&results, &quantities, block);
     missing.extend(missing::missing(&results, &size, &quantities, &strides));
     if let Some(verdict) = &mut feasibility {
         feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);

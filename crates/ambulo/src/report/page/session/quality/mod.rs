@@ -9,6 +9,7 @@ mod tables;
 pub(super) use facts::plain;
 
 use super::results::Results;
+use crate::report::clinical::ClinicalQuantity;
 use crate::report::page::block::Block;
 use crate::report::page::contract::{Group, PageFinding, Panel, Quality, Trace};
 
@@ -19,7 +20,7 @@ pub(super) const FRICTION: &str = "friction_use";
 pub(super) const CENTER_FORWARD: &str = "center_of_pressure_x";
 
 /// All that the files say about it.
-pub(super) fn quality(results: &Results, block: &mut Block) -> Quality {
+pub(super) fn quality(results: &Results, quantities: &[ClinicalQuantity], block: &mut Block) -> Quality {
     let groups = [
         residual::residual(results, block),
         friction::friction(results, block),
@@ -28,7 +29,7 @@ pub(super) fn quality(results: &Results, block: &mut Block) -> Quality {
     Quality {
         facts: facts::facts(results),
         groups: groups.into_iter().flatten().collect(),
-        tables: tables::tables(results),
+        tables: tables::tables(results, quantities),
         findings: findings(&results.summary),
         assumptions: assumptions(results),
     }

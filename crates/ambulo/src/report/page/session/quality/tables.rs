@@ -1,9 +1,11 @@
 //! Tables of quality: markers, plates and feet, events, agreement with plates, changes made.
 
+use crate::report::clinical::ClinicalQuantity;
 use crate::report::page::contract::Table;
 use crate::report::page::session::cells::Form::{Answer, AtMost, Check, Number, Side, Unit, Words};
 use crate::report::page::session::cells::{Column, column, listed};
 use crate::report::page::session::results::Results;
+use crate::report::page::session::words;
 use serde_json::{Value, json};
 
 /// A marker further away than this stands out [mm]: a marker beyond it counts little in the fit (docs/MARKERS.md).
@@ -51,9 +53,8 @@ const CENTERS: [Column; 5] = [
     column("Samples", "/center_of_pressure/samples", Number(1.0, 0)),
     column("Samples without a prediction", "/center_of_pressure/missing", Number(1.0, 0)),
 ];
-const MOMENTS: [Column; 5] = [
+const MOMENTS: [Column; 4] = [
     column("Moment", "/quantity", Words),
-    column("Side", "/side", Side),
     column("RMSE [N.m]", "/rmse_nm", Number(1.0, 1)),
     column("RMSE [N.m/kg]", "/rmse_nm_kg", Number(1.0, 2)),
     column("r", "/r", Number(1.0, 3)),
@@ -80,8 +81,11 @@ const TIMES: [Column; 3] = [
     column("To [s]", "/time_s/1", Number(1.0, 2)),
 ];
 
+/// Tables whose rows are called as in the files.
+const NAMED_BY_FILES: [&str; 3] = ["moments", "changes", "adjustment"];
+
 /// All tables that have rows.
-pub(super) fn tables(results: &Results) -> Vec<Table> {
+pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Table> {
     let plates = "Whose foot loaded which plate; forces count as one foot's where the contact is clean.";
     let events = "How far foot strikes and toe-offs of different sources are apart.";
     let forces = "Over whole stances of feet that stood wholly on a plate of their own.";
@@ -110,7 +114,11 @@ pub(super) fn tables(results: &Results) -> Vec<Table> {
         ),
         listed(["segments", "Segments", segments], results.list("/subject/segments"), &SEGMENTS),
     ];
-    tables.into_iter().flatten().collect()
+    let mut tables: Vec<Table> = tables.into_iter().flatten().collect();
+    for table in tables.iter_mut().filter(|table| NAMED_BY_FILES.contains(&table.id.as_str())) {
+        words::reword(table, 0, quantities);
+    }
+    tables
 }
 
 const MARKER_NOTE: &str = "Distance of each marker from its place on the body, the worst first. Gaps are frames without the marker; they do not count.";

@@ -82,8 +82,8 @@ fn verdict(summary: &Value, figures: &[moments::Figure]) -> Option<Feasibility> 
 
 /// A table with the rows of another figure.
 fn joined(before: Option<Table>, mut next: Table, name: &str) -> Table {
-    for quantity in next.rows.iter_mut().filter_map(|row| row.get_mut(1)) {
-        quantity.text = format!("{name}/{}", quantity.text);
+    for quantity in next.rows.iter_mut().filter_map(|row| row.get_mut(feasibility::QUANTITY)) {
+        quantity.text = format!("{name}: {}", quantity.text);
     }
     match before {
         None => next,
