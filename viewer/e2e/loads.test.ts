@@ -24,7 +24,7 @@ const LARGEST = 1_500_000;
  * Time to the first picture, at most [ms]. The page wants 1 s on a machine with a graphics card; here a processor draws, which takes
  * most of the time.
  */
-const SLOWEST_MS = 2000;
+const SLOWEST_MS = 3000;
 
 for (const name of ALL) {
   test(`${name}: opens from disk without a complaint and asks for nothing`, async () => {
@@ -58,7 +58,10 @@ test("the page of ten seconds is small", (t) => {
 /** How much longer than its work a program takes here now: 1 on an idle machine, more where others compute too. */
 function crowding(): number {
   const [started, work] = [performance.now(), process.cpuUsage()];
-  const used = (): number => process.cpuUsage(work).user / 1000;
+  const used = (): number => {
+    const { user, system } = process.cpuUsage(work);
+    return (user + system) / 1000;
+  };
   while (used() < 100) {
     Math.hypot(used(), 1);
   }

@@ -69,7 +69,7 @@ async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string
 }
 
 /** Panels whose curves are computed from several columns. */
-const DERIVED = ["friction_use"];
+const DERIVED = ["friction_use", "residual_force"];
 
 /** Compares the curves of a page with the files beside it; returns how many numbers agree. */
 async function compare(name: string): Promise<{ curves: number; numbers: number }> {
@@ -77,7 +77,11 @@ async function compare(name: string): Promise<{ curves: number; numbers: number 
   const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
   let count = 0;
   const { curves, untold } = await curvesOf(name);
-  assert.deepEqual(untold, DERIVED, "panels without a curve of a file");
+  assert.deepEqual(
+    untold.filter((panel) => !DERIVED.includes(panel)),
+    [],
+    "panels without a curve of a file",
+  );
   for (const curve of curves) {
     const where = `${curve.panel} ${curve.file} ${curve.column} ${curve.side} ${curve.cycle ?? ""}`;
     if (!tables.has(curve.file) && curve.file !== "cycles.csv") {

@@ -21,7 +21,6 @@ varying vec2 place;
 varying vec2 fromMiddle;
 uniform vec3 color;
 uniform float reach;
-uniform float scale;
 float lines(vec2 at, float width) {
   vec2 change = fwidth(at);
   vec2 near = abs(fract(at - 0.5) - 0.5) / max(change, vec2(1e-6));
