@@ -11,8 +11,8 @@ use crate::motion::interpolate;
 use crate::report::page::contract::{PageCycle, PageEvent};
 use ambulo_formats::table::Table;
 
-/// Rounding in the files moves values by less than this, other cycles by more [deg or m].
-const SAME: f64 = 1e-9;
+/// Events are written to 0.01 ms, in which joints turn by less than this [deg]; other cycles differ by more somewhere [deg or m].
+const SAME: f64 = 0.02;
 
 /// The cycles that the curves were cut into, right foot first; without a curve, none.
 pub(super) fn cycles(
@@ -48,7 +48,7 @@ fn numbers(curves: &[CycleValues], side: Side) -> Vec<usize> {
     numbers
 }
 
-/// The pair of strikes between which the motion is that of the curves; the first one where several are.
+/// The first pair of strikes between which the motion is that of the curves, else the nearest.
 fn nearest(
     pairs: &[[f64; 2]],
     curves: &[&CycleValues],
@@ -58,10 +58,15 @@ fn nearest(
 ) -> Option<usize> {
     let mut best: Option<(usize, f64)> = None;
     for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair[1] > pair[0]) {
-        let distances = curves.iter().filter_map(|curve| distance(curve, *pair, side, kinematics, times));
-        let distance = distances.fold(0.0, f64::max);
-        if best.is_none_or(|(_, least)| distance < least - SAME) {
-            best = Some((place, distance));
+        let least = best.map_or(f64::INFINITY, |(_, least)| least);
+        let mut distances = curves.iter().filter_map(|curve| distance(curve, *pair, side, kinematics, times));
+        // Ends at the first curve that is farther away than the best pair's.
+        let Some(largest) = distances.try_fold(0.0_f64, |largest, x| (x < least).then(|| largest.max(x))) else {
+            continue;
+        };
+        best = Some((place, largest));
+        if largest < SAME {
+            break;
         }
     }
     best.map(|(place, _)| place)
