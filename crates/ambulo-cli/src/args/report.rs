@@ -14,8 +14,8 @@ from elsewhere. With --compare the curves, tables and figures of up to two other
 pub(crate) struct ReportArgs {
     /// The folder of a run.
     pub(crate) folder: PathBuf,
-    /// Another folder to compare it with; up to two.
-    #[arg(long, value_name = "DIR", num_args = 1..=2)]
+    /// Another folder to compare it with; may be given twice.
+    #[arg(long, value_name = "DIR")]
     pub(crate) compare: Vec<PathBuf>,
     /// The page [default: report.html in the folder].
     #[arg(short, long, value_name = "FILE")]

@@ -9,6 +9,7 @@ pub(crate) mod info;
 mod outcome;
 pub(crate) mod report;
 pub(crate) mod reproduce;
+mod result_folder;
 pub(crate) mod simulate;
 mod stopwatch;
 pub(crate) mod view;

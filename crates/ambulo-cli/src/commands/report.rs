@@ -1,5 +1,6 @@
 //! `ambulo report`: the page of a result folder; and the page that other verbs write.
 
+use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
 use crate::{Verdict, files, printer};
 use ambulo::findings::{Finding, Severity};
@@ -11,8 +12,14 @@ use std::path::{Path, PathBuf};
 /// Name of the page in a result folder.
 pub(super) const PAGE: &str = "report.html";
 
+/// Folders beside the first that a page can tell apart.
+const MOST_COMPARED: usize = 2;
+
 pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
     let folders: Vec<&Path> = std::iter::once(&args.folder).chain(&args.compare).map(PathBuf::as_path).collect();
+    if args.compare.len() > MOST_COMPARED {
+        bail!("--compare: found {} folders; expected {MOST_COMPARED} at most", args.compare.len());
+    }
     let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
     if !matches!(files::ending(&output).as_str(), "html" | "htm") {
         bail!("{}: expected a name that ends in .html for the page", output.display());
@@ -23,29 +30,20 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
 }
 
 /// The page of result folders, from their files.
-pub(super) fn page_of_folders(folders: &[&Path]) -> Result<String> {
-    for folder in folders {
-        if !folder.is_dir() {
-            bail!(
-                "{}: there is no such folder; expected the results of a run. hint: `ambulo demo -o demo`, then `ambulo report demo`",
-                folder.display()
-            );
-        }
-    }
-    let readers: Vec<_> = folders
-        .iter()
-        .map(|folder| {
-            move |name: &str| Some(folder.join(name)).filter(|p| p.is_file()).and_then(|p| files::read(&p).ok())
+pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
+    let opened = paths.iter().map(|path| ResultFolder::open(path)).collect::<Result<Vec<_>>>()?;
+    let names: Vec<String> = opened.iter().map(ResultFolder::name).collect();
+    let readers: Vec<_> = opened.iter().map(|folder| |name: &str| folder.read(name)).collect();
+    let folders: Vec<Folder<'_>> = (opened.iter().zip(&names).zip(&readers))
+        .map(|((folder, name), file)| {
+            let is_unique = names.iter().filter(|other| *other == name).count() == 1;
+            Folder { name: if is_unique { name.clone() } else { folder.shown() }, file }
         })
         .collect();
-    let folders: Vec<Folder<'_>> =
-        folders.iter().zip(&readers).map(|(folder, file)| Folder { name: last(folder), file }).collect();
-    Ok(report_page(&folders)?)
-}
-
-/// Name of a folder without the way to it.
-fn last(folder: &Path) -> String {
-    folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned()
+    let page = report_page(&folders);
+    // What could not be read is the cause of whatever came of it.
+    opened.iter().try_for_each(ResultFolder::check)?;
+    Ok(page?)
 }
 
 /// A run whose page cannot be made keeps its other results.

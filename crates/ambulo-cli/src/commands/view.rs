@@ -30,9 +30,10 @@ fn page(asked: &Path) -> Result<PathBuf> {
             bail!("{shown}: there is no such file or folder. hint: `ambulo demo -o demo`, then `ambulo view demo`")
         }
         "html" | "htm" => Ok(asked.to_owned()),
-        _ => bail!(
-            "{shown}: this is no page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
+        "c3d" | "trc" | "bvh" => bail!(
+            "{shown}: this is a recording and no page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
         ),
+        _ => bail!("{shown}: this is no page; expected a result folder or .html"),
     }
 }
 

@@ -2,24 +2,39 @@
 
 use super::{Converted, lost};
 use crate::args::ConvertArgs;
+use crate::commands::result_folder::ResultFolder;
 use ambulo::findings::Findings;
 use ambulo::report::page::Folder;
 use ambulo::report::{bvh_of_folder, csv_of_folder, glb_of_folder};
-use anyhow::Result;
-use std::fs;
+use anyhow::{Result, bail};
 
 /// What can be made of a folder.
 pub(super) const TARGETS: &[&str] = &["glb", "bvh", "csv"];
 
 pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
-    let file = |name: &str| fs::read(args.input.join(name)).ok();
-    let folder = Folder { name: args.input.display().to_string(), file: &file };
+    let opened = ResultFolder::open(&args.input)?;
+    if to == "bvh" && opened.has("poses.csv") && !opened.has("kinematics.mot") {
+        bail!("{}: a scene has no skeleton; expected .glb or .csv for the output", opened.shown());
+    }
+    let file = |name: &str| opened.read(name);
+    let folder = Folder { name: opened.shown(), file: &file };
+    let made = match to {
+        "glb" => glb_of_folder(&folder),
+        "bvh" => bvh_of_folder(&folder),
+        _ => csv_of_folder(&folder).map(String::into_bytes),
+    };
+    // What could not be read is the cause of whatever came of it.
+    opened.check()?;
+    Ok(Converted { files: vec![(args.output.clone(), made?)], findings: said(to) })
+}
+
+/// What the format cannot hold, and how it is to be read.
+fn said(to: &str) -> Findings {
     let mut findings = Findings::default();
-    let bytes = match to {
+    match to {
         "glb" => {
             lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
             findings.note("convert.axes", "lengths are in metres; x forward, y up, z right; arrows are 1 m for 1000 N");
-            glb_of_folder(&folder)?
         }
         "bvh" => {
             lost(
@@ -27,9 +42,8 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
                 &["forces".to_owned(), "masses and inertias".to_owned(), "the time of the first frame".to_owned()],
             );
             findings.note("convert.axes", "lengths are in centimetres; x forward, y up, z right");
-            bvh_of_folder(&folder)?
         }
-        _ => csv_of_folder(&folder)?.into_bytes(),
-    };
-    Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })
+        _ => {}
+    }
+    findings
 }

@@ -43,6 +43,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
 }
 
 fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
+    if !args.input.exists() {
+        bail!("{}: there is no such file or folder", args.input.display());
+    }
     check_pair(from, to)?;
     check_options(args, from, to)?;
     let bytes = files::read(&args.input)?;
