@@ -43,7 +43,7 @@ const ROWS: [Row; 10] = [
 /// The table; `empty` where no stride was seen.
 pub(super) fn table(results: &Results, size: &BodySize, strides: &[Stride]) -> Table {
     let normal = size
-        .speed_dimensionless
+        .walking_speed()
         .zip(size.leg.as_ref())
         .map_or_else(Vec::new, |(speed, leg)| time_distance(speed, leg.metres, results.gravity()));
     let rows = match strides.is_empty() {
