@@ -3,6 +3,7 @@
 use super::results::Results;
 use super::size::BodySize;
 use super::strides::{Stride, other};
+use super::way::Turn;
 use crate::model::Side;
 use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::report::page::contract::PageSource;
@@ -45,7 +46,8 @@ pub(super) fn missing(
     say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
     let lengths = strides.iter().any(|stride| stride.stride_length_m.is_some());
     say(!strides.is_empty() && !lengths, "No step lengths: the places of the feet are not known.".to_owned());
-    say(!none && size.walking_speed().is_none(), bands(size));
+    say(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
+    say(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
     let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
     let lacking: Vec<&str> = LACKING
         .iter()
@@ -70,6 +72,13 @@ fn leg(results: &Results, side: Side) -> String {
         _ => "it was not seen to strike twice",
     };
     format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")
+}
+
+fn turning(turn: Turn) -> String {
+    let angle = turn.degrees.map_or_else(String::new, |degrees| format!(" by {degrees:.0} degrees"));
+    format!(
+        "The path turns{angle}: normal ranges and bands are of straight walking and are left out. Pelvic rotation holds the turn, and fore-aft and sideways ground forces are along the axes of the world: they cannot be compared with those of straight walking."
+    )
 }
 
 fn bands(size: &BodySize) -> String {

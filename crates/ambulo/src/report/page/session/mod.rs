@@ -22,6 +22,7 @@ mod sides;
 mod size;
 mod strides;
 mod time_distance;
+mod way;
 mod words;
 
 use super::block::Block;
