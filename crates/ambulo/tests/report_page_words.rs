@@ -3,9 +3,11 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 mod report_pages;
+mod shared_data;
 
+use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use report_pages::{Files, Shown, keep_lines, recorded, with_summary};
+use report_pages::{Files, Shown, analysed, keep_lines, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
 /// The table of a motion with columns changed: name, values, all columns by name.
@@ -161,4 +163,76 @@ fn a_motion_without_ground_forces_keeps_its_cycles() {
     let tables = shown.session()["tables"].as_array().unwrap();
     let times = tables.iter().find(|table| table["id"] == "time_distance").unwrap();
     assert!(times["note"].is_null() && times["empty"].as_str().unwrap().contains("without ground forces"), "{times}");
+}
+
+#[test]
+fn each_file_left_out_is_named() {
+    let whole = Shown::of(&recorded());
+    for (file, words) in [
+        ("moments.sto", "No joint moments over time: the folder has no moments.sto"),
+        ("powers.sto", "No joint powers over time: the folder has no powers.sto"),
+        ("grf_sd.mot", "No uncertainty of the predicted forces"),
+        ("events.csv", "No foot strikes and toe-offs"),
+    ] {
+        let mut files = if file == "grf_sd.mot" { predicted() } else { recorded() };
+        assert!(!Shown::of(&files).misses(words) && !whole.misses(words), "{file} is there");
+        files.remove(file);
+        assert!(Shown::of(&files).misses(words), "{file}");
+    }
+    let mut files = recorded();
+    keep_lines(&mut files, "events.csv", |_| false);
+    assert!(Shown::of(&files).misses("No foot strikes and toe-offs"));
+}
+
+#[test]
+fn a_column_of_one_side_left_out_is_named() {
+    let mut files = recorded();
+    assert!(!Shown::of(&files).misses("lacks the columns"));
+    let table = Table::read_storage(&files["kinematics.mot"]).unwrap().0;
+    let kept = table.columns().filter(|(name, _)| *name != "knee_angle_r");
+    let mut kept =
+        Table::new("Coordinates", kept.map(|(name, values)| (name.to_owned(), values.to_vec())).collect()).unwrap();
+    kept.in_degrees = Some(true);
+    files.insert("kinematics.mot".to_owned(), kept.write_storage());
+    let shown = Shown::of(&files);
+    assert!(shown.misses("since kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
+    let traces = shown.panel("knee_flexion_angle")["traces"].as_array().unwrap().clone();
+    assert_eq!(traces.iter().map(|trace| &trace["side"]).collect::<Vec<_>>(), ["l"]);
+}
+
+#[test]
+fn what_never_changes_has_no_panel() {
+    // The invented walk keeps pelvis and trunk upright.
+    let mut files = recorded();
+    let shown = Shown::of(&files);
+    let has = |shown: &Shown, id: &str| shown.panels().iter().any(|panel| panel["id"] == id);
+    assert!(
+        !has(&shown, "pelvis_tilt_angle") && !has(&shown, "trunk_lean_angle") && has(&shown, "trunk_rotation_angle")
+    );
+    assert!(shown.misses("pelvic tilt (does not move), ") && !shown.misses("pelvic rotation (does not move)"));
+    with_motion(&mut files, |name, values, _| match name {
+        "pelvis_tilt" => (0..values.len()).map(|i| 0.01 * i as f64).collect(),
+        _ => values.to_vec(),
+    });
+    let tilted = Shown::of(&files);
+    assert!(has(&tilted, "pelvis_tilt_angle") && !tilted.misses("pelvic tilt (does not move)"));
+}
+
+#[test]
+fn a_locked_joint_is_said_to_be_locked() {
+    let Some(data) = shared_data::data() else { return };
+    let folder = data.join("opensim-gait2392-subject01");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let loads = ExternalLoads::read(&read("subject01_walk1_grf.xml")).unwrap().0;
+    let mut body = String::from_utf8(read("subject01_simbody.osim")).unwrap();
+    for name in ["subtalar_angle_r", "subtalar_angle_l"] {
+        let (before, after) = body.split_once(&format!("<Coordinate name=\"{name}\">")).unwrap();
+        let after = after.replacen("<locked>false</locked>", "<locked>true</locked>", 1);
+        body = format!("{before}<Coordinate name=\"{name}\">{after}");
+    }
+    let motion = read("subject01_walk1_ik.mot");
+    let files = analysed(body.as_bytes(), &motion, &read("subject01_walk1_grf.mot"), &loads);
+    let shown = Shown::of(&files);
+    assert!(shown.misses("subtalar inversion (locked in the model)"), "{}", shown.session()["missing"]);
+    assert!(shown.panels().iter().all(|panel| panel["id"] != "subtalar_angle"));
 }
