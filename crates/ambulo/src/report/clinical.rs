@@ -109,6 +109,14 @@ pub fn knee_flexion_sign<'a>(angles: impl IntoIterator<Item = &'a f64>) -> f64 {
     if largest < 0.0 { -1.0 } else { 1.0 }
 }
 
+/// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters make of a constant: a joint that is
+/// locked and the sideways force of a body that moves in a plane do not.
+pub(in crate::report) fn moves(unit: &str, values: &[f64]) -> bool {
+    let least = if unit == "BW" { 1e-5 } else { 1e-3 };
+    let finite = || values.iter().copied().filter(|x| x.is_finite());
+    finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min) > least
+}
+
 /// The knee's coordinate in the files.
 pub const KNEE: [&str; 2] = ["knee_angle", "knee_flexion"];
 

@@ -197,6 +197,13 @@ impl Shown {
         row[column]["value"].as_f64().unwrap_or_else(|| panic!("{name}: {:?}", row[column]))
     }
 
+    /// Whether a cell is marked as outside of its range.
+    #[track_caller]
+    pub(crate) fn stands_out(&self, table: &str, name: &str, column: usize) -> bool {
+        let row = self.rows(table).into_iter().find(|row| row[0]["text"] == name).unwrap();
+        row[column]["outside"].as_bool().unwrap()
+    }
+
     fn rows(&self, table: &str) -> Vec<&Vec<Value>> {
         let session = self.session();
         let tables = [&session["tables"], &session["quality"]["tables"]];

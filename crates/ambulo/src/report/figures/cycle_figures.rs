@@ -5,7 +5,7 @@ use super::sheet::{Sample, Sheet};
 use super::svg::Stroke;
 use super::{FigureError, Mark};
 use crate::model::Side;
-use crate::report::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign};
+use crate::report::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign, moves};
 use crate::report::cycle_table::CycleRow;
 use crate::report::files::OutputFile;
 use crate::report::normative;
@@ -113,13 +113,6 @@ const PLANS: [Plan; 6] = [
     },
 ];
 
-/// Whether a curve is one: by more than rounding and filters make of a constant.
-fn moves(row: &CycleRow) -> bool {
-    let least = if row.unit == "BW" { 1e-5 } else { 1e-3 };
-    let finite = || row.values.iter().copied().filter(|x| x.is_finite());
-    finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min) > least
-}
-
 /// Panels in rows of so many; where the pelvis has a row of its own, the hip and the trunk begin one, too.
 fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
     let central = |number: usize| panels[number].quantity.central;
@@ -182,7 +175,7 @@ impl CycleFigures<'_> {
             quantities.sort_by_key(|quantity| plan.only.iter().position(|id| *id == quantity.id));
         }
         // Sideways forces of a figure that moves in a plane, joints that are locked.
-        quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row)));
+        quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row.unit, &row.values)));
         let speed = self.speed_dimensionless.filter(|_| !self.runs());
         let band = |id: &str| speed.and_then(|speed| normative::band(id, speed));
         let panel = |quantity: ClinicalQuantity| {

@@ -14,8 +14,15 @@ pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>)
     Cell {
         text: value.map_or_else(|| "-".to_owned(), |x| rounded(x, digits)),
         value,
-        outside: value.zip(range).is_some_and(|(x, [low, high])| x < low || x > high),
+        outside: value.zip(range).is_some_and(|(x, [low, high])| is_outside(x, [low, high], digits)),
     }
+}
+
+/// As a reader compares them: with the digits that are shown.
+fn is_outside(x: f64, range: [f64; 2], digits: usize) -> bool {
+    let scale = 10_f64.powi(i32::try_from(digits).unwrap_or(0));
+    let [x, low, high] = [x, range[0], range[1]].map(|x| (x * scale).round());
+    x < low || x > high
 }
 
 /// So many digits; nothing is less than nothing.
@@ -111,5 +118,19 @@ pub(super) fn side_word(letter: Option<&str>) -> &'static str {
         Some("r") => "right",
         Some("l") => "left",
         _ => "-",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_shown_is_what_is_compared() {
+        let outside = |x: f64| number(Some(x), 4, Some([0.0052, 0.0064])).outside;
+        assert!(!outside(0.005_16) && !outside(0.006_44), "shown as 0.0052 and 0.0064");
+        assert!(outside(0.005_14) && outside(0.006_46));
+        let at_most = |x: f64| number(Some(x), 1, Some([f64::NEG_INFINITY, 40.0])).outside;
+        assert!(!at_most(40.04) && at_most(40.06) && !at_most(-1e6));
     }
 }

@@ -138,6 +138,17 @@ fn trace(
     })
 }
 
+/// Where a quantity stands over time: file, column, and its numbers where the column is there. `None` without the file.
+pub(super) fn over_time<'a>(
+    results: &'a Results,
+    quantity: &ClinicalQuantity,
+    side: Side,
+) -> Option<(&'static str, String, Option<&'a [f64]>)> {
+    let Place { table, file, column, .. } = Place::of(results, quantity, Some(side))?;
+    let values = table.column(&column);
+    Some((file, column, values))
+}
+
 fn scaled(values: &[f64], factor: f64, block: &mut Block) -> Series {
     block.add(&values.iter().map(|x| factor * x).collect::<Vec<_>>())
 }

@@ -22,7 +22,7 @@ const GRIDS: [Grid; 3] = [
         id: "kinematics",
         title: "Joint angles",
         kinds: &[ClinicalGroup::Kinematics],
-        note: "Degrees over the gait cycle, from foot strike to the next strike of the same foot.",
+        note: "Angles in degrees. A gait cycle goes from foot strike to the next strike of the same foot.",
     },
     Grid {
         id: "kinetics",

@@ -4,11 +4,17 @@ use super::feet;
 use super::results::Results;
 use super::size::{BodySize, Known};
 use super::strides::Stride;
+use super::way::Way;
 use crate::report::page::contract::{Fact, PageSource};
 use serde_json::Value;
 
 /// Below this speed a body does not walk anywhere [m/s].
 const STANDING_M_S: f64 = 0.1;
+
+/// A path that is so many times as long as the straight way has a speed of its own.
+const LONGER: f64 = 1.05;
+/// Masses that differ by a smaller share are one.
+const SAME_MASS: f64 = 0.005;
 
 /// All lines, in the order to be shown.
 pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> Vec<Fact> {
@@ -27,8 +33,9 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
         direction(results),
         window(results),
         Some(fact("Filter", filters(results), None)),
+        changed(results),
         Some(forces(results)),
-        results.text("/subject/axes").map(|axes| fact("Axes", axes, None)),
+        results.text("/subject/axes").map(|axes| fact("Axes", axes.replace("->", "→"), None)),
         Some(fact("Program", format!("Ambulo {}", results.text("/version").unwrap_or("of unknown version")), None)),
     ];
     lines.into_iter().flatten().collect()
@@ -81,7 +88,16 @@ fn mass(results: &Results) -> Fact {
         Some("contradicted") => "; the plates carry another mass",
         _ => "",
     };
-    fact("Body mass", format!("{:.1} kg", results.mass_kg), Some(format!("{source}{known}")))
+    let value = match results.number("/mass_model_kg") {
+        Some(model) if (model / results.mass_kg - 1.0).abs() > SAME_MASS => {
+            format!(
+                "{:.1} kg (divides moments and powers); {model:.1} kg (of the model, used by dynamics)",
+                results.mass_kg
+            )
+        }
+        _ => format!("{:.1} kg", results.mass_kg),
+    };
+    fact("Body mass", value, Some(format!("{source}{known}")))
 }
 
 fn speed(results: &Results, size: &BodySize) -> Fact {
@@ -92,12 +108,19 @@ fn speed(results: &Results, size: &BodySize) -> Fact {
         Some(scaled) => format!("V* = V / sqrt(g L) = {scaled:.2}"),
         None => "no dimensionless speed, since the leg length is not known".to_owned(),
     };
-    fact("Speed", format!("{speed:.2} m/s"), Some(scaled))
+    let value = match Way::of(results).and_then(|way| way.longer_speed(LONGER)) {
+        Some(along) => format!("{speed:.2} m/s straight, {along:.2} m/s along the path"),
+        None => format!("{speed:.2} m/s"),
+    };
+    fact("Speed", value, Some(scaled))
 }
 
 fn cadence(strides: &[Stride]) -> Option<Fact> {
     let mean = strides.iter().map(|stride| stride.cycle_s).sum::<f64>() / strides.len() as f64;
-    let note = format!("mean of {} strides", strides.len());
+    let note = match strides.len() {
+        1 => "of one stride".to_owned(),
+        several => format!("mean of {several} strides"),
+    };
     (mean > 0.0).then(|| fact("Cadence", format!("{:.0} steps/min", 120.0 / mean), Some(note)))
 }
 
@@ -125,8 +148,14 @@ fn window(results: &Results) -> Option<Fact> {
     let (from, to) = (results.number("/window_s/0")?, results.number("/window_s/1")?);
     let frames = results.grid.frames;
     let rate = results.grid.rate_hz();
+    let by_markers = results.has_finding("markers.window");
     let asked = ["/window_asked_s/0", "/window_asked_s/1"].iter().any(|path| results.number(path).is_some());
-    let note = format!("{frames} frames at {rate:.0} Hz{}", if asked { ", cut as asked" } else { "" });
+    let cut = match () {
+        () if by_markers => ", cut to the longest time in which the markers tell the motion",
+        () if asked => ", cut as asked",
+        () => "",
+    };
+    let note = format!("{frames} frames at {rate:.0} Hz{cut}");
     Some(fact("Time", format!("{from:.2} to {to:.2} s"), Some(note)))
 }
 
@@ -141,7 +170,25 @@ fn filters(results: &Results) -> String {
         _ => "none".to_owned(),
     };
     let filter = &results.summary["filter"];
-    format!("motion: {}; forces: {}", words(&filter["motion"]), words(&filter["force"]))
+    let motion = format!("motion: {}", words(&filter["motion"]));
+    match results.source {
+        PageSource::None => motion,
+        _ => format!("{motion}; forces: {}", words(&filter["force"])),
+    }
+}
+
+/// That the motion is not the recorded one, and where it differs most.
+fn changed(results: &Results) -> Option<Fact> {
+    let changes = results.summary.pointer("/consistency/changes")?.as_object()?;
+    let largest = |unit: &str| {
+        let sizes = changes.iter().filter(|(_, size)| size["unit"].as_str() == Some(unit));
+        let sizes = sizes.filter_map(|(name, size)| Some((name, size["max"].as_f64()?)));
+        let (name, size) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(format!("{} by {size:.1} {unit}", name.replace('_', " ")))
+    };
+    let most: Vec<String> = ["deg", "mm"].into_iter().filter_map(largest).collect();
+    let note = (!most.is_empty()).then(|| format!("at most {}", most.join(" and ")));
+    Some(fact("Motion", "changed so that it agrees with the ground forces", note))
 }
 
 fn forces(results: &Results) -> Fact {
@@ -153,7 +200,7 @@ fn forces(results: &Results) -> Fact {
         }
         PageSource::Predicted => ("predicted from the motion", split),
         PageSource::Simulated => ("simulated", rule.map(|rule| format!("feet on the ground: {rule}"))),
-        PageSource::None => ("none", Some("computed as if nothing touched the body".to_owned())),
+        PageSource::None => ("none", Some("the motion was computed without ground forces, as asked".to_owned())),
     };
     fact("Ground forces", value, note)
 }

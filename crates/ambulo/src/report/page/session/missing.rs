@@ -1,11 +1,15 @@
 //! What the page cannot show, and why.
 
-use super::results::Results;
+use super::curves::over_time;
+use super::results::{DEVIATIONS, MOMENTS, POWERS, Results};
 use super::size::BodySize;
+use super::still;
 use super::strides::{Stride, other};
+use super::way::Turn;
 use crate::model::Side;
 use crate::report::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::report::page::contract::PageSource;
+use std::collections::BTreeMap;
 
 /// Coordinates of the clinic that models often lack, with why.
 const LACKING: [(&str, &str); 4] = [
@@ -20,6 +24,7 @@ pub(super) fn missing(
     results: &Results,
     size: &BodySize,
     quantities: &[ClinicalQuantity],
+    still: &[ClinicalQuantity],
     strides: &[Stride],
 ) -> Vec<String> {
     let mut sentences = Vec::new();
@@ -34,6 +39,20 @@ pub(super) fn missing(
         "No ground forces: the run was made without them, so moments are those of a body in the air.".to_owned(),
     );
     say(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
+    say(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
+    say(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
+    for sentence in absent_columns(results, quantities) {
+        say(true, sentence);
+    }
+    let uncertain = results.source == PageSource::Predicted && results.ground.is_some();
+    say(
+        uncertain && results.deviations.is_none(),
+        format!("No uncertainty of the predicted forces: the folder has no {DEVIATIONS}."),
+    );
+    say(
+        !no_ground && results.events.is_empty(),
+        "No foot strikes and toe-offs: the folder's events.csv is missing or empty.".to_owned(),
+    );
     let predicted_alone = results.source == PageSource::Predicted && results.measured.is_none();
     say(predicted_alone, "No force plates: ground forces are predicted, and nothing measured them.".to_owned());
     for side in Side::BOTH {
@@ -45,15 +64,34 @@ pub(super) fn missing(
     say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
     let lengths = strides.iter().any(|stride| stride.stride_length_m.is_some());
     say(!strides.is_empty() && !lengths, "No step lengths: the places of the feet are not known.".to_owned());
-    say(!none && size.walking_speed().is_none(), bands(size));
+    say(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
+    say(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
     let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
-    let lacking: Vec<&str> = LACKING
-        .iter()
-        .filter(|(id, _)| !quantities.iter().any(|quantity| quantity.id == *id))
-        .map(|(_, words)| *words)
-        .collect();
-    say(angles && !lacking.is_empty(), format!("Not among the panels: {}.", lacking.join(", ")));
+    let mut lacking = still::words(results, still);
+    let unknown = LACKING.iter().filter(|(id, _)| angles && !quantities.iter().any(|quantity| quantity.id == *id));
+    lacking.extend(unknown.map(|(_, words)| (*words).to_owned()));
+    say(!lacking.is_empty(), format!("Not among the panels: {}.", lacking.join(", ")));
     sentences
+}
+
+/// What a file has of one side only, or of neither though the cycles have it: a sentence a file.
+fn absent_columns(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<String> {
+    let mut absent: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for quantity in quantities {
+        for side in Side::BOTH {
+            let Some((file, column, None)) = over_time(results, quantity, side) else { continue };
+            let whose = if quantity.central { String::new() } else { format!("{side} ") };
+            let words = format!("{whose}{} ({column})", quantity.title.to_lowercase());
+            let list = absent.entry(file).or_default();
+            if !list.contains(&words) {
+                list.push(words);
+            }
+        }
+    }
+    let sentence = |(file, words): (&str, Vec<String>)| {
+        format!("Not over time, since {file} lacks the columns: {}.", words.join(", "))
+    };
+    absent.into_iter().map(sentence).collect()
 }
 
 fn has_curves(results: &Results, side: Side) -> bool {
@@ -70,6 +108,13 @@ fn leg(results: &Results, side: Side) -> String {
         _ => "it was not seen to strike twice",
     };
     format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")
+}
+
+fn turning(turn: Turn) -> String {
+    let angle = turn.degrees.map_or_else(String::new, |degrees| format!(" by {degrees:.0} degrees"));
+    format!(
+        "The path turns{angle}: normal ranges and bands are of straight walking and are left out. Pelvic rotation holds the turn, and fore-aft and sideways ground forces are along the axes of the world: they cannot be compared with those of straight walking."
+    )
 }
 
 fn bands(size: &BodySize) -> String {

@@ -20,8 +20,10 @@ mod results;
 mod scene;
 mod sides;
 mod size;
+mod still;
 mod strides;
 mod time_distance;
+mod way;
 mod words;
 
 use super::block::Block;
@@ -45,13 +47,14 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let viewed = view(folder, block)?;
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
+    let (shown, still) = still::divided(&results, &quantities);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
     let mut feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
-    let values = extracted::extracted(&results, &quantities);
-    let mut groups = groups::groups(&results, &size, &quantities, block);
+    let values = extracted::extracted(&results, &shown);
+    let mut groups = groups::groups(&results, &size, &shown, block);
     let mut quality = quality::quality(&results, &quantities, block);
-    missing.extend(missing::missing(&results, &size, &quantities, &strides));
+    missing.extend(missing::missing(&results, &size, &quantities, &still, &strides));
     if let Some(verdict) = &mut feasibility {
         feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);
     }

@@ -94,6 +94,11 @@ impl Results {
         self.summary.pointer(path)?.as_str()
     }
 
+    /// Whether something odd of this kind was found.
+    pub(super) fn has_finding(&self, code: &str) -> bool {
+        self.list("/findings").iter().any(|finding| finding["code"].as_str() == Some(code))
+    }
+
     /// A list of the summary, empty where there is none.
     pub(super) fn list(&self, path: &str) -> &[Value] {
         self.summary.pointer(path).and_then(Value::as_array).map_or(&[], Vec::as_slice)

@@ -2,6 +2,7 @@
 
 use super::results::Results;
 use super::strides::Stride;
+use super::way::{self, Turn};
 use crate::analysis::feasibility::Person;
 use crate::model::Side;
 use crate::report::normative::dimensionless_speed;
@@ -24,6 +25,8 @@ pub(super) struct BodySize {
     pub(super) speed_dimensionless: Option<f64>,
     /// Whether the feet never stand together; norms are those of walking.
     pub(super) runs: bool,
+    /// A path that is not straight; norms are those of straight walking.
+    pub(super) turn: Option<Turn>,
 }
 
 /// A foot that stands for a smaller share of its cycle leaves the ground before the other one strikes [%].
@@ -36,6 +39,7 @@ impl BodySize {
         let stance = strides.iter().map(|stride| stride.stance).sum::<f64>() / strides.len() as f64;
         BodySize {
             runs: stance < RUNNING_STANCE,
+            turn: way::turn(results),
             stature: stature(results),
             speed_dimensionless: speed
                 .and_then(|(speed, leg)| dimensionless_speed(speed, results.gravity(), leg.metres)),
@@ -43,9 +47,9 @@ impl BodySize {
         }
     }
 
-    /// The speed at which healthy people walk likewise; none for running.
+    /// The speed at which healthy people walk likewise; none for running and for paths that turn.
     pub(super) fn walking_speed(&self) -> Option<f64> {
-        self.speed_dimensionless.filter(|_| !self.runs)
+        self.speed_dimensionless.filter(|_| !self.runs && self.turn.is_none())
     }
 }
 
