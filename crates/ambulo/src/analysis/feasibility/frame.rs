@@ -246,10 +246,16 @@ fn check_coordinate(
     visit(Measurement { check: Check::Power, of, value: power, limit: allowed.copysign(power), share });
 }
 
+/// A foot is judged while it carries more than this [N]: a share of the weight, and never less than what has a centre of pressure.
+#[must_use]
+pub fn least_load_n(load_bw: f64, weight_n: f64) -> f64 {
+    (load_bw * weight_n).max(CENTER_OF_PRESSURE_LOAD_N)
+}
+
 fn check_foot(judge: &Judge, frame: &Frame<'_>, side: Side, foot: &FootFrame, visit: &mut impl FnMut(Measurement)) {
     let (t, up, of) = (&judge.thresholds, judge.up, Measured::Foot(side));
     let normal = foot.force.dot(&up);
-    let carries = |load_bw: f64| normal > (load_bw * judge.weight).max(CENTER_OF_PRESSURE_LOAD_N);
+    let carries = |load_bw: f64| normal > least_load_n(load_bw, judge.weight);
     let mut say = |check: Check, value: f64, limit: f64| {
         visit(Measurement { check, of, value, limit, share: share(value, limit) });
     };

@@ -14,7 +14,7 @@ mod strength;
 mod thresholds;
 mod verdict;
 
-pub use frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame, knee_flexion_of_ranges};
+pub use frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame, knee_flexion_of_ranges, least_load_n};
 pub use judgement::{Evidence, check, knee_flexion_of_motion};
 pub use person::{Person, Sole, SolePoint};
 pub use strength::{Hill, StrengthCurve};

@@ -30,6 +30,7 @@ use super::block::Block;
 use super::contract::Session;
 use super::folder::{Folder, PageError};
 use super::view::view;
+use feasibility::Basis;
 use results::Results;
 use size::BodySize;
 
@@ -50,11 +51,16 @@ fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result
     let (shown, still) = still::divided(&results, &quantities);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
-    let mut feasibility = feasibility::feasibility(&results.summary["verdict"], &quantities);
+    let (verdict, basis) = (&results.summary["verdict"], Basis::of(&results));
+    let mut feasibility = feasibility::feasibility(verdict, &basis, &quantities);
     let values = extracted::extracted(&results, &shown);
     let mut groups = groups::groups(&results, &size, &shown, block);
     let mut quality = quality::quality(&results, &quantities, block);
     missing.extend(missing::missing(&results, &size, &quantities, &still, &strides));
+    if let Some((why, closest)) = feasibility::partly_judged(verdict, &basis, &quantities) {
+        missing.push(why);
+        quality.tables.push(closest);
+    }
     if let Some(verdict) = &mut feasibility {
         feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);
     }

@@ -1,6 +1,6 @@
 //! Numbers that tell how far to trust the others, with what is allowed.
 
-use crate::report::page::contract::Judged;
+use crate::report::page::contract::{Judged, PageSource};
 use crate::report::page::session::results::Results;
 use serde_json::Value;
 
@@ -41,9 +41,11 @@ pub(in crate::report::page::session) fn plain(label: &str, value: String) -> Jud
 fn residual(results: &Results) -> Vec<Judged> {
     let number = |key: &str| results.number(&format!("/residual/{key}"));
     let share = |newtons: f64| 100.0 * newtons / results.weight_n;
+    // Without ground forces the residual is what the ground would have to do.
+    let judged = results.source != PageSource::None;
     let force = number("force_rms_n").zip(number("force_rms_bw")).map(|(newtons, bw)| Judged {
-        allowed: Some(format!("below {:.0} %BW while every foot stands on a plate", 100.0 * RESIDUAL_BW)),
-        good: Some(bw < RESIDUAL_BW),
+        allowed: judged.then(|| format!("below {:.0} %BW while every foot stands on a plate", 100.0 * RESIDUAL_BW)),
+        good: judged.then_some(bw < RESIDUAL_BW),
         ..plain("Residual force, RMS", format!("{newtons:.1} N ({:.1} %BW)", 100.0 * bw))
     });
     let peak = number("force_peak_n").map(|n| plain("Residual force, peak", format!("{n:.1} N ({:.1} %BW)", share(n))));

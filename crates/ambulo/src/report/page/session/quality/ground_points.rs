@@ -60,6 +60,9 @@ const ROWS: [Row; 6] = [
     row("free_moment", "Free moment", Unit::NewtonMetres, ["", ""], "ground_torque_{s}_", "y"),
 ];
 
+/// What is drawn about the curves, beside what the table of agreement counts.
+const BAND: &str = "Band: ± 1 standard deviation of the prediction (68 % of the truth, if errors are normal). The 90 % band of the table of agreement is wider: ± 1.645 standard deviations.";
+
 /// The grid; `None` without ground forces.
 pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Group> {
     let ground = results.ground.as_ref()?;
@@ -73,20 +76,29 @@ pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Grou
         over_time([row.id, row.title, row.unit.name()], row.directions, traces)
     });
     let (title, note) = headings(results);
-    Some(group("overlay", title, note.to_owned(), 3, panels.collect()))
+    Some(group("overlay", title, note, 3, panels.collect()))
 }
 
-fn headings(results: &Results) -> (&'static str, &'static str) {
+fn headings(results: &Results) -> (&'static str, String) {
+    let band = match results.deviations {
+        Some(_) => BAND,
+        None => "How uncertain they are is not known (no grf_sd.mot).",
+    };
     match (results.source, results.measured.is_some()) {
         (_, true) => (
             "Prediction over plates",
-            "Predicted forces with a band of one standard deviation, and what the plates measured. Plates show zero where no foot stood on them.",
+            format!(
+                "Predicted forces, and what the plates measured. {band} Plates show zero where no foot stood on them."
+            ),
         ),
-        (PageSource::Predicted, false) => (
-            "Predicted ground forces and their uncertainty",
-            "Band: one standard deviation of the prediction. No plates measured beside it.",
-        ),
-        _ => ("Ground forces over time", "World axes: x forward, y up, z to the right."),
+        (PageSource::Predicted, false) => {
+            let title = match results.deviations {
+                Some(_) => "Predicted ground forces and their uncertainty",
+                None => "Predicted ground forces",
+            };
+            (title, format!("{band} No plates measured beside them."))
+        }
+        _ => ("Ground forces over time", "World axes: x forward, y up, z to the right.".to_owned()),
     }
 }
 

@@ -88,7 +88,7 @@ const NAMED_BY_FILES: [&str; 3] = ["moments", "changes", "adjustment"];
 pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Table> {
     let plates = "Whose foot loaded which plate; forces count as one foot's where the contact is clean.";
     let events = "How far foot strikes and toe-offs of different sources are apart.";
-    let forces = "Over whole stances of feet that stood wholly on a plate of their own.";
+    let forces = "Over whole stances of feet that stood wholly on a plate of their own. The 90 % band is the prediction ± 1.645 standard deviations; the panels draw ± 1.";
     let segments = "Lengths of the built-in body's segments over those that its table gives for the stature.";
     let tables = [
         listed(["markers", "Markers", MARKER_NOTE], &markers(results), &MARKERS),

@@ -7,6 +7,7 @@ mod instants;
 mod joints;
 mod moments;
 
+use super::feasibility::Basis;
 use super::{feasibility, peaks, quality};
 use crate::report::clinical::ClinicalQuantity;
 use crate::report::page::block::Block;
@@ -62,7 +63,9 @@ fn verdict(summary: &Value, figures: &[moments::Figure]) -> Option<Feasibility> 
     let quantities = |figure: &moments::Figure| -> Vec<ClinicalQuantity> { figure.quantities.clone() };
     let (mut red, mut sentences, mut closest): (Vec<RedSpan>, Vec<String>, Option<Table>) = Default::default();
     for figure in figures {
-        let Some(one) = feasibility::feasibility(&figure.verdict, &quantities(figure)) else { continue };
+        // The contacts of a scene are all known.
+        let judged = feasibility::feasibility(&figure.verdict, &Basis::default(), &quantities(figure));
+        let Some(one) = judged else { continue };
         let who = |sentence: &str| format!("{}: {sentence}", figure.name);
         sentences.push(who(&one.sentence));
         red.extend(one.red.into_iter().map(|span| RedSpan {

@@ -1,5 +1,9 @@
 //! The verdict: whether a person could do this, and what stands against it, when and where.
 
+mod basis;
+
+pub(super) use basis::Basis;
+
 use super::cells::{Form, column, listed, table};
 use super::{sides, words};
 use crate::model::Side;
@@ -19,35 +23,79 @@ const PANELS: [(&str, &str); 5] = [
 /// Place of the quantity in a row of the table of limits.
 pub(super) const QUANTITY: usize = 1;
 
-/// Of a verdict in the summary; `None` where nothing was judged.
-pub(super) fn feasibility(verdict: &Value, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
-    let feasible = verdict["feasible"].as_bool()?;
+/// Of a verdict in the summary; `None` where nothing was judged, or too little of it to say anything of the whole.
+pub(super) fn feasibility(verdict: &Value, basis: &Basis, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
+    let feasible = verdict["feasible"].as_bool().filter(|feasible| !(*feasible && basis.no_ground))?;
     let red: Vec<RedSpan> = entries(verdict, "reasons").iter().filter_map(|reason| span(reason, quantities)).collect();
     Some(Feasibility {
         feasible,
-        sentence: sentence(verdict, feasible, &red),
+        sentence: sentence(verdict, feasible, basis, &red),
         closest: closest(verdict, quantities),
         red,
     })
+}
+
+/// Why nothing is said of the whole though checks were made, and how near they come to their limits.
+pub(super) fn partly_judged(
+    verdict: &Value,
+    basis: &Basis,
+    quantities: &[ClinicalQuantity],
+) -> Option<(String, Table)> {
+    let passed = verdict["feasible"].as_bool() == Some(true) && basis.no_ground;
+    passed.then(|| {
+        let sentence = format!("{} Nothing of that is against the motion.", without_ground(verdict));
+        (format!("No verdict: {sentence}"), closest(verdict, quantities))
+    })
+}
+
+/// Which checks were made though no ground forces are known.
+fn without_ground(verdict: &Value) -> String {
+    let made = |check: &&str| entries(verdict, "closest").iter().any(|entry| entry["check"] == **check);
+    let made: Vec<&str> = ["range", "strength", "power"].into_iter().filter(made).map(|check| plural(check)).collect();
+    match made.split_last() {
+        None => "without ground forces nothing was judged.".to_owned(),
+        Some((one, [])) => format!("without ground forces only {one} were judged."),
+        Some((last, others)) => format!("without ground forces only {} and {last} were judged.", others.join(", ")),
+    }
+}
+
+fn plural(check: &str) -> &'static str {
+    match check {
+        "range" => "ranges of motion",
+        "strength" => "moments that move the limbs in the air",
+        _ => "powers",
+    }
 }
 
 fn entries<'a>(verdict: &'a Value, key: &str) -> &'a [Value] {
     verdict[key].as_array().map_or(&[], Vec::as_slice)
 }
 
-fn sentence(verdict: &Value, feasible: bool, red: &[RedSpan]) -> String {
+fn sentence(verdict: &Value, feasible: bool, basis: &Basis, red: &[RedSpan]) -> String {
     let person = match (verdict["mass_kg"].as_f64(), verdict["height_m"].as_f64()) {
-        (Some(mass), Some(height)) => format!("A person of {mass:.1} kg and {height:.2} m"),
-        _ => "A person of this size".to_owned(),
+        (Some(mass), Some(height)) => format!("person of {mass:.1} kg and {height:.2} m"),
+        _ => "person of this size".to_owned(),
     };
+    let limits = basis.limits();
     if feasible {
-        return format!("{person} could do this: every check that was made is within its limit.");
+        return match limits {
+            None => format!("A {person} could do this: every check that was made is within its limit."),
+            Some(limits) => format!("What was judged is within the limits of a {person}, but {limits}."),
+        };
     }
     let mut checks: Vec<String> = red.iter().map(|span| in_words(&span.check)).collect();
     checks.sort_unstable();
     checks.dedup();
     let times = if red.len() == 1 { "1 time".to_owned() } else { format!("{} times", red.len()) };
-    format!("{person} could not do this: limits are passed at {times} ({}).", checks.join(", "))
+    let said = format!("A {person} could not do this: limits are passed at {times} ({}).", checks.join(", "));
+    let ground = basis.no_ground.then(|| capitalised(&without_ground(verdict)));
+    let rest = limits.map(|limits| format!("{}.", capitalised(&limits)));
+    [Some(said), ground, rest].into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// `center_of_pressure` as a reader has it.

@@ -1,0 +1,132 @@
+//! What the page says about how far its numbers can be trusted: verdicts on part of a motion, friction, bands of predictions.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod report_pages;
+
+use ambulo_formats::table::Table;
+use report_pages::{Shown, predicted, recorded, with_summary};
+use serde_json::{Value, json};
+
+// ---- how far a verdict reaches ----
+
+#[test]
+fn a_verdict_on_part_of_the_motion_says_so() {
+    let mut files = recorded();
+    let whole = Shown::of(&files);
+    let sentence = |shown: &Shown| shown.session()["feasibility"]["sentence"].as_str().unwrap().to_owned();
+    let fact = |shown: &Shown| {
+        let facts = shown.session()["quality"]["facts"].as_array().unwrap().clone();
+        facts.into_iter().find(|fact| fact["label"] == "Residual force, RMS").unwrap()
+    };
+    assert!(fact(&whole)["good"].is_boolean() && fact(&whole)["allowed"].is_string());
+    let unseen = json!({"code": "feasibility.unmeasured_support", "severity": "note", "count": 1,
+        "message": "moments were not judged in 44 of 100 frames (the first at 0.100 s): a foot may stand there"});
+    let large = json!({"code": "residual.large", "severity": "warning", "count": 1, "message": "much"});
+    let judge = |summary: &mut Value, feasible: bool, findings: Vec<&Value>| {
+        let range = json!({"check": "range", "quantity": "hip_flexion_r", "at_s": 0.1, "value": 3.0, "limit": 9.0,
+            "unit": "deg", "share": 0.3});
+        summary["verdict"] = json!({"feasible": feasible, "reasons": [], "closest": [range], "not_judged": [],
+            "mass_kg": 75.0, "height_m": 1.75});
+        summary["residual"]["force_rms_bw"] = json!(0.63);
+        summary["findings"] = json!(findings);
+    };
+    let said = "A person of 75.0 kg and 1.75 m could do this: every check that was made is within its limit.";
+    let part = "44 % of the time was not judged, since a foot may stand where nothing measures";
+    let trust = "motion, forces and body disagree by 63 % of body weight: the moments are not to be trusted.";
+    with_summary(&mut files, |summary| judge(summary, true, vec![]));
+    assert_eq!(sentence(&Shown::of(&files)), said);
+    for (findings, ends) in [
+        (vec![&unseen], format!("but {part}.")),
+        (vec![&large], format!("but {trust}")),
+        (vec![&unseen, &large], format!("but {part}; {trust}")),
+    ] {
+        with_summary(&mut files, |summary| judge(summary, true, findings));
+        let found = sentence(&Shown::of(&files));
+        assert!(found.starts_with("What was judged is within the limits of a person of 75.0 kg"), "{found}");
+        assert!(found.ends_with(&ends) && !found.contains("could do"), "{found}");
+    }
+    with_summary(&mut files, |summary| judge(summary, false, vec![&large]));
+    let found = sentence(&Shown::of(&files));
+    assert!(
+        found.contains("could not do this") && found.contains("Motion, forces and body disagree by 63 %"),
+        "{found}"
+    );
+}
+
+#[test]
+fn without_ground_forces_nothing_is_said_of_the_whole() {
+    let mut files = recorded();
+    for file in ["grf.mot", "events.csv", "cycles.csv"] {
+        files.remove(file);
+    }
+    let range = json!({"check": "range", "quantity": "hip_flexion_r", "at_s": 0.1, "value": 3.0, "limit": 9.0,
+        "unit": "deg", "share": 0.3});
+    with_summary(&mut files, |summary| {
+        summary["ground"]["source"] = json!("none");
+        summary["speed_m_s"] = Value::Null;
+        summary["verdict"] = json!({"feasible": true, "reasons": [], "closest": [range], "not_judged": [],
+            "mass_kg": 75.0, "height_m": 1.75});
+        summary["residual"]["force_rms_bw"] = json!(1.02);
+    });
+    let shown = Shown::of(&files);
+    assert!(shown.session()["feasibility"].is_null());
+    assert!(shown.misses("No verdict: without ground forces only ranges of motion were judged"));
+    let quality = &shown.session()["quality"];
+    assert!(quality["tables"].as_array().unwrap().iter().any(|table| table["id"] == "closest"));
+    let facts = quality["facts"].as_array().unwrap();
+    let residual = facts.iter().find(|fact| fact["label"] == "Residual force, RMS").unwrap();
+    assert!(residual["good"].is_null() && residual["allowed"].is_null(), "{residual}");
+}
+
+// ---- quality ----
+
+#[test]
+fn friction_is_drawn_where_the_verdict_judges_it() {
+    let mut files = recorded();
+    let weight = {
+        let mass: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
+        mass["mass_model_kg"].as_f64().unwrap() * 9.81
+    };
+    let table = Table::read_storage(&files["grf.mot"]).unwrap().0;
+    // The left foot's load is put just below and just above the load from which on friction is judged.
+    let columns = table.columns().map(|(name, values)| {
+        let mut values = values.to_vec();
+        if let Some(axis) = name.strip_prefix("ground_force_l_v") {
+            for (row, share) in [(100, 0.095), (101, 0.105)] {
+                values[row] = if axis == "y" { share * weight } else { 0.5 * share * weight };
+            }
+        }
+        (name.to_owned(), values)
+    });
+    let mut changed = Table::new("changed", columns.collect()).unwrap();
+    changed.in_degrees = Some(true);
+    files.insert("grf.mot".to_owned(), changed.write_storage());
+    let shown = Shown::of(&files);
+    let traces = shown.panel("friction_use")["traces"].as_array().unwrap();
+    let left = shown.series(&traces.iter().find(|trace| trace["side"] == "l").unwrap()["values"]);
+    assert!(left[100].is_nan(), "{}", left[100]);
+    assert!((left[101] - 0.5_f64.hypot(0.5)).abs() < 1e-3, "{}", left[101]);
+    let groups = shown.session()["quality"]["groups"].as_array().unwrap();
+    let note = groups.iter().find(|group| group["id"] == "friction").unwrap()["note"].as_str().unwrap();
+    assert!(note.contains("less than 0.03 s"), "{note}");
+}
+
+#[test]
+fn a_band_is_promised_where_there_is_one() {
+    let mut files = predicted();
+    let overlay = |shown: &Shown| {
+        let groups = shown.session()["quality"]["groups"].as_array().unwrap();
+        let group = groups.iter().find(|group| group["id"] == "overlay").unwrap();
+        let uncertain =
+            group["panels"].as_array().unwrap().iter().flat_map(|panel| panel["traces"].as_array().unwrap());
+        (group["note"].as_str().unwrap().to_owned(), uncertain.filter(|trace| trace["sd"].is_object()).count())
+    };
+    let (note, bands) = overlay(&Shown::of(&files));
+    assert!(note.contains("± 1 standard deviation") && note.contains("± 1.645") && bands > 0, "{note} {bands}");
+    files.remove("grf_sd.mot").unwrap();
+    let (note, bands) = overlay(&Shown::of(&files));
+    assert!(!note.contains("Band") && note.contains("no grf_sd.mot") && bands == 0, "{note} {bands}");
+    files.remove("grf_measured.mot").unwrap();
+    assert!(!overlay(&Shown::of(&files)).0.contains("Band"));
+}
