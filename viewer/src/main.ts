@@ -27,6 +27,8 @@ import "./css/print.css";
 
 /** Where in a right cycle the page begins [%]: the leg is loaded and the picture has forces. */
 const BEGIN_PERCENT = 15;
+/** The figure is drawn after this time even if the rest is not on the screen yet. */
+const LONGEST_PAINT_MS = 100;
 
 /** Draws the page, or says why it cannot be drawn. */
 async function main(root: HTMLElement): Promise<void> {
@@ -50,6 +52,8 @@ async function main(root: HTMLElement): Promise<void> {
   report.prepend(about(page, still), nav);
   const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
   root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
+  panels.start();
+  await painted();
   const view = figure(host, context);
   const stage: Stage = { ...context, view };
   const { dialog, open } = helpDialog();
@@ -60,7 +64,6 @@ async function main(root: HTMLElement): Promise<void> {
   listenToKeys(context, { ...actions, help: open });
   prepareForPaper(panels, view, still);
   begin(context);
-  panels.start();
   Object.defineProperty(window, "ambulo", {
     value: {
       page,
@@ -122,6 +125,14 @@ function figure(host: HTMLElement, context: Context): View3D | null {
     );
     return null;
   }
+}
+
+/** Words and curves come on the screen before the figure; a window that nobody sees is not waited for. */
+function painted(): Promise<void> {
+  return new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, LONGEST_PAINT_MS);
+  });
 }
 
 function begin({ clock, first }: Context): void {
