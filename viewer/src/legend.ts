@@ -4,7 +4,7 @@ import { element } from "./element";
 import { citations } from "./groups";
 import { pixels, type Scheme, sideLook } from "./look";
 import { areaSample, lineSample } from "./sample";
-import { colour, onThemeChange, STYLE } from "./style";
+import { colour, onThemeChange, STYLE, sessionColour } from "./style";
 
 /** What colours and dashes mean; follows theme and choices. */
 export function legend(context: Context): HTMLElement {
@@ -64,7 +64,14 @@ function overTime({ page }: Context): (Node | string)[][] {
   const uncertain = traces.some((trace) => trace.sd !== null);
   return [
     ...(measured ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
-    ...(uncertain ? [[areaSample(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
+    ...(uncertain
+      ? [
+          [
+            areaSample(page.sessions.length > 1 ? sessionColour(0) : colour("right"), STYLE.uncertainty_opacity),
+            "± 1 SD of the value",
+          ],
+        ]
+      : []),
     ...(page.sessions.length === 1 && page.sessions.some((one) => one.events.length > 0)
       ? [["ticks below: strike (short), toe-off (long)"]]
       : []),
