@@ -5,7 +5,7 @@ import { pageControls, playControls } from "./controls";
 import { Display } from "./display";
 import { element } from "./element";
 import { feasibility } from "./feasibility";
-import { citations, groups } from "./groups";
+import { groups } from "./groups";
 import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
@@ -87,20 +87,29 @@ function content(context: Context, panels: Panels): HTMLElement {
   return element(
     "div",
     { class: "content" },
-    ...chapter("curves", "Curves", curves.length > 0 ? [legend(context), ...curves, ...sources(context)] : []),
+    ...chapter(
+      "curves",
+      "Curves",
+      curves.length > 0 ? [legend(context, panels), ...curves, sources(context, panels)] : [],
+    ),
     ...feasibility(context, panels),
     ...chapter("tables", "Numbers", abreast(numbers)),
     ...quality(context, panels),
   );
 }
 
-/** Where the grey bands come from, in full. */
-function sources(context: Context): HTMLElement[] {
-  const all = citations(context.page.sessions);
-  const items = all.map((citation) => element("li", {}, citation));
-  return all.length > 0
-    ? [element("section", { class: "sources" }, element("h3", {}, "Normal bands"), element("ul", {}, ...items))]
-    : [];
+/** Where the grey bands that are drawn now come from, in full. */
+function sources(context: Context, panels: Panels): HTMLElement {
+  const list = element("ul", {});
+  const made = element("section", { class: "sources" }, element("h3", {}, "Normal bands"), list);
+  const fill = (): void => {
+    const all = panels.citations();
+    made.hidden = all.length === 0;
+    list.replaceChildren(...all.map((citation) => element("li", {}, citation)));
+  };
+  fill();
+  context.display.subscribe(fill);
+  return made;
 }
 
 function contents(report: HTMLElement): HTMLElement {
