@@ -90,7 +90,7 @@ function content(context: Context, panels: Panels): HTMLElement {
     ...chapter(
       "curves",
       "Curves",
-      curves.length > 0 ? [legend(context, panels), ...curves, sources(context, panels)] : [],
+      curves.length > 0 ? [legend(context, panels), ...cycleless(context), ...curves, sources(context, panels)] : [],
     ),
     ...feasibility(context, panels),
     ...chapter("tables", "Numbers", abreast(numbers)),
@@ -110,6 +110,17 @@ function sources(context: Context, panels: Panels): HTMLElement {
   fill();
   context.display.subscribe(fill);
   return made;
+}
+
+/** Which of the sessions compared cannot be seen over the gait cycle. */
+function cycleless({ page }: Context): HTMLElement[] {
+  const without = page.sessions.filter((session) => session.cycles.length === 0);
+  if (without.length === 0 || without.length === page.sessions.length) {
+    return [];
+  }
+  const names = without.map((session) => session.name).join(", ");
+  const verb = without.length > 1 ? "have" : "has";
+  return [element("p", { class: "note" }, `${names} ${verb} no gait cycles: see the curves over time.`)];
 }
 
 function contents(report: HTMLElement): HTMLElement {
