@@ -83,7 +83,7 @@ const NOISE = 1e-9;
 /** A limit further away than this, in parts of what is drawn, does not squeeze the rest. */
 const LIMIT_WITHIN = 0.6;
 
-/** What is drawn of one quantity of one or more sessions; nothing if there is nothing. */
+/** What is drawn of one quantity of one or more sessions; nothing if there is nothing, over time nothing without values over time. */
 export function drawing(sources: readonly PanelSource[], numbers: Numbers, choice: DrawingChoice): Drawing | null {
   const axis = possibleAxis(sources, choice.axis);
   if (axis === null) {
@@ -122,7 +122,12 @@ function possibleAxis(sources: readonly PanelSource[], wanted: Axis): Axis | nul
   if (wanted === "cycle") {
     return cycle ? "cycle" : time ? "time" : null;
   }
-  return time ? "time" : cycle ? "cycle" : null;
+  return time ? "time" : null;
+}
+
+/** Whether there is anything to be drawn over any axis. */
+export function hasValues(sources: readonly PanelSource[]): boolean {
+  return possibleAxis(sources, "cycle") !== null;
 }
 
 function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSource[]): Part {

@@ -1,6 +1,6 @@
 import { element } from "./element";
 
-/** What is shown of a folded list or table; css/table.css hides the others. */
+/** What is shown of a folded list or table; css/table.css hides the others on the screen, paper has all. */
 const FEW = 10;
 /** A list or table with more than this is folded at first. */
 export const MANY = 15;

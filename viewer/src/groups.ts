@@ -54,9 +54,3 @@ function merged(
   });
   return all;
 }
-
-/** Sources of the grey bands of a page, each once. */
-export function citations(sessions: readonly Session[]): string[] {
-  const panels = sessions.flatMap((session) => session.groups.flatMap((group) => group.panels));
-  return [...new Set(panels.flatMap((panel) => (panel.band ? [panel.band.citation] : [])))];
-}

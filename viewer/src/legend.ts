@@ -1,22 +1,23 @@
 import type { Context } from "./context";
 import type { PageSide, Session } from "./contract";
 import { element } from "./element";
-import { citations } from "./groups";
 import { pixels, type Scheme, sideLook } from "./look";
+import type { Panels } from "./panels";
 import { areaSample, lineSample } from "./sample";
-import { colour, onThemeChange, STYLE } from "./style";
+import { colour, onThemeChange, STYLE, sessionColour } from "./style";
 
 /** What colours and dashes mean; follows theme and choices. */
-export function legend(context: Context): HTMLElement {
+export function legend(context: Context, panels: Panels): HTMLElement {
   const list = element("ul", { class: "legend", "aria-label": "Legend" });
-  const fill = (): void => list.replaceChildren(...entries(context).map((entry) => element("li", {}, ...entry)));
+  const fill = (): void =>
+    list.replaceChildren(...entries(context, panels).map((entry) => element("li", {}, ...entry)));
   fill();
   onThemeChange(fill);
   context.display.subscribe(fill);
   return list;
 }
 
-function entries(context: Context): (Node | string)[][] {
+function entries(context: Context, panels: Panels): (Node | string)[][] {
   const { sessions } = context.page;
   const sides = context.display.sides.filter((side) => hasSide(sessions, side));
   const scheme: Scheme = { sessions: sessions.length, sides };
@@ -35,7 +36,7 @@ function entries(context: Context): (Node | string)[][] {
     session.groups.some((group) => group.panels.some((panel) => panel.red.length > 0)),
   );
   const wrong = red ? [[lineSample(colour("infeasible"), [], pixels(STYLE.lines_pt.infeasible)), "not feasible"]] : [];
-  return [...lines, ...(context.display.axis === "cycle" ? overCycle(context) : overTime(context)), ...wrong];
+  return [...lines, ...(context.display.axis === "cycle" ? overCycle(context, panels) : overTime(context)), ...wrong];
 }
 
 /** Whether anything of a side is drawn. */
@@ -50,9 +51,9 @@ function sideWords(sides: readonly PageSide[]): string {
   return sides.length > 1 ? "solid: right, dashed: left" : sides[0] === "r" ? "right side" : "left side";
 }
 
-function overCycle({ page }: Context): (Node | string)[][] {
+function overCycle({ page }: Context, panels: Panels): (Node | string)[][] {
   const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
-  const band = citations(page.sessions).length > 0 ? [[areaSample(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
+  const band = panels.citations().length > 0 ? [[areaSample(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
   return [[curves], ...band, ["ticks below: toe-off"]];
 }
 
@@ -64,7 +65,14 @@ function overTime({ page }: Context): (Node | string)[][] {
   const uncertain = traces.some((trace) => trace.sd !== null);
   return [
     ...(measured ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
-    ...(uncertain ? [[areaSample(colour("right"), STYLE.uncertainty_opacity), "± 1 SD of the value"]] : []),
+    ...(uncertain
+      ? [
+          [
+            areaSample(page.sessions.length > 1 ? sessionColour(0) : colour("right"), STYLE.uncertainty_opacity),
+            "± 1 SD of the value",
+          ],
+        ]
+      : []),
     ...(page.sessions.length === 1 && page.sessions.some((one) => one.events.length > 0)
       ? [["ticks below: strike (short), toe-off (long)"]]
       : []),

@@ -71,7 +71,7 @@ function mainLook(line: Line, scheme: Scheme): { readonly colour: string; readon
   }
   const dash = (VARIANT_DASHES[(line.variant - 1) % VARIANT_DASHES.length] ?? []).map(scaled);
   const free = line.side === null && scheme.sessions === 1;
-  return { colour: free ? sessionColour(line.variant + 1) : own.colour, dash };
+  return { colour: free ? sessionColour(line.variant - 1) : own.colour, dash };
 }
 
 /** Dashes of the second, third, ... main line of a side, in widths of a mean's line. */

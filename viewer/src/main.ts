@@ -5,7 +5,7 @@ import { pageControls, playControls } from "./controls";
 import { Display } from "./display";
 import { element } from "./element";
 import { feasibility } from "./feasibility";
-import { citations, groups } from "./groups";
+import { groups } from "./groups";
 import { about, header } from "./header";
 import { helpDialog } from "./help";
 import { listenToKeys } from "./keyboard";
@@ -27,6 +27,8 @@ import "./css/print.css";
 
 /** Where in a right cycle the page begins [%]: the leg is loaded and the picture has forces. */
 const BEGIN_PERCENT = 15;
+/** The figure is drawn after this time even if the rest is not on the screen yet. */
+const LONGEST_PAINT_MS = 100;
 
 /** Draws the page, or says why it cannot be drawn. */
 async function main(root: HTMLElement): Promise<void> {
@@ -50,6 +52,8 @@ async function main(root: HTMLElement): Promise<void> {
   report.prepend(about(page, still), nav);
   const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
   root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
+  panels.start();
+  await painted();
   const view = figure(host, context);
   const stage: Stage = { ...context, view };
   const { dialog, open } = helpDialog();
@@ -60,7 +64,6 @@ async function main(root: HTMLElement): Promise<void> {
   listenToKeys(context, { ...actions, help: open });
   prepareForPaper(panels, view, still);
   begin(context);
-  panels.start();
   Object.defineProperty(window, "ambulo", {
     value: {
       page,
@@ -84,20 +87,40 @@ function content(context: Context, panels: Panels): HTMLElement {
   return element(
     "div",
     { class: "content" },
-    ...chapter("curves", "Curves", curves.length > 0 ? [legend(context), ...curves, ...sources(context)] : []),
+    ...chapter(
+      "curves",
+      "Curves",
+      curves.length > 0 ? [legend(context, panels), ...cycleless(context), ...curves, sources(context, panels)] : [],
+    ),
     ...feasibility(context, panels),
     ...chapter("tables", "Numbers", abreast(numbers)),
     ...quality(context, panels),
   );
 }
 
-/** Where the grey bands come from, in full. */
-function sources(context: Context): HTMLElement[] {
-  const all = citations(context.page.sessions);
-  const items = all.map((citation) => element("li", {}, citation));
-  return all.length > 0
-    ? [element("section", { class: "sources" }, element("h3", {}, "Normal bands"), element("ul", {}, ...items))]
-    : [];
+/** Where the grey bands that are drawn now come from, in full. */
+function sources(context: Context, panels: Panels): HTMLElement {
+  const list = element("ul", {});
+  const made = element("section", { class: "sources" }, element("h3", {}, "Normal bands"), list);
+  const fill = (): void => {
+    const all = panels.citations();
+    made.hidden = all.length === 0;
+    list.replaceChildren(...all.map((citation) => element("li", {}, citation)));
+  };
+  fill();
+  context.display.subscribe(fill);
+  return made;
+}
+
+/** Which of the sessions compared cannot be seen over the gait cycle. */
+function cycleless({ page }: Context): HTMLElement[] {
+  const without = page.sessions.filter((session) => session.cycles.length === 0);
+  if (without.length === 0 || without.length === page.sessions.length) {
+    return [];
+  }
+  const names = without.map((session) => session.name).join(", ");
+  const verb = without.length > 1 ? "have" : "has";
+  return [element("p", { class: "note" }, `${names} ${verb} no gait cycles: see the curves over time.`)];
 }
 
 function contents(report: HTMLElement): HTMLElement {
@@ -122,6 +145,14 @@ function figure(host: HTMLElement, context: Context): View3D | null {
     );
     return null;
   }
+}
+
+/** Words and curves come on the screen before the figure; a window that nobody sees is not waited for. */
+function painted(): Promise<void> {
+  return new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, LONGEST_PAINT_MS);
+  });
 }
 
 function begin({ clock, first }: Context): void {

@@ -2,7 +2,7 @@ import type uPlot from "uplot";
 import { directionWords, type Words } from "./caption";
 import type { Context } from "./context";
 import type { PageSide } from "./contract";
-import { type Drawing, drawing, type PanelSource } from "./drawing";
+import { type Drawing, drawing, hasValues, type PanelSource } from "./drawing";
 import { button, element } from "./element";
 import { digitsFor, shortCitation, shown } from "./format";
 import { lineLook, type Scheme } from "./look";
@@ -27,6 +27,7 @@ export class PanelView {
   readonly #paper: HTMLElement;
   readonly #readout = element("span", { class: "readout", "aria-hidden": "true" });
   readonly #source: HTMLElement;
+  readonly #absent = element("p", { class: "empty", hidden: "" }, "no values over time");
   readonly #key = element("p", { class: "key", "aria-hidden": "true" });
   readonly #values = new Map<string, HTMLElement>();
   readonly #cursors = new Map<PageSide | null, HTMLElement>();
@@ -44,8 +45,8 @@ export class PanelView {
     this.#paper = element("div", { class: "paper", "aria-hidden": "true" });
     this.#source = element("p", { class: "source" });
     this.figure = element("figure", { class: "panel", id: `panel-${id}` }, this.#head());
-    if (this.#drawing) {
-      this.figure.append(this.#plot, this.#paper, this.#key, this.#source);
+    if (this.drawable) {
+      this.figure.append(this.#plot, this.#absent, this.#paper, this.#key, this.#source);
       this.#fillWords(this.#drawing);
     } else {
       const why = sources.find(({ panel }) => panel.empty !== null)?.panel.empty;
@@ -53,7 +54,17 @@ export class PanelView {
     }
   }
 
-  /** What is drawn. */
+  /** Whether there is anything to be drawn over any axis. */
+  get drawable(): boolean {
+    return hasValues(this.#sources);
+  }
+
+  /** Where the grey band that is drawn now comes from, in full; empty if there is none. */
+  get citation(): string {
+    return this.#source.title;
+  }
+
+  /** What is drawn now. */
   get drawing(): Drawing | null {
     return this.#drawing;
   }
@@ -75,7 +86,7 @@ export class PanelView {
   /** Draws anew what another axis or other sides ask for; at once if visible, or else when it becomes so. */
   update(): void {
     this.#drawing = drawing(this.#sources, this.#context.numbers, this.#context.display);
-    if (this.#drawing) {
+    if (this.drawable) {
       this.#fillWords(this.#drawing);
     }
     this.#chart?.destroy();
@@ -127,9 +138,8 @@ export class PanelView {
 
   /** The plot as a vector picture, for paper. */
   prepareForPaper(): void {
-    if (this.#drawing) {
-      this.#paper.replaceChildren(vector(this.#drawing, this.#scheme(), PRINT));
-    }
+    const picture = this.#drawing ? [vector(this.#drawing, this.#scheme(), PRINT)] : [];
+    this.#paper.replaceChildren(...picture);
   }
 
   /** Draws the plot at the size of its host, if that has not been done. */
@@ -163,7 +173,7 @@ export class PanelView {
       title.append(" ", element("span", { class: "unit" }, this.#words.unit));
     }
     const head = element("figcaption", {}, title);
-    if (this.#drawing) {
+    if (this.drawable) {
       const signs = element("span", { class: "signs" }, directionWords(this.#words));
       head.append(this.#menu(), element("div", { class: "caption-row" }, signs, this.#readout));
     }
@@ -171,8 +181,16 @@ export class PanelView {
   }
 
   /** Words that depend on what is drawn: places of the values, source of the band, summary. */
-  #fillWords(now: Drawing): void {
+  #fillWords(now: Drawing | null): void {
     this.#values.clear();
+    this.#plot.hidden = now === null;
+    this.#absent.hidden = now !== null;
+    this.#fillSource(now);
+    if (!now) {
+      this.#readout.replaceChildren();
+      this.#key.replaceChildren();
+      return;
+    }
     const read = readings(now, this.#context.first, this.#context.clock.time);
     for (const reading of read) {
       this.#values.set(keyOf(reading), element("span", { class: reading.side ?? "both" }, "–"));
@@ -180,7 +198,6 @@ export class PanelView {
     const many = read.some((reading) => reading.variant > 0);
     this.#readout.replaceChildren(...(many ? [] : this.#values.values()));
     this.#key.replaceChildren(...(many ? this.#keyEntries(now) : []));
-    this.#fillSource(now);
     this.#plot.setAttribute("aria-label", this.#summary(now));
   }
 
@@ -194,9 +211,9 @@ export class PanelView {
   }
 
   /** Whose the grey band is, in short; in full it stands below all panels. */
-  #fillSource(now: Drawing): void {
+  #fillSource(now: Drawing | null): void {
     const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
-    const visible = band && now.areas.some((area) => area.kind === "band");
+    const visible = band && now?.areas.some((area) => area.kind === "band");
     this.#source.textContent = visible ? this.#words.band : "";
     this.#source.title = visible ? band.citation : "";
   }

@@ -34,7 +34,7 @@ export class Panels {
 
   add(view: PanelView): void {
     this.#views.push(view);
-    if (view.drawing) {
+    if (view.drawable) {
       this.#byHost.set(view.host, view);
       this.#sight.observe(view.host);
       this.#size.observe(view.host);
@@ -64,6 +64,11 @@ export class Panels {
   /** Vector pictures of all panels, for paper. */
   prepareForPaper(): void {
     this.#each((view) => view.prepareForPaper());
+  }
+
+  /** Where the grey bands that are drawn now come from, each once. */
+  citations(): string[] {
+    return [...new Set(this.#views.flatMap(({ citation }) => (citation ? [citation] : [])))];
   }
 
   /** What is drawn, panel by panel. */

@@ -61,7 +61,24 @@ export function plot(host: HTMLElement, drawing: Drawing, scheme: Scheme, width:
       draw: [(chart) => drawFrame(chart, drawing, scheme)],
     },
   };
-  return new uPlot(options, dataOf(drawing.lines), host);
+  return onPlainCanvas(() => new uPlot(options, dataOf(drawing.lines), host));
+}
+
+/**
+ * Lets the processor draw on the canvases that are made meanwhile. A plot is drawn once and then stands; to prepare the graphics card
+ * for it takes longer, and without a card half a second.
+ */
+function onPlainCanvas<T>(make: () => T): T {
+  const { prototype } = HTMLCanvasElement;
+  const original = prototype.getContext;
+  prototype.getContext = function (this: HTMLCanvasElement, kind: string, settings?: object) {
+    return original.call(this, kind, { ...settings, willReadFrequently: true });
+  } as typeof original;
+  try {
+    return make();
+  } finally {
+    prototype.getContext = original;
+  }
 }
 
 function seriesOf(line: Line, scheme: Scheme): uPlot.Series {

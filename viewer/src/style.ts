@@ -61,7 +61,7 @@ export function onThemeChange(listener: (theme: Theme) => void): () => void {
   return () => listeners.delete(listener);
 }
 
-/** Sets the CSS variables `--right`, `--left`, `--paper`, ... and tells the listeners. */
+/** Sets the CSS variables `--right`, `--left`, `--paper`, ..., `--own` of the first session compared, and tells the listeners. */
 export function applyTheme(): void {
   const root = document.documentElement;
   const now = theme();
@@ -71,6 +71,7 @@ export function applyTheme(): void {
   for (const name of names) {
     root.style.setProperty(`--${name}`, colour(name));
   }
+  root.style.setProperty("--own", sessionColour(0));
   for (const listener of listeners) {
     listener(now);
   }

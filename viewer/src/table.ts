@@ -26,53 +26,111 @@ export function tables(sessions: readonly Session[], tablesOf: (session: Session
 export function tableSection(own: readonly (Table | null)[], names: readonly string[]): HTMLElement {
   const first = own.find((table) => table !== null);
   const heading = element("h3", {}, first?.title ?? "");
-  const note = first?.note ? [element("p", { class: "note" }, first.note)] : [];
+  const notes = sentences(own, names).map((sentence) => element("p", { class: "note" }, sentence));
   if (!first || own.every((table) => !table || table.rows.length === 0)) {
     const why = own.find((table) => table?.empty)?.empty ?? "There are no values.";
     return element("section", { class: "table" }, heading, element("p", { class: "empty" }, why));
   }
-  const body = tableElement(sideBySide(own, names), first.title);
-  const fold = first.rows.length > MANY ? [foldButton(body, first.rows.length, "rows")] : [];
+  const columns = sideBySide(own, names);
+  const body = tableElement(columns, first.title);
+  const fold = columns.rows.length > MANY ? [foldButton(body, columns.rows.length, "rows")] : [];
   const scroll = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": first.title }, body);
-  return element("section", { class: "table" }, heading, scroll, ...fold, ...note);
+  return element("section", { class: "table" }, heading, scroll, ...fold, ...notes);
+}
+
+/** Notes of the tables, and why a session has no rows; with its name what not all sessions say. */
+export function sentences(own: readonly (Table | null)[], names: readonly string[]): string[] {
+  const said = own.map((table) => {
+    const empty = table && table.rows.length > 0 ? null : (table?.empty ?? "There are no values.");
+    return [table?.note, empty].flatMap((sentence) => (sentence ? [sentence] : []));
+  });
+  return [...new Set(said.flat())].map((sentence) => {
+    const from = names.filter((_, i) => said[i]?.includes(sentence));
+    return from.length === own.length ? sentence : `${from.join(", ")}: ${sentence}`;
+  });
 }
 
 /** Columns of all sessions in turn; words that all sessions have in common, as normal ranges, stand once, at the end. */
 export function sideBySide(own: readonly (Table | null)[], names: readonly string[]): Columns {
   const present = own.flatMap((table, i) => (table && table.rows.length > 0 ? [{ table, name: names[i] ?? "" }] : []));
   const [first] = present;
-  if (!first || present.length === 1) {
+  if (!first || own.length === 1) {
     return { spans: [], heads: first?.table.columns ?? [], rows: first?.table.rows ?? [] };
   }
-  const keys = [...new Set(present.flatMap(({ table }) => table.rows.map(keyOf)))];
-  const heads = first.table.columns;
-  const cell = (table: Table, key: string, column: number): Cell =>
-    table.rows.find((row) => keyOf(row) === key)?.[column] ?? { text: "", value: null, outside: false };
-  const indices = heads.map((_, i) => i).slice(1);
-  const common = indices.filter((column) =>
-    keys.every((key) =>
-      present.every(({ table }) => {
-        const { text, value } = cell(table, key, column);
-        return value === null && text === cell(first.table, key, column).text;
-      }),
-    ),
-  );
-  const single = indices.filter((column) => !common.includes(column));
-  const rows = keys.map((key) => [
-    { text: key, value: null, outside: false },
-    ...present.flatMap(({ table }) => single.map((column) => cell(table, key, column))),
-    ...common.map((column) => cell(first.table, key, column)),
-  ]);
-  const word = (column: number): string => heads[column] ?? "";
+  const titles = titleColumns(present.map(({ table }) => table));
+  const parts = present.map(({ table, name }) => ({ table, name, rows: rowsByKey(table, titles) }));
+  const keys = [...new Set(parts.flatMap(({ rows }) => [...rows.keys()]))];
+  const same = parts.length > 1 && parts.every(({ table }) => sameWords(table.columns, first.table.columns));
+  const isCommon = (column: number): boolean =>
+    same &&
+    keys.every((key) => {
+      const cells = parts.map(({ rows }) => rows.get(key)?.[column]);
+      return cells.every((cell) => cell && cell.value === null && cell.text === cells[0]?.text);
+    });
+  const common = indicesFrom(titles, first.table.columns).filter(isCommon);
+  const single = parts.map(({ table }) => indicesFrom(titles, table.columns).filter((i) => !common.includes(i)));
+  const rows = keys.map((key) => {
+    const any = parts.find(({ rows }) => rows.has(key))?.rows.get(key) ?? [];
+    const ofPart = parts.flatMap(({ rows }, i) =>
+      (single[i] ?? []).map((column) => rows.get(key)?.[column] ?? NOTHING),
+    );
+    return [...any.slice(0, titles), ...ofPart, ...common.map((column) => any[column] ?? NOTHING)];
+  });
+  const words = (columns: readonly number[] | undefined, table: Table): string[] =>
+    (columns ?? []).map((column) => table.columns[column] ?? "");
   return {
     spans: [
-      { name: "", columns: 1 },
-      ...present.map(({ name }) => ({ name, columns: single.length })),
-      ...(common.length > 0 ? [{ name: "", columns: common.length }] : []),
+      { name: "", columns: titles },
+      ...parts.map(({ name }, i) => ({ name, columns: single[i]?.length ?? 0 })),
+      { name: "", columns: common.length },
     ].filter(({ columns }) => columns > 0),
-    heads: [word(0), ...present.flatMap(() => single.map(word)), ...common.map(word)],
+    heads: [
+      ...first.table.columns.slice(0, titles),
+      ...parts.flatMap(({ table }, i) => words(single[i], table)),
+      ...words(common, first.table),
+    ],
     rows,
   };
+}
+
+const NOTHING: Cell = { text: "", value: null, outside: false };
+
+/** How many of the first columns tell the rows apart: as few as do, of those that hold words in all tables. */
+function titleColumns(tables: readonly Table[]): number {
+  const wordy = (column: number): boolean =>
+    tables.every(({ columns, rows }) => column < columns.length && rows.every((row) => !isNumber(row[column])));
+  const isTold = (count: number): boolean =>
+    tables.every(({ rows }) => new Set(rows.map((row) => keyOf(row, count))).size === rows.length);
+  let count = 1;
+  while (!isTold(count) && wordy(count)) {
+    count += 1;
+  }
+  return count;
+}
+
+/** Rows by what tells them apart; those that nothing tells apart are counted. */
+function rowsByKey(table: Table, titles: number): Map<string, readonly Cell[]> {
+  const found = new Map<string, readonly Cell[]>();
+  const counts = new Map<string, number>();
+  for (const row of table.rows) {
+    const key = keyOf(row, titles);
+    const count = counts.get(key) ?? 0;
+    counts.set(key, count + 1);
+    found.set(JSON.stringify([key, count]), row);
+  }
+  return found;
+}
+
+function keyOf(row: readonly Cell[], titles: number): string {
+  return JSON.stringify(row.slice(0, titles).map(({ text }) => text));
+}
+
+function indicesFrom(start: number, columns: readonly string[]): number[] {
+  return columns.map((_, i) => i).slice(start);
+}
+
+function sameWords(a: readonly string[], b: readonly string[]): boolean {
+  return a.length === b.length && a.every((word, i) => word === b[i]);
 }
 
 /** A table element; its caption is for screen readers, who see no heading beside it. */
@@ -117,8 +175,4 @@ function cellElement(cell: Cell, kind: string): HTMLElement {
     made.title = String(cell.value);
   }
   return made;
-}
-
-function keyOf(row: readonly Cell[]): string {
-  return row[0]?.text ?? "";
 }

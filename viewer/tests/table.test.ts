@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Table } from "../src/contract";
-import { sideBySide } from "../src/table";
+import { sentences, sideBySide } from "../src/table";
 
 const table = (rows: string[][]): Table => ({
   id: "t",
@@ -39,4 +39,60 @@ test("a row that only one session has is empty in the other", () => {
       ["b", "", "", "2", "n"],
     ],
   );
+});
+
+/** Texts of the rows side by side. */
+function rowsOf(...tables: string[][][]): string[][] {
+  const made = tables.map((rows) => table(rows));
+  const names = tables.map((_, i) => String(i));
+  return sideBySide(made, names).rows.map((row) => row.map((cell) => cell.text));
+}
+
+test("rows with the same first word are told apart by the next words", () => {
+  const own = (a: string, b: string): string[][] => [
+    ["right", "up", a],
+    ["right", "ahead", b],
+  ];
+  assert.deepEqual(rowsOf(own("1", "2"), own("3", "4")), [
+    ["right", "up", "1", "3"],
+    ["right", "ahead", "2", "4"],
+  ]);
+});
+
+test("rows that nothing tells apart keep their order, and none is lost", () => {
+  const more = [
+    ["strike", "0.1", "n"],
+    ["strike", "1.1", "n"],
+    ["strike", "2.1", "n"],
+  ];
+  assert.deepEqual(rowsOf(more, [["strike", "0.2", "n"]]), [
+    ["strike", "0.1", "n", "0.2", "n"],
+    ["strike", "1.1", "n", "", ""],
+    ["strike", "2.1", "n", "", ""],
+  ]);
+});
+
+test("a session without rows does not take its name from the others", () => {
+  const made = sideBySide([table([]), table([["a", "1", "n"]])], ["x", "y"]);
+  assert.deepEqual(
+    made.spans.map((span) => `${span.name}${span.columns}`),
+    ["1", "y2"],
+  );
+});
+
+test("sessions with other columns keep their own heads", () => {
+  const other: Table = { ...table([["a", "1"]]), columns: ["", "Left"] };
+  const made = sideBySide([table([["a", "1", "n"]]), other], ["x", "y"]);
+  assert.deepEqual(made.heads, ["", "Right", "Normal", "Left"]);
+  assert.deepEqual(
+    made.rows.map((row) => row.map((cell) => cell.text)),
+    [["a", "1", "n", "1"]],
+  );
+});
+
+test("notes that differ stand with the names of their sessions", () => {
+  const noted = (note: string | null): Table => ({ ...table([["a", "1", "n"]]), note });
+  assert.deepEqual(sentences([noted("N"), noted("N")], ["x", "y"]), ["N"]);
+  assert.deepEqual(sentences([noted("N"), noted("M")], ["x", "y"]), ["x: N", "y: M"]);
+  assert.deepEqual(sentences([noted("N"), { ...table([]), empty: "no cycles" }], ["x", "y"]), ["x: N", "y: no cycles"]);
 });

@@ -124,6 +124,7 @@ class Picture implements View3D {
 
   /** Everything in its place for the next picture. */
   private now(): CameraRig {
+    this.measure();
     this.world.pose(this.clock.time, this.place);
     this.rig.follow(this.place);
     this.stage.follow(this.place);
