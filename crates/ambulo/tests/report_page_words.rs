@@ -74,6 +74,11 @@ fn a_turn_keeps_the_steps_and_has_no_norms() {
     assert_eq!(turning.row("time_distance", "Stance")[5], "");
     assert!(turning.header("Speed").contains("along the path"), "{}", turning.header("Speed"));
     assert!(!straight.header("Speed").contains("along the path"));
+    let motion = Table::read_storage(&recorded()["kinematics.mot"]).unwrap().0;
+    let (way, times) = (motion.column("pelvis_tx").unwrap(), motion.times().unwrap());
+    let pelvis = (way[way.len() - 1] - way[0]) / (times[times.len() - 1] - times[0]);
+    let along = turning.value("time_distance", "Speed along the path", 4);
+    assert!((along / pelvis - 1.0).abs() < 0.03, "{along} m/s along the arc, {pelvis} m/s before it was bent");
 }
 
 #[test]
@@ -159,7 +164,8 @@ fn a_motion_without_ground_forces_keeps_its_cycles() {
     let shown = Shown::of(&files);
     assert!(!shown.panel("hip_flexion_angle")["means"].as_array().unwrap().is_empty());
     assert!(!shown.header("Filter").contains("forces"), "{}", shown.header("Filter"));
-    assert!(header_note(&shown, "Ground forces").contains("as asked"));
+    assert!(header_note(&shown, "Ground forces").contains("as asked") && shown.misses("without them, as asked"));
+    assert!(header_note(&shown, "Speed").contains("without ground forces"));
     let tables = shown.session()["tables"].as_array().unwrap();
     let times = tables.iter().find(|table| table["id"] == "time_distance").unwrap();
     assert!(times["note"].is_null() && times["empty"].as_str().unwrap().contains("without ground forces"), "{times}");

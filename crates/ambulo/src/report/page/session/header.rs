@@ -11,8 +11,6 @@ use serde_json::Value;
 /// Below this speed a body does not walk anywhere [m/s].
 const STANDING_M_S: f64 = 0.1;
 
-/// A path that is so many times as long as the straight way has a speed of its own.
-const LONGER: f64 = 1.05;
 /// Masses that differ by a smaller share are one.
 const SAME_MASS: f64 = 0.005;
 
@@ -102,13 +100,17 @@ fn mass(results: &Results) -> Fact {
 
 fn speed(results: &Results, size: &BodySize) -> Fact {
     let Some(speed) = results.number("/speed_m_s") else {
-        return fact("Speed", "not known", Some("no foot was seen to carry the body".to_owned()));
+        let why = match results.source {
+            PageSource::None => "without ground forces no file tells which foot stands",
+            _ => "no foot was seen to carry the body",
+        };
+        return fact("Speed", "not known", Some(why.to_owned()));
     };
     let scaled = match size.speed_dimensionless {
         Some(scaled) => format!("V* = V / sqrt(g L) = {scaled:.2}"),
         None => "no dimensionless speed, since the leg length is not known".to_owned(),
     };
-    let value = match Way::of(results).and_then(|way| way.longer_speed(LONGER)) {
+    let value = match Way::of(results).and_then(|way| way.longer_speed()) {
         Some(along) => format!("{speed:.2} m/s straight, {along:.2} m/s along the path"),
         None => format!("{speed:.2} m/s"),
     };

@@ -36,7 +36,8 @@ pub(super) fn missing(
     let no_ground = results.source == PageSource::None;
     say(
         no_ground,
-        "No ground forces: the run was made without them, so moments are those of a body in the air.".to_owned(),
+        "No ground forces: the motion was computed without them, as asked, so moments are those of a body in the air."
+            .to_owned(),
     );
     say(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
     say(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));

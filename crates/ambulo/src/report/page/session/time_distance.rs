@@ -4,6 +4,7 @@ use super::cells::{mean_cell, number, text};
 use super::results::Results;
 use super::size::BodySize;
 use super::strides::Stride;
+use super::way::Way;
 use crate::model::Side;
 use crate::report::normative::{NormalRange, time_distance};
 use crate::report::page::contract::{Cell, PageSource, Table};
@@ -53,9 +54,7 @@ pub(super) fn table(results: &Results, size: &BodySize, strides: &[Stride]) -> T
         .map_or_else(Vec::new, |(speed, leg)| time_distance(speed, leg.metres, results.gravity()));
     let rows = match strides.is_empty() {
         true => Vec::new(),
-        false => {
-            std::iter::once(speed_row(results)).chain(ROWS.iter().map(|row| cells(row, strides, &normal))).collect()
-        }
+        false => speed_rows(results).into_iter().chain(ROWS.iter().map(|row| cells(row, strides, &normal))).collect(),
     };
     let empty = strides.is_empty().then(|| no_strides(results).to_owned());
     Table {
@@ -118,9 +117,12 @@ fn cadence(stride: &Stride) -> f64 {
     120.0 / stride.cycle_s
 }
 
-fn speed_row(results: &Results) -> Vec<Cell> {
-    let speed = number(results.number("/speed_m_s"), 2, None);
-    vec![text("Speed"), text("m/s"), text(""), text(""), speed, text("")]
+/// The speed of the summary, and that along a path that is longer than the straight way.
+fn speed_rows(results: &Results) -> Vec<Vec<Cell>> {
+    let row = |label, speed| vec![text(label), text("m/s"), text(""), text(""), number(speed, 2, None), text("")];
+    let along = Way::of(results).and_then(|way| way.longer_speed());
+    let along = along.map(|along| row("Speed along the path", Some(along)));
+    std::iter::once(row("Speed", results.number("/speed_m_s"))).chain(along).collect()
 }
 
 /// What is compared between the sides: name, unit, digits, means of right and left.

@@ -11,6 +11,8 @@ use crate::spatial::Vec3;
 const STRAIGHT_DEG: f64 = 20.0;
 /// The pelvis goes at least this far in a stride that has a direction [m].
 const LEAST_STRIDE_M: f64 = 0.2;
+/// A path that is so many times as long as the straight way has a speed of its own.
+const LONGER: f64 = 1.05;
 /// The path is measured in pieces of about this time: half a stride, so that sway does not lengthen it [s].
 const PIECE_S: f64 = 0.5;
 
@@ -56,10 +58,10 @@ impl Way<'_> {
         Some([length, self.between([first, last]).norm()].map(|way| way / (last - first)))
     }
 
-    /// The speed along the path [m/s] where it is more than so many times the straight one. Belts have no path.
-    pub(super) fn longer_speed(&self, times: f64) -> Option<f64> {
+    /// The speed along the path [m/s] where it differs from the straight one. Belts have no path.
+    pub(super) fn longer_speed(&self) -> Option<f64> {
         let [along, straight] = self.speeds().filter(|_| self.floor.norm() < 1e-9)?;
-        (along > times * straight).then_some(along)
+        (along > LONGER * straight).then_some(along)
     }
 }
 
