@@ -43,9 +43,13 @@ pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Vec<u8>, ExchangeError> {
 /// An animated glTF file (`.glb`) of a model's motion.
 ///
 /// # Errors
-/// Data that JSON cannot hold.
+/// A motion that leads out of what can be drawn, data that JSON cannot hold.
 pub fn glb_of_motion(model: &Model, trajectory: &Trajectory) -> Result<Vec<u8>, ExchangeError> {
-    Ok(glb(&Stage::of_motion(model, trajectory, None), model.name())?)
+    let stage = Stage::of_motion(model, trajectory, None);
+    if let Some(reason) = stage.defect() {
+        return Err(ExchangeError::Nothing { folder: model.name().to_owned(), reason });
+    }
+    Ok(glb(&stage, model.name())?)
 }
 
 /// A BVH skeleton of a result folder's figure.

@@ -291,7 +291,7 @@ fn what_is_missing_or_wrong_is_said_with_its_place() {
     assert_eq!(rows, format!("walk/grf.mot: {} rows; expected {FRAMES}, one for each of kinematics.mot", FRAMES - 1));
     let text = String::from_utf8(folder(&model)["kinematics.mot"].clone()).unwrap();
     let gap = with("kinematics.mot", text.replacen("\t0.9\t", "\tnan\t", 1).into_bytes());
-    assert!(gap.contains("coordinate `pelvis_ty` is not a finite number at 0.5"), "{gap}");
+    assert!(gap.contains("column `pelvis_ty`: found NaN; expected a finite number"), "{gap}");
 }
 
 /// A ball falls on a slope beside a box; a wall moves.
@@ -355,7 +355,7 @@ fn a_scene_that_is_damaged_is_refused_with_file_and_line() {
     let radius = refused("shapes.json", "\"radius\":0.1", "\"radius\":-1");
     assert!(radius.contains("`ball, red`: found a capsule of radius -1 m"), "{radius}");
     let number = refused("poses.csv", "0.002,wall,0", "0.002,wall,x");
-    assert_eq!(number, "walk/poses.csv: line 7, column 3: found `x`; expected a finite number");
+    assert!(number.starts_with("walk/poses.csv: line 7, column 3: found `x`; expected a finite number"), "{number}");
     let lacking = refused("poses.csv", "0.002,wall", "0.002,hall");
     assert!(lacking.contains("line 7: `hall` has 1 rows at 3 instants"), "{lacking}");
     let head = refused("contacts.csv", "time,kind", "time,sort");
