@@ -117,6 +117,35 @@ fn the_vertex_is_as_high_as_the_person_is_tall() {
     assert!((height - 1.68).abs() < 0.005, "{height}");
 }
 
+/// How far a line through a body goes before it meets a shape made of capsules, `None` where it meets none; searched at steps of 0.5 mm.
+fn hit(shapes: &[ViewShape], from: Vec3, along: Vec3) -> Option<f64> {
+    let inside = |place: Vec3| {
+        shapes.iter().any(|shape| {
+            let ViewShape::Capsule { from, to, radius } = shape else { return false };
+            let (a, b) = (Vec3::from(*from), Vec3::from(*to));
+            let axis = b - a;
+            let share = ((place - a).dot(&axis) / axis.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+            (place - a - axis * share).norm() < *radius
+        })
+    };
+    (0..1200).map(|i| f64::from(i) * 0.5e-3).find(|far| inside(from + along * *far))
+}
+
+#[test]
+fn a_trunk_has_no_slit() {
+    let model = body();
+    let stage = stage(&folder(&model)).unwrap();
+    let shapes = &stage.bodies[at(&stage, "torso")].shapes;
+    // Seen from the front, in axes of the trunk: x forward, y up, z right; below the shoulders.
+    for height in [0.12, 0.2, 0.28] {
+        let depth = |i: i32| hit(shapes, Vec3::new(0.4, height, 0.01 * f64::from(i)), -Vec3::x());
+        let depths: Vec<f64> = (-8..=8).filter_map(depth).collect();
+        assert_eq!(depths.len(), 17, "16 cm are trunk at {height} m");
+        let nearest = depths.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(depths[8] - nearest < 0.004, "a slit of {} m at {height} m", depths[8] - nearest);
+    }
+}
+
 #[test]
 fn a_turned_world_turns_the_picture() {
     let model = body();

@@ -1,7 +1,7 @@
 //! Pelvis, trunk and head.
 //!
-//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is two capsules that part upwards, and one from
-//! shoulder to shoulder; the head stands on it by a neck. Where a model has no arms or head, their places come from the proportions of a
+//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is a row of capsules that part upwards, so
+//! close that it looks like one body, and one from shoulder to shoulder; the head stands on it by a neck. Where a model has no arms or head, their places come from the proportions of a
 //! person of the same stature (de Leva's table; shoulders: Dumas 2007).
 
 use super::capsule;
@@ -24,8 +24,10 @@ const NECK: f64 = 0.028;
 const USUAL_BUILD: f64 = 24.5;
 /// Thinnest and thickest over that.
 const BUILDS: [f64; 2] = [0.6, 1.6];
-/// How far apart both halves of the chest are, over the distance of the shoulders: at the waist, at the top.
+/// How far the outermost capsules of the chest are from its middle, over the distance of the shoulders: at the waist, at the top.
 const PARTED: [f64; 2] = [0.1, 0.22];
+/// Where the capsules of the chest stand between middle and outermost. At a usual build the grooves between them are 2 mm deep.
+const ABREAST: [f64; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
 
 /// Shapes of the pelvis, or of a trunk that is one with it.
 pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
@@ -49,11 +51,12 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
     let [right, left] = shoulders(places, body, size, hips).unwrap_or([own + up * size.shoulder_height; 2]);
     let thick = CHEST * girth(places, size);
     let (base, top) = (own + up * (0.5 * thick), (right + left) * 0.5);
-    let half = |sign: f64| {
-        let apart = (right - left) * sign;
+    let column = |share: f64| {
+        let apart = (right - left) * share;
         capsule(base + apart * PARTED[0], top - up * thick + apart * PARTED[1], thick)
     };
-    let mut shapes = vec![half(1.0), half(-1.0), capsule(left, right, SHOULDER * girth(places, size))];
+    let mut shapes: Vec<ViewShape> = ABREAST.into_iter().map(column).collect();
+    shapes.push(capsule(left, right, SHOULDER * girth(places, size)));
     if let [a, b] = places.joints_to(body, Part::Thigh)[..] {
         shapes.push(capsule(a, b, HIP * girth(places, size)));
     }
