@@ -18,8 +18,10 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     let bytes = match to {
         "glb" => {
             lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
-            findings.note("convert.axes", "lengths are in metres; x forward, y up, z right; arrows are 1 m for 1000 N");
-            glb_of_folder(&folder)?
+            let glb = glb_of_folder(&folder)?;
+            let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
+            findings.note("convert.axes", format!("lengths are in metres; x forward, y up, z right{arrows}"));
+            glb.bytes
         }
         "bvh" => {
             lost(

@@ -31,13 +31,22 @@ pub enum ExchangeError {
     Data(#[from] serde_json::Error),
 }
 
+/// An animated glTF file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Glb {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// How many forces are arrows in it.
+    pub arrows: usize,
+}
+
 /// An animated glTF file (`.glb`) of a result folder: the figure or the scene, ground forces as arrows.
 ///
 /// # Errors
 /// A folder without bodies in motion, or with a file that is not what its name says.
-pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Vec<u8>, ExchangeError> {
+pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Glb, ExchangeError> {
     let stage = Stage::of_folder(folder)?.map_err(|reason| nothing(folder, reason))?;
-    Ok(glb(&stage, &folder.name)?)
+    Ok(Glb { bytes: glb(&stage, &folder.name)?, arrows: stage.forces.len() })
 }
 
 /// An animated glTF file (`.glb`) of a model's motion.
