@@ -238,6 +238,12 @@ fn what_a_folder_cannot_give_is_said() {
     let rows = bench.text("demo/grf.mot");
     bench.write("cut/grf.mot", rows.lines().take(100).collect::<Vec<_>>().join("\n") + "\n");
     bench.run(&["convert", "cut", "x.glb"]).refused(&["cut/grf.mot: "]);
+    // Arrows are explained where there are any.
+    std::fs::remove_file(bench.folder.join("cut/grf.mot")).unwrap();
+    for (folder, arrows) in [("demo", true), ("cut", false)] {
+        let said = bench.run(&["convert", folder, "said.glb", "--force"]).done();
+        assert_eq!(said.stderr.contains("arrows are 1 m for 1000 N"), arrows, "{folder}: {}", said.stderr);
+    }
     bench.write("x.glb", "mine");
     bench.run(&["convert", "demo", "x.glb"]).refused(&["x.glb: this file is there already"]);
 }

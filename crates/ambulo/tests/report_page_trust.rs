@@ -1,7 +1,5 @@
 //! What the page says about how far its numbers can be trusted: verdicts on part of a motion, friction, bands of predictions.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 mod report_pages;
 
 use ambulo_formats::table::Table;

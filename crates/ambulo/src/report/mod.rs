@@ -30,7 +30,7 @@ mod walk_summary;
 pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use exchange::{
-    ExchangeError, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
+    ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
     glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
     table_of_markers, trc_of_markers,
 };

@@ -18,32 +18,25 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     }
     let file = |name: &str| opened.read(name);
     let folder = Folder { name: opened.shown(), file: &file };
-    let made = match to {
-        "glb" => glb_of_folder(&folder),
-        "bvh" => bvh_of_folder(&folder),
-        _ => csv_of_folder(&folder).map(String::into_bytes),
-    };
-    // What could not be read is the cause of whatever came of it.
-    opened.check()?;
-    Ok(Converted { files: vec![(args.output.clone(), made?)], findings: said(to) })
-}
-
-/// What the format cannot hold, and how it is to be read.
-fn said(to: &str) -> Findings {
     let mut findings = Findings::default();
-    match to {
-        "glb" => {
+    let made = match to {
+        "glb" => glb_of_folder(&folder).map(|glb| {
             lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
-            findings.note("convert.axes", "lengths are in metres; x forward, y up, z right; arrows are 1 m for 1000 N");
-        }
+            let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
+            findings.note("convert.axes", format!("lengths are in metres; x forward, y up, z right{arrows}"));
+            glb.bytes
+        }),
         "bvh" => {
             lost(
                 &mut findings,
                 &["forces".to_owned(), "masses and inertias".to_owned(), "the time of the first frame".to_owned()],
             );
             findings.note("convert.axes", "lengths are in centimetres; x forward, y up, z right");
+            bvh_of_folder(&folder)
         }
-        _ => {}
-    }
-    findings
+        _ => csv_of_folder(&folder).map(String::into_bytes),
+    };
+    // What could not be read is the cause of whatever came of it.
+    opened.check()?;
+    Ok(Converted { files: vec![(args.output.clone(), made?)], findings })
 }

@@ -31,21 +31,34 @@ pub enum ExchangeError {
     Data(#[from] serde_json::Error),
 }
 
+/// An animated glTF file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Glb {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// How many forces are arrows in it.
+    pub arrows: usize,
+}
+
 /// An animated glTF file (`.glb`) of a result folder: the figure or the scene, ground forces as arrows.
 ///
 /// # Errors
 /// A folder without bodies in motion, or with a file that is not what its name says.
-pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Vec<u8>, ExchangeError> {
+pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Glb, ExchangeError> {
     let stage = Stage::of_folder(folder)?.map_err(|reason| nothing(folder, reason))?;
-    Ok(glb(&stage, &folder.name)?)
+    Ok(Glb { bytes: glb(&stage, &folder.name)?, arrows: stage.forces.len() })
 }
 
 /// An animated glTF file (`.glb`) of a model's motion.
 ///
 /// # Errors
-/// Data that JSON cannot hold.
+/// A motion that leads out of what can be drawn, data that JSON cannot hold.
 pub fn glb_of_motion(model: &Model, trajectory: &Trajectory) -> Result<Vec<u8>, ExchangeError> {
-    Ok(glb(&Stage::of_motion(model, trajectory, None), model.name())?)
+    let stage = Stage::of_motion(model, trajectory, None);
+    if let Some(reason) = stage.defect() {
+        return Err(ExchangeError::Nothing { folder: model.name().to_owned(), reason });
+    }
+    Ok(glb(&stage, model.name())?)
 }
 
 /// A BVH skeleton of a result folder's figure.

@@ -6,15 +6,19 @@
 mod block;
 mod contract;
 mod folder;
+mod numbers;
 mod session;
 mod shell;
+mod summary_check;
 mod view;
 
 use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
+pub(in crate::report) use folder::chain;
 pub use folder::{Folder, PageError};
+pub(in crate::report) use numbers::{EXPECTED, is_sound};
 
 /// `report.html` of a folder, with up to two others to compare it with.
 ///

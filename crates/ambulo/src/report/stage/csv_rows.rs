@@ -1,6 +1,6 @@
 //! Rows of the tables of a scene, which hold names beside numbers.
 
-use crate::report::page::{Folder, PageError};
+use crate::report::page::{EXPECTED, Folder, PageError, is_sound};
 
 /// A row with its number in the file.
 pub(in crate::report) struct Row<'a> {
@@ -32,18 +32,18 @@ impl<'a> Row<'a> {
         self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
     }
 
-    /// Finite numbers from a column on.
+    /// Numbers from a column on that results can be.
     pub(in crate::report) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], PageError> {
         let mut numbers = [0.0; N];
         for (column, number) in (from..).zip(&mut numbers) {
             let cell = self.cells.get(column).map_or("the end of the line", String::as_str);
-            let read = cell.parse().ok().filter(|x: &f64| x.is_finite());
-            *number = read.ok_or_else(|| self.refused(column, cell, "a finite number"))?;
+            let read = cell.parse().ok().filter(|x: &f64| is_sound(*x));
+            *number = read.ok_or_else(|| self.refused(column, cell, EXPECTED))?;
         }
         Ok(numbers)
     }
 
-    /// A finite number, or not a number where the cell is empty.
+    /// Such a number, or not a number where the cell is empty.
     pub(in crate::report) fn number_or_gap(&self, column: usize) -> Result<f64, PageError> {
         match self.cells.get(column).map(String::as_str) {
             Some("") => Ok(f64::NAN),

@@ -10,7 +10,7 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anthropometry::Dimensions;
 use crate::model::{BodyId, Model, from_osim};
 use crate::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
-use crate::report::page::{Folder, PageError, ViewShape};
+use crate::report::page::{Folder, PageError, ViewShape, chain};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use serde_json::Value;
@@ -65,7 +65,7 @@ impl Stage {
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
         stage.put_soles_on_the_floor(&model, summary["height_m"].as_f64());
-        Ok(Ok(stage))
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(MOTION, reason)))
     }
 
     fn put_soles_on_the_floor(&mut self, model: &Model, stature_m: Option<f64>) {
@@ -153,14 +153,13 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
 fn model(folder: &Folder<'_>) -> Result<Option<Model>, PageError> {
     let found = MODELS.into_iter().find_map(|file| Some((file, (folder.file)(file)?)));
     let Some((file, bytes)) = found else { return Ok(None) };
-    let refused = |reason: String| folder.unreadable(file, reason);
-    let document = OsimModel::read(&bytes).map_err(|error| refused(error.to_string()))?;
-    from_osim(&document, &mut Findings::default()).map(Some).map_err(|error| refused(error.to_string()))
+    let document = OsimModel::read(&bytes).map_err(|error| folder.refused(file, &error))?;
+    from_osim(&document, &mut Findings::default()).map(Some).map_err(|error| folder.refused(file, &error))
 }
 
 /// The coordinates exactly as the file has them; what it lacks is at its default. Rates do not matter here.
 fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
-    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| e.to_string())?;
+    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| chain(&e))?;
     let Motion { times, columns, .. } = motion;
     let grid = grid(&times).ok_or("the times do not rise evenly; expected the even steps that this program writes")?;
     let still = |values: Vec<f64>| {
@@ -169,7 +168,7 @@ fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
     };
     let noise = vec![None; columns.len()];
     let motion = SmoothMotion { grid, columns: columns.into_iter().map(|c| c.map(still)).collect(), noise };
-    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| error.to_string())
+    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| chain(&error))
 }
 
 fn grid(times: &[f64]) -> Option<TimeGrid> {

@@ -15,6 +15,7 @@ mod part;
 mod path;
 mod person;
 mod scene;
+mod sound;
 #[cfg(test)]
 mod tests;
 mod torque;

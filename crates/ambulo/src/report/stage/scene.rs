@@ -50,12 +50,12 @@ impl Stage {
             stage.forces = forces;
             stage.missing.extend(left);
         }
-        Ok(Ok(stage))
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(FILE, reason)))
     }
 }
 
 fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, PageError> {
-    let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.unreadable(FILE, error.to_string()))?;
+    let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.refused(FILE, &error))?;
     if shapes.format != FORMAT {
         return Err(folder.unreadable(FILE, format!("format is {}; expected {FORMAT}", shapes.format)));
     }

@@ -1,7 +1,7 @@
 //! Pelvis, trunk and head.
 //!
-//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is two capsules that part upwards, and one from
-//! shoulder to shoulder; the head stands on it by a neck. Where a model has no arms or head, their places come from the proportions of a
+//! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is a slab with round edges that widens
+//! upwards, and a capsule from shoulder to shoulder; the head stands on it by a neck. Where a model has no arms or head, their places come from the proportions of a
 //! person of the same stature (de Leva's table; shoulders: Dumas 2007).
 
 use super::capsule;
@@ -24,7 +24,7 @@ const NECK: f64 = 0.028;
 const USUAL_BUILD: f64 = 24.5;
 /// Thinnest and thickest over that.
 const BUILDS: [f64; 2] = [0.6, 1.6];
-/// How far apart both halves of the chest are, over the distance of the shoulders: at the waist, at the top.
+/// How far the edges of the chest are from its middle, over the distance of the shoulders: at the waist, at the top.
 const PARTED: [f64; 2] = [0.1, 0.22];
 
 /// Shapes of the pelvis, or of a trunk that is one with it.
@@ -49,17 +49,34 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
     let [right, left] = shoulders(places, body, size, hips).unwrap_or([own + up * size.shoulder_height; 2]);
     let thick = CHEST * girth(places, size);
     let (base, top) = (own + up * (0.5 * thick), (right + left) * 0.5);
-    let half = |sign: f64| {
-        let apart = (right - left) * sign;
-        capsule(base + apart * PARTED[0], top - up * thick + apart * PARTED[1], thick)
+    let edge = |share: f64| {
+        let apart = (right - left) * share;
+        [base + apart * PARTED[0], top - up * thick + apart * PARTED[1]]
     };
-    let mut shapes = vec![half(1.0), half(-1.0), capsule(left, right, SHOULDER * girth(places, size))];
+    let mut shapes = slab(edge(1.0), edge(-1.0), thick);
+    shapes.push(capsule(left, right, SHOULDER * girth(places, size)));
     if let [a, b] = places.joints_to(body, Part::Thigh)[..] {
         shapes.push(capsule(a, b, HIP * girth(places, size)));
     }
     if places.model.body_ids().all(|id| places.part(id) != Part::Head) {
         let vertex = marker(places, body, "vertex").unwrap_or(top + up * above_shoulders(size));
         shapes.extend(head_below(vertex, top, size));
+    }
+    shapes
+}
+
+/// A flat body with round edges: a capsule along each edge of a trapezium, whose ends are `right` and `left`, and two faces that touch
+/// the capsules along a line.
+fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
+    let corners = [right[0], right[1], left[1], left[0]];
+    let mut shapes: Vec<ViewShape> = (0..4).map(|i| capsule(corners[i], corners[(i + 1) % 4], thick)).collect();
+    let across = (right[1] - right[0]).cross(&(left[1] - right[0]));
+    if let Some(out) = across.try_normalize(1e-12) {
+        // Corners go round anticlockwise as seen from where a face looks.
+        let face = |sign: f64| corners.map(|corner| (corner + out * (sign * thick)).into());
+        let points = face(1.0).into_iter().chain(face(-1.0)).collect();
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]];
+        shapes.push(ViewShape::Mesh { points, triangles });
     }
     shapes
 }

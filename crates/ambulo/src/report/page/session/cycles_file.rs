@@ -2,6 +2,7 @@
 
 use crate::model::Side;
 use crate::report::page::folder::{Folder, PageError};
+use crate::report::page::{EXPECTED, is_sound};
 
 /// Where they stand.
 pub(super) const FILE: &str = "cycles.csv";
@@ -47,8 +48,9 @@ fn curves(text: &str) -> Result<Vec<CycleValues>, String> {
     }
     let mut curves: Vec<CycleValues> = Vec::new();
     for (i, line) in lines {
-        let row = row(line)
-            .ok_or_else(|| format!("line {}: found `{line}`; expected {HEAD} with side r or l and numbers", i + 1))?;
+        let row = row(line).ok_or_else(|| {
+            format!("line {}: found `{line}`; expected {HEAD} with side r or l, and as value {EXPECTED}", i + 1)
+        })?;
         let may_begin = row.percent == 0 && curves.last().is_none_or(is_whole);
         match curves.last_mut().filter(|curve| continues(curve, &row)) {
             Some(curve) => curve.values.push(row.value),
@@ -73,7 +75,8 @@ fn row(line: &str) -> Option<Row<'_>> {
     let (number, side, quantity) = (cells.next()?, cells.next()?, cells.next()?);
     let side = Side::BOTH.into_iter().find(|known| known.letter() == side)?;
     let (number, percent) = (number.parse().ok()?, percent.parse().ok()?);
-    Some(Row { quantity, side, number, percent, value: value.parse().ok()?, unit })
+    let value = value.parse().ok().filter(|value| is_sound(*value))?;
+    Some(Row { quantity, side, number, percent, value, unit })
 }
 
 fn begun(row: &Row<'_>) -> CycleValues {
@@ -119,6 +122,8 @@ mod tests {
             (file((0..50).chain(51..101)), "line 52: found 51 % of `knee_angle_angle`"),
             (file(0..100), "has 100 rows; expected 101"),
             (file(0..101).replace(",25,deg", ",x,deg"), "line 52: found `knee_angle_angle,l,2,50,x,deg`"),
+            (file(0..101).replace(",25,deg", ",1e300,deg"), "line 52: found `knee_angle_angle,l,2,50,1e300,deg`"),
+            (file(0..101).replace(",25,deg", ",NaN,deg"), "line 52: found"),
             (file(0..101).replace(",l,", ",m,"), "line 2: found"),
             ("side,value\n".to_owned(), "line 1: found `side,value`"),
         ] {

@@ -4,6 +4,7 @@ use super::sides;
 use crate::model::Side;
 use crate::report::page::contract::PageEvent;
 use crate::report::page::folder::{Folder, PageError};
+use crate::report::page::is_sound;
 
 const FILE: &str = "events.csv";
 
@@ -24,7 +25,7 @@ fn event(folder: &Folder<'_>, number: usize, line: &str) -> Result<PageEvent, Pa
             _ => return None,
         };
         let time_s: f64 = time.parse().ok()?;
-        time_s.is_finite().then_some(PageEvent { side: sides::page(side), strike, time_s })
+        is_sound(time_s).then_some(PageEvent { side: sides::page(side), strike, time_s })
     };
     let refused = || format!("line {number}: found `{line}`; expected side (r, l), event (strike, off) and time");
     read().ok_or_else(|| folder.unreadable(FILE, refused()))

@@ -29,7 +29,7 @@ mod words;
 use super::block::Block;
 use super::contract::Session;
 use super::folder::{Folder, PageError};
-use super::view::view;
+use super::view::{Viewed, view};
 use feasibility::Basis;
 use results::Results;
 use size::BodySize;
@@ -39,13 +39,16 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
     let summary = folder.summary()?;
     match summary["world"].is_object() {
         true => scene::session(folder, &summary, block),
-        false => recording(folder, Results::read(folder, summary)?, block),
+        false => {
+            // The figure first: what is wrong with a body is said there with all its causes.
+            let viewed = view(folder, block)?;
+            recording(folder, Results::read(folder, summary)?, viewed, block)
+        }
     }
 }
 
 /// Of a recording or a synthetic walk.
-fn recording(folder: &Folder<'_>, results: Results, block: &mut Block) -> Result<Session, PageError> {
-    let viewed = view(folder, block)?;
+fn recording(folder: &Folder<'_>, results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, PageError> {
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let (shown, still) = still::divided(&results, &quantities);
