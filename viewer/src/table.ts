@@ -159,7 +159,7 @@ function spanHead({ name, columns }: { readonly name: string; readonly columns: 
 
 /** Whether a cell may stand in a column of numbers, which is aligned to the right. */
 function isNumber(cell: Cell | undefined): boolean {
-  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|–?)$/.test(cell.text);
+  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|[–-]?)$/.test(cell.text);
 }
 
 function rowElement(row: readonly Cell[], kinds: readonly string[]): HTMLElement {
