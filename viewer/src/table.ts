@@ -61,11 +61,13 @@ export function sideBySide(own: readonly (Table | null)[], names: readonly strin
   const parts = present.map(({ table, name }) => ({ table, name, rows: rowsByKey(table, titles) }));
   const keys = [...new Set(parts.flatMap(({ rows }) => [...rows.keys()]))];
   const same = parts.length > 1 && parts.every(({ table }) => sameWords(table.columns, first.table.columns));
+  const shared = keys.some((key) => parts.every(({ rows }) => rows.has(key)));
   const isCommon = (column: number): boolean =>
     same &&
+    shared &&
     keys.every((key) => {
-      const cells = parts.map(({ rows }) => rows.get(key)?.[column]);
-      return cells.every((cell) => cell && cell.value === null && cell.text === cells[0]?.text);
+      const cells = parts.flatMap(({ rows }) => rows.get(key)?.[column] ?? []);
+      return cells.every((cell) => cell.value === null && cell.text === cells[0]?.text);
     });
   const common = indicesFrom(titles, first.table.columns).filter(isCommon);
   const single = parts.map(({ table }) => indicesFrom(titles, table.columns).filter((i) => !common.includes(i)));
@@ -157,7 +159,7 @@ function spanHead({ name, columns }: { readonly name: string; readonly columns: 
 
 /** Whether a cell may stand in a column of numbers, which is aligned to the right. */
 function isNumber(cell: Cell | undefined): boolean {
-  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|–?)$/.test(cell.text);
+  return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|[–-]?)$/.test(cell.text);
 }
 
 function rowElement(row: readonly Cell[], kinds: readonly string[]): HTMLElement {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Page, Trace } from "../src/contract";
-import { type Drawing, drawing, type PanelSource, valueRange } from "../src/drawing";
+import { type Drawing, drawing, hasValues, type PanelSource, valueRange } from "../src/drawing";
 import { Numbers } from "../src/numbers";
 import { readings } from "../src/reading";
 import { Block } from "./block";
@@ -58,6 +58,14 @@ test("of several sessions the means are drawn", async () => {
     [0, 0, 1, 1],
   );
   assert.equal(now?.areas.length, 1);
+});
+
+test("without values over time nothing is drawn over time", async () => {
+  const { page, numbers } = await pageOf(WHOLE);
+  const sources = sourcesOf(page, "knee_flexion").map((one) => ({ ...one, panel: { ...one.panel, traces: [] } }));
+  assert.equal(drawing(sources, numbers, { ...BOTH, axis: "time" }), null);
+  assert.equal(drawing(sources, numbers, BOTH)?.axis, "cycle");
+  assert.ok(hasValues(sources));
 });
 
 test("without cycles the panel is over time, with deviations and events", async () => {

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { type Material, type Mesh, Quaternion, Vector3 } from "three";
 import type { PageSide, View, ViewShape } from "../src/contract";
-import { arrowParts, arrowScale } from "../src/view3d/arrow";
+import { arrowParts, arrowScale, dashParts } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
 import { peakOf } from "../src/view3d/forces";
@@ -123,6 +123,15 @@ test("a blow does not shrink the other arrows", () => {
   blow[10] = 1e5;
   view.forces[0].force[1] = numbers.add(blow);
   close(peakOf(view, numbers), ordinary, 0.02);
+});
+
+test("dashes fill a shaft, a short one is solid", () => {
+  const { count, unit } = dashParts(0.9, 0.012);
+  assert.equal(count, 8);
+  close(unit * (count * 9.5 - 3), 0.9);
+  assert.ok(Math.abs(unit / 0.012 - 1) < 0.1);
+  assert.equal(dashParts(0.05, 0.012).count, 1);
+  assert.equal(dashParts(50, 0.012).count, 40);
 });
 
 test("heads of short arrows shrink, lengths stay", () => {

@@ -1,6 +1,7 @@
 import type { Color } from "three";
 import {
   BackSide,
+  type BufferGeometry,
   ConeGeometry,
   CylinderGeometry,
   Group,
@@ -10,6 +11,7 @@ import {
   Quaternion,
   Vector3,
 } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { addAll } from "./layers";
 
 const UP = new Vector3(0, 1, 0);
@@ -19,6 +21,11 @@ const HEAD_RADIUS = 2.7;
 const HALO = 0.55;
 /** A head takes at most this part of an arrow. */
 const HEAD_PART = 0.45;
+
+/** A dash of a dashed shaft and the gap after it, in radii of the shaft, and how many there are at most. */
+const DASH = 6.5;
+const GAP = 3;
+const MOST_DASHES = 40;
 
 /** Length of the arrow of one body weight, in heights of the figure: it ends about at the navel. */
 const WEIGHT_HEIGHTS = 0.55;
@@ -36,7 +43,14 @@ export function arrowParts(length: number, radius: number): { shaft: number; hea
   return { shaft: length - head, head, headRadius: (HEAD_RADIUS / HEAD_LENGTH) * head };
 }
 
-/** An arrow with a halo of the ground's colour, so that it stands out from what is behind. */
+/** How many dashes a shaft has, and what is one of their units [m] for them and the gaps to fill it. */
+export function dashParts(length: number, radius: number): { count: number; unit: number } {
+  const usual = (length / radius + GAP) / (DASH + GAP);
+  const count = Math.min(MOST_DASHES, Math.max(1, Math.round(usual)));
+  return { count, unit: length / (count * (DASH + GAP) - GAP) };
+}
+
+/** An arrow with a halo of the ground's colour, so that it stands out from what is behind; its shaft is solid or dashed. */
 export class Arrow {
   readonly group = new Group();
   private readonly material = new MeshLambertMaterial();
@@ -46,10 +60,13 @@ export class Arrow {
   private readonly turn = new Quaternion();
   private readonly unit = new Vector3();
 
-  constructor(private readonly radius: number) {
+  constructor(
+    private readonly radius: number,
+    private readonly dashed = false,
+  ) {
     const shaft = new CylinderGeometry(1, 1, 1, 20).translate(0, 0.5, 0);
     const head = new ConeGeometry(1, 1, 28).translate(0, 0.5, 0);
-    this.shafts = [new Mesh(shaft, this.material), new Mesh(shaft, this.halo)];
+    this.shafts = [new Mesh(dashed ? dashes() : shaft, this.material), new Mesh(shaft, this.halo)];
     this.heads = [new Mesh(head, this.material), new Mesh(head, this.halo)];
     addAll(this.group, [...this.shafts, ...this.heads]);
   }
@@ -69,11 +86,29 @@ export class Arrow {
     this.group.position.copy(point);
     this.group.quaternion.copy(this.turn.setFromUnitVectors(UP, this.unit.copy(vector).divideScalar(length)));
     const edge = HALO * this.radius;
-    this.shafts[0]?.scale.set(this.radius, shaft, this.radius);
+    this.setShaft(shaft);
     this.shafts[1]?.scale.set(this.radius + edge, shaft, this.radius + edge);
     this.heads[0]?.scale.set(headRadius, head, headRadius);
     this.heads[1]?.scale.set(headRadius + 1.6 * edge, head + 2.4 * edge, headRadius + 1.6 * edge);
     this.heads[0]?.position.set(0, shaft, 0);
     this.heads[1]?.position.set(0, shaft - 0.7 * edge, 0);
   }
+
+  private setShaft(length: number): void {
+    const [shaft] = this.shafts;
+    if (!this.dashed) {
+      shaft?.scale.set(this.radius, length, this.radius);
+      return;
+    }
+    const { count, unit } = dashParts(length, this.radius);
+    shaft?.scale.set(this.radius, unit, this.radius);
+    const corners = shaft?.geometry.index?.count ?? 0;
+    shaft?.geometry.setDrawRange(0, (corners / MOST_DASHES) * count);
+  }
+}
+
+/** Dashes one above the other, from the lowest on, of radius 1. */
+function dashes(): BufferGeometry {
+  const one = new CylinderGeometry(1, 1, DASH, 14).translate(0, DASH / 2, 0);
+  return mergeGeometries(Array.from({ length: MOST_DASHES }, (_, i) => one.clone().translate(0, i * (DASH + GAP), 0)));
 }

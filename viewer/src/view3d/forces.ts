@@ -39,7 +39,10 @@ interface Force {
   arrow: Arrow;
 }
 
-/** The forces of the ground as arrows: those that the numbers rest on thick, what was measured beside them and a ghost's thin. */
+/**
+ * The forces of the ground as arrows: those that the numbers rest on thick, what was measured beside them and a ghost's thin. As of
+ * the curves, those of the left are dashed.
+ */
 export class Forces {
   readonly group = new Group();
   private readonly forces: Force[];
@@ -54,7 +57,7 @@ export class Forces {
       source,
       point: source.point.map((series) => numbers.read(series)),
       force: source.force.map((series) => numbers.read(series)),
-      arrow: new Arrow(height * (source.role === "measured" || ghost ? THIN : THICK)),
+      arrow: new Arrow(height * (source.role === "measured" || ghost ? THIN : THICK), source.side === "l"),
     }));
     addAll(
       this.group,
