@@ -60,7 +60,7 @@ impl Walk {
     }
 }
 
-/// The folder that cargo builds into: this program stands in <target>/<profile>.
+/// The folder that cargo builds into: this program stands in `<target>/<profile>`.
 pub(crate) fn target() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
