@@ -17,7 +17,7 @@ OpenSim model, which --static scales. Plates inside a C3D are used unless --grf 
 Without measured ground forces they are predicted from the motion; with --predict they are predicted and compared.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, summary.json, figures/moments.svg, subject.osim (the body that was used);
+events.csv, cycles.csv, summary.json, report.html (`ambulo view DIR` opens it), figures/*.svg, subject.osim (the body that was used);
 with --device moments_biological.sto; with predicted forces grf_sd.mot and, with --predict beside plates, grf_measured.mot. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
 
 Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,

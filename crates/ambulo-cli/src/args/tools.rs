@@ -9,9 +9,9 @@ use std::path::PathBuf;
 #[command(after_help = "Example (in the folder of the source, which holds examples/):
   ambulo simulate examples/pendulum.toml --plot -o out
 
-Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, summary.json, with
-figures moments.sto, with --plot figures/*.svg; those that the scene has nothing for are left out. Results of an earlier
-run in DIR are removed. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
+Files written to DIR: poses.csv, joints.csv, reactions.csv, contacts.csv, closures.csv, energy.csv, shapes.json,
+summary.json, report.html (`ambulo view DIR` opens it), with figures moments.sto, with --plot figures/*.svg; those
+that the scene has nothing for are left out. Results of an earlier run in DIR are removed. docs/SCENES.md describes scene files, docs/OUTPUTS.md the results.")]
 pub(crate) struct SimulateArgs {
     /// The scene: .toml.
     pub(crate) scene: PathBuf,

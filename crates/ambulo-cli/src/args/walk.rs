@@ -35,7 +35,7 @@ Of --speed, --step-length and --cadence two make the third; with one, the others
 (docs/GAITS.md, which also describes gait files); the gait's own count no more.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-summary.json, figure.osim, figures/moments.svg, figures/gait.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
+summary.json, report.html (`ambulo view DIR` opens it), figure.osim, figures/*.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
 describes them.
 
 Exit code 0 if a person could do this, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
