@@ -10,7 +10,7 @@ use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Trc};
 use ambulo_formats::{Error, Remark};
 use shared_data::data;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The one file whose header is wrong.
 const COORDINATES_REMARK: &str = "line 9: the header states 40 columns, the file has 32; read 32";
