@@ -3,7 +3,6 @@
 mod args;
 mod commands;
 mod files;
-mod laboratory_file;
 mod printer;
 
 use args::{Args, Command};

@@ -1,7 +1,7 @@
 //! `ambulo forces`: what may be typed.
 
 use super::Voice;
-use super::values::{AddedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::values::{CarriedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -77,7 +77,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) device: Option<PathBuf>,
     /// A point mass fixed to a body, place in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
-    pub(crate) add_mass: Vec<AddedMass>,
+    pub(crate) add_mass: Vec<CarriedMass>,
     /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,

@@ -20,7 +20,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let order = WalkOrder { gait: &gait, build: default_build(), mode: Mode::Corrected, cycles: 3, rate_hz: 100.0 };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds: &Thresholds::default(), read: &[] };
+    let made = Made { walk: &walk, order: &order, thresholds: Thresholds::default(), read: &[] };
     let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
     write_input(&args.output)?;
     write_recording(&walk, &args.output)?;

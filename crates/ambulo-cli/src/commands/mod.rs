@@ -6,7 +6,7 @@ pub(crate) mod demo;
 pub(crate) mod events;
 pub(crate) mod forces;
 pub(crate) mod info;
-mod outcome;
+mod run_files;
 pub(crate) mod report;
 pub(crate) mod reproduce;
 mod result_folder;

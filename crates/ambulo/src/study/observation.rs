@@ -296,8 +296,8 @@ fn without_forces(body: &BodyInMotion) -> String {
     };
     match contacts.first() {
         _ if body.plates.is_empty() => "the file has no force plates".to_owned(),
-        None => format!("nobody stands on the file's {}", counted(body.plates.len(), "force plate")),
-        Some(_) if foot_bodies(&body.subject.model).is_none() => "the model has no feet that are known".to_owned(),
+        None => format!("no load was measured on the file's {}", counted(body.plates.len(), "force plate")),
+        Some(_) if foot_bodies(&body.subject.model).is_none() => "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l".to_owned(),
         Some(first) => format!("no plate's load belongs to one foot ({})", one(first)),
     }
 }

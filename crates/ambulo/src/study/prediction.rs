@@ -1,14 +1,13 @@
 //! Ground forces from the motion alone, and their comparison with measured ones.
 
 use super::events::with_events_of_markers;
-use super::mass::{weighed_prediction, weighed_standing, weighed_within};
 use super::observation::{Followed, Observation, Origin};
 use super::outcome::PredictedGround;
 use super::run::Found;
 use super::settings::Settings;
 use crate::analysis::{
     self, Analysis, AnalysisError, CheckSettings, MassSource, PlateCoverage, PredictedAnalysis, PredictionInput,
-    Progress, Stage, predict_and_analyse,
+    Progress, Stage, predict_and_analyse, weighed_standing, weighed_within,
 };
 use crate::findings::{Code, Findings};
 use crate::model::Model;
@@ -36,7 +35,7 @@ pub(super) fn predicted(
     let coverage = coverage(observation, &predicted);
     let (predicted, measured_events) = completed(predicted, model, origin);
     let window_s = coverage.as_ref().and_then(|coverage| coverage.window);
-    let predicted = weighed_prediction(predicted, model, window_s, origin.standing_kg());
+    let predicted = predicted.weighed(model, window_s, origin.standing_kg());
     let check = CheckSettings {
         model,
         soles: &person.soles,
@@ -55,7 +54,7 @@ pub(super) fn predicted(
     }
     if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !mass_is_stated {
         let message = format!(
-            "the body mass is neither given nor measured; the model has {:.1} kg, and without plates every force scales with it",
+            "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is proportional to it",
             model.mass()
         );
         findings.report(Code::MassUnverified, message);

@@ -1,0 +1,77 @@
+//! The files and words of a run: what recordings and synthetic walks share.
+
+use super::report::{page_not_written, page_of_run};
+use super::stopwatch::Stopwatch;
+use crate::args::Voice;
+use crate::{Verdict, files, printer};
+use ambulo::analysis::feasibility::Thresholds;
+use ambulo::findings::{Code, Findings};
+use ambulo::study::Outcome;
+use ambulo_report::figure_files;
+use ambulo_results::{Input, OutputFile, Summary, WalkSummary, output_files, prediction_files, summary};
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+
+/// An outcome, and what goes with it into the files.
+pub(super) struct RunFiles<'a> {
+    pub(super) outcome: &'a Outcome,
+    pub(super) input: Input,
+    /// How a synthetic walk was made.
+    pub(super) walk: Option<WalkSummary>,
+    /// Files that only this kind of run has.
+    pub(super) files: Vec<OutputFile>,
+    /// Every file that was read; none of them is written over.
+    pub(super) read: &'a [PathBuf],
+    pub(super) findings: Findings,
+    pub(super) clock: Stopwatch,
+}
+
+impl RunFiles<'_> {
+    /// Writes all files and reports.
+    pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
+        let RunFiles { outcome, input, walk, files, read, mut findings, mut clock } = self;
+        let mut written = output_files(outcome)?;
+        written.extend(figure_files(outcome)?);
+        written.extend(files_of_prediction(outcome, &mut findings));
+        written.extend(files);
+        files::replace_results(output, &written, read)?;
+        clock.lap("write");
+        let mut summary = Summary { walk, ..summary(outcome, input, &findings) };
+        let page = page_of_run(output, &written, &json(&summary)?);
+        clock.lap("report");
+        match page {
+            Ok(page) => files::write(&output.join(&page.name), &page.bytes)?,
+            Err(reason) => summary.findings.push(page_not_written(&reason)),
+        }
+        summary.timing_ms = clock.into_laps();
+        files::write(&output.join("summary.json"), &json(&summary)?)?;
+        printer::forces(&summary, output, voice)?;
+        Ok(if outcome.verdict.feasible { Verdict::Accepted } else { Verdict::Refused })
+    }
+}
+
+/// The tables and the figure that only a prediction has; a warning if they cannot be made.
+fn files_of_prediction(outcome: &Outcome, findings: &mut Findings) -> Vec<OutputFile> {
+    let made = prediction_files(outcome).map_err(anyhow::Error::from).and_then(|mut files| {
+        files.extend(ambulo_report::prediction_figure_file(outcome)?);
+        Ok(files)
+    });
+    made.unwrap_or_else(|error| {
+        findings.report(Code::PredictionNotWritten, format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
+        Vec::new()
+    })
+}
+
+/// The thresholds of a file, or the built-in ones.
+pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
+    let Some(path) = path else { return Ok(Thresholds::default()) };
+    let shown = || path.display().to_string();
+    let text = String::from_utf8(files::read(path)?).with_context(shown)?;
+    Thresholds::from_toml(&text).with_context(shown)
+}
+
+fn json(summary: &Summary) -> Result<Vec<u8>> {
+    let mut json = serde_json::to_vec_pretty(summary)?;
+    json.push(b'\n');
+    Ok(json)
+}
