@@ -12,7 +12,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::to_osim;
 use ambulo::report::{GroundSource, Input, OutputFile, WalkSummary, gait_figure};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
-use ambulo::study::{self, Recording, Settings, Source, Stage};
+use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use anyhow::{Context, Result};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -88,13 +88,14 @@ impl Made<'_> {
             SyntheticMode::Corrected => "soft shoes",
             SyntheticMode::Paper => "rigid soles",
         };
-        Source::new(Recording::Complete {
+        let made = CompleteMotion {
             model: human.model.clone(),
             person: Person::of_human(human),
             trajectory: trajectory.clone(),
             loads: loads.clone(),
             rule: rule.to_owned(),
-        })
+        };
+        Source::new(Recording::Complete(Box::new(made)))
     }
 
     /// The figure as a model that `ambulo forces` and OpenSim read, and the gait as a picture.

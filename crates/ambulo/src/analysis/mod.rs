@@ -15,6 +15,7 @@ mod progress;
 mod recording;
 mod residual;
 mod residual_reduction;
+mod times_and_distances;
 mod walking_direction;
 mod weighing;
 
@@ -40,4 +41,5 @@ pub(crate) use recording::{analyse_measured, analyse_with_progress};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
+pub use times_and_distances::{Spread, Stride, StrideQuantity, TimesAndDistances, symmetry_index, times_and_distances};
 pub(crate) use weighing::{weighed_standing, weighed_within};

@@ -34,5 +34,5 @@ pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, Tracking, T
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
 pub use source::{
-    AddedMass, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source,
+    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source,
 };

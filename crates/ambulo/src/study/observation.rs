@@ -108,12 +108,12 @@ impl Source {
                 let build = Build { table: *table, mass: *mass_kg, height: skeleton.height_m, toe_joint: true };
                 self.observe_skeleton(skeleton, &build, settings, findings, progress)
             }
-            Recording::Complete { model, person, trajectory, loads, rule } => Ok(Observation {
-                model: self.loaded(model)?,
-                person: person.clone(),
-                motion: ObservedMotion::Complete(trajectory.clone()),
-                forces: loads.clone(),
-                origin: Origin::Simulation { rule: rule.clone() },
+            Recording::Complete(made) => Ok(Observation {
+                model: self.loaded(&made.model)?,
+                person: made.person.clone(),
+                motion: ObservedMotion::Complete(made.trajectory.clone()),
+                forces: made.loads.clone(),
+                origin: Origin::Simulation { rule: made.rule.clone() },
                 mass_is_stated: true,
             }),
         }
@@ -168,7 +168,7 @@ impl Source {
             forces: Vec::new(),
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
-                fit: body.fit,
+                fit: Box::new(body.fit),
             })),
             mass_is_stated: true,
         })

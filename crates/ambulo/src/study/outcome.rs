@@ -2,7 +2,7 @@
 
 use super::mass::MassKnowledge;
 use crate::analysis::feasibility::{Person, Verdict};
-use crate::analysis::{Analysis, BodyInMotion, Event, GroundAgreement, PlateCoverage, PredictionChecks};
+use crate::analysis::{Analysis, BodyInMotion, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances};
 use crate::dynamics::consistency::Consistent;
 use crate::ground::predict::Prediction;
 use crate::kinematics::marker_fit::MarkerFit;
@@ -20,6 +20,8 @@ pub struct Outcome {
     pub person: Person,
     /// Motion, ground forces, joint forces, events, cycles, body mass and residual.
     pub analysis: Analysis,
+    /// Speed, cadence, lengths, stance, swing and support.
+    pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.
     pub force_origin: ForceOrigin,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
@@ -93,7 +95,7 @@ pub enum Tracking {
         /// The assumed unit and axes, in one line.
         statement: String,
         /// How well the body follows.
-        fit: MarkerFit,
+        fit: Box<MarkerFit>,
     },
 }
 

@@ -7,15 +7,15 @@ use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, Tracking
 use super::prediction::{predicted, with_markers};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::feasibility::{self, Evidence, Verdict};
+use crate::analysis::feasibility::{self, Evidence};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, Progress, Stage, analyse_measured, analyse_with_progress,
-    reduce_residual,
+    reduce_residual, times_and_distances,
 };
 use crate::dynamics::consistency::Consistent;
 use crate::findings::{Code, Findings};
 use crate::model::Model;
-use crate::motion::{Event, Motion, Smoother, Window, device_from_table};
+use crate::motion::{Event, Smoother, Window, device_from_table};
 use std::ops::ControlFlow;
 
 /// Computes the forces behind a recording. What is odd, but leaves results, goes to `findings`.
@@ -87,6 +87,7 @@ fn road(
     Ok(Outcome {
         mass_knowledge: MassKnowledge::of(analysis.mass, checks, mass_is_stated),
         tracking: tracking(origin, measured_events),
+        times_and_distances: times_and_distances(&model, &person.soles, &analysis),
         body: model,
         person,
         analysis,

@@ -48,19 +48,23 @@ pub enum Recording {
         /// Body mass [kg].
         mass_kg: f64,
     },
-    /// A complete motion with its ground forces, from a synthetic walk or a simulation. Nothing is smoothed or predicted.
-    Complete {
-        /// The body.
-        model: Model,
-        /// Stature and soles.
-        person: Person,
-        /// The motion.
-        trajectory: Trajectory,
-        /// The forces of the ground.
-        loads: Vec<ForceRecording>,
-        /// How the forces were divided between the feet in double support.
-        rule: String,
-    },
+    /// A complete motion with its ground forces. Nothing is smoothed or predicted.
+    Complete(Box<CompleteMotion>),
+}
+
+/// A complete motion with its ground forces, from a synthetic walk or a simulation.
+#[derive(Debug, Clone)]
+pub struct CompleteMotion {
+    /// The body.
+    pub model: Model,
+    /// Stature and soles.
+    pub person: Person,
+    /// The motion.
+    pub trajectory: Trajectory,
+    /// The forces of the ground.
+    pub loads: Vec<ForceRecording>,
+    /// How the forces were divided between the feet in double support.
+    pub rule: String,
 }
 
 /// Measured ground forces.
@@ -119,7 +123,7 @@ pub enum MarkerBody {
         mass_kg: Option<f64>,
     },
     /// A body that was calibrated before.
-    Calibrated(Subject),
+    Calibrated(Box<Subject>),
 }
 
 /// What the laboratory knows about a force plate.
