@@ -70,7 +70,7 @@ fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Finding
     if !origin.shows_both_feet() {
         findings.report(
             Code::PredictionFeetUnseen,
-            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses",
+            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
         );
     }
     let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);

@@ -19,10 +19,6 @@ pub(super) fn in_words(error: StudyError, args: &ForcesArgs, ground: Option<&Pat
             "--plate {}: {motion} has {count} force plates; expected a plate from 1 to {count}. hint: `ambulo info` lists them",
             plate + 1
         ),
-        (_, StudyError::ForceColumns { .. }) => anyhow!(
-            "{error}. hint: name them with --right BODY:PREFIX and --left BODY:PREFIX, or give --loads XML"
-        )
-        .context(ground_file),
         (_, StudyError::ForceTable(_)) => {
             let loads = args.loads.as_deref().map_or_else(String::new, |loads| format!(" with {}", loads.display()));
             Error::new(error).context(format!("{ground_file}{loads}"))
