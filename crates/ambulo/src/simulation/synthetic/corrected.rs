@@ -39,7 +39,7 @@ fn report(
     let allowed = [LACKING[0] * weight, LACKING[1] * weight * human.dimensions.leg_length];
     if lacking[0].rms > allowed[0] || lacking[1].rms > allowed[1] {
         let message = format!(
-            "no small change makes this gait one that the ground carries: {:.1} N and {:.1} N.m rms are missing at the root (at most {:.1} N and {:.1} N.m are taken as none); what is missing is given from outside, and the verdict judges it. hint: another speed, step length or style, or --mode paper",
+            "no small change makes this gait one that the ground carries: {:.1} N and {:.1} N.m rms are missing at the root (at most {:.1} N and {:.1} N.m are taken as none); what is missing is given from outside, and the verdict judges it. hint: choose another speed, step length or style",
             lacking[0].rms, lacking[1].rms, allowed[0], allowed[1]
         );
         findings.report(Code::WalkNotConsistent, message);
