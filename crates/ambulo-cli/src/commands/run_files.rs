@@ -5,10 +5,13 @@ use super::stopwatch::Stopwatch;
 use crate::args::Voice;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::{PredictedAnalysis, Settings};
 use ambulo::findings::{Code, Findings};
-use ambulo::study::Outcome;
-use ambulo_report::figure_files;
-use ambulo_results::{Input, OutputFile, Summary, WalkSummary, output_files, prediction_files, summary};
+use ambulo::report::{
+    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files,
+    prediction_files, summary,
+};
+use ambulo::study::{self, Outcome, PredictedGround, Processing, Tracking};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -30,13 +33,12 @@ impl RunFiles<'_> {
     /// Writes all files and reports.
     pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
         let RunFiles { outcome, input, walk, files, read, mut findings, mut clock } = self;
-        let mut written = output_files(outcome)?;
-        written.extend(figure_files(outcome)?);
+        let mut written = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
         written.extend(files_of_prediction(outcome, &mut findings));
         written.extend(files);
         files::replace_results(output, &written, read)?;
         clock.lap("write");
-        let mut summary = Summary { walk, ..summary(outcome, input, &findings) };
+        let mut summary = Summary { walk, ..summary_of(outcome, input, &findings) };
         let page = page_of_run(output, &written, &json(&summary)?);
         clock.lap("report");
         match page {
@@ -52,14 +54,42 @@ impl RunFiles<'_> {
 
 /// The tables and the figure that only a prediction has; a warning if they cannot be made.
 fn files_of_prediction(outcome: &Outcome, findings: &mut Findings) -> Vec<OutputFile> {
-    let made = prediction_files(outcome).map_err(anyhow::Error::from).and_then(|mut files| {
-        files.extend(ambulo_report::prediction_figure_file(outcome)?);
-        Ok(files)
-    });
-    made.unwrap_or_else(|error| {
-        findings.report(Code::PredictionNotWritten, format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
+    let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction else { return Vec::new() };
+    let (analysis, prediction, measured) = (outcome.analysis.clone(), prediction.clone(), measured.clone());
+    let predicted = PredictedAnalysis { analysis, prediction, measured };
+    prediction_files(&outcome.body, &predicted).unwrap_or_else(|error| {
+        let message = format!("grf_sd.mot and grf_measured.mot were not written: {error}");
+        findings.report(Code::PredictionNotWritten, message);
         Vec::new()
     })
+}
+
+fn summary_of(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
+    let Processing { smoother, force_filter, window } = outcome.processing;
+    let settings = Settings { smoother, force_filter, window, rate_hz: None, instrumented: None };
+    let prediction = outcome.prediction.as_ref();
+    Summary {
+        height_m: outcome.height_m(),
+        subject: outcome.tracking.as_ref().map(subject),
+        consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
+        comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
+        prediction: prediction.map(|prediction| prediction.checks.clone()),
+        mass: match outcome.mass_knowledge {
+            study::MassKnowledge::Verified => MassKnowledge::Verified,
+            study::MassKnowledge::Unverified => MassKnowledge::Unverified,
+            study::MassKnowledge::Contradicted => MassKnowledge::Contradicted,
+        },
+        ..summary(&outcome.body, &outcome.analysis, &settings, input, findings)
+    }
+}
+
+fn subject(tracking: &Tracking) -> SubjectSummary {
+    match tracking {
+        Tracking::Markers(markers) => {
+            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
+        }
+        Tracking::Skeleton { statement, fit } => SubjectSummary::of_skeleton(statement, fit),
+    }
 }
 
 /// The thresholds of a file, or the built-in ones.

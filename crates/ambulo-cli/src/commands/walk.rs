@@ -84,16 +84,12 @@ impl Made<'_> {
     /// The walk with the forces that its simulation or correction gives.
     fn source(&self) -> Source {
         let SyntheticWalk { human, trajectory, loads, .. } = self.walk;
-        let rule = match self.order.mode {
-            SyntheticMode::Corrected => "soft shoes",
-            SyntheticMode::Paper => "rigid soles",
-        };
         let made = CompleteMotion {
             model: human.model.clone(),
             person: Person::of_human(human),
             trajectory: trajectory.clone(),
             loads: loads.clone(),
-            rule: rule.to_owned(),
+            rule: rule(self.order).to_owned(),
         };
         Source::new(Recording::Complete(Box::new(made)))
     }
@@ -110,6 +106,14 @@ fn gait_file(walk: &Walk) -> Result<OutputFile> {
     Ok(OutputFile { name: "figures/gait.svg".to_owned(), bytes: gait_figure(walk)?.into_bytes() })
 }
 
+/// How the forces were divided between the feet in double support.
+fn rule(order: &SyntheticWalkSettings<'_>) -> &'static str {
+    match order.mode {
+        SyntheticMode::Corrected => "soft shoes",
+        SyntheticMode::Paper => "rigid soles",
+    }
+}
+
 fn input(order: &SyntheticWalkSettings<'_>) -> Input {
     Input {
         motion: format!("gait {}", order.gait.name),
@@ -119,6 +123,7 @@ fn input(order: &SyntheticWalkSettings<'_>) -> Input {
         loads: None,
         device: None,
         added_mass: Vec::new(),
+        ground_source: GroundSource::Simulated { rule: rule(order) },
     }
 }
 

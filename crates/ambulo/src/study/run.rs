@@ -84,6 +84,7 @@ fn road(
     let mut verdict = feasibility::check(&evidence, &person, &settings.thresholds, findings);
     verdict.oppose(checks.map_or(&[], |checks| &checks.reasons));
     progress.end(Stage::Feasibility)?;
+    let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
     Ok(Outcome {
         mass_knowledge: MassKnowledge::of(analysis.mass, checks, mass_is_stated),
         tracking: tracking(origin, measured_events),

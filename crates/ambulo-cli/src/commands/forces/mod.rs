@@ -19,7 +19,7 @@ use ambulo::motion::{Smoother, Window};
 use ambulo::study::{self, AddedMass, ForceOrigin, GroundSettings, Outcome, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use ambulo_results::{Input, OutputFile};
+use ambulo::report::{GroundSource, Input, OutputFile};
 use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -128,6 +128,11 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, outcome: &Outcome) -> Input {
         loads: args.loads.as_deref().map(shown),
         device: args.device.as_deref().map(shown),
         added_mass: args.add_mass.iter().map(ToString::to_string).collect(),
+        ground_source: match &outcome.prediction {
+            Some(predicted) => GroundSource::Predicted { rule: predicted.prediction.rule },
+            None if args.no_ground => GroundSource::None,
+            None => GroundSource::Measured,
+        },
     }
 }
 
