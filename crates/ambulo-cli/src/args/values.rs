@@ -45,6 +45,15 @@ pub(super) fn limit(text: &str) -> Result<f64, String> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cutoff(pub(crate) Option<f64>);
 
+impl fmt::Display for Cutoff {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(hz) => write!(f, "{hz}"),
+            None => f.write_str("off"),
+        }
+    }
+}
+
 impl FromStr for Cutoff {
     type Err = String;
     fn from_str(text: &str) -> Result<Cutoff, String> {

@@ -193,8 +193,14 @@ impl PredictedAnalysis {
     #[must_use]
     pub fn agreement(&self, model: &Model, seen: &PlateCoverage) -> Option<GroundAgreement> {
         let PredictedAnalysis { analysis, prediction, measured } = self;
-        let measured = measured.as_ref()?;
-        let found = ground_agreement(&Compared { model, predicted: analysis, prediction, measured }, seen);
+        Compared { model, predicted: analysis, prediction, measured: measured.as_ref()? }.agreement(seen)
+    }
+}
+
+impl Compared<'_> {
+    /// How both agree; `None` if the plates measured nothing completely.
+    pub(crate) fn agreement(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
+        let found = ground_agreement(self, coverage);
         (!found.feet.is_empty() || !found.moments.is_empty()).then_some(found)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::mass::MassKnowledge;
 use crate::analysis::feasibility::{Person, Verdict};
-use crate::analysis::{Analysis, BodyInMotion, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances};
+use crate::analysis::{Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances};
 use crate::dynamics::consistency::Consistent;
 use crate::ground::predict::Prediction;
 use crate::kinematics::marker_fit::MarkerFit;
@@ -111,6 +111,16 @@ pub struct TrackedMarkers {
 }
 
 impl Outcome {
+    /// How prediction and measured forces agree on what a coverage names, such as a part of the stances; `None` without measured forces,
+    /// or if the coverage is empty.
+    #[must_use]
+    pub fn agreement_over(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
+        let PredictedGround { prediction, measured, .. } = self.prediction.as_ref()?;
+        let measured = measured.as_ref()?;
+        let compared = Compared { model: &self.body, predicted: &self.analysis, prediction, measured };
+        compared.agreement(coverage)
+    }
+
     /// Stature [m], where it is known rather than estimated from the joints of a model.
     #[must_use]
     pub fn height_m(&self) -> Option<f64> {
