@@ -2,7 +2,7 @@
 
 use super::plot::{Area, COLORS, DrawResult, FINE, FigureError, GREY, GRID, RED, font, shown_at};
 use ambulo::analysis::SceneVerdict;
-use ambulo::simulation::scene::{Frame, Plot, Scene};
+use ambulo::simulation::scene::{Plot, Scene, SceneFrame};
 use ambulo_results::OutputFile;
 use plotters::prelude::*;
 use std::collections::BTreeMap;
@@ -60,7 +60,7 @@ struct Panel {
 
 impl SceneCurves {
     /// Takes in one instant.
-    pub fn add(&mut self, frame: &Frame<'_>) {
+    pub fn add(&mut self, frame: &SceneFrame<'_>) {
         let (world, state, t) = (frame.scene.world(), frame.scene.state(), frame.scene.state().time_s);
         let e = &frame.energy;
         for (curve, value) in self.energy.iter_mut().zip([e.kinetic, e.gravity, e.springs, e.total()]) {
@@ -94,7 +94,7 @@ impl SceneCurves {
         self.add_contacts(frame, t);
     }
 
-    fn add_contacts(&mut self, frame: &Frame<'_>, t: f64) {
+    fn add_contacts(&mut self, frame: &SceneFrame<'_>, t: f64) {
         let world = frame.scene.world();
         let mut sums: BTreeMap<String, [f64; 2]> = self.contacts.keys().map(|name| (name.clone(), [0.0; 2])).collect();
         for contact in frame.forces.iter().flat_map(|forces| &forces.contacts) {
