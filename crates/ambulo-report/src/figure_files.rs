@@ -1,8 +1,7 @@
 //! The figures of a run, as names and bytes.
 
-use crate::figures::{CycleFigures, Mark, prediction_figure, residual_figure};
+use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
-use crate::plot::FigureError;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
 use ambulo::model::{Model, Side};
