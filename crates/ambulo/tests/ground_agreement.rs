@@ -10,8 +10,8 @@
 
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
-    Analysis, Compared, GroundAgreement, PredictionInput, PredictedAnalysis, PlateCoverage, analyse_predicted_trajectory,
-    ground_agreement,
+    Analysis, Compared, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,
+    analyse_predicted_trajectory, ground_agreement,
 };
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;

@@ -10,8 +10,8 @@ mod walking_puppet;
 
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
-    CarriedMass, CheckSettings, CheckedPrediction, MassSource, PredictionInput, PredictedAnalysis, PredictionChecks, PlateCoverage,
-    analyse_predicted_trajectory, cycles, prediction_checks,
+    CarriedMass, CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PredictedAnalysis, PredictionChecks,
+    PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
@@ -271,8 +271,7 @@ fn of_mass(share: f64, with_plates: bool, standing_kg: Option<f64>) -> (Predicti
     let order = PredictionInput { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
     let mut findings = Findings::default();
     let trajectory = WALK.trajectory.clone();
-    let predicted =
-        analyse_predicted_trajectory(&model, trajectory, plates, None, &order, &mut findings).unwrap();
+    let predicted = analyse_predicted_trajectory(&model, trajectory, plates, None, &order, &mut findings).unwrap();
     let seen = predicted.measured.as_ref().map(|m| PlateCoverage::by_load(m, plates, &predicted.prediction.footfalls));
     let window_s = seen.and_then(|seen| seen.window);
     let predicted = predicted.weighed(&model, window_s, standing_kg);

@@ -6,11 +6,12 @@ use crate::workspace::{self, Walk};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::{coordinates_from_table, force_recordings};
-use ambulo::report::output_files;
-use ambulo::study::{self, MeasuredForces, Settings, Source};
+use ambulo::study::{self, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
+use ambulo_report::figure_files;
+use ambulo_results::output_files;
 use std::fs;
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -75,7 +76,8 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     // As OpenSim's inverse dynamics tool treats this recording: forces are not filtered.
     let settings = Settings { force_filter: None, ..Settings::default() };
     let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)?;
-    black_box(output_files(&outcome.body, &outcome.analysis, None)?);
+    let Outcome { body, analysis, .. } = &outcome;
+    black_box((output_files(body, analysis, None)?, figure_files(body, analysis)?));
     stage("files' content");
     Ok(())
 }

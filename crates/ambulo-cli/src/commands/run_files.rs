@@ -7,11 +7,13 @@ use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::{PredictedAnalysis, Settings};
 use ambulo::findings::{Code, Findings};
-use ambulo::report::{
+use ambulo::model::Model;
+use ambulo::study::{self, Outcome, PredictedGround, Processing, Tracking};
+use ambulo_report::{figure_files, prediction_figure_file};
+use ambulo_results::{
     ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files,
     prediction_files, summary,
 };
-use ambulo::study::{self, Outcome, PredictedGround, Processing, Tracking};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -34,6 +36,7 @@ impl RunFiles<'_> {
     pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
         let RunFiles { outcome, input, walk, files, read, mut findings, mut clock } = self;
         let mut written = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
+        written.extend(figure_files(&outcome.body, &outcome.analysis)?);
         written.extend(files_of_prediction(outcome, &mut findings));
         written.extend(files);
         files::replace_results(output, &written, read)?;
@@ -57,11 +60,17 @@ fn files_of_prediction(outcome: &Outcome, findings: &mut Findings) -> Vec<Output
     let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction else { return Vec::new() };
     let (analysis, prediction, measured) = (outcome.analysis.clone(), prediction.clone(), measured.clone());
     let predicted = PredictedAnalysis { analysis, prediction, measured };
-    prediction_files(&outcome.body, &predicted).unwrap_or_else(|error| {
+    tables_and_figure(&outcome.body, &predicted).unwrap_or_else(|error| {
         let message = format!("grf_sd.mot and grf_measured.mot were not written: {error}");
         findings.report(Code::PredictionNotWritten, message);
         Vec::new()
     })
+}
+
+fn tables_and_figure(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>> {
+    let mut files = prediction_files(model, predicted)?;
+    files.extend(prediction_figure_file(model, predicted)?);
+    Ok(files)
 }
 
 fn summary_of(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {

@@ -19,7 +19,7 @@ use ambulo::motion::{Smoother, Window};
 use ambulo::study::{self, AddedMass, ForceOrigin, GroundSettings, Outcome, Settings, Source};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use ambulo::report::{GroundSource, Input, OutputFile};
+use ambulo_results::{GroundSource, Input, OutputFile};
 use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
