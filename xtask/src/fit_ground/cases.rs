@@ -102,7 +102,10 @@ impl Case {
         let prediction = self.predict(weights)?;
         let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
         let (model, measured) = (&self.outcome.body, &self.measured);
-        Some(ground_agreement(&Compared { model, predicted: &found, prediction: &prediction, measured }, &self.coverage))
+        Some(ground_agreement(
+            &Compared { model, predicted: &found, prediction: &prediction, measured },
+            &self.coverage,
+        ))
     }
 
     /// What the fit makes small: errors of the feet over what is asked of them, 1 each where all is just met.

@@ -25,11 +25,13 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
 pub use ground_agreement::{
-    BandAgreement, CenterAgreement, Compared, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement, PlateCoverage,
-    ground_agreement,
+    BandAgreement, CenterAgreement, Compared, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement,
+    PlateCoverage, ground_agreement,
 };
 pub(crate) use marker_trial::follow_markers;
-pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion};
+pub use marker_trial::{
+    Body, BodyInMotion, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion,
+};
 pub use peaks::{Peak, peak};
 pub(crate) use predicted::predict_and_analyse;
 pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted, analyse_predicted_trajectory};
@@ -38,8 +40,8 @@ pub use prediction_checks::{
 };
 pub(crate) use progress::Progress;
 pub use progress::{Stage, Stopped};
-pub(crate) use recording::{analyse_measured, analyse_with_progress};
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
+pub(crate) use recording::{analyse_measured, analyse_with_progress};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};

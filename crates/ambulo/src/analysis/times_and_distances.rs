@@ -291,7 +291,9 @@ impl Places {
         let mut heels = [Vec::new(), Vec::new()];
         each_body_motion(model, &analysis.trajectory, |_, bodies| {
             for (path, sole) in heels.iter_mut().zip(soles) {
-                path.extend(sole.as_ref().map(|sole| bodies[sole.points[0].body.index()].pose.place(sole.points[0].place)));
+                path.extend(
+                    sole.as_ref().map(|sole| bodies[sole.points[0].body.index()].pose.place(sole.points[0].place)),
+                );
             }
         });
         let strikes = analysis.events.iter().filter(|event| event.kind == EventKind::Strike);
@@ -416,7 +418,8 @@ mod tests {
     fn a_step_round_a_bend_is_measured_along_the_bend() {
         // Feet 0.2 m apart on a circle of 2 m, 20 degrees from strike to strike.
         let on_circle = |i: usize| {
-            let (angle, side) = (f64::to_radians(20.0) * i as f64, if i.is_multiple_of(2) { Side::Right } else { Side::Left });
+            let (angle, side) =
+                (f64::to_radians(20.0) * i as f64, if i.is_multiple_of(2) { Side::Right } else { Side::Left });
             // Turning left: the right foot is outside.
             let radius = if side == Side::Right { 2.1 } else { 1.9 };
             let heel = Vec3::new(radius * angle.sin(), 0.0, radius * angle.cos());

@@ -72,4 +72,3 @@ fn with_mass(analysis: Analysis, mass: Option<Mass>) -> Analysis {
     });
     Analysis { mass: believed.unwrap_or(analysis.mass), ..analysis }
 }
-

@@ -60,9 +60,8 @@ fn usual_loads(model: &Model, table: &Table, findings: &mut Findings) -> Result<
     let (Some((right_prefix, left_prefix)), Some((right_foot, left_foot))) = (columns, feet) else {
         return Err(StudyError::ForceColumns { found: table.names().iter().map(ToString::to_string).collect() });
     };
-    let message = format!(
-        "taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot}"
-    );
+    let message =
+        format!("taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot}");
     findings.report(Code::LoadsGuessed, message);
     let forces = vec![
         ExternalForce::with_prefix("right", right_foot, right_prefix),

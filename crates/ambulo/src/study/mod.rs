@@ -30,9 +30,10 @@ pub use crate::analysis::{Stage, Stopped};
 pub use error::{Input, StudyError};
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError};
 pub use mass::{MassKnowledge, standing_mass_kg};
-pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, Tracking, TrackedMarkers};
+pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
 pub use source::{
-    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source,
+    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
+    Recording, Source,
 };

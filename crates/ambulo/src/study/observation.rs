@@ -291,13 +291,14 @@ fn plate_forces(body: &BodyInMotion, findings: &mut Findings) -> Vec<ForceRecord
 /// Why the plates of a file give no forces on the feet.
 fn without_forces(body: &BodyInMotion) -> String {
     let contacts = &body.on_plates.contacts;
-    let one = |c: &PlateContact| {
-        format!("{}, {:.3}-{:.3} s: {}", body.plates[c.plate].name, c.start_s, c.end_s, c.reason)
-    };
+    let one =
+        |c: &PlateContact| format!("{}, {:.3}-{:.3} s: {}", body.plates[c.plate].name, c.start_s, c.end_s, c.reason);
     match contacts.first() {
         _ if body.plates.is_empty() => "the file has no force plates".to_owned(),
         None => format!("no load was measured on the file's {}", counted(body.plates.len(), "force plate")),
-        Some(_) if foot_bodies(&body.subject.model).is_none() => "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l".to_owned(),
+        Some(_) if foot_bodies(&body.subject.model).is_none() => {
+            "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l".to_owned()
+        }
         Some(first) => format!("no plate's load belongs to one foot ({})", one(first)),
     }
 }

@@ -2,7 +2,9 @@
 
 use super::mass::MassKnowledge;
 use crate::analysis::feasibility::{Person, Verdict};
-use crate::analysis::{Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances};
+use crate::analysis::{
+    Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances,
+};
 use crate::dynamics::consistency::Consistent;
 use crate::ground::predict::Prediction;
 use crate::kinematics::marker_fit::MarkerFit;

@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::mass::MassKnowledge;
 use super::observation::{Observation, ObservedMotion, Origin};
-use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, Tracking, TrackedMarkers};
+use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 use super::prediction::{predicted, with_markers};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
@@ -73,10 +73,8 @@ fn road(
         device.on(grid)
     });
     if analysis.cycles.is_empty() {
-        findings.report(
-            Code::CyclesNone,
-            "no whole gait cycle in the window: cycles.csv and the figure were not written",
-        );
+        findings
+            .report(Code::CyclesNone, "no whole gait cycle in the window: cycles.csv and the figure were not written");
     }
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
     let Analysis { trajectory, forces, ground, .. } = &analysis;
@@ -137,9 +135,8 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
     let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_known_s()) else {
         return Window::default();
     };
-    let message = format!(
-        "markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed"
-    );
+    let message =
+        format!("markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed");
     findings.report(Code::MarkersWindow, message);
     Window { from_s: Some(from), to_s: Some(to) }
 }

@@ -30,8 +30,12 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
     {
         bail!("--from {from} is after --to {to}; expected a range of time that runs forwards");
     }
-    let mut reading =
-        Reading { findings: Findings::default(), clock: Stopwatch::new(), read: vec![args.input.clone()], ground: None };
+    let mut reading = Reading {
+        findings: Findings::default(),
+        clock: Stopwatch::new(),
+        read: vec![args.input.clone()],
+        ground: None,
+    };
     let source = match Kind::of(&args.input)? {
         Kind::Coordinates => coordinates::read(args, &mut reading)?,
         Kind::Markers => markers::read(args, &mut reading)?,

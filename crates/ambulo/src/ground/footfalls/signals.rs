@@ -14,7 +14,6 @@ use crate::model::{Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 
-
 /// The three points of one sole, frame by frame.
 pub(super) struct FootPath {
     pub(super) side: Side,

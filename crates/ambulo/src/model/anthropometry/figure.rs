@@ -11,7 +11,6 @@ use crate::model::{
 };
 use crate::spatial::{Inertia, InertiaError, Mat3, Pose, STANDARD_GRAVITY, Vec3};
 
-
 /// A model under construction.
 struct Making<'a> {
     build: &'a Build,
