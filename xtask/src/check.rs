@@ -15,6 +15,8 @@ enum Tool {
     Cargo,
     /// In `viewer/`.
     Npm,
+    /// This program.
+    Xtask,
 }
 
 /// One command.
@@ -28,7 +30,7 @@ struct Step {
     hint: &'static str,
 }
 
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 8] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -42,6 +44,13 @@ const STEPS: [Step; 7] = [
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
+    },
+    Step {
+        name: "house",
+        tool: Tool::Xtask,
+        arguments: &["house"],
+        variable: None,
+        hint: "`cargo xtask house` repeats this step",
     },
     Step {
         name: "tests",
@@ -115,12 +124,14 @@ impl Tool {
         match self {
             Tool::Cargo => "cargo",
             Tool::Npm => "npm",
+            Tool::Xtask => "cargo xtask",
         }
     }
 
     fn command(self) -> Command {
         match self {
             Tool::Cargo => workspace::cargo(),
+            Tool::Xtask => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());
