@@ -3,7 +3,7 @@
 use super::curve::QUANTITIES;
 use super::cycle::Cycle;
 use crate::normative::Band;
-use ambulo::report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
+use ambulo_report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
 
 /// Width of the picture [mm] and height of one panel [pt].
 const WIDTH_MM: f64 = 178.0;

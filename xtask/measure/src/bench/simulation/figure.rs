@@ -5,7 +5,7 @@
 use super::Results;
 use super::run::Run;
 use crate::simulators::{Peer, PeerTiming, Scene};
-use ambulo::report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
+use ambulo_report::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
 
 /// Width of a picture [mm] and height of the axes [pt].
 const WIDTH_MM: f64 = 178.0;
