@@ -19,13 +19,6 @@ use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
-/// Low-pass of the motion that a prediction is made from, whatever the one is that joint moments are computed with: the estimator's numbers
-/// were fitted behind it, and compare nothing above (docs/measured/GROUND_FIT.md).
-const MOTION_LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
-
-/// Low-pass of the plates against which a prediction is held, whatever the motion's: 20 Hz, second order, forwards and backwards.
-pub const PLATES_LOW_PASS: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
-
 /// What a prediction needs besides the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictionInput<'a> {
@@ -84,7 +77,8 @@ pub(crate) fn predict_and_analyse(
 }
 
 /// The prediction from all that was recorded around the window, behind the low-pass that the numbers of the estimator were fitted with
-/// ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the motion's own low-pass is. `None` where the recording around the window cannot be used, or parts of the answer are given.
+/// ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the motion's own low-pass is. `None` where the recording around the window
+/// cannot be used, or parts of the answer are given.
 fn prediction_of_whole_motion(
     model: &Model,
     motion: &Motion,
