@@ -4,7 +4,6 @@ mod best;
 mod block;
 mod carried;
 mod conjugate_gradient;
-pub mod consistency;
 mod constraint;
 mod curvature;
 mod departure;
@@ -15,6 +14,7 @@ mod load;
 mod mixing;
 mod proximal;
 mod relaxed;
+pub mod residual_reduction;
 mod roots;
 mod solve;
 
