@@ -354,7 +354,7 @@ fn what_cannot_be_used_is_refused_with_reasons() {
     let mut short = t.loads.clone();
     short[1].wrenches.pop();
     let text = attempt(&short, usual()).to_string();
-    assert_eq!(text, "the load on `calcn_l` has 180 entries; expected 181, one a frame");
+    assert_eq!(text, "the load on `calcn_l` has 180 entries; expected 181, one per frame");
     let mut gap = t.loads.clone();
     gap[0].wrenches[50].moment.x = f64::NAN;
     let text = attempt(&gap, usual()).to_string();

@@ -7,7 +7,7 @@ use crate::laboratory_file::{self, LaboratoryFile};
 use ambulo::analysis::{Body, BodyInMotion, MarkerTrialError, body_in_motion, body_mass};
 use ambulo::findings::{Finding, Findings};
 use ambulo::kinematics::calibration::{CalibrationError, Measures, Person};
-use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
+use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Model, Side};
 use ambulo::motion::force_plate::standing_weight_n;
@@ -156,7 +156,7 @@ fn without_plates_switched_off(mut walk: LaboratoryFile, args: &ForcesArgs) -> R
 fn fit_settings(args: &ForcesArgs) -> FitSettings {
     let smoothing = match args.subject.fit {
         MarkerFitting::Frames => None,
-        MarkerFitting::Trajectory => Some(Smoothing::default()),
+        MarkerFitting::Trajectory => Some(SmoothnessPrior::default()),
     };
     FitSettings { longest_gap_s: args.subject.max_gap, smoothing, ..FitSettings::default() }
 }
