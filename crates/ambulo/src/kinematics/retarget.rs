@@ -9,7 +9,7 @@
 //! Pinned by: tests/retarget.rs
 
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
 use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
@@ -77,7 +77,7 @@ pub fn retarget(
             floor.abs(),
             if floor < 0.0 { "below" } else { "above" }
         );
-        findings.note("bvh.floor", message);
+        findings.report(Code::BvhFloor, message);
     }
     // Animation files have no swapped labels, but arms so straight that only the ranges keep them from rotating.
     let settings =
@@ -206,8 +206,8 @@ impl Lengths {
             .map(|(name, found, usual)| format!("{name} {found:.3} m instead of {usual:.3} m"))
             .collect();
         if !unlike.is_empty() {
-            findings.note(
-                "bvh.lengths",
+            findings.report(
+                Code::BvhLengths,
                 format!("segment lengths of the skeleton differ from a typical body: {}", unlike.join(", ")),
             );
         }

@@ -1,6 +1,6 @@
 //! A complete motion of a model: every coordinate with two derivatives on a uniform time grid.
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
@@ -177,7 +177,7 @@ fn report_missing(model: &Model, motion: &SmoothMotion, findings: &mut Findings)
     if !missing.is_empty() {
         let message =
             format!("the recording has no column for {}; the default values in brackets are used", missing.join(", "));
-        findings.warn("motion.missing_coordinate", message);
+        findings.report(Code::MotionMissingCoordinate, message);
     }
 }
 
@@ -222,5 +222,5 @@ fn report_mismatch(
         "coordinate `{}` {source}; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
         coordinate.name
     );
-    findings.warn("motion.coupled_mismatch", message);
+    findings.report(Code::MotionCoupledMismatch, message);
 }

@@ -41,7 +41,7 @@ pub use settings::{
 };
 
 use super::{LoadSeries, Roots, Workspace};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, Model};
 use adjustable_body::AdjustableBody;
@@ -224,7 +224,7 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
             reduced.window_s[0],
             reduced.window_s[1]
         );
-        findings.warn("consistency.incomplete_forces", message);
+        findings.report(Code::ConsistencyIncompleteForces, message);
     }
     if !reduced.obeys(SMALL_RESIDUAL) {
         let message = format!(
@@ -232,7 +232,7 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
             100.0 * after.force_rms_bw,
             after.moment_rms_nm
         );
-        findings.warn("consistency.residual_left", message);
+        findings.report(Code::ConsistencyResidualLeft, message);
     }
     for (unit, limit, shown, scale) in
         [("rad", LARGE_CHANGE_RAD, "degrees", 1.0_f64.to_degrees()), ("m", LARGE_CHANGE_M, "mm", 1e3)]
@@ -245,11 +245,11 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
                 scale * change.max,
                 scale * limit
             );
-            findings.warn("consistency.large_change", message);
+            findings.report(Code::ConsistencyLargeChange, message);
         }
     }
     if !reduced.converged {
         let message = format!("residual reduction did not converge in {} iterations", reduced.iterations);
-        findings.warn("consistency.not_settled", message);
+        findings.report(Code::ConsistencyNotSettled, message);
     }
 }

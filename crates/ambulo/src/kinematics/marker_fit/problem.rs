@@ -5,7 +5,7 @@ use super::result::FitError;
 use super::settings::{FitSettings, JointLimits};
 use super::solve::{Bounds, Outcome, Solver};
 use super::tree::MarkerTree;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
@@ -250,7 +250,7 @@ fn report_uncommon(
         part("in the recording", only_recorded),
         part("on the model", only_model)
     );
-    findings.note("markers.uncommon", message);
+    findings.report(Code::MarkersUncommon, message);
 }
 
 /// Names in one line; very long lists are shortened.

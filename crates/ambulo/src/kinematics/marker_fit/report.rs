@@ -5,7 +5,7 @@ use super::gaps::Determination;
 use super::misplaced::Misplaced;
 use super::problem::{FitProblem, listed};
 use super::result::{MarkerFit, MarkerResidual};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Drive, Model};
 use crate::motion::{MarkerRecording, Motion};
 use crate::spatial::Vec3;
@@ -150,7 +150,7 @@ pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut 
         let missing = spans(frames.count(), |f| !frames.is_seen(f, i));
         if !missing.is_empty() {
             let message = format!("marker `{}` is missing at {}", name(i), times(problem, &missing));
-            findings.note("markers.missing", message);
+            findings.report(Code::MarkersMissing, message);
         }
         let wild = spans(frames.count(), |f| {
             let path = frames.path(f, i);
@@ -162,7 +162,7 @@ pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut 
                 name(i),
                 times(problem, &wild)
             );
-            findings.warn("markers.jump", message);
+            findings.report(Code::MarkersJump, message);
         }
         for j in i + 1..frames.markers() {
             let swapped = spans(frames.count(), |f| frames.path(f, i) == j);
@@ -173,7 +173,7 @@ pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut 
                     name(j),
                     times(problem, &swapped)
                 );
-                findings.warn("markers.swap", message);
+                findings.report(Code::MarkersSwap, message);
             }
         }
     }
@@ -189,7 +189,7 @@ pub(super) fn misplaced(problem: &FitProblem<'_>, markers: &[Misplaced], finding
             1e3 * usual_m,
             (rms_m / usual_m).powi(2)
         );
-        findings.warn("markers.misplaced", message);
+        findings.report(Code::MarkersMisplaced, message);
     }
 }
 
@@ -211,7 +211,7 @@ pub(super) fn coordinates(
                 "too few markers to determine `{name}` at {}; bridged by a smooth curve",
                 times(problem, &bridged)
             );
-            findings.note("markers.bridged", message);
+            findings.report(Code::MarkersBridged, message);
         }
         let gaps = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Gap);
         if !gaps.is_empty() {
@@ -219,7 +219,7 @@ pub(super) fn coordinates(
                 "too few markers to determine `{name}` at {}; it has no value there (only gaps of up to {longest_s} s inside the recording are bridged)",
                 times(problem, &gaps)
             );
-            findings.warn("markers.gap", message);
+            findings.report(Code::MarkersGap, message);
         }
     }
 }
