@@ -12,13 +12,8 @@ mod marker_data;
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{Analysis, Body, LaboratoryRecording, Settings, analyse, body_in_motion};
 use ambulo::dynamics::LoadSeries;
-<<<<<<< HEAD:crates/ambulo/tests/residual_reduction.rs
 use ambulo::dynamics::residual_reduction::{ReducedMotion, ResidualReductionSettings, reduce_residuals};
 use ambulo::findings::{Code, Findings};
-=======
-use ambulo::dynamics::consistency::{ConsistencySettings, Consistent, make_consistent};
-use ambulo::findings::{Code, Findings};
->>>>>>> main:crates/ambulo/tests/consistency.rs
 use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::Model;
@@ -235,15 +230,9 @@ fn forces_that_were_predicted_are_obeyed_or_the_findings_say_that_they_are_not()
         let predicted = predict(model, trajectory, &soles, &PredictSettings::default(), &mut findings).unwrap();
         let loads = predicted.ground.loads();
         let done = measure(&case, &loads, motion_only());
-<<<<<<< HEAD:crates/ambulo/tests/residual_reduction.rs
         let settings = ResidualReductionSettings { within: case.window, ..motion_only() };
         reduce_residuals(model, trajectory, &loads, &settings, &mut findings).unwrap();
         assert_eq!(findings.has(Code::ConsistencyResidualLeft), !done.obeys(0.01), "{}", case.name);
-=======
-        let settings = ConsistencySettings { within: case.window, ..motion_only() };
-        make_consistent(model, trajectory, &loads, &settings, &mut findings).unwrap();
-        assert_eq!(findings.has(Code::ConsistencyResidualLeft), !done.obeys(0.01), "{}", case.name);
->>>>>>> main:crates/ambulo/tests/consistency.rs
         // Predicted forces are Newton's behind a low-pass only: a heel strike that markers do not show is left over.
         let [before, after] = [done.residual_before, done.residual_after].map(|r| r.moment_rms_nm);
         assert!(done.residual_before.force_rms_bw < 0.1 && after < 0.5 * before, "{}: {before} -> {after}", case.name);
