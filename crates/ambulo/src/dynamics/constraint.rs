@@ -82,7 +82,7 @@ pub enum Law {
 
 impl Law {
     /// u = 0 with a force of any size.
-    pub const HELD: Law = Law::Bounded { least: f64::NEG_INFINITY, most: f64::INFINITY };
+    pub const EQUALITY: Law = Law::Bounded { least: f64::NEG_INFINITY, most: f64::INFINITY };
 }
 
 /// Bodies, joints, constraints and loads at one instant.
