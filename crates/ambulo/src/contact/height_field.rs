@@ -307,7 +307,7 @@ impl Triangle {
 }
 
 impl Ridge {
-    /// `None` where the surface does not bend down.
+    /// `None` if the surface does not bend down.
     fn new(ends: Segment, first: &Triangle, second: &Triangle, number: usize) -> Option<Ridge> {
         let middle = |t: &Triangle| t.corners.iter().sum::<Vec3>() / 3.0;
         let way = middle(second) - ends[0];
@@ -319,16 +319,16 @@ impl Ridge {
     }
 }
 
-/// Whether a direction lies on the short arc between two normals, or beyond by less than [`BESIDE`]; it is given across
-/// the edge where their faces meet.
+/// Whether a direction, perpendicular to the edge of two faces, lies on the short arc between their normals, or outside by less than
+/// [`BESIDE`].
 fn lies_between(outward: Vec3, [n, m]: [Vec3; 2]) -> bool {
     let turn = n.cross(&m);
     let least = -BESIDE * turn.norm();
     n.cross(&outward).dot(&turn) >= least && outward.cross(&m).dot(&turn) >= least
 }
 
-/// A ball about a point of a capsule's axis, and a point of the ground: above it or, overlapping by more than the
-/// radius, below. `None` where they coincide.
+/// Contact of a sphere about a point of a capsule's axis with a point of the ground, above it or, if they overlap by more than the
+/// radius, below. `None` if they coincide.
 fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [usize; 4]) -> Option<Touch> {
     let way = core - ground;
     let distance = way.norm().copysign(way.y);
@@ -339,7 +339,7 @@ fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [usize; 4]) -> Opt
     Some(Touch { point: core - outward * (radius + gap / 2.0), outward, gap, feature })
 }
 
-/// Where an edge of a solid passes over or under a ridge; `None` if beyond their ends.
+/// Contact where an edge of a solid crosses a ridge; `None` if they cross beyond their ends.
 fn crossing(ridge: Segment, edge: Segment) -> Option<Touch> {
     let (u, v, way) = (ridge[1] - ridge[0], edge[1] - edge[0], edge[0] - ridge[0]);
     let cross = u.cross(&v);

@@ -363,7 +363,7 @@ mod tests {
         for (most, points_expected, cells) in [(100, 45, 32), (3, 9, 4)] {
             let (points, triangles) = surface(&field, most);
             assert_eq!((points.len(), triangles.len()), (points_expected, 2 * cells));
-            // 0.1 m a metre along x, 0.01 m a half metre along z: a plane, whatever is left out.
+            // Slopes of 0.1 along x and 0.02 along z: a plane, however it is thinned out.
             for p in &points {
                 assert!((p.y - (0.1 * (p.x + 4.0) + 0.02 * (p.z + 1.0))).abs() < 1e-12, "{p}");
             }

@@ -132,7 +132,7 @@ fn separation_from_segment(solid: &Polytope, segment: Segment) -> Separation {
     nearest_of(ends.chain((0..solid.net.edges.len()).filter_map(to_edge))).unwrap_or(inner)
 }
 
-/// The axis along which a segment is furthest outside.
+/// The axis of largest separation of a segment.
 fn deepest_axis(solid: &Polytope, segment: Segment) -> Separation {
     let lower = |face: usize| {
         let [a, b] = segment.map(|end| separation_from_plane(solid, face, end));

@@ -106,33 +106,33 @@ pub struct ConstraintGraph {
     pub rows: Vec<Constraint>,
 }
 
-/// How far a solver came. Redundant rows do no harm and are not counted here; [`undetermined_rows`](super::undetermined_rows)
-/// finds them at the price of a few tree solves.
+/// Convergence of a solver. Redundant rows are not counted here; [`undetermined_rows`](super::undetermined_rows) finds them with a
+/// few tree solves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Convergence {
-    /// Tree solves.
+    /// Number of tree solves.
     pub iterations: usize,
-    /// Factorisations.
+    /// Number of factorisations.
     pub factorizations: usize,
     /// Largest departure of a row from its law, as a share of the largest departure that rows would have without any
     /// constraint force.
     pub residual: f64,
     /// Whether the residual is within the tolerance.
     pub converged: bool,
-    /// The row that departs most; none without rows.
+    /// The row with the largest departure; `None` without rows.
     pub worst: Option<usize>,
 }
 
-/// The motion and the multipliers, one vector each.
+/// Solution of a constraint graph: motions and multipliers.
 #[derive(Debug, Clone, Default)]
 pub struct GraphSolution {
-    /// Motions, one a body.
+    /// Motions, one per body.
     pub motions: Vec<Six>,
-    /// Motions along the joints' free directions, one a coordinate.
+    /// Motions along the joints' free directions, one per coordinate.
     pub coordinates: Vec<f64>,
-    /// Multipliers, one a row.
+    /// Multipliers, one per row.
     pub lambda: Vec<f64>,
-    /// How far the solver came.
+    /// Convergence of the solver.
     pub convergence: Convergence,
 }
 

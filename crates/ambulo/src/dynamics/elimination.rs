@@ -1,4 +1,4 @@
-//! Linear systems of jointed bodies, solved leaves to root without fill-in on trees.
+//! Numeric part of the elimination: factors and solves linear systems of jointed bodies, leaves to root, without fill-in on trees.
 //!
 //! A body c is attached to its parent p by a joint with f free directions S (6 x f, at the mass centre of c). For any unknown
 //! (acceleration, velocity or displacement) the joint allows
@@ -92,7 +92,7 @@ impl EliminationWorkspace {
         &mut self.diagonal[body]
     }
 
-    /// An off-diagonal block: rows for the body of the lower number.
+    /// An off-diagonal block; its rows belong to the body with the lower number.
     pub(crate) fn off_mut(&mut self, block: usize) -> &mut Block {
         &mut self.off[block]
     }
@@ -241,7 +241,7 @@ impl Elimination {
         if f == 0 {
             return;
         }
-        // Z = D⁻¹ G of the parent, then of each neighbour; products with those not yet visited.
+        // Z = D⁻¹ G of the parent, then of each neighbour, and its products with the remaining neighbours.
         if let Some(parent) = link.parent {
             let mut g = [Six::zeros(); 6];
             g[..f].copy_from_slice(&w.g_parent[range.clone()]);

@@ -92,7 +92,7 @@ impl LumpedGraph {
         }
     }
 
-    /// Rows within one body, or on one that does not move.
+    /// Whether a group has rows within one lumped body, or on one that cannot move.
     fn unfit(&self, full: &ConstraintGraph, group: &ConstraintGroup) -> bool {
         let ActsOn::Bodies { first, second } = group.on else { return false };
         let stays = |body: usize| full.links[self.first[self.of[body]]].freedom == 0;

@@ -218,12 +218,12 @@ impl GraphWorkspace {
         Ok(())
     }
 
-    /// Whether the last graph was solved as what its bodies carry.
+    /// Whether the last graph was solved in its lumped form.
     pub(crate) fn is_lumped(&self) -> bool {
         self.is_lumped
     }
 
-    /// Bodies with their parents, parents first, as last solved.
+    /// The bodies of the last graph with their parents, parents first.
     #[must_use]
     pub fn outwards(&self) -> &[(usize, Option<usize>)] {
         &self.outwards
@@ -290,14 +290,14 @@ mod tests {
             for group in &graph.groups {
                 for row in group.rows.clone() {
                     let reading = graph.reading(group, row, &motions, &coordinates);
-                    // A stiffness of 1e6, and drift that needs only be undone.
+                    // Rows have a stiffness of 1e6; drift only needs to be corrected.
                     assert!((reading - targets[row]).abs() < 1e-8, "{method:?}, row {row}: {reading}");
                 }
             }
             found.push(motions);
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
-            // Either departs from its targets by 1e-6 of them.
+            // Each method departs from its targets by 1e-6 of them.
             assert!((one - other).norm() < 1e-7, "the least mass moved is one: {:e}", (one - other).norm());
         }
     }
@@ -327,7 +327,7 @@ mod tests {
             let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
             solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
             assert_eq!(workspace.is_lumped(), method == Method::Newton);
-            // Offsets of the displacements are others than those of the motion.
+            // The displacements have other offsets than the motion.
             graph.terms.offset[2] = Six::new(0.0, 1e-4, 0.0, 2e-4, 0.0, 3e-4);
             let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
             project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
@@ -335,14 +335,14 @@ mod tests {
             graph.terms.offset[2] = carrying().terms.offset[2];
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
-            // A stiffness of 1e6 of single rows leaves 1e-5 of 3 mm where rows share what moves.
+            // With a stiffness of 1e6 per row, 1e-5 of 3 mm remain where rows share a body.
             assert!((one - other).norm() < 3e-7, "{one:?} {other:?}");
         }
     }
 
     #[test]
     fn bodies_already_placed_are_shifted_as_if_they_were_not() {
-        // To first order it is the same to say where a body is off, or to have it drawn back by its joint.
+        // To first order, an offset of a placed body is equivalent to an offset prescribed by its joint.
         let mut graph = carrying();
         let targets = [0.0; 5];
         let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());

@@ -7,7 +7,7 @@ use crate::model::{Displacement, Function, Joint, JointAxis, Measure, Model};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::ops::Range;
 
-/// A rotation closer to the identity than this changes no result by a rounding error.
+/// A rotation closer to the identity than this is treated as the identity.
 const IDENTITY_TOLERANCE: f64 = 1e-15;
 
 /// A model prepared for the sweeps.

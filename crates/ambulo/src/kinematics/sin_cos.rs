@@ -17,7 +17,7 @@ const PI_2_MIDDLE: f64 = 6.077_100_506_303_965_976_60e-11;
 const PI_2_LOW: f64 = 2.022_266_248_795_950_631_54e-21;
 /// Adding 1.5 · 2⁵² rounds to an integer, which is then in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// Largest angle [rad] for which the reduction above is exact enough.
+/// Largest angle [rad] for which the reduction above is accurate enough.
 const LARGEST: f64 = 1e5;
 
 const S: [f64; 6] = [

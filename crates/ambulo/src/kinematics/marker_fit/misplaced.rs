@@ -31,7 +31,7 @@ const NEIGHBOURS: usize = 3;
 const MOVABLE: f64 = 0.05;
 const ROUNDS: usize = 6;
 
-/// A marker that is far from its place on the body throughout.
+/// A marker that is far from its place on the body in the whole recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Misplaced {
     pub(super) marker: usize,

@@ -29,7 +29,7 @@ pub(super) struct FitProblem<'a> {
     pub(super) times: &'a [f64],
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
-    /// Scratch: the markers shifted by offsets, targets and weights of one frame.
+    /// Scratch: shifted markers, positions and weights of one frame.
     shifted: Vec<Point>,
     pub(super) positions: Vec<Vec3>,
     pub(super) frame_weights: Vec<f64>,

@@ -55,7 +55,7 @@ pub(super) fn fit(
 enum Leader {
     /// Nothing: it moves no marker.
     Nothing,
-    /// The model itself: a lock, a function of time.
+    /// The model: a lock or a function of time.
     Model,
     /// An unknown: its own, or that of its coupler.
     Unknown(usize),

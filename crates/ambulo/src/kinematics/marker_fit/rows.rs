@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
 
-/// The markers that a model shares with the first frame of a recording.
+/// The common markers of a model and the first frame of a recording.
 #[derive(Debug, Clone)]
 pub(crate) struct MarkerRows {
     tree: MarkerTree,

@@ -71,8 +71,8 @@ pub struct SmoothnessPrior {
 }
 
 impl Default for SmoothnessPrior {
-    /// Angles that swing by 0.3 rad at 2 Hz have a jerk of 0.3 (4π)³ ≈ 600 rad/s³, a pelvis that rises and falls by 20 mm at
-    /// 2 Hz one of 40 m/s³. With a marker noise of 2 mm and eight markers 0.3 m from the knee its angle passes up to 10 Hz.
+    /// An angle that swings by 0.3 rad at 2 Hz has a jerk of 0.3 (4π)³ ≈ 600 rad/s³; a pelvis that moves up and down by 20 mm at 2 Hz
+    /// has one of 40 m/s³. With a marker noise of 2 mm and eight markers 0.3 m from the knee, the cut-off of its angle is 10 Hz.
     fn default() -> Self {
         SmoothnessPrior { marker_noise_m: 0.002, rotation_jerk: 600.0, translation_jerk: 40.0 }
     }

@@ -27,7 +27,7 @@ struct Axis {
     column: Option<usize>,
 }
 
-/// A body that carries tracked markers, or carries one that does.
+/// A body that has fitted markers, or a descendant with some.
 #[derive(Debug, Clone)]
 struct Node {
     parent: Option<usize>,
@@ -124,7 +124,7 @@ impl MarkerTree {
         }
     }
 
-    /// Numbers the free coordinates that move a wanted body, in the model's order.
+    /// Numbers the free coordinates that move a wanted body, in the order of the model.
     fn number_unknowns(&mut self, model: &Model, wanted: &[bool]) {
         let mut moves = vec![false; self.q.len()];
         for (body, _) in model.bodies().iter().zip(wanted).filter(|(_, wanted)| **wanted) {
@@ -291,7 +291,7 @@ impl MarkerTree {
     }
 }
 
-/// The column of this unknown among those from `first`, added if there is none.
+/// The column of this unknown among those from `first`; added if missing.
 fn column_of(columns: &mut Vec<TwistColumn>, first: usize, unknown: usize) -> usize {
     let found = columns[first..].iter().position(|c| c.unknown == unknown);
     found.map_or_else(
