@@ -1,9 +1,8 @@
 //! The files of a run, as names and bytes.
 
 use super::cycle_table::{self, cycle_rows};
-use super::figures::{CycleFigures, Mark, residual_figure};
+use super::figures::{CycleFigures, FigureError, Mark, residual_figure};
 use super::normative::dimensionless_speed;
-use super::plot::FigureError;
 use super::tables;
 use crate::analysis::feasibility::{Check, Person, Reason};
 use crate::analysis::{Analysis, Cycle};

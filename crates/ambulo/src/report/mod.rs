@@ -6,16 +6,12 @@ mod cycle_table;
 mod exchange;
 pub mod figures;
 mod files;
-mod gait_figure;
 mod html;
 pub mod normative;
 pub mod page;
-mod paper_figure;
-mod plot;
 mod prediction_files;
 mod reproduction;
 mod reproduction_page;
-mod scene_figures;
 mod scene_shapes;
 mod scene_summary;
 mod scene_tables;
@@ -34,15 +30,11 @@ pub use exchange::{
     glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
     table_of_markers, trc_of_markers,
 };
-pub use figures::{CycleFigures, Mark};
+pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};
 pub use files::{OutputError, OutputFile, output_files};
-pub use gait_figure::gait_figure;
-pub use paper_figure::paper_figure;
-pub use plot::FigureError;
 pub use prediction_files::prediction_files;
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
-pub use scene_figures::SceneCurves;
 pub use scene_shapes::scene_shapes;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,

@@ -1,9 +1,7 @@
 //! The files of `ambulo reproduce`, but for its JSON: figures with their numbers, and tables.
 
+use super::figures::{FigureError, gait_figure, paper_figure};
 use super::files::OutputFile;
-use super::gait_figure::gait_figure;
-use super::paper_figure::paper_figure;
-use super::plot::FigureError;
 use crate::findings::Findings;
 use crate::gait::{Gait, Walk};
 use crate::reproduction::{
