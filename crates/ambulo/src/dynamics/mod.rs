@@ -1,6 +1,6 @@
 //! Inverse dynamics (forces from motion) and constrained dynamics (motion from forces).
 //!
-//! [`inverse`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint forces of
+//! [`inverse()`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint forces of
 //! jointed bodies with closed loops, contacts and friction, as each step of the simulator needs them. [`residual_reduction`]
 //! changes a recorded motion so that it agrees with measured ground forces.
 
