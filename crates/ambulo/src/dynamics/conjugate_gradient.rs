@@ -211,34 +211,35 @@ struct Rounds<'p, 'a> {
 
 impl Rounds<'_, '_> {
     fn run(&mut self, solution: &mut GraphSolution) {
+        let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         let settings = self.problem.settings;
-        solution.convergence = Convergence { factorizations: 1, iterations: 1, ..Convergence::default() };
-        self.graph.groups.iter().for_each(|group| confine(group, &mut solution.lambda));
-        self.w.forces.copy_from_slice(&solution.lambda);
+        *convergence = Convergence { factorizations: 1, iterations: 1, ..Convergence::default() };
+        self.graph.groups.iter().for_each(|group| confine(group, lambda));
+        self.w.forces.copy_from_slice(lambda);
         self.solve_motion();
-        solution.motions.clone_from(&self.w.motions);
-        solution.coordinates.clone_from(&self.w.coordinates);
-        self.problem.departures.read(self.graph, &solution.motions, &solution.coordinates);
+        motions.clone_from(&self.w.motions);
+        coordinates.clone_from(&self.w.coordinates);
+        self.problem.departures.read(self.graph, motions, coordinates);
         let mut last = f64::INFINITY;
         loop {
-            if self.problem.departures.settle(self.graph, settings.tolerance, solution) {
+            let departures = &*self.problem.departures;
+            if departures.settle(self.graph, lambda, settings.tolerance, convergence) {
                 break;
             }
-            let Convergence { residual, iterations, .. } = solution.convergence;
-            let stuck = self.contradicted && residual > STUCK * last;
-            if stuck || iterations >= settings.max_iterations {
+            let stuck = self.contradicted && convergence.residual > STUCK * last;
+            if stuck || convergence.iterations >= settings.max_iterations {
                 break;
             }
-            last = residual;
-            self.round(&solution.lambda, &mut solution.convergence);
-            self.advance(solution);
+            last = convergence.residual;
+            self.round(lambda, convergence);
+            self.advance(motions, coordinates, lambda, convergence);
             self.rounds += 1;
-            solution.convergence.iterations += 1;
+            convergence.iterations += 1;
         }
-        if self.contradicted && !solution.convergence.converged {
+        if self.contradicted && !convergence.converged {
             let rho = stiffness(&self.problem.departures.mobility);
-            solution.lambda.iter_mut().zip(&self.w.null).for_each(|(l, n)| *l += rho * n);
-            self.graph.groups.iter().for_each(|group| confine(group, &mut solution.lambda));
+            lambda.iter_mut().zip(&self.w.null).for_each(|(l, n)| *l += rho * n);
+            self.graph.groups.iter().for_each(|group| confine(group, lambda));
         }
     }
 
@@ -315,8 +316,13 @@ impl Rounds<'_, '_> {
 
     /// Moves λ towards the trial forces: all the way, or to the minimum of f. If that is a short step, moves instead straight to
     /// the first bound on the way to the unconfined forces, if that lowers f more. Motions are affine in the forces.
-    fn advance(&mut self, solution: &mut GraphSolution) {
-        let GraphSolution { motions, coordinates, lambda, convergence } = solution;
+    fn advance(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
         let (here, there) = self.slopes(lambda);
         let mut s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
         if s < SHORT {

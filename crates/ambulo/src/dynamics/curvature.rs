@@ -5,6 +5,7 @@
 //! For a row, Π clamps. For the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|) across z.
 //! Symbols as in [`super::proximal`].
 
+use super::block::Block;
 use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Law};
 use super::elimination::EliminationWorkspace;
 use super::elimination_order::Elimination;
@@ -169,55 +170,49 @@ fn friction(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64
     ([radius * x, radius * y], [across * y * y, -across * x * y, across * x * x])
 }
 
-/// A group of rows, with the off-diagonal block of its two bodies and whether that is transposed.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct GroupRows<'a> {
-    pub(super) graph: &'a ConstraintGraph,
-    pub(super) group: &'a ConstraintGroup,
-    pub(super) block: Option<(usize, bool)>,
-}
-
-impl GroupRows<'_> {
-    /// Adds Jᵀ H J.
-    pub(super) fn add_curvature(
-        &self,
-        elimination: &Elimination,
-        curvature: &Curvature,
-        factors: &mut EliminationWorkspace,
-    ) {
-        match (self.group.on, curvature) {
-            (ActsOn::Coordinate { body, coordinate }, Curvature::Diagonal(h)) => {
+/// Adds Jᵀ H J of one group.
+pub(super) fn add_group(
+    graph: &ConstraintGraph,
+    elimination: &Elimination,
+    group: &ConstraintGroup,
+    curvature: &Curvature,
+    block: Option<(usize, bool)>,
+    factors: &mut EliminationWorkspace,
+) {
+    let start = group.rows.start;
+    let (first, second) = match group.on {
+        ActsOn::Coordinate { body, coordinate } => {
+            if let Curvature::Diagonal(h) = curvature {
                 factors.add_to_coordinate(elimination, coordinate, body, h[0]);
             }
-            (ActsOn::Coordinate { .. }, Curvature::Contact { .. }) => {}
-            (ActsOn::Bodies { .. }, Curvature::Diagonal(h)) => {
-                (0..self.group.rows.len()).for_each(|k| self.add([k, k], h[k], factors));
-            }
-            (ActsOn::Bodies { .. }, Curvature::Contact { normal, tangential: [xx, xy, yy], .. }) => {
-                self.add([0, 0], *normal, factors);
-                self.add([1, 1], *xx, factors);
-                self.add([1, 2], *xy, factors);
-                self.add([2, 1], *xy, factors);
-                self.add([2, 2], *yy, factors);
-            }
+            return;
         }
-    }
-
-    /// Adds h j_mᵀ j_n of two rows to the blocks of the bodies.
-    #[inline]
-    pub(super) fn add(&self, [m, n]: [usize; 2], h: f64, factors: &mut EliminationWorkspace) {
-        let ActsOn::Bodies { first, second } = self.group.on else { return };
+        ActsOn::Bodies { first, second } => (first, second),
+    };
+    let mut add = |m: usize, n: usize, h: f64| {
         if h == 0.0 {
             return;
         }
-        let rows = &self.graph.rows[self.group.rows.clone()];
-        let (one, other) = (&rows[m], &rows[n]);
+        let (one, other) = (&graph.rows[start + m], &graph.rows[start + n]);
         factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
-        if let (Some(second), Some((block, swapped))) = (second, self.block) {
+        if let (Some(second), Some((block, swapped))) = (second, block) {
             factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
-            let (row, column) =
-                if swapped { (&one.on_second, &other.on_first) } else { (&one.on_first, &other.on_second) };
-            factors.off_mut(block).add_outer(row, column, h);
+            let place: &mut Block = factors.off_mut(block);
+            if swapped {
+                place.add_outer(&one.on_second, &other.on_first, h);
+            } else {
+                place.add_outer(&one.on_first, &other.on_second, h);
+            }
+        }
+    };
+    match curvature {
+        Curvature::Diagonal(h) => (0..group.rows.len()).for_each(|k| add(k, k, h[k])),
+        Curvature::Contact { normal, tangential: [xx, xy, yy], .. } => {
+            add(0, 0, *normal);
+            add(1, 1, *xx);
+            add(1, 2, *xy);
+            add(2, 1, *xy);
+            add(2, 2, *yy);
         }
     }
 }

@@ -10,7 +10,7 @@
 //! | `scale`    |         | as the motion   | one number  |
 
 use super::block::Six;
-use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
+use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Convergence, Law};
 
 /// Smallest scale of departures, as a share of the velocities that a row compares. Their difference is accurate to 1e-16 of
 /// them, and must stay well below a tolerance of 1e-10.
@@ -69,9 +69,14 @@ impl Departures {
         }
     }
 
-    /// Records the largest departure of a solution; returns whether it is within the tolerance.
-    pub(super) fn settle(&self, graph: &ConstraintGraph, tolerance: f64, solution: &mut GraphSolution) -> bool {
-        let GraphSolution { lambda, convergence, .. } = solution;
+    /// Records the largest departure in `convergence`; returns whether it is within the tolerance.
+    pub(super) fn settle(
+        &self,
+        graph: &ConstraintGraph,
+        lambda: &[f64],
+        tolerance: f64,
+        convergence: &mut Convergence,
+    ) -> bool {
         let (mut worst, mut at) = (0.0_f64, None);
         for group in &graph.groups {
             for row in group.rows.clone() {
@@ -151,40 +156,49 @@ pub(super) fn stiffness(mobility: &[f64]) -> f64 {
 /// The iterate with the smallest residual so far.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BestIterate {
-    kept: GraphSolution,
-    is_kept: bool,
+    motions: Vec<Six>,
+    coordinates: Vec<f64>,
+    lambda: Vec<f64>,
+    found: Option<Convergence>,
 }
 
 impl BestIterate {
     pub(super) fn forget(&mut self) {
-        self.is_kept = false;
+        self.found = None;
     }
 
     pub(super) fn residual(&self) -> f64 {
-        if self.is_kept { self.kept.convergence.residual } else { f64::INFINITY }
+        self.found.map_or(f64::INFINITY, |c| c.residual)
     }
 
-    /// Keeps this iterate, with the forces `lambda`, if it is better.
-    pub(super) fn keep(&mut self, solution: &GraphSolution, lambda: &[f64]) {
-        if solution.convergence.residual < self.residual() {
-            self.kept.motions.clone_from(&solution.motions);
-            self.kept.coordinates.clone_from(&solution.coordinates);
-            self.kept.lambda.clear();
-            self.kept.lambda.extend_from_slice(lambda);
-            self.kept.convergence = solution.convergence;
-            self.is_kept = true;
+    /// Keeps this iterate if it is better.
+    pub(super) fn keep(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64], convergence: &Convergence) {
+        if convergence.residual < self.residual() {
+            self.motions.clear();
+            self.motions.extend_from_slice(motions);
+            self.coordinates.clear();
+            self.coordinates.extend_from_slice(coordinates);
+            self.lambda.clear();
+            self.lambda.extend_from_slice(lambda);
+            self.found = Some(*convergence);
         }
     }
 
-    /// Restores the kept iterate if it is better than this one; the counts of iterations and factorisations remain.
-    pub(super) fn restore(&self, solution: &mut GraphSolution) {
-        let (kept, now) = (&self.kept, &mut solution.convergence);
-        if self.is_kept && (kept.convergence.residual <= now.residual || now.residual.is_nan()) {
-            solution.motions.clone_from(&kept.motions);
-            solution.coordinates.clone_from(&kept.coordinates);
-            solution.lambda.clone_from(&kept.lambda);
-            let Convergence { residual, worst, converged, .. } = kept.convergence;
-            *now = Convergence { residual, worst, converged, ..*now };
-        }
+    /// Restores the kept iterate if it is better than this one.
+    pub(super) fn restore(
+        &self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
+        let better = |found: &Convergence| found.residual <= convergence.residual || convergence.residual.is_nan();
+        let Some(found) = self.found.filter(better) else { return };
+        motions.clone_from(&self.motions);
+        coordinates.clone_from(&self.coordinates);
+        lambda.copy_from_slice(&self.lambda);
+        convergence.residual = found.residual;
+        convergence.worst = found.worst;
+        convergence.converged = found.converged;
     }
 }

@@ -6,7 +6,7 @@
 use super::block::Six;
 use super::constraint::ConstraintGraph;
 use super::departure::Departures;
-use super::elimination::{EliminationWorkspace, Offsets};
+use super::elimination::EliminationWorkspace;
 use super::elimination_order::Elimination;
 
 /// Number of halvings of the interval in which the slope changes sign.
@@ -66,59 +66,19 @@ impl Problem<'_> {
     }
 }
 
-/// A change Δ of the motions and coordinates of a graph.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Step {
-    pub(super) motions: Vec<Six>,
-    pub(super) coordinates: Vec<f64>,
-}
-
-impl Step {
-    pub(super) fn resize(&mut self, graph: &ConstraintGraph) {
-        self.motions.resize(graph.bodies.len(), Six::zeros());
-        self.coordinates.resize(graph.efforts.len(), 0.0);
-    }
-
-    /// Newton's step from a motion a under the forces λ, with the current factor F: F Δ = b + Jᵀ λ - A a.
-    pub(super) fn solve(&mut self, problem: &Problem<'_>, (motions, coordinates): (&[Six], &[f64]), lambda: &[f64]) {
-        let graph = problem.graph;
-        for ((r, body), (b, a)) in self.motions.iter_mut().zip(&graph.bodies).zip(graph.wrenches.iter().zip(motions)) {
-            *r = b - body.times(a);
-        }
-        for ((r, effort), (rotor, q)) in
-            self.coordinates.iter_mut().zip(&graph.efforts).zip(graph.rotors.iter().zip(coordinates))
-        {
-            *r = effort - rotor * q;
-        }
-        graph.push(lambda, &mut self.motions, &mut self.coordinates);
-        let Step { motions, coordinates } = self;
-        problem.elimination.solve(&graph.terms, Offsets::None, motions, coordinates, problem.factors);
-    }
-
-    /// Adds `length` Δ to a motion.
-    pub(super) fn add_to(&self, length: f64, motions: &mut [Six], coordinates: &mut [f64]) {
-        for (a, step) in motions.iter_mut().zip(&self.motions) {
-            a.axpy(length, step, 1.0);
-        }
-        for (q, step) in coordinates.iter_mut().zip(&self.coordinates) {
-            *q += length * step;
-        }
-    }
-}
-
-/// Δᵀ(A a - b) and Δᵀ A Δ, for the motions and coordinates of a.
+/// Δᵀ(A a - b) and Δᵀ A Δ, for (motions, coordinates) of a and Δ.
 pub(super) fn inertial_slope(
     graph: &ConstraintGraph,
     (motions, coordinates): (&[Six], &[f64]),
-    step: &Step,
+    (step, step_coordinates): (&[Six], &[f64]),
 ) -> [f64; 2] {
     let [mut constant, mut linear] = [0.0; 2];
-    for (i, d) in step.motions.iter().enumerate() {
+    for (i, d) in step.iter().enumerate() {
         let body = &graph.bodies[i];
         constant += d.dot(&(body.times(&motions[i]) - graph.wrenches[i]));
         linear += d.dot(&body.times(d));
     }
-    for (k, d) in step.coordinates.iter().enumerate() {
+    for (k, d) in step_coordinates.iter().enumerate() {
         constant += d * (graph.rotors[k] * coordinates[k] - graph.efforts[k]);
         linear += d * d * graph.rotors[k];
     }

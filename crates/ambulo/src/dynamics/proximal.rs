@@ -43,11 +43,11 @@
 
 use super::block::Six;
 use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
-use super::curvature::{Curvature, GroupRows, Proximal, diagonal};
+use super::curvature::{Curvature, Proximal, add_group, diagonal};
 use super::departure::{BestIterate, stiffness};
 use super::elimination::Offsets;
 use super::mixing::AndersonMixing;
-use super::problem::{Problem, Step, inertial_slope, lowest};
+use super::problem::{Problem, inertial_slope, lowest};
 use super::relaxed::{self, RelaxedWorkspace};
 
 /// Factor by which ρ is raised if departures fall too slowly, and its limit. At 1e9 times A, nine digits of a step are lost, which
@@ -84,7 +84,8 @@ pub(super) struct NewtonWorkspace {
     mixing: AndersonMixing,
     curvature: Vec<Curvature>,
     factored: Vec<Curvature>,
-    step: Step,
+    step: Vec<Six>,
+    step_coordinates: Vec<f64>,
     /// λ during a line search.
     trial: Vec<f64>,
     /// The last forces that satisfied (2).
@@ -113,7 +114,8 @@ impl NewtonWorkspace {
         self.curvature.resize(graph.groups.len(), Curvature::Diagonal([0.0; 6]));
         self.factored.clone_from(&self.curvature);
         self.mixing.forget();
-        self.step.resize(graph);
+        self.step.resize(graph.bodies.len(), Six::zeros());
+        self.step_coordinates.resize(graph.efforts.len(), 0.0);
     }
 }
 
@@ -153,8 +155,7 @@ pub(super) fn project(
 /// r - J (A + Jᵀ H J)⁻¹ Jᵀ H r. Inactive and compliant rows become zero.
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, rows: &mut [f64]) {
     let graph = problem.graph;
-    let NewtonWorkspace { factored, trial, step, .. } = workspace;
-    let Step { motions, coordinates } = step;
+    let NewtonWorkspace { factored, trial, step, step_coordinates, .. } = workspace;
     for _ in 0..ROUNDS {
         for (group, curvature) in graph.groups.iter().zip(&*factored) {
             let start = group.rows.start;
@@ -168,23 +169,16 @@ pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut NewtonWor
                 trial[row] = h * rows[row];
             }
         }
-        motions.fill(Six::zeros());
-        coordinates.fill(0.0);
-        graph.push(trial, motions, coordinates);
-        problem.elimination.solve(&graph.terms, Offsets::None, motions, coordinates, problem.factors);
+        step.fill(Six::zeros());
+        step_coordinates.fill(0.0);
+        graph.push(trial, step, step_coordinates);
+        problem.elimination.solve(&graph.terms, Offsets::None, step, step_coordinates, problem.factors);
         for group in &graph.groups {
             for row in group.rows.clone() {
-                rows[row] -= if trial[row] == 0.0 { 0.0 } else { graph.reading(group, row, motions, coordinates) };
+                rows[row] -= if trial[row] == 0.0 { 0.0 } else { graph.reading(group, row, step, step_coordinates) };
             }
         }
     }
-}
-
-/// Whether the rounds converge steadily, so that radii can be extrapolated.
-#[derive(Debug, Clone, Copy)]
-enum Pace {
-    Steady,
-    Unsteady,
 }
 
 struct Newton<'p, 'a> {
@@ -202,114 +196,135 @@ struct Newton<'p, 'a> {
 impl Newton<'_, '_> {
     /// Solves the problem: initial guess, first solve, Newton steps, and the convex problem if these fail.
     fn run(&mut self, solution: &mut GraphSolution) {
-        solution.convergence = Convergence::default();
-        self.w.before.clone_from(&solution.lambda);
+        let GraphSolution { motions, coordinates, lambda, convergence } = solution;
+        *convergence = Convergence::default();
+        self.w.before.clear();
+        self.w.before.extend_from_slice(lambda);
         self.w.best.forget();
-        self.guess(&solution.lambda);
-        self.factor(&mut solution.convergence);
-        self.first_solve(solution);
-        solution.convergence.iterations = 1;
+        self.guess(lambda);
+        self.factor(convergence);
+        self.first_solve(motions, coordinates, lambda);
+        convergence.iterations = 1;
         if self.graph.rows.is_empty() {
-            solution.convergence.converged = true;
+            convergence.converged = true;
             return;
         }
         if !self.slips() {
-            self.approach(solution);
-            solution.convergence.iterations = 2;
+            self.approach(motions, coordinates, lambda);
+            convergence.iterations = 2;
         }
-        if !self.iterate(solution, self.problem.settings.max_iterations) {
-            self.accept_nearest(solution);
+        if !self.iterate(motions, coordinates, lambda, convergence, self.problem.settings.max_iterations) {
+            self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
             // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops, and would be
             // moved far to correct little.
             self.rho = self.plain;
-            self.guess(&solution.lambda);
-            self.factor(&mut solution.convergence);
+            self.guess(lambda);
+            self.factor(convergence);
         }
     }
 
     /// Newton steps from a motion and forces that satisfy (2); returns whether all laws are satisfied.
-    fn iterate(&mut self, solution: &mut GraphSolution, most: usize) -> bool {
-        let tolerance = self.problem.settings.tolerance;
+    fn iterate(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+        most: usize,
+    ) -> bool {
+        let settings = self.problem.settings;
         let (mut whole, mut last) = (true, f64::INFINITY);
         loop {
-            self.problem.departures.read(self.graph, &solution.motions, &solution.coordinates);
-            let lawful = self.problem.departures.settle(self.graph, tolerance, solution);
-            if whole && lawful && self.rounding <= tolerance * self.problem.departures.scale {
+            self.problem.departures.read(self.graph, motions, coordinates);
+            let lawful = self.problem.departures.settle(self.graph, lambda, settings.tolerance, convergence);
+            if whole && lawful && self.rounding <= settings.tolerance * self.problem.departures.scale {
                 return true;
             }
-            let last_round = solution.convergence.iterations >= most;
-            if whole && (solution.convergence.iterations >= PATIENCE || last_round) {
-                self.w.best.keep(solution, &solution.lambda);
+            let last_round = convergence.iterations >= most;
+            if whole && (convergence.iterations >= PATIENCE || last_round) {
+                self.w.best.keep(motions, coordinates, lambda, convergence);
             }
             if whole {
-                self.update_radii(&solution.lambda);
-                self.w.trial.copy_from_slice(&solution.lambda);
-                self.w.met.clone_from(&solution.lambda);
+                self.update_radii(lambda);
+                self.w.trial.copy_from_slice(lambda);
+                self.w.met.clear();
+                self.w.met.extend_from_slice(lambda);
             }
-            self.evaluate(&mut solution.lambda);
-            let alike = self.alike(&solution.lambda);
+            self.evaluate(lambda);
+            let alike = self.alike(lambda);
             if last_round {
                 return false;
             }
             if whole && alike {
                 let before = last;
-                let residual = solution.convergence.residual;
-                if !lawful && self.stuck(residual, &mut last) {
+                if !lawful && self.stuck(convergence.residual, &mut last) {
                     let NewtonWorkspace { best, met, .. } = &mut *self.w;
-                    best.keep(solution, met);
+                    best.keep(motions, coordinates, met, convergence);
                     return false;
                 }
-                let pace = if residual < STEADY * before { Pace::Steady } else { Pace::Unsteady };
-                self.recenter(&mut solution.lambda, pace);
+                self.recenter(lambda, convergence.residual < STEADY * before);
             } else if !alike {
                 self.w.mixing.forget();
                 last = f64::INFINITY;
             }
             if self.w.curvature != self.w.factored {
-                self.factor(&mut solution.convergence);
+                self.factor(convergence);
             }
             // Half steps damp slip directions that oscillate.
-            let oscillates = whole && self.slips() && solution.convergence.iterations >= PATIENCE;
-            whole = if whole && alike { self.full_step(solution) } else { self.searched_step(solution) };
-            if whole && oscillates {
-                self.step_back(0.5, solution);
+            let share = if whole && self.slips() && convergence.iterations >= PATIENCE { 0.5 } else { 1.0 };
+            whole = self.newton_step(motions, coordinates, lambda, whole && alike);
+            if whole && share < 1.0 {
+                self.step_back(1.0 - share, motions, coordinates, lambda);
             }
-            solution.convergence.iterations += 1;
+            convergence.iterations += 1;
         }
     }
 
     /// Undoes a share of the last full step, and of its change of the forces that satisfy (2).
-    fn step_back(&self, share: f64, solution: &mut GraphSolution) {
-        self.w.step.add_to(-share, &mut solution.motions, &mut solution.coordinates);
-        for (force, met) in solution.lambda.iter_mut().zip(&self.w.met) {
+    fn step_back(&self, share: f64, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
+        for (a, step) in motions.iter_mut().zip(&self.w.step) {
+            a.axpy(-share, step, 1.0);
+        }
+        for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
+            *q -= share * step;
+        }
+        for (force, met) in lambda.iter_mut().zip(&self.w.met) {
             *force += share * (met - *force);
         }
     }
 
     /// After Newton steps that did not converge: the best iterate if it is nearly a solution, else the convex problem.
-    fn accept_nearest(&mut self, solution: &mut GraphSolution) {
+    fn accept_nearest(
+        &mut self,
+        motions: &mut Vec<Six>,
+        coordinates: &mut Vec<f64>,
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
         let slips = self.graph.groups.iter().any(|group| matches!(group.law, Law::Contact { .. }));
         if slips && self.w.best.residual() > NEARLY {
-            relaxed::solve(self.problem, &mut self.w.relaxed, solution);
-            self.w.best.keep(solution, &solution.lambda);
+            relaxed::solve(self.problem, &mut self.w.relaxed, motions, coordinates, lambda, convergence);
+            self.w.best.keep(motions, coordinates, lambda, convergence);
             // Newton steps may converge from there.
             self.rho = self.plain;
-            self.guess(&solution.lambda);
-            self.factor(&mut solution.convergence);
-            self.w.center.copy_from_slice(&solution.lambda);
+            self.guess(lambda);
+            self.factor(convergence);
+            self.w.center.copy_from_slice(lambda);
             self.w.mixing.forget();
-            let most = solution.convergence.iterations + POLISH;
-            if self.iterate(solution, most) {
+            let most = convergence.iterations + POLISH;
+            if self.iterate(motions, coordinates, lambda, convergence, most) {
                 return;
             }
+            convergence.residual = f64::INFINITY;
+        } else {
+            convergence.residual = f64::INFINITY;
         }
-        solution.convergence.residual = f64::INFINITY;
-        self.w.best.restore(solution);
+        self.w.best.restore(motions, coordinates, lambda, convergence);
         // Displacements are projected on the rows that are active now.
-        self.guess(&solution.lambda);
-        self.factor(&mut solution.convergence);
+        self.guess(lambda);
+        self.factor(convergence);
     }
 
     /// One round with the active set of the guess: small forces next to large ones are inaccurate after the first solve, and would be
@@ -317,8 +332,7 @@ impl Newton<'_, '_> {
     ///
     /// If forces are not unique, the first solve gives the least-squares forces, which may lie outside their cones although others do
     /// not. λ° is therefore moved from the guess towards them only as far as all cones allow.
-    fn approach(&mut self, solution: &mut GraphSolution) {
-        let GraphSolution { motions, coordinates, lambda, .. } = &mut *solution;
+    fn approach(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
         let share = self.share_of_least_squares(lambda);
         self.problem.departures.read(self.graph, motions, coordinates);
         let NewtonWorkspace { before, center, factored, .. } = &mut *self.w;
@@ -340,7 +354,7 @@ impl Newton<'_, '_> {
         for (group, curvature) in self.graph.groups.iter().zip(&*factored) {
             law.hold(group, &self.problem.departures.u, curvature, lambda);
         }
-        self.full_step(solution);
+        self.newton_step(motions, coordinates, lambda, true);
     }
 
     /// The largest share (at most 1) of the way from the guess to `lambda` on which no sticking contact leaves its cone.
@@ -407,8 +421,7 @@ impl Newton<'_, '_> {
         self.problem.begin();
         let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
         for (number, group) in graph.groups.iter().enumerate() {
-            let rows = GroupRows { graph, group, block: blocks[number] };
-            rows.add_curvature(elimination, &self.w.curvature[number], factors);
+            add_group(graph, elimination, group, &self.w.curvature[number], blocks[number], factors);
         }
         self.w.factored.clone_from(&self.w.curvature);
         elimination.factor(&graph.terms, factors);
@@ -416,8 +429,7 @@ impl Newton<'_, '_> {
 
     /// The first solve, without an earlier motion: right side b + Jᵀ (H c) with the friction of slipping contacts, then
     /// λ = H c - H J a.
-    fn first_solve(&mut self, solution: &mut GraphSolution) {
-        let GraphSolution { motions, coordinates, lambda, .. } = solution;
+    fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
         motions.clone_from(&self.graph.wrenches);
         coordinates.clone_from(&self.graph.efforts);
         for (number, group) in self.graph.groups.iter().enumerate() {
@@ -507,7 +519,7 @@ impl Newton<'_, '_> {
 
     /// Starts the next round: λ° := the forces that satisfy (2) (`trial`), radii of slipping contacts extrapolated from the last
     /// rounds, and λ and H for both at the same motion with the same active set.
-    fn recenter(&mut self, lambda: &mut [f64], pace: Pace) {
+    fn recenter(&mut self, lambda: &mut [f64], steady: bool) {
         let slips = self.slips();
         let NewtonWorkspace { mixing, last_radius, radius, center, trial, curvature, .. } = &mut *self.w;
         center.copy_from_slice(trial);
@@ -517,9 +529,10 @@ impl Newton<'_, '_> {
                     (last_radius[number], radius[number]) = (0.0, 0.0);
                 }
             }
-            match pace {
-                Pace::Steady => mixing.mix(last_radius, radius),
-                Pace::Unsteady => mixing.forget(),
+            if steady {
+                mixing.mix(last_radius, radius);
+            } else {
+                mixing.forget();
             }
             for (number, group) in self.graph.groups.iter().enumerate() {
                 if let Law::Contact { friction, .. } = group.law {
@@ -554,47 +567,55 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Adds the full Newton step Δ to the motion, after which (2) holds; returns true.
-    fn full_step(&mut self, solution: &mut GraphSolution) -> bool {
-        self.find_step(solution);
-        self.take_step(1.0, solution)
-    }
-
     /// Adds the Newton step Δ, shortened by a line search, to the motion. Returns whether the step was full, so that (2) holds.
-    fn searched_step(&mut self, solution: &mut GraphSolution) -> bool {
-        self.find_step(solution);
+    fn newton_step(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        recentered: bool,
+    ) -> bool {
+        let NewtonWorkspace { step, step_coordinates, .. } = &mut *self.w;
+        for ((r, body), (b, a)) in
+            step.iter_mut().zip(&self.graph.bodies).zip(self.graph.wrenches.iter().zip(motions.iter()))
+        {
+            *r = b - body.times(a);
+        }
+        for ((r, effort), (rotor, q)) in
+            step_coordinates.iter_mut().zip(&self.graph.efforts).zip(self.graph.rotors.iter().zip(coordinates.iter()))
+        {
+            *r = effort - rotor * q;
+        }
+        self.graph.push(lambda, step, step_coordinates);
+        let Problem { elimination, factors, .. } = &*self.problem;
+        elimination.solve(&self.graph.terms, Offsets::None, step, step_coordinates, factors);
+        let (step, step_coordinates) = (std::mem::take(&mut self.w.step), std::mem::take(&mut self.w.step_coordinates));
+        self.read_change(&step, &step_coordinates);
+        (self.w.step, self.w.step_coordinates) = (step, step_coordinates);
         // A step below the tolerance is taken in full: the line search would only see rounding.
         let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let small = largest <= self.problem.settings.tolerance * self.problem.departures.scale;
-        let length = if small { 1.0 } else { self.step_length(solution) };
-        self.take_step(length, solution)
-    }
-
-    /// Computes Δ and J Δ.
-    fn find_step(&mut self, solution: &GraphSolution) {
-        let GraphSolution { motions, coordinates, lambda, .. } = solution;
-        let mut step = std::mem::take(&mut self.w.step);
-        step.solve(self.problem, (motions, coordinates), lambda);
-        self.read_change(&step.motions, &step.coordinates);
-        self.w.step = step;
-    }
-
-    fn take_step(&self, length: f64, solution: &mut GraphSolution) -> bool {
-        self.w.step.add_to(length, &mut solution.motions, &mut solution.coordinates);
+        let length = if recentered || small { 1.0 } else { self.step_length(motions, coordinates, lambda) };
+        for (a, step) in motions.iter_mut().zip(&self.w.step) {
+            a.axpy(length, step, 1.0);
+        }
+        for (q, step) in coordinates.iter_mut().zip(&self.w.step_coordinates) {
+            *q += length * step;
+        }
         let whole = length >= 1.0;
         if whole {
-            self.follow(&mut solution.lambda);
+            self.follow(lambda);
         }
         whole
     }
 
     /// Length of the step that minimises φ along Δ.
-    fn step_length(&mut self, solution: &GraphSolution) -> f64 {
+    fn step_length(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64]) -> f64 {
         if self.graph.groups.iter().all(|g| g.law == Law::EQUALITY) {
             return 1.0;
         }
-        let GraphSolution { motions, coordinates, lambda, .. } = solution;
-        let inertial = inertial_slope(self.graph, (motions, coordinates), &self.w.step);
+        let step = (&self.w.step[..], &self.w.step_coordinates[..]);
+        let inertial = inertial_slope(self.graph, (motions, coordinates), step);
         let NewtonWorkspace { trial, change, radius, center, .. } = &mut *self.w;
         let (graph, departures) = (self.graph, &self.problem.departures);
         let map = Proximal { graph, rho: self.rho, center };

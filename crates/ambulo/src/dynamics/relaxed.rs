@@ -15,11 +15,10 @@
 //! Pinned by: tests/constraint_graph.rs, tests/simulation_robustness.rs
 
 use super::block::Six;
-use super::constraint::{ActsOn, ConstraintGroup, Convergence, GraphSolution, Law};
-use super::curvature::GroupRows;
+use super::constraint::{ActsOn, ConstraintGroup, Convergence, Law};
 use super::departure::stiffness;
 use super::elimination::Offsets;
-use super::problem::{Problem, Step, inertial_slope, lowest};
+use super::problem::{Problem, inertial_slope, lowest};
 use crate::contact::project_onto_cone;
 
 /// ρ relative to Newton's method: more rounds, but longer steps between cones.
@@ -43,7 +42,8 @@ pub(super) struct RelaxedWorkspace {
     trial: Vec<f64>,
     change: Vec<f64>,
     slopes: Vec<Slope>,
-    step: Step,
+    step: Vec<Six>,
+    step_coordinates: Vec<f64>,
 }
 
 /// H = -∂λ/∂u of a group.
@@ -54,16 +54,24 @@ enum Slope {
 }
 
 /// Solves the relaxed problem and replaces motion and forces by its solution.
-pub(super) fn solve(problem: &mut Problem<'_>, w: &mut RelaxedWorkspace, solution: &mut GraphSolution) {
+pub(super) fn solve(
+    problem: &mut Problem<'_>,
+    w: &mut RelaxedWorkspace,
+    motions: &mut Vec<Six>,
+    coordinates: &mut Vec<f64>,
+    lambda: &mut [f64],
+    convergence: &mut Convergence,
+) {
     let rho = SOFTER * stiffness(&problem.departures.mobility);
     w.begin(problem);
-    Relaxed { problem, w, rho }.run(solution);
-    solution.lambda.copy_from_slice(&w.met);
+    Relaxed { problem, w, rho }.run(motions, coordinates, convergence);
+    lambda.copy_from_slice(&w.met);
     for group in &problem.graph.groups {
-        confine(group, &mut solution.lambda);
+        confine(group, lambda);
     }
-    problem.departures.read(problem.graph, &solution.motions, &solution.coordinates);
-    problem.departures.settle(problem.graph, problem.settings.tolerance, solution);
+    problem.departures.read(problem.graph, motions, coordinates);
+    let tolerance = problem.settings.tolerance;
+    problem.departures.settle(problem.graph, lambda, tolerance, convergence);
 }
 
 impl RelaxedWorkspace {
@@ -77,7 +85,8 @@ impl RelaxedWorkspace {
         self.shift.resize(graph.groups.len(), 0.0);
         self.slopes.clear();
         self.slopes.resize(graph.groups.len(), Slope::Diagonal([0.0; 6]));
-        self.step.resize(graph);
+        self.step.resize(graph.bodies.len(), Six::zeros());
+        self.step_coordinates.resize(graph.efforts.len(), 0.0);
     }
 }
 
@@ -88,8 +97,7 @@ struct Relaxed<'p, 'a> {
 }
 
 impl Relaxed<'_, '_> {
-    fn run(&mut self, solution: &mut GraphSolution) {
-        let GraphSolution { motions, coordinates, convergence, .. } = solution;
+    fn run(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, convergence: &mut Convergence) {
         let graph = self.problem.graph;
         self.factor(convergence);
         motions.clone_from(&graph.wrenches);
@@ -138,8 +146,7 @@ impl Relaxed<'_, '_> {
         let u = &self.problem.departures.u;
         for (number, group) in graph.groups.iter().enumerate() {
             let compliance = graph.rows[group.rows.start].compliance;
-            let law = RelaxedLaw { rho: self.rho, compliance, shift: shift[number], center };
-            slopes[number] = law.project(group, |row| u[row], lambda);
+            slopes[number] = law(group, self.rho, compliance, shift[number], center, |row| u[row], lambda);
         }
     }
 
@@ -150,12 +157,27 @@ impl Relaxed<'_, '_> {
         let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
         for (number, group) in graph.groups.iter().enumerate() {
             let slope = &self.w.slopes[number];
-            if let (ActsOn::Coordinate { body, coordinate }, Slope::Diagonal(h)) = (group.on, slope) {
-                factors.add_to_coordinate(elimination, coordinate, body, h[0]);
-            }
-            let (rows, count) = (GroupRows { graph, group, block: blocks[number] }, group.rows.len());
-            for (m, n) in (0..count).flat_map(|m| (0..count).map(move |n| (m, n))) {
-                rows.add([m, n], slope.at(m, n), factors);
+            let ActsOn::Bodies { first, second } = group.on else {
+                if let (ActsOn::Coordinate { body, coordinate }, Slope::Diagonal(h)) = (group.on, slope) {
+                    factors.add_to_coordinate(elimination, coordinate, body, h[0]);
+                }
+                continue;
+            };
+            for m in 0..group.rows.len() {
+                for n in 0..group.rows.len() {
+                    let h = slope.at(m, n);
+                    if h == 0.0 {
+                        continue;
+                    }
+                    let (one, other) = (&graph.rows[group.rows.start + m], &graph.rows[group.rows.start + n]);
+                    factors.diagonal_mut(first).add_outer(&one.on_first, &other.on_first, h);
+                    if let (Some(second), Some((block, swapped))) = (second, blocks[number]) {
+                        factors.diagonal_mut(second).add_outer(&one.on_second, &other.on_second, h);
+                        let (row, column) =
+                            if swapped { (&one.on_second, &other.on_first) } else { (&one.on_first, &other.on_second) };
+                        factors.off_mut(block).add_outer(row, column, h);
+                    }
+                }
             }
         }
         elimination.factor(&graph.terms, factors);
@@ -164,16 +186,32 @@ impl Relaxed<'_, '_> {
     /// One Newton step with line search; returns the largest change of a row.
     fn advance(&mut self, motions: &mut [Six], coordinates: &mut [f64]) -> f64 {
         let graph = self.problem.graph;
-        let RelaxedWorkspace { step, lambda, change, .. } = &mut *self.w;
-        step.solve(self.problem, (motions, coordinates), lambda);
+        let RelaxedWorkspace { step, step_coordinates, lambda, change, .. } = &mut *self.w;
+        for (r, (body, (b, a))) in
+            step.iter_mut().zip(graph.bodies.iter().zip(graph.wrenches.iter().zip(motions.iter())))
+        {
+            *r = b - body.times(a);
+        }
+        for (r, (effort, (rotor, q))) in
+            step_coordinates.iter_mut().zip(graph.efforts.iter().zip(graph.rotors.iter().zip(coordinates.iter())))
+        {
+            *r = effort - rotor * q;
+        }
+        graph.push(lambda, step, step_coordinates);
+        self.problem.elimination.solve(&graph.terms, Offsets::None, step, step_coordinates, self.problem.factors);
         for group in &graph.groups {
             for row in group.rows.clone() {
-                change[row] = graph.reading(group, row, &step.motions, &step.coordinates);
+                change[row] = graph.reading(group, row, step, step_coordinates);
             }
         }
         let length = self.step_length(motions, coordinates);
-        let RelaxedWorkspace { step, lambda, change, met, slopes, .. } = &mut *self.w;
-        step.add_to(length, motions, coordinates);
+        let RelaxedWorkspace { step, step_coordinates, lambda, change, met, slopes, .. } = &mut *self.w;
+        for (a, d) in motions.iter_mut().zip(&*step) {
+            a.axpy(length, d, 1.0);
+        }
+        for (q, d) in coordinates.iter_mut().zip(&*step_coordinates) {
+            *q += length * d;
+        }
         for (group, slope) in graph.groups.iter().zip(&*slopes) {
             for (m, row) in group.rows.clone().enumerate() {
                 let fall: f64 = (0..group.rows.len()).map(|n| slope.at(m, n) * change[group.rows.start + n]).sum();
@@ -186,7 +224,8 @@ impl Relaxed<'_, '_> {
     /// Length of the step that minimises the convex function.
     fn step_length(&mut self, motions: &[Six], coordinates: &[f64]) -> f64 {
         let graph = self.problem.graph;
-        let inertial = inertial_slope(graph, (motions, coordinates), &self.w.step);
+        let step = (&self.w.step[..], &self.w.step_coordinates[..]);
+        let inertial = inertial_slope(graph, (motions, coordinates), step);
         let RelaxedWorkspace { trial, change, center, shift, lambda, .. } = &mut *self.w;
         let (rho, u) = (self.rho, &self.problem.departures.u);
         let work = |forces: &[f64]| -> f64 { forces.iter().zip(&*change).map(|(l, c)| l * c).sum() };
@@ -194,8 +233,8 @@ impl Relaxed<'_, '_> {
         let slope = |s: f64| {
             for (number, group) in graph.groups.iter().enumerate() {
                 let compliance = graph.rows[group.rows.start].compliance;
-                let law = RelaxedLaw { rho, compliance, shift: shift[number], center };
-                law.project(group, |row| u[row] + s * change[row], trial);
+                let along = |row: usize| u[row] + s * change[row];
+                law(group, rho, compliance, shift[number], center, along, trial);
             }
             inertial[0] + s * inertial[1] - work(trial)
         };
@@ -218,41 +257,36 @@ impl Slope {
     }
 }
 
-/// The map from rows u of one group to its forces.
-struct RelaxedLaw<'a> {
+/// λ and H of one group.
+fn law(
+    group: &ConstraintGroup,
     rho: f64,
     compliance: f64,
-    /// s = μ |u_t| at the guess.
     shift: f64,
-    /// λ°.
-    center: &'a [f64],
-}
-
-impl RelaxedLaw<'_> {
-    /// λ and H of the group.
-    fn project(&self, group: &ConstraintGroup, u: impl Fn(usize) -> f64, lambda: &mut [f64]) -> Slope {
-        let RelaxedLaw { rho, compliance, shift, center } = *self;
-        let start = group.rows.start;
-        let soft = 1.0 + rho * compliance;
-        match group.law {
-            Law::Bounded { least, most } => {
-                let mut h = [0.0; 6];
-                for row in group.rows.clone() {
-                    let z = (center[row] - rho * u(row)) / soft;
-                    lambda[row] = z.clamp(least, most);
-                    h[row - start] = if z > least && z < most { rho / soft } else { 0.0 };
-                }
-                Slope::Diagonal(h)
+    center: &[f64],
+    u: impl Fn(usize) -> f64,
+    lambda: &mut [f64],
+) -> Slope {
+    let start = group.rows.start;
+    let soft = 1.0 + rho * compliance;
+    match group.law {
+        Law::Bounded { least, most } => {
+            let mut h = [0.0; 6];
+            for row in group.rows.clone() {
+                let z = (center[row] - rho * u(row)) / soft;
+                lambda[row] = z.clamp(least, most);
+                h[row - start] = if z > least && z < most { rho / soft } else { 0.0 };
             }
-            Law::Contact { friction, .. } => {
-                let z = [0, 1, 2].map(|k| {
-                    let lift = if k == 0 { shift } else { 0.0 };
-                    (center[start + k] - rho * (u(start + k) + lift)) / soft
-                });
-                let nearest = project_onto_cone(z, friction);
-                lambda[start..start + 3].copy_from_slice(&nearest.force);
-                Slope::Contact(nearest.slope.map(|row| row.map(|s| s * rho / soft)))
-            }
+            Slope::Diagonal(h)
+        }
+        Law::Contact { friction, .. } => {
+            let z = [0, 1, 2].map(|k| {
+                let lift = if k == 0 { shift } else { 0.0 };
+                (center[start + k] - rho * (u(start + k) + lift)) / soft
+            });
+            let nearest = project_onto_cone(z, friction);
+            lambda[start..start + 3].copy_from_slice(&nearest.force);
+            Slope::Contact(nearest.slope.map(|row| row.map(|s| s * rho / soft)))
         }
     }
 }
