@@ -24,7 +24,7 @@ fn body(subject: &Subject) -> Calibrated {
 fn fitted(body: &Calibrated, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();
     let settings =
-        FitSettings { weights: body.weights.clone(), limits: JointLimits::Ranges, guard, ..FitSettings::default() };
+        FitSettings { weights: body.weights.clone(), limits: JointLimits::Ranges, outliers, ..FitSettings::default() };
     let fit = fit_markers(&body.human.model, markers, &settings, &mut findings).unwrap();
     (fit, findings)
 }

@@ -16,7 +16,7 @@ use marker_data::{Subject, gait2392, rajagopal};
 
 fn fitted(subject: &Subject, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();
-    let settings = FitSettings { guard, ..FitSettings::default() };
+    let settings = FitSettings { outliers, ..FitSettings::default() };
     let fit = fit_markers(&subject.model, markers, &settings, &mut findings).unwrap();
     (fit, findings)
 }
