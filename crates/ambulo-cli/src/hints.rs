@@ -27,7 +27,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
             "with markers, `--mass KG` or a standing trial on force plates (`--static`); recorded coordinates have the mass of their model"
         }
         Code::GroundPredicted => {
-            "`--grf` gives measured forces, `--plate 1=r` states the foot on plate 1, `--no-ground` computes a motion without contact"
+            "`--grf` gives measured forces, `--plate 1=r` states the foot on plate 1, `--no-ground` computes a motion without contact; `--static` is for a person who stands still"
         }
         Code::WalkNotConsistent => "`--mode paper` computes the gait as it is",
         _ => return None,
