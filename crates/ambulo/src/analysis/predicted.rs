@@ -19,7 +19,7 @@ use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
 /// Low-pass of the motion that a prediction is made from, whatever the one is that joint moments are computed with: the estimator's numbers
-/// were fitted behind it, and compare nothing above (docs/GROUND_FIT.md).
+/// were fitted behind it, and compare nothing above (docs/measured/GROUND_FIT.md).
 const MOTION_LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 
 /// Low-pass of the plates against which a prediction is held, whatever the motion's: 20 Hz, second order, forwards and backwards.
