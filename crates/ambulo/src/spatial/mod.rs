@@ -1,4 +1,4 @@
-//! Rigid-body quantities: where a body is, how it moves, what pushes it, how it resists.
+//! Quantities of rigid bodies: pose, twist, wrench and inertia.
 //!
 //! Everything is expressed in world axes unless a name says otherwise, angular part before linear.
 
@@ -10,7 +10,7 @@ pub use inertia::{Inertia, InertiaError};
 pub use pose::Pose;
 pub use wrench::{Twist, Wrench};
 
-/// Three numbers along x, y, z.
+/// A vector with components along x, y, z.
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3 x 3 matrix.
 pub type Mat3 = nalgebra::Matrix3<f64>;
