@@ -32,7 +32,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     }
     let mut trials = Vec::new();
     for recording in recording::all() {
-        match recording.load(&data).and_then(|loaded| Trial::run(&recording, &loaded)) {
+        match recording.read(&data).and_then(|source| Trial::run(&recording, &source)) {
             Ok(trial) => trials.push(trial),
             Err(reason) => return Err(format!("{}: {reason}", recording.label)),
         }
