@@ -1,7 +1,7 @@
 //! Forces behind human walking: joint moments, powers, reactions and ground forces, computed from motion.
 //!
 //! ```text
-//! files ──> formats ──> model + motion ──> kinematics ──> dynamics ──> analysis ──> Outcome
+//! files ──> formats ──> model + motion ──> kinematics ──> dynamics ──> analysis ──> study::Outcome
 //!           bytes to    body, markers,     markers to     joint        events, cycles, body mass,
 //!           records     coordinates,       coordinates    moments,     residual forces, verdict
 //!                       force plates                      ground forces
@@ -13,7 +13,7 @@
 //!
 //! | you have | start with |
 //! |---|---|
-//! | a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`analysis::analyse`], [`analysis::body_in_motion`] |
+//! | a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`study::run`] |
 //! | coordinates as arrays | [`dynamics::inverse`] |
 //! | an OpenSim model | [`Model::from_osim`](model::Model::from_osim) |
 //! | a motion without force plates | [`ground::predict`] |
@@ -30,24 +30,20 @@
 //! Coordinates of an OpenSim model, with the forces of force plates:
 //!
 //! ```no_run
-//! use ambulo::analysis::{Settings, analyse};
-//! use ambulo::findings::Findings;
 //! use ambulo::formats::{external_loads::ExternalLoads, table::Table};
-//! use ambulo::model::Model;
-//! use ambulo::motion::{Smoother, Window, coordinates_from_table, filter::LowPass, force_recordings};
+//! use ambulo::study::{self, ForceTable, MeasuredForces, Settings, Source};
+//! use ambulo::{findings::Findings, model::Model, motion::coordinates_from_table};
 //!
 //! let mut findings = Findings::default();
 //! let model = Model::from_osim(&std::fs::read("subject.osim")?, &mut findings)?;
-//! let (walk, _) = Table::read_storage(&std::fs::read("walk.mot")?)?;
+//! let walk = Table::read_storage(&std::fs::read("walk.mot")?)?.0;
 //! let motion = coordinates_from_table(&model, &walk, "walk.mot", &mut findings)?;
-//! let (table, _) = Table::read_storage(&std::fs::read("grf.mot")?)?;
-//! let (loads, _) = ExternalLoads::read(&std::fs::read("grf.xml")?)?;
-//! let forces = force_recordings(&model, &loads, &table, &mut findings)?;
-//! let filter = LowPass { order: 3, cutoff_hz: 6.0 };
-//! let (smoother, force_filter) = (Smoother::Butterworth(filter), Some(filter));
-//! let settings = Settings { smoother, force_filter, window: Window::default(), rate_hz: None, instrumented: None };
-//! let analysis = analyse(&model, &motion, &forces, settings, &mut findings, &mut |_| ())?;
-//! println!("body mass {:.1} kg", analysis.mass.kg);
+//! let table = Table::read_storage(&std::fs::read("grf.mot")?)?.0;
+//! let loads = Some(ExternalLoads::read(&std::fs::read("grf.xml")?)?.0);
+//! let forces = MeasuredForces::Table(ForceTable { table, loads });
+//! let source = Source::coordinates(model, motion).with_forces(forces);
+//! let outcome = study::run(&source, &Settings::default(), &mut findings)?;
+//! println!("feasible: {}, body mass {:.1} kg", outcome.verdict.feasible, outcome.analysis.mass.kg);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

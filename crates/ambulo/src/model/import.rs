@@ -119,14 +119,6 @@ pub enum OsimError {
     Model(#[from] ImportError),
 }
 
-/// The model of an `.osim` file; the same as [`Model::from_osim`].
-///
-/// # Errors
-/// As [`Model::from_osim`].
-pub fn from_osim_bytes(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {
-    Model::from_osim(bytes, findings)
-}
-
 impl Model {
     /// Reads an OpenSim model (`.osim`).
     ///
