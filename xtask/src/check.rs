@@ -1,10 +1,9 @@
-//! What CI runs, in order, up to the first failure: `cargo xtask check`.
+//! What CI runs, in order, up to the first failure: `cargo xtask check`; with `--full` everything that takes longer, too.
 //!
-//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so each can be run alone while something is
-//! mended. Without npm or Chromium the viewer's steps are skipped, and it is said; where `CI` is set that is a failure.
+//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so you can repeat a failed step alone. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
 
 use crate::workspace;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -13,8 +12,12 @@ use std::time::Instant;
 enum Tool {
     /// In the root of the workspace.
     Cargo,
+    /// The same, for the target `WASM`.
+    CargoForWasm,
     /// In `viewer/`.
     Npm,
+    /// This program.
+    Xtask,
 }
 
 /// One command.
@@ -28,7 +31,10 @@ struct Step {
     hint: &'static str,
 }
 
-const STEPS: [Step; 7] = [
+/// The 32-bit target that the library is built for, so that it can run in a browser.
+const WASM: &str = "wasm32-unknown-unknown";
+
+const STEPS: [Step; 9] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -44,6 +50,13 @@ const STEPS: [Step; 7] = [
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
     },
     Step {
+        name: "house",
+        tool: Tool::Xtask,
+        arguments: &["house"],
+        variable: None,
+        hint: "`cargo xtask house` repeats this step",
+    },
+    Step {
         name: "tests",
         tool: Tool::Cargo,
         // What a test measured or skipped is worth seeing when it passes, too.
@@ -57,6 +70,13 @@ const STEPS: [Step; 7] = [
         arguments: &["doc", "--workspace", "--no-deps", "--locked"],
         variable: Some(("RUSTDOCFLAGS", "-D warnings")),
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
+    },
+    Step {
+        name: "32-bit target",
+        tool: Tool::CargoForWasm,
+        arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
+        variable: None,
+        hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
     },
     Step {
         name: "viewer's packages",
@@ -81,18 +101,49 @@ const STEPS: [Step; 7] = [
     },
 ];
 
+/// Steps of `--full`, after the others.
+const LONG_STEPS: [Step; 3] = [
+    Step {
+        name: "fuzz corpus",
+        tool: Tool::Cargo,
+        arguments: &["run", "--manifest-path", "fuzz/Cargo.toml", "--no-default-features", "--example", "replay"],
+        variable: None,
+        hint: "the last file that is printed is the one that fails",
+    },
+    Step {
+        name: "sweep",
+        tool: Tool::Xtask,
+        arguments: &["sweep"],
+        variable: None,
+        hint: "each line above is a command that failed and what it printed last",
+    },
+    Step {
+        name: "benchmark",
+        tool: Tool::Xtask,
+        arguments: &["bench"],
+        variable: None,
+        hint: "`cargo xtask bench` repeats this step",
+    },
+];
+
 /// Runs the steps. The error names the step that failed and what to do.
 #[expect(clippy::print_stdout, reason = "the steps and their times are the command's result")]
-pub(crate) fn run() -> Result<(), String> {
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let long: &[Step] = match words {
+        [] => &[],
+        [option] if option == "--full" => &LONG_STEPS,
+        _ => return Err("usage: cargo xtask check [--full]".to_owned()),
+    };
+    let steps: Vec<&Step> = STEPS.iter().chain(long).collect();
     let start = Instant::now();
-    let lacking = lacking();
-    if let (Some(lacking), true) = (lacking, std::env::var_os("CI").is_some()) {
-        return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
+    let lacking: Vec<Option<&str>> = steps.iter().map(|step| step.tool.lacking()).collect();
+    if std::env::var_os("CI").is_some() {
+        all_present(&lacking)?;
     }
-    for (i, step) in STEPS.iter().enumerate() {
-        let head = format!("[{}/{}] {}", i + 1, STEPS.len(), step.name);
-        if let (Tool::Npm, Some(lacking)) = (step.tool, lacking) {
-            println!("{head}: skipped: no {lacking}");
+    for (i, (step, lacking)) in steps.iter().zip(lacking).enumerate() {
+        let head = format!("[{}/{}] {}", i + 1, steps.len(), step.name);
+        if let Some(lacking) = lacking {
+            println!("{head}: skipped: {lacking} is not installed");
             continue;
         }
         println!("{head}: {} {}", step.tool.word(), step.arguments.join(" "));
@@ -100,27 +151,57 @@ pub(crate) fn run() -> Result<(), String> {
         run_step(step)?;
         println!("{head}: {:.1} s", step_start.elapsed().as_secs_f64());
     }
-    println!("all {} steps passed or skipped in {:.1} s", STEPS.len(), start.elapsed().as_secs_f64());
+    println!("all {} steps passed or skipped in {:.1} s", steps.len(), start.elapsed().as_secs_f64());
     Ok(())
 }
 
-/// What the viewer's steps need and the machine has not.
-fn lacking() -> Option<&'static str> {
-    let starts = |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    ["npm", "chromium"].into_iter().find(|name| !starts(name))
+/// An error if CI would skip a step or the tests that need recordings.
+fn all_present(lacking: &[Option<&str>]) -> Result<(), String> {
+    if let Some(lacking) = lacking.iter().flatten().next() {
+        return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
+    }
+    let data = workspace::data().join("data");
+    if data.is_dir() {
+        return Ok(());
+    }
+    let data = data.display();
+    Err(format!(
+        "{data}: no recordings, and in CI no test may be skipped\nhint: set AMBULO_DATA to the folder with `data`"
+    ))
+}
+
+/// Whether the compiler has the standard library of the target `WASM`.
+fn has_wasm_target() -> bool {
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WASM]).output();
+    output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
 impl Tool {
+    /// What a step needs and the machine does not have.
+    fn lacking(self) -> Option<&'static str> {
+        let starts =
+            |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+        match self {
+            Tool::Cargo | Tool::Xtask => None,
+            Tool::CargoForWasm => {
+                (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
+            }
+            Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
+        }
+    }
+
     fn word(self) -> &'static str {
         match self {
-            Tool::Cargo => "cargo",
+            Tool::Cargo | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
+            Tool::Xtask => "cargo xtask",
         }
     }
 
     fn command(self) -> Command {
         match self {
-            Tool::Cargo => workspace::cargo(),
+            Tool::Cargo | Tool::CargoForWasm => workspace::cargo(),
+            Tool::Xtask => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());

@@ -3,7 +3,7 @@
 mod args;
 mod commands;
 mod files;
-mod laboratory_file;
+mod hints;
 mod printer;
 
 use args::{Args, Command};

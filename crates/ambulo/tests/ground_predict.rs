@@ -149,7 +149,7 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     }
     let footless = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
     let error = refused(&footless, &soles, &PredictSettings::default());
-    assert!(error.to_string().contains("horse") && error.to_string().contains("--no-ground"), "{error}");
+    assert!(error.to_string().contains("horse") && error.to_string().contains("expected feet"), "{error}");
 }
 
 #[test]

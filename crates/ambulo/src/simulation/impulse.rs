@@ -19,12 +19,11 @@ use super::workspace::{StepSettings, StepWorkspace};
 use super::world::{ImpactLaw, TreeJoint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
 use crate::findings::{Code, Findings};
+use crate::spatial::STANDARD_GRAVITY;
 
 /// A force beyond this many times the total weight is a sign of contradictory constraints: drives without a limit give way
 /// there, and no force is larger where the solver fails.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
-/// Gravity for that comparison where a world has less [m/s²].
-const STANDARD_GRAVITY: f64 = 9.80665;
 /// A residual above this means contradictory constraints; below, slow convergence, as in stretched loops.
 const CONTRADICTION: f64 = 1e-6;
 

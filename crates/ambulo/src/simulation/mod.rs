@@ -47,7 +47,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! docs/SIMULATION.md explains the method; docs/BENCHMARKS.md lists measured speed and accuracy.
+//! docs/SIMULATION.md explains the method; docs/measured/BENCHMARKS.md lists measured speed and accuracy.
 
 mod check;
 mod energy;

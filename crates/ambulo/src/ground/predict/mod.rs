@@ -122,7 +122,7 @@ pub struct PredictSettings {
 pub enum PredictError {
     /// A model without feet.
     #[error(
-        "the model `{model}` has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l; expected feet for the ground to act on. hint: --no-ground computes a motion without contact, --grf gives measured forces"
+        "the model `{model}` has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l; expected feet for the ground to act on"
     )]
     NoFeet {
         /// Its name.
@@ -130,7 +130,7 @@ pub enum PredictError {
     },
     /// A foot without a sole.
     #[error(
-        "the {side} sole of the model `{model}` is not known: it has no body calcn_{letter} below a coordinate ankle_angle_{letter}; expected both feet. hint: --no-ground computes a motion without contact, --grf gives measured forces", letter = side.letter()
+        "the {side} sole of the model `{model}` is not known: it has no body calcn_{letter} below a coordinate ankle_angle_{letter}; expected both feet", letter = side.letter()
     )]
     NoSole {
         /// Its name.
@@ -149,9 +149,7 @@ pub enum PredictError {
         mass: f64,
     },
     /// A model that nothing presses to the ground.
-    #[error(
-        "the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1. hint: --no-ground computes a motion without contact"
-    )]
+    #[error("the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1")]
     NoGravity {
         /// Its name.
         model: String,
@@ -166,7 +164,7 @@ pub enum PredictError {
     },
     /// More than memory should hold.
     #[error(
-        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: cut the recording with --from and --to; feet that strike many times a second are a sign of noise"
+        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a shorter range; feet that strike many times per second are a sign of noise"
     )]
     TooLarge {
         /// What they would take.

@@ -66,7 +66,7 @@ fn correction_report(
     let allowed = [LARGEST_RESIDUAL[0] * weight, LARGEST_RESIDUAL[1] * weight * human.dimensions.leg_length];
     if residual[0].rms > allowed[0] || residual[1].rms > allowed[1] {
         let message = format!(
-            "no small change makes this gait dynamically consistent: a residual force of {:.1} N and a residual moment of {:.1} N.m (rms) remain at the root; expected at most {:.1} N and {:.1} N.m. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style, or the mode of the 1997 paper",
+            "no small change makes this gait dynamically consistent: a residual force of {:.1} N and a residual moment of {:.1} N.m (rms) remain at the root; expected at most {:.1} N and {:.1} N.m. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style",
             residual[0].rms, residual[1].rms, allowed[0], allowed[1]
         );
         findings.report(Code::WalkNotConsistent, message);

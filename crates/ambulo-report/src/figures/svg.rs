@@ -1,0 +1,256 @@
+//! Writes SVG: lines, areas and text as text, in points (1/72 inch), with the size of the drawing in millimetres.
+//!
+//! Coordinates keep two decimals, dashes are attributes and panels are groups, so that a figure can be scaled, edited and searched.
+
+use std::fmt::Write as _;
+
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
+
+/// Millimetres in points.
+pub(super) fn points(mm: f64) -> f64 {
+    mm * POINTS_PER_MM
+}
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stroke<'a> {
+    pub(super) color: &'a str,
+    pub(super) width: f64,
+    pub(super) opacity: f64,
+    /// Lengths of dashes and gaps [pt].
+    pub(super) dash: &'a [f64],
+}
+
+impl<'a> Stroke<'a> {
+    pub(super) fn solid(color: &'a str, width: f64) -> Stroke<'a> {
+        Stroke { color, width, opacity: 1.0, dash: &[] }
+    }
+}
+
+/// Where a text's point lies in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a text is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Letters<'a> {
+    pub(super) size: f64,
+    pub(super) color: &'a str,
+    pub(super) anchor: Anchor,
+    pub(super) bold: bool,
+    /// Turned to read upwards.
+    pub(super) upwards: bool,
+}
+
+impl<'a> Letters<'a> {
+    pub(super) fn plain(size: f64, color: &'a str, anchor: Anchor) -> Letters<'a> {
+        Letters { size, color, anchor, bold: false, upwards: false }
+    }
+}
+
+/// Width of a text [pt], estimated: letters of Arial are 0.5 em wide on average, small ones and blanks less.
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    let of = |letter: char| match letter {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.25,
+        ' ' | 'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '·' => 0.32,
+        'm' | 'w' | 'M' | 'W' | '%' | '→' | '←' => 0.88,
+        letter if letter.is_uppercase() => 0.69,
+        _ => 0.56,
+    };
+    text.chars().map(of).sum::<f64>() * size
+}
+
+/// A drawing in the making.
+#[derive(Debug, Clone)]
+pub(super) struct Drawing {
+    width: f64,
+    family: String,
+    body: String,
+}
+
+impl Drawing {
+    /// An empty drawing of a width [pt] with a family of letters.
+    pub(super) fn new(width: f64, family: &str) -> Drawing {
+        Drawing { width, family: family.to_owned(), body: String::new() }
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Opens a group; `attributes` are names and values, escaped here.
+    pub(super) fn open(&mut self, title: &str, attributes: &[(&str, String)]) {
+        self.put("<g");
+        self.attributes(attributes);
+        self.put(">");
+        if !title.is_empty() {
+            let title = escaped(title);
+            self.write(format_args!("<title>{title}</title>"));
+        }
+        self.put("\n");
+    }
+
+    pub(super) fn close(&mut self) {
+        self.put("</g>\n");
+    }
+
+    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], stroke: Stroke<'_>) {
+        let ([x1, y1], [x2, y2]) = (from.map(short), to.map(short));
+        self.write(format_args!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\""));
+        self.stroke(stroke);
+        self.put("/>\n");
+    }
+
+    /// A line through points; it breaks where a point is no number.
+    pub(super) fn polyline(&mut self, points: &[[f64; 2]], stroke: Stroke<'_>, attributes: &[(&str, String)]) {
+        for part in points.split(|[x, y]| !(x.is_finite() && y.is_finite())).filter(|part| part.len() > 1) {
+            self.put("<polyline points=\"");
+            self.list(part);
+            self.put("\" fill=\"none\"");
+            self.stroke(stroke);
+            self.attributes(attributes);
+            self.put("/>\n");
+        }
+    }
+
+    /// An area; nothing if a corner is no number.
+    pub(super) fn polygon(&mut self, corners: &[[f64; 2]], fill: &str, opacity: f64, attributes: &[(&str, String)]) {
+        if corners.len() < 3 || corners.iter().flatten().any(|x| !x.is_finite()) {
+            return;
+        }
+        self.put("<polygon points=\"");
+        self.list(corners);
+        let (fill, opacity) = (escaped(fill), short(opacity));
+        self.write(format_args!("\" fill=\"{fill}\" fill-opacity=\"{opacity}\""));
+        self.attributes(attributes);
+        self.put("/>\n");
+    }
+
+    /// A filled circle; nothing if its centre is not finite.
+    pub(super) fn circle(&mut self, center: [f64; 2], radius: f64, fill: &str) {
+        if center.iter().any(|x| !x.is_finite()) {
+            return;
+        }
+        let ([x, y], r, fill) = (center.map(short), short(radius), escaped(fill));
+        self.write(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"/>\n"));
+    }
+
+    /// A text on the line through a point.
+    pub(super) fn text(&mut self, [x, y]: [f64; 2], text: &str, letters: Letters<'_>) {
+        let [x, y, size] = [x, y, letters.size].map(short);
+        let anchor = match letters.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let turn = if letters.upwards { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+        let weight = if letters.bold { " font-weight=\"bold\"" } else { "" };
+        let (text, color) = (escaped(text), escaped(letters.color));
+        self.write(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{weight} fill=\"{color}\"{turn}>{text}</text>\n"
+        ));
+    }
+
+    /// The file: `height` [pt], title and description for screen readers, background colour. It has no ids, so that several
+    /// drawings can be part of one page.
+    pub(super) fn finish(self, height: f64, title: &str, description: &str, ground: &str) -> String {
+        let mm = |length: f64| short(length / POINTS_PER_MM);
+        let (w, h) = (short(self.width), short(height));
+        let (title, description) = (escaped(title), escaped(description));
+        let (family, ground) = (escaped(&self.family), escaped(ground));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
+             font-family=\"{family}\" stroke-linejoin=\"round\">\n\
+             <title>{title}</title>\n<desc>{description}</desc>\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"{ground}\"/>\n{}</svg>\n",
+            mm(self.width),
+            mm(height),
+            self.body
+        )
+    }
+
+    fn stroke(&mut self, stroke: Stroke<'_>) {
+        let (color, width) = (escaped(stroke.color), short(stroke.width));
+        self.write(format_args!(" stroke=\"{color}\" stroke-width=\"{width}\""));
+        if stroke.opacity < 1.0 {
+            let opacity = short(stroke.opacity);
+            self.write(format_args!(" stroke-opacity=\"{opacity}\""));
+        }
+        if !stroke.dash.is_empty() {
+            let dash = stroke.dash.iter().map(|x| short(*x)).collect::<Vec<_>>().join(" ");
+            self.write(format_args!(" stroke-dasharray=\"{dash}\""));
+        }
+    }
+
+    fn attributes(&mut self, attributes: &[(&str, String)]) {
+        for (name, value) in attributes {
+            let value = escaped(value);
+            self.write(format_args!(" {name}=\"{value}\""));
+        }
+    }
+
+    fn list(&mut self, points: &[[f64; 2]]) {
+        for (number, [x, y]) in points.iter().enumerate() {
+            let (between, x, y) = (if number == 0 { "" } else { " " }, short(*x), short(*y));
+            self.write(format_args!("{between}{x},{y}"));
+        }
+    }
+
+    fn put(&mut self, text: &str) {
+        self.body.push_str(text);
+    }
+
+    fn write(&mut self, arguments: std::fmt::Arguments<'_>) {
+        // Writing to a text cannot fail.
+        let _ = self.body.write_fmt(arguments);
+    }
+}
+
+/// Two decimals (a hundredth of a point is 3.5 micrometres), without zeros at the end.
+fn short(x: f64) -> String {
+    let text = format!("{x:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Text as XML has it; what XML cannot hold at all is left out.
+pub(super) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {}
+            letter => out.push(letter),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_cannot_leave_its_element() {
+        assert_eq!(escaped("a<b> & \"c\"\u{0}\n'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;");
+    }
+
+    #[test]
+    fn a_line_breaks_where_there_is_no_number() {
+        let mut drawing = Drawing::new(100.0, "serif");
+        let points = [[0.0, 1.0], [1.0, 1.0], [2.0, f64::NAN], [3.0, 1.0], [4.0, 1.005]];
+        drawing.polyline(&points, Stroke::solid("#000000", 1.0), &[]);
+        let svg = drawing.finish(50.0, "t", "d", "#FFFFFF");
+        assert_eq!(svg.matches("<polyline").count(), 2, "{svg}");
+        assert!(svg.contains("width=\"35.28mm\""), "{svg}");
+    }
+}
