@@ -1,6 +1,6 @@
 //! Settings of a dynamically consistent walk: costs of deviations, resolution of the splines, properties of the shoes.
 
-use crate::contact::{Creep, HuntCrossley};
+use crate::contact::{FrictionCurve, HuntCrossley};
 use crate::toml_reader::TomlError;
 
 /// The deviation of each quantity that has a cost of one. A smaller deviation is a larger cost.
@@ -85,7 +85,7 @@ pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
     viscous_friction: 0.0,
     transition_velocity: 0.013,
     depth_offset: 0.0,
-    creep: Creep::Smooth,
+    friction_curve: FrictionCurve::Smooth,
     ..HuntCrossley::MOCO_2D_GAIT
 };
 
