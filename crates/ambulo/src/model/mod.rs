@@ -3,7 +3,9 @@
 //! A [`Model`] is a tree: every body has one joint to its parent or to ground, parents stand before their children.
 //! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
 
+pub mod anatomy;
 pub mod anthropometry;
+mod by_side;
 mod export;
 pub mod full_body;
 mod function;
@@ -11,10 +13,13 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
+mod posture;
 mod scaled;
 mod side;
 mod simm_spline;
 
+pub use anatomy::{Anatomy, Movement};
+pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
@@ -132,6 +137,7 @@ pub struct Model {
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
+    anatomy: Anatomy,
 }
 
 /// Why parts make no model.
@@ -201,8 +207,10 @@ impl Model {
         coordinates: Vec<Coordinate>,
         markers: Vec<Marker>,
     ) -> Result<Model, ModelError> {
-        let model = Model { name: name.into(), gravity, bodies, coordinates, markers };
+        let anatomy = Anatomy::default();
+        let mut model = Model { name: name.into(), gravity, bodies, coordinates, markers, anatomy };
         model.check()?;
+        model.anatomy = Anatomy::find(&model);
         Ok(model)
     }
 
@@ -266,6 +274,12 @@ impl Model {
     #[must_use]
     pub fn markers(&self) -> &[Marker] {
         &self.markers
+    }
+
+    /// What the parts are, anatomically.
+    #[must_use]
+    pub fn anatomy(&self) -> &Anatomy {
+        &self.anatomy
     }
 
     /// Total mass [kg].
