@@ -1,6 +1,6 @@
 //! Files in and out, with errors that name them.
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::report::OutputFile;
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
@@ -143,6 +143,6 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 /// What was odd in a file becomes findings.
 pub(crate) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
-        findings.warn("file.odd", format!("{path}: {remark}"));
+        findings.report(Code::FileOdd, format!("{path}: {remark}"));
     }
 }

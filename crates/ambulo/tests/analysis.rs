@@ -9,7 +9,7 @@ use ambulo::analysis::{
     Settings, analyse, compare, contacts, cycles, events, over_cycle, peak, residual,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
@@ -343,7 +343,10 @@ fn a_mass_that_plates_and_model_see_differently_is_a_finding() {
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &alternating(&model, 1.05));
     assert_near(analysis.mass.kg, 1.05 * MASS, 1e-9, "mass [kg]");
     let message = &findings.as_slice()[0].message;
-    assert!(findings.has("mass.mismatch") && message.contains("73.5 kg") && message.contains("70.0 kg"), "{message}");
+    assert!(
+        findings.has(Code::MassMismatch) && message.contains("73.5 kg") && message.contains("70.0 kg"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -354,8 +357,8 @@ fn plates_that_saw_one_foot_only_do_not_weigh_the_body() {
     assert_eq!(analysis.mass.source, MassSource::Model);
     assert_near(analysis.mass.kg, MASS, 0.0, "mass [kg]");
     let message = &findings.as_slice()[0].message;
-    assert!(findings.has("cycles.other_foot_unseen") && message.contains("right cycle 1"), "{message}");
-    assert!(findings.has("residual.large"), "half of the weight is missing");
+    assert!(findings.has(Code::CyclesOtherFootUnseen) && message.contains("right cycle 1"), "{message}");
+    assert!(findings.has(Code::ResidualLarge), "half of the weight is missing");
     // Without a whole cycle there is nothing to weigh, and nothing to say.
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &[]);
     assert_eq!(analysis.mass.source, MassSource::Model);
@@ -390,5 +393,5 @@ fn forces_shorter_than_the_motion_cut_the_window_and_say_so() {
     }
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &plates);
     assert_near(analysis.trajectory.grid().end_s(), 2.0, 1e-9, "end of the window [s]");
-    assert!(findings.has("loads.shorter_than_motion"), "{:?}", findings.as_slice());
+    assert!(findings.has(Code::LoadsShorterThanMotion), "{:?}", findings.as_slice());
 }

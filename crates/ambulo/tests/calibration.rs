@@ -5,7 +5,7 @@
 
 mod common;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::calibration::{
     Calibrated, CalibrationError, Measures, Person, Trial, assume_upright_trunk, calibrate,
@@ -297,7 +297,7 @@ fn widths_that_nobody_measured_are_taken_from_the_stature_and_said() {
     let recording = standing(&human, &["KNM", "MED"]);
     let mut findings = Findings::default();
     let body = calibrate(&recording, Trial::Standing, &recognised(&recording), &unknown, &mut findings).unwrap();
-    assert!(findings.has("calibration.assumed"));
+    assert!(findings.has(Code::CalibrationAssumed));
     assert_eq!(body.report.assumptions.iter().filter(|a| a.contains("mm wide")).count(), 4);
     assert_near(body.human.dimensions.thigh, THIGH, 0.002, "thigh");
 }
@@ -373,7 +373,7 @@ fn a_standing_trial_that_moves_is_noticed() {
     let recording = walking(&human, &[]);
     let mut findings = Findings::default();
     calibrate(&recording, Trial::Standing, &recognised(&recording), &person(), &mut findings).unwrap();
-    assert!(findings.has("calibration.not_standing"));
+    assert!(findings.has(Code::CalibrationNotStanding));
 }
 
 #[test]
@@ -399,7 +399,7 @@ fn a_trunk_without_markers_is_set_upright_over_any_pelvis() {
     let mut motion = Motion { origin: String::new(), times: vec![0.0, 0.01], columns };
     let mut findings = Findings::default();
     assume_upright_trunk(model, &mut motion, &mut findings);
-    assert!(findings.has("calibration.trunk_upright"));
+    assert!(findings.has(Code::CalibrationTrunkUpright));
     let q: Vec<f64> = model.coordinate_ids().map(|id| motion.column(id).map_or(0.0, |c| c[0])).collect();
     let up = bodies(model, &q)[model.body("torso").unwrap().index()].pose.rotation * Vec3::y();
     assert!((up - Vec3::y()).norm() < 1e-12, "{up}");

@@ -13,7 +13,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{Analysis, Body, LaboratoryRecording, Settings, analyse, body_in_motion};
 use ambulo::dynamics::LoadSeries;
 use ambulo::dynamics::consistency::{ConsistencySettings, Consistent, make_consistent};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::Model;
@@ -232,7 +232,7 @@ fn forces_that_were_predicted_are_obeyed_or_the_findings_say_that_they_are_not()
         let done = measure(&case, &loads, motion_only());
         let settings = ConsistencySettings { within: case.window, ..motion_only() };
         make_consistent(model, trajectory, &loads, &settings, &mut findings).unwrap();
-        assert_eq!(findings.has("consistency.residual_left"), !done.obeys(0.01), "{}", case.name);
+        assert_eq!(findings.has(Code::ConsistencyResidualLeft), !done.obeys(0.01), "{}", case.name);
         // Predicted forces are Newton's behind a low-pass only: a heel strike that markers do not show is left over.
         let [before, after] = [done.residual_before, done.residual_after].map(|r| r.moment_rms_nm);
         assert!(done.residual_before.force_rms_bw < 0.1 && after < 0.5 * before, "{}: {before} -> {after}", case.name);

@@ -7,7 +7,7 @@ use ambulo::dynamics::consistency::{
     ConsistencyError, ConsistencySettings, Consistent, MOST_CENTER_M, make_consistent,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::ground::measured;
 use ambulo::kinematics::Trajectory;
@@ -167,7 +167,7 @@ fn noise_of_a_degree_is_taken_back_as_far_as_the_forces_tell() {
     println!("before {:?}\nafter {:?}", done.residual_before, done.residual_after);
     assert!(done.residual_before.force_rms_bw > 0.03 && done.residual_before.moment_rms_nm > 10.0);
     assert!(done.residual_after.force_rms_bw < 0.002 && done.obeys(0.01), "{:?}", done.residual_after);
-    assert!(done.converged && !findings.has("consistency.residual_left"), "{:?}", findings.as_slice());
+    assert!(done.converged && !findings.has(Code::ConsistencyResidualLeft), "{:?}", findings.as_slice());
     assert!(done.largest_angle() < 2.0 * DEGREE, "{}", done.largest_angle() / DEGREE);
     // Joint moments against the truth: legs and back, all frames.
     let moments = |trajectory: &Trajectory| inverse(&mut Workspace::new(&t.model), trajectory, &t.loads).generalized;
@@ -262,7 +262,7 @@ fn tolerances_that_are_too_tight_leave_a_residual_and_say_so() {
     let tight = ConsistencySettings { tolerance_rad: 1e-5, tolerance_m: 1e-6, ..ConsistencySettings::default() };
     let (done, findings) = run(&t.model, &recorded, &t.loads, tight);
     assert!(done.residual_after.force_rms_bw > 0.5 * done.residual_before.force_rms_bw, "{:?}", done.residual_after);
-    assert!(!done.obeys(0.01) && findings.has("consistency.residual_left"), "{:?}", findings.as_slice());
+    assert!(!done.obeys(0.01) && findings.has(Code::ConsistencyResidualLeft), "{:?}", findings.as_slice());
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("% of body weight") && text.contains("hint:"), "{text}");
 }
@@ -391,7 +391,7 @@ fn a_recording_that_would_not_fit_into_memory_is_refused_at_once() {
     let part = part.unwrap();
     let height = part.changes.iter().find(|c| c.name == "pelvis_ty").unwrap();
     assert!(part.residual_before.force_peak_bw > 0.9 && height.max > 0.1, "{height:?}");
-    assert!(findings.has("consistency.incomplete_forces") && findings.has("consistency.large_change"));
+    assert!(findings.has(Code::ConsistencyIncompleteForces) && findings.has(Code::ConsistencyLargeChange));
 }
 
 #[test]

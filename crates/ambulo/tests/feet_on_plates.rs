@@ -5,7 +5,7 @@
 mod free_bodies;
 mod marker_walk;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates, foot_bodies};
 use ambulo::model::Side;
@@ -61,7 +61,7 @@ fn two_feet_on_one_plate_are_seen_and_given_to_neither() {
     let (feet, findings) = judge(&walk(), std::slice::from_ref(&big), &[]);
     assert_eq!(feet.contacts.len(), 1);
     assert_eq!(feet.contacts[0].quality, ContactQuality::TwoFeet, "{feet:?}");
-    assert!(findings.has("plates.two_feet") && findings.has("plates.no_window"));
+    assert!(findings.has(Code::PlatesTwoFeet) && findings.has(Code::PlatesNoWindow));
     let bodies = foot_bodies(&free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)])).unwrap();
     assert!(feet.recordings(std::slice::from_ref(&big), bodies).is_empty());
     // A person may decide otherwise.
@@ -78,7 +78,7 @@ fn a_force_that_ends_while_the_foot_stands_is_partial() {
     let left = &feet.contacts[1];
     assert_eq!((left.side, left.quality), (Some(L), ContactQuality::Partial), "{left:?}");
     assert!(left.reason.contains("before the foot left the floor"), "{}", left.reason);
-    assert!(findings.has("plates.partial"));
+    assert!(findings.has(Code::PlatesPartial));
     assert!(feet.windows.iter().all(|w| w[1] <= stances(L)[2].1 + 0.06), "{:?}", feet.windows);
     let late = Load { from: 0.4, ..Load::whole(L, 1) };
     let (feet, _) = judge(&walk(), &[plate_under(L, 1, &[late])], &[]);
@@ -97,10 +97,10 @@ fn a_foot_over_the_edge_is_partial_and_with_the_next_plate_shared() {
     let (alone, findings) = judge(&walk(), std::slice::from_ref(&behind), &[]);
     assert_eq!(alone.contacts[0].quality, ContactQuality::Partial);
     assert!(alone.contacts[0].reason.contains("toe stood 100 mm beyond the edge"), "{:?}", alone.contacts);
-    assert!(findings.has("plates.partial"));
+    assert!(findings.has(Code::PlatesPartial));
     let (both, findings) = judge(&walk(), &[behind, ahead], &[]);
     assert!(both.contacts.iter().all(|c| c.quality == ContactQuality::Shared && c.side == Some(R)), "{both:?}");
-    assert!(findings.has("plates.shared") && !findings.has("plates.partial"));
+    assert!(findings.has(Code::PlatesShared) && !findings.has(Code::PlatesPartial));
     assert!(!both.windows.is_empty());
 }
 
@@ -115,7 +115,7 @@ fn a_load_that_no_foot_is_near_is_given_to_nobody() {
     }
     let (feet, findings) = judge(&walk(), &[plate], &[]);
     assert_eq!((feet.contacts[0].side, feet.contacts[0].quality), (None, ContactQuality::Unassigned));
-    assert!(findings.has("plates.unassigned") && feet.contacts[0].reason.contains("no foot is near"));
+    assert!(findings.has(Code::PlatesUnassigned) && feet.contacts[0].reason.contains("no foot is near"));
 }
 
 #[test]

@@ -5,7 +5,7 @@
 mod marker_walk;
 
 use ambulo::analysis::event_agreement;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{EventMethod, FootMotion, foot_motion};
 use ambulo::ground::phases::{Contact, contacts_of_events};
 use ambulo::model::Side;
@@ -123,7 +123,8 @@ fn feet_without_markers_are_told() {
     markers.markers.retain(|m| !m.name.starts_with("RTOE") && !m.name.starts_with("RHEE"));
     let mut findings = Findings::default();
     let found = foot_motion(&markers, &mut findings);
-    assert!(findings.has("events.no_foot_markers"));
+    assert!(findings.has(Code::EventsNoFootMarkers));
+    assert_eq!(found.feet_without_markers, [Side::Right]);
     assert!(found.contacts_of(Side::Right).is_empty() && !found.contacts_of(Side::Left).is_empty());
     // An empty recording is no trouble.
     markers.markers.clear();

@@ -7,7 +7,7 @@
 mod common;
 
 use ambulo::analysis::feasibility::Person;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
 use ambulo::ground::phases::contacts;
@@ -376,5 +376,5 @@ fn a_foot_without_a_sole_is_left_out() {
     let mut findings = Findings::default();
     let trajectory = Trajectory::new(&walk.model, walk.grid, walk.columns.clone()).unwrap();
     assert!(footfalls(&walk.model, &trajectory, &walk.soles, &mut findings).falls.is_empty());
-    assert!(findings.has("footfalls.none"));
+    assert!(findings.has(Code::FootfallsNone));
 }

@@ -15,7 +15,7 @@
 
 mod plate_files;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::motion::{PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 use ambulo::spatial::{Mat3, Vec3};
 use plate_files::{CORNERS_MM, File, RATE_HZ, record};
@@ -162,7 +162,7 @@ fn type_7_is_type_3_after_a_matrix() {
 fn an_origin_of_the_other_sign_is_turned_round_and_told() {
     let (plate, findings) = read(&File::step(2, ORIGIN_2.map(|x| -x), &TYPE_2));
     assert_person(&plate);
-    assert!(findings.has("plates.origin_turned"));
+    assert!(findings.has(Code::PlatesOriginTurned));
     // Half distances of sensors have no sign; the height has. ezc3d turns all three, and with them both moments.
     assert_person(&read(&File::step(3, [120.0, 200.0, 40.0], &TYPE_3)).0);
 }
@@ -171,7 +171,7 @@ fn an_origin_of_the_other_sign_is_turned_round_and_told() {
 fn a_plate_that_records_the_force_on_itself_is_turned_round_and_told() {
     let (plate, findings) = read(&File::step(2, ORIGIN_2, &TYPE_2.map(|x| -x)));
     assert_person(&plate);
-    assert!(findings.has("plates.force_on_plate"));
+    assert!(findings.has(Code::PlatesForceOnPlate));
 }
 
 #[test]
@@ -183,10 +183,10 @@ fn markers_tell_which_side_of_the_plate_is_up() {
     file.markers_mm = vec![[200.0, 300.0, 900.0], [250.0, 200.0, 50.0]];
     let (plate, findings) = read(&file);
     assert_person(&plate);
-    assert!(!findings.has("plates.force_on_plate"));
+    assert!(!findings.has(Code::PlatesForceOnPlate));
     // Without markers z is taken as down, and the load as one that pulls.
     file.markers_mm.clear();
-    assert!(read(&file).1.has("plates.force_on_plate"));
+    assert!(read(&file).1.has(Code::PlatesForceOnPlate));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn moments_without_a_unit_are_those_that_put_the_center_on_the_plate() {
     file.units = vec!["", "", "", "", "", ""]; // read as N and N.mm, since points are mm
     let (plate, findings) = read(&file);
     assert_person(&plate);
-    assert!(findings.has("plates.reading_changed"));
+    assert!(findings.has(Code::PlatesReadingChanged));
     // With the unit there is nothing to guess.
     file.units = vec!["N", "N", "N", "Nm", "Nm", "Nm"];
     let (plate, findings) = read(&file);
@@ -210,7 +210,7 @@ fn a_center_beside_the_plate_is_told() {
     let mut values = TYPE_2;
     values[4] += 700_000.0; // 1 m further along x
     let (plate, findings) = read(&File::step(2, ORIGIN_2, &values));
-    assert!(findings.has("plates.center_outside"));
+    assert!(findings.has(Code::PlatesCenterOutside));
     assert!(plate.center_of_pressure(LOADED).x > 1.0);
 }
 
@@ -224,7 +224,7 @@ fn what_the_unloaded_plate_shows_is_removed_from_every_channel() {
     let (plate, findings) = read(&file);
     assert_person(&plate);
     assert!((plate.baseline_n.unwrap() + 25.0).abs() < ROUNDING, "{:?}", plate.baseline_n);
-    assert!(findings.has("plates.baseline"));
+    assert!(findings.has(Code::PlatesBaseline));
     let keep = PlateSettings { remove_baseline: false };
     let kept = plates_from_c3d(&file.record(), keep, &mut Findings::default()).unwrap();
     assert!((kept[0].vertical(LOADED) - 675.0).abs() < ROUNDING && kept[0].baseline_n.is_none());
@@ -291,12 +291,12 @@ fn sine(limit: f64) -> File {
 #[test]
 fn a_clipped_channel_is_told_and_a_rounded_peak_is_not() {
     let (clipped, findings) = read(&sine(600.0));
-    assert!(findings.has("plates.clipped"));
+    assert!(findings.has(Code::PlatesClipped));
     // asin(600/800) of half a sine of 0.7 s: from 0.589 to 0.911 s.
     let [from, to] = clipped.clipped[0];
     assert!((from - 0.589).abs() < 0.01 && (to - 0.911).abs() < 0.01, "{from} {to}");
     let (whole, findings) = read(&sine(1000.0));
-    assert!(whole.clipped.is_empty() && !findings.has("plates.clipped"), "{:?}", whole.clipped);
+    assert!(whole.clipped.is_empty() && !findings.has(Code::PlatesClipped), "{:?}", whole.clipped);
 }
 
 #[test]
@@ -318,7 +318,7 @@ fn a_plate_that_cannot_be_read_is_left_out_with_the_reason_and_the_others_stay()
         let plates = plates_from_c3d(&record(&[type_2(), spoiled]), PlateSettings::default(), &mut findings).unwrap();
         assert_eq!(plates.len(), 1, "{findings:?}");
         assert_person(&plates[0]);
-        let finding = findings.as_slice().iter().find(|f| f.code == "plates.unusable").unwrap();
+        let finding = findings.as_slice().iter().find(|f| f.code == Code::PlatesUnusable).unwrap();
         finding.message.clone()
     };
     let unknown = File { kind: 21, ..type_2() };
@@ -337,14 +337,14 @@ fn a_plate_that_cannot_be_read_is_left_out_with_the_reason_and_the_others_stay()
 fn a_plate_without_distances_of_its_sensors_gives_forces_and_says_so() {
     let (plate, findings) = read(&File::step(3, [0.0; 3], &TYPE_3));
     assert_vector(plate.force[LOADED], [30.0, 50.0, 700.0], ROUNDING);
-    assert!(findings.has("plates.no_sensor_distance"));
+    assert!(findings.has(Code::PlatesNoSensorDistance));
 }
 
 #[test]
 fn a_type_4_without_matrix_is_read_as_it_is_and_told() {
     let (plate, findings) = read(&File::step(4, ORIGIN_2, &TYPE_2));
     assert_person(&plate);
-    assert!(findings.has("plates.no_calibration"));
+    assert!(findings.has(Code::PlatesNoCalibration));
 }
 
 #[test]
@@ -362,21 +362,21 @@ fn plates_of_four_hundred_metres_were_written_in_millimetres() {
     let mut findings = Findings::default();
     let plates = plates_from_c3d(&file, PlateSettings::default(), &mut findings).unwrap();
     assert_person(&plates[0]);
-    assert!(findings.has("plates.unit_changed"));
+    assert!(findings.has(Code::PlatesUnitChanged));
 }
 
 #[test]
 fn volts_without_matrix_and_polynomials_that_are_not_used_are_told() {
     let mut file = type_2();
     file.units[0] = "V";
-    assert!(read(&file).1.has("plates.unit_unknown"));
+    assert!(read(&file).1.has(Code::PlatesUnitUnknown));
     let mut record = type_2().record();
     let polynomial = ambulo_formats::c3d::Values::Reals(vec![0.1; 12]);
     let parameter = ambulo_formats::c3d::Parameter::list("FPCOPPOLY", polynomial);
     record.parameters.groups[0].parameters.push(parameter);
     let mut findings = Findings::default();
     plates_from_c3d(&record, PlateSettings::default(), &mut findings).unwrap();
-    assert!(findings.has("plates.polynomial"));
+    assert!(findings.has(Code::PlatesPolynomial));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, GaitError, Jet, LegAngles, Pelvis, SpeedChange, Walk, WalkPosture};
 use common::{assert_near, derivatives};
 
@@ -165,7 +165,7 @@ fn changes_that_cannot_be_made_are_refused() {
     }
     assert!(findings.as_slice().is_empty());
     walk.with_speed_change(change(5.0, 1.0, 2.5), &mut findings).unwrap();
-    assert!(findings.has("gait.speed_range"));
+    assert!(findings.has(Code::GaitSpeedRange));
 }
 
 /// The mean tilt that a vertical pelvis takes from the hips follows speed as well.

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, GaitError, Jet, Speed, Walk, WalkPosture, walking_speeds};
 use proptest::prelude::*;
 
@@ -74,7 +74,7 @@ fn speeds_outside_walking_are_findings() {
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
         let mut findings = Findings::default();
         Walk::new(&gait, LEG, &mut findings).unwrap();
-        assert_eq!(findings.has("gait.speed_range"), found, "{speed}");
+        assert_eq!(findings.has(Code::GaitSpeedRange), found, "{speed}");
     }
 }
 

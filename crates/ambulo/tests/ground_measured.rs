@@ -5,7 +5,7 @@
 mod free_bodies;
 
 use ambulo::analysis::{Settings, analyse};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, measured};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::{BodyId, Model};
@@ -318,7 +318,7 @@ fn a_plate_that_names_no_point_is_unloaded_below_twenty_newtons_and_an_error_abo
     };
     let (ground, findings) = with(12.0);
     let found: Vec<_> = findings.as_slice().iter().map(|f| (f.code, f.count)).collect();
-    assert_eq!(found, [("loads.point_undefined", 10)]);
+    assert_eq!(found, [(Code::LoadsPointUndefined, 10)]);
     let foot = &ground.unwrap().bodies[0];
     assert_near(foot.force[0], Vec3::zeros(), 0.0, "unloaded");
     assert_near(foot.center_of_pressure[20], Vec3::new(0.3, 0.0, 0.1), ROUNDING, "loaded");

@@ -4,7 +4,7 @@
 
 mod plate_files;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::motion::{
     Heading, Laboratory, Landmarks, MarkerPath, MarkerRecording, PlateSettings, laboratory, plates_from_c3d,
 };
@@ -93,6 +93,7 @@ fn turn_about_up(deg: f64) -> Mat3 {
 fn a_way_near_an_axis_is_that_axis_and_another_is_the_measured_one() {
     let (near, _) = found(&straight().turned(&turn_about_up(6.0)));
     assert!((near.world_from_lab - Mat3::identity()).norm() < ROUNDING, "{}", near.world_from_lab);
+    assert_eq!(near.turn_deg, None);
     assert!(near.statement.contains("walking +x ->"), "{}", near.statement);
     let (apart, _) = found(&straight().turned(&turn_about_up(30.0)));
     assert!((apart.world_from_lab * turn_about_up(30.0) - Mat3::identity()).norm() < 1e-9);
@@ -107,7 +108,8 @@ fn a_turn_on_the_way_is_told() {
         Vec3::new(1.5 * angle.sin(), 0.0, 1.5 * (1.0 - angle.cos()))
     };
     let (found, findings) = found(&walk(circle));
-    assert!(findings.has("laboratory.turning"), "{findings:?}");
+    assert!(findings.has(Code::LaboratoryTurning), "{findings:?}");
+    assert!(found.turn_deg.is_some_and(|turn| (40.0..60.0).contains(&turn)), "{:?}", found.turn_deg);
     // Along the chord, 45 degrees to the right.
     assert!(found.statement.contains("45 degrees"), "{}", found.statement);
 }
@@ -116,17 +118,17 @@ fn a_turn_on_the_way_is_told() {
 fn who_walks_backwards_looks_forward_and_who_goes_sideways_is_told() {
     let (backwards, findings) = found(&walk(|t| Vec3::new(-1.2 * t, 0.0, 0.0)));
     assert!((backwards.world_from_lab - Mat3::identity()).norm() < ROUNDING);
-    assert!(findings.has("laboratory.backwards"));
+    assert!(findings.has(Code::LaboratoryBackwards));
     let (sideways, findings) = found(&walk(|t| Vec3::new(0.0, 0.0, t)));
     assert!((sideways.world_from_lab - Mat3::identity()).norm() < ROUNDING);
-    assert!(findings.has("laboratory.sideways"));
+    assert!(findings.has(Code::LaboratorySideways));
 }
 
 #[test]
 fn a_body_of_a_thousand_metres_was_written_in_millimetres() {
     let big = straight().turned(&(Mat3::identity() * 1000.0));
     let (found_big, findings) = found(&big);
-    assert!((found_big.metres_per_stated_metre - 0.001).abs() < ROUNDING && findings.has("laboratory.unit_changed"));
+    assert!((found_big.metres_per_stated_metre - 0.001).abs() < ROUNDING && findings.has(Code::LaboratoryUnitChanged));
     assert!(found_big.statement.contains("mm x 0.001"), "{}", found_big.statement);
     let back = found_big.markers(&big);
     assert!((back.marker("RASI").unwrap().positions[0] - Vec3::from(BODY[0].1)).norm() < 1e-9);
@@ -145,13 +147,13 @@ fn without_known_names_the_longest_axis_is_up_and_the_way_forward() {
     }
     let (unnamed, findings) = found(&markers);
     assert!((unnamed.world_from_lab - Mat3::identity()).norm() < ROUNDING);
-    assert!(findings.has("laboratory.up_unclear"));
+    assert!(findings.has(Code::LaboratoryUpUnclear));
     let mut still = walk(|_| Vec3::zeros());
     still.markers.iter_mut().for_each(|m| m.name.insert(0, '_'));
     still.markers.iter_mut().for_each(|m| m.name = m.name.replace(['R', 'L', 'S'], "P"));
     let (unknown, findings) = found(&still);
     assert_eq!(unknown.heading, Heading::Unknown);
-    assert!(findings.has("laboratory.forward_unclear"));
+    assert!(findings.has(Code::LaboratoryForwardUnclear));
 }
 
 #[test]
@@ -172,7 +174,7 @@ fn plates_say_what_is_up_where_markers_do_not() {
     };
     let found = laboratory(&markers, &plates, "mm", &mut findings);
     assert!(found.statement.starts_with("lab z up, mm, walking +y"), "{}", found.statement);
-    assert!(!findings.has("laboratory.up_unclear"), "{findings:?}");
+    assert!(!findings.has(Code::LaboratoryUpUnclear), "{findings:?}");
     // The world sees the force upwards.
     assert!((found.plate(&plates[0]).force[60] - Vec3::new(0.0, 700.0, 0.0)).norm() < 1e-3);
 }

@@ -9,7 +9,7 @@
 mod shared_data;
 
 use ambulo::analysis::event_agreement;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::phases::contacts;
 use ambulo::ground::plates::{ContactQuality, feet_on_plates};
@@ -207,7 +207,7 @@ fn the_foot_that_leaves_its_plate_early_is_a_partial_hit_and_bars_its_time() {
     let left = feet.contacts.iter().find(|c| c.plate == 0).unwrap();
     assert_eq!(left.quality, ContactQuality::Partial, "{left:?}");
     assert!(left.reason.contains("0.29 s before the foot left"), "{}", left.reason);
-    assert!(trial.findings.has("plates.partial") && trial.findings.has("laboratory.turning"));
+    assert!(trial.findings.has(Code::PlatesPartial) && trial.findings.has(Code::LaboratoryTurning));
     assert!(feet.windows.iter().all(|w| w[1] <= left.start_s + 0.05), "{:?}", feet.windows);
 }
 
@@ -260,7 +260,7 @@ fn the_offset_of_an_unloaded_plate_is_removed_and_told() {
         let trial = trial(&data, &format!("c3d-format-variants/Eb015{letters}.c3d"));
         let offsets: Vec<f64> = trial.plates.iter().map(|p| p.baseline_n.unwrap()).collect();
         assert!((offsets[0] - 21.2).abs() < 0.1 && (offsets[1] - 30.6).abs() < 0.1, "{letters}: {offsets:?}");
-        assert!(trial.findings.has("plates.baseline"));
+        assert!(trial.findings.has(Code::PlatesBaseline));
         for plate in &trial.plates {
             let start = plate.vertical(0).abs();
             assert!(start < 3.0, "{letters} {}: {start} N at the start", plate.name);
@@ -321,7 +321,7 @@ fn vertical_peaks_of_the_variants_are_those_of_ezc3d() {
             let peak = plate.force.iter().map(|f| f.z).fold(0.0, f64::max);
             assert!((peak - expected).abs() < 0.15, "{name} {}: {peak} N, ezc3d {expected} N", plate.name);
         }
-        assert_eq!(findings.has("plates.force_on_plate"), name.starts_with("FP"), "{name}");
+        assert_eq!(findings.has(Code::PlatesForceOnPlate), name.starts_with("FP"), "{name}");
     }
 }
 

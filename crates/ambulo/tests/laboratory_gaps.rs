@@ -6,7 +6,7 @@
 mod gait_files;
 
 use ambulo::analysis::{Body, LaboratoryRecording, Settings, analyse, body_in_motion};
-use ambulo::findings::{Finding, Findings};
+use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{PlateSettings, Smoother, Window, markers_from_c3d, plates_from_c3d};
@@ -98,7 +98,7 @@ fn worst_change(trial: &Trial, reference: &[Vec<f64>], groups: &[Vec<String>], s
             let (changed, findings, _) = moments(trial, &without(&trial.walk, group, from, span));
             let ([all, one], which) = change(&changed, reference);
             for name in group {
-                let is_said = |f: &Finding| f.code == "markers.missing" && f.message.contains(name.as_str());
+                let is_said = |f: &Finding| f.code == Code::MarkersMissing && f.message.contains(name.as_str());
                 assert!(findings.as_slice().iter().any(is_said), "{name} at {from} s is not reported");
             }
             if one.is_nan() || one > 0.05 {

@@ -42,7 +42,7 @@ fn assert_as_near_as_opensim(subject: &Subject, golden: &str, opensim_mm: f64) {
     let mut findings = Findings::default();
     let fit = fit_markers(&subject.model, &subject.markers, &FitSettings::default(), &mut findings).unwrap();
     findings.as_slice().iter().for_each(|finding| println!("{finding}"));
-    assert!(!findings.as_slice().iter().any(|f| f.severity == Severity::Warning));
+    assert!(!findings.as_slice().iter().any(|f| f.severity() == Severity::Warning));
     assert!(fit.converged.iter().all(|c| *c));
 
     let until = fit.motion.times.iter().filter(|t| **t <= 2.0).count();

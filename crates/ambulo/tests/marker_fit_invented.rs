@@ -4,7 +4,7 @@
 
 mod common;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
 use ambulo::model::{Body, Coordinate, CoordinateId, Drive, Function, JointAxis, Marker, Model};
@@ -302,7 +302,7 @@ fn long_losses_stay_gaps_and_short_ones_are_bridged() {
         let knee = fit.motion.columns[6].as_ref().unwrap()[i];
         assert!((knee - state.q[6]).abs() < 1e-8, "frame {i}: the joint above is untouched");
     }
-    for code in ["markers.gap", "markers.bridged", "markers.missing"] {
+    for code in [Code::MarkersGap, Code::MarkersBridged, Code::MarkersMissing] {
         assert!(findings.has(code), "{code}: {:?}", findings.as_slice());
     }
 }

@@ -6,7 +6,7 @@
 mod marker_data;
 
 use ambulo::analysis::{Settings, analyse};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{MarkerRecording, Smoother, Window};
@@ -74,7 +74,8 @@ fn worst_change(subject: &Subject, groups: &[Vec<&str>], starts: &[f64], span: f
             let (fit, findings) = fitted(subject, &without(&subject.markers, group, from, span));
             let [all, one] = change(&moments(subject, &fit, window), &reference);
             for name in group {
-                let is_said = |f: &ambulo::findings::Finding| f.code == "markers.missing" && f.message.contains(name);
+                let is_said =
+                    |f: &ambulo::findings::Finding| f.code == Code::MarkersMissing && f.message.contains(name);
                 assert!(findings.as_slice().iter().any(is_said), "{name} at {from} s is not reported");
             }
             if one > 0.04 {

@@ -8,7 +8,7 @@
 mod gait_files;
 mod marker_data;
 
-use ambulo::findings::{Finding, Findings};
+use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::calibration::{Calibrated, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, Guard, Limits, MarkerFit, fit_markers};
 use ambulo::model::marker_set::MarkerSet;
@@ -30,7 +30,7 @@ fn fitted(body: &Calibrated, markers: &MarkerRecording, guard: Guard) -> (Marker
 }
 
 fn codes(findings: &Findings) -> Vec<&Finding> {
-    let of_guard = ["markers.jump", "markers.swap", "markers.misplaced"];
+    let of_guard = [Code::MarkersJump, Code::MarkersSwap, Code::MarkersMisplaced];
     findings.as_slice().iter().filter(|f| of_guard.contains(&f.code)).collect()
 }
 
@@ -59,9 +59,9 @@ fn labels_that_glide_to_each_others_place_are_exchanged_back() {
         println!("{name}: {before:.0} mm from its place, {after:.1} mm after the exchange");
         assert!(before > 60.0 && after < 10.0, "{name}: {before} {after}");
     }
-    let said = |f: &Finding| f.code == "markers.swap" && f.message.contains("RNAV") && f.message.contains("RHLX");
+    let said = |f: &Finding| f.code == Code::MarkersSwap && f.message.contains("RNAV") && f.message.contains("RHLX");
     assert!(findings.as_slice().iter().any(said), "{findings:?}");
-    assert!(!findings.has("markers.misplaced"));
+    assert!(!findings.has(Code::MarkersMisplaced));
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn labels_exchanged_throughout_are_exchanged_back() {
         let (fit, findings) = fitted(&body, &markers, Guard::On);
         let worst = RIGHT_LEG.iter().map(|angle| difference(&body, angle, &clean, &fit)).fold(0.0, f64::max);
         println!("{pair:?} throughout: {worst:.1e} deg");
-        let said = |f: &Finding| f.code == "markers.swap" && pair.iter().all(|name| f.message.contains(name));
+        let said = |f: &Finding| f.code == Code::MarkersSwap && pair.iter().all(|name| f.message.contains(name));
         assert!(findings.as_slice().iter().any(said), "{pair:?}: {:?}", codes(&findings));
         assert!(worst < 0.01, "{pair:?}: {worst}");
     }
@@ -104,7 +104,7 @@ fn a_marker_that_stands_elsewhere_is_said_and_counts_little() {
         let (on, findings) = fitted(&body, &markers, Guard::On);
         let [before, after] = [worst(&off), worst(&on)];
         println!("{name} elsewhere, {:.0} mm: {before:.2} deg, guarded {after:.2} deg", error_mm(&on, name));
-        let said = |f: &Finding| f.code == "markers.misplaced" && f.message.contains(name);
+        let said = |f: &Finding| f.code == Code::MarkersMisplaced && f.message.contains(name);
         assert!(findings.as_slice().iter().any(said), "{name}: {:?}", codes(&findings));
         assert!(after < 0.2 * before && after < 1.0, "{name}: {before} {after}");
     }

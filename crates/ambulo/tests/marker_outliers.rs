@@ -6,7 +6,7 @@
 mod common;
 mod marker_data;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, Guard, MarkerFit, fit_markers};
 use ambulo::model::CoordinateKind;
 use ambulo::motion::MarkerRecording;
@@ -46,10 +46,7 @@ fn names(subject: &Subject) -> Vec<usize> {
 fn assert_clean(label: &str, subject: &Subject) {
     let (_, findings) = fitted(subject, &subject.markers, Guard::On);
     for finding in findings.as_slice() {
-        assert!(
-            !finding.code.starts_with("markers.jump") && !finding.code.starts_with("markers.swap"),
-            "{label}: {finding}"
-        );
+        assert!(![Code::MarkersJump, Code::MarkersSwap].contains(&finding.code), "{label}: {finding}");
     }
 }
 
@@ -70,7 +67,7 @@ fn assert_jumps_are_found(label: &str, subject: &Subject, seed: u64) {
         }
         let name = &wild.markers[marker].name;
         let (fit, findings) = fitted(subject, &wild, Guard::On);
-        let said = findings.as_slice().iter().any(|f| f.code == "markers.jump" && f.message.contains(name));
+        let said = findings.as_slice().iter().any(|f| f.code == Code::MarkersJump && f.message.contains(name));
         let (difference, angle) = largest_difference(subject, &clean, &fit);
         let case = format!(
             "{label} round {round}: {name} by {:.0} mm from frame {start} for {length} frames",
@@ -118,10 +115,10 @@ fn assert_swaps_are_undone(label: &str, subject: &Subject, seed: u64) {
         let (fit, findings) = fitted(subject, &wild, Guard::On);
         let [x, y] = [a, b].map(|i| wild.markers[i].name.clone());
         let said = |f: &ambulo::findings::Finding| {
-            f.message.contains(&x) && f.message.contains(&y) && f.code == "markers.swap"
+            f.message.contains(&x) && f.message.contains(&y) && f.code == Code::MarkersSwap
         };
         let swap = findings.as_slice().iter().any(said);
-        let jump = findings.as_slice().iter().any(|f| f.code == "markers.jump");
+        let jump = findings.as_slice().iter().any(|f| f.code == Code::MarkersJump);
         let (difference, angle) = largest_difference(subject, &clean, &fit);
         let case =
             format!("{label}: {x} and {y}, {:.0} mm apart, from frame {start} for {length}", 1000.0 * apart.norm());
@@ -173,7 +170,7 @@ fn a_marker_that_is_off_in_the_first_frames_counts_as_lost_there() {
         let (fit, findings) = fitted(&subject, &wild, Guard::On);
         let (difference, angle) = largest_difference(&subject, &fitted(&subject, &lost, Guard::On).0, &fit);
         println!("{name} in the first {length} frames: {difference:.1e} deg at {angle} from its loss");
-        assert!(findings.as_slice().iter().any(|f| f.code == "markers.jump" && f.message.contains(name)));
+        assert!(findings.as_slice().iter().any(|f| f.code == Code::MarkersJump && f.message.contains(name)));
         assert!(difference < 1e-4, "{name}: {difference} deg at {angle}");
     }
 }
@@ -192,7 +189,7 @@ fn labels_exchanged_from_the_first_frame_are_found() {
         let (fit, findings) = fitted(&subject, &wild, Guard::On);
         let (difference, angle) = largest_difference(&subject, &clean, &fit);
         println!("{a} and {b} throughout: {difference:.3} deg at {angle}");
-        assert!(findings.has("markers.swap"), "{a} and {b}: {:?}", findings.as_slice());
+        assert!(findings.has(Code::MarkersSwap), "{a} and {b}: {:?}", findings.as_slice());
         assert!(difference < 1e-6, "{difference}");
     }
 }

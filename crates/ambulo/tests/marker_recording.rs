@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests may unwrap")]
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::motion::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Group, Parameter, Point, Values};
@@ -23,7 +23,7 @@ fn a_position_of_exactly_zero_is_a_gap_and_is_reported() {
     let markers = markers_from_trc(&file, &mut findings).unwrap();
     let heel = markers.marker("HEEL").unwrap();
     assert!(!heel.is_seen(0) && heel.is_seen(1), "{heel:?}");
-    assert!(findings.has("markers.zero_is_gap"));
+    assert!(findings.has(Code::MarkersZeroIsGap));
     assert!(findings.as_slice()[0].message.contains("HEEL") && !findings.as_slice()[0].message.contains("TOE"));
 }
 
@@ -110,7 +110,7 @@ fn of_two_points_with_one_name_the_one_that_was_seen_longer_is_kept() {
     let markers = markers_from_c3d(&file, &mut findings).unwrap();
     assert_eq!(markers.markers.len(), 2);
     assert!((markers.marker("RANK").unwrap().positions[2].x - 0.4).abs() < 1e-12);
-    assert!(findings.has("markers.name_twice"));
+    assert!(findings.has(Code::MarkersNameTwice));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_file_without_unit_of_length_and_places_beyond_reach_are_told() {
     file.points[1].positions[1] = [1e12, 0.0, 0.0];
     let mut findings = Findings::default();
     let markers = markers_from_c3d(&file, &mut findings).unwrap();
-    assert!(findings.has("markers.impossible") && !markers.markers[1].is_seen(1));
+    assert!(findings.has(Code::MarkersImpossible) && !markers.markers[1].is_seen(1));
     file.point_unit = "deg".to_owned();
     let error = markers_from_c3d(&file, &mut findings).unwrap_err();
     assert!(matches!(&error, MarkerError::Unit { found } if found == "deg"), "{error}");

@@ -9,7 +9,7 @@
 mod shared_data;
 
 use ambulo::analysis::{Agreement, Analysis, Curve, Settings, analyse, compare};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BodyId, Model, from_osim};
 use ambulo::motion::filter::LowPass;
@@ -266,13 +266,13 @@ fn coupled_columns_in_degrees_are_reported_and_the_coupler_decides() {
     let (stored, findings) = run_with(&as_stored, SIX_HZ);
     let (fixed, none) = run_with(&mended, SIX_HZ);
 
-    let mismatches: Vec<_> = findings.as_slice().iter().filter(|f| f.code == "motion.coupled_mismatch").collect();
+    let mismatches: Vec<_> = findings.as_slice().iter().filter(|f| f.code == Code::MotionCoupledMismatch).collect();
     assert_eq!(mismatches.len(), 2, "{mismatches:?}");
     for (finding, name) in mismatches.iter().zip(["knee_angle_r_beta", "knee_angle_l_beta"]) {
         assert!(finding.message.contains(name), "{finding}");
         assert!(finding.message.contains("degrees under a header that says radians"), "{finding}");
     }
-    assert!(!none.has("motion.coupled_mismatch"), "{:?}", none.as_slice());
+    assert!(!none.has(Code::MotionCoupledMismatch), "{:?}", none.as_slice());
     // Not near: identical. The recorded follower must leave no trace.
     assert_eq!(stored.forces, fixed.forces);
 

@@ -4,7 +4,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 use ambulo::dynamics::{Workspace, inverse_frame};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{CoordinateKind, Drive, Model, from_osim};
 use ambulo::spatial::Vec3;
@@ -398,7 +398,7 @@ fn a_coupler_ties_one_coordinate_to_another_unless_it_is_switched_off() {
 fn a_constraint_that_closes_a_loop_is_not_enforced_and_said() {
     let more = "<ConstraintSet><objects>\n<PointConstraint name=\"pin\"></PointConstraint>\n</objects></ConstraintSet>";
     let (_, findings) = import(&custom("q", "", more));
-    assert!(findings.has("model.constraint"));
+    assert!(findings.has(Code::ModelConstraint));
     let message = &findings.as_slice()[0].message;
     assert!(message.contains("PointConstraint `pin`") && message.contains("not enforced"), "{message}");
 }
@@ -463,7 +463,7 @@ fn what_plays_no_part_is_counted_in_one_note() {
     let (_, findings) = import(&custom("q", "", more));
     assert_eq!(findings.as_slice().len(), 1);
     let finding = &findings.as_slice()[0];
-    assert_eq!((finding.code, finding.count), ("model.ignored", 1));
+    assert_eq!((finding.code, finding.count), (Code::ModelIgnored, 1));
     assert!(finding.message.ends_with("1 CoordinateActuator, 2 Thelen2003Muscle"), "{finding}");
 }
 
@@ -473,11 +473,11 @@ fn an_inertia_that_no_body_has_and_a_body_without_mass_are_warned_about() {
     let with = |old: &str, new: &str| import(&text.replace(old, new)).1;
     let findings = with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 0.3");
     let message = &findings.as_slice()[0].message;
-    assert!(findings.has("model.inertia") && message.contains("body `stone` (line 6)"), "{message}");
+    assert!(findings.has(Code::ModelInertia) && message.contains("body `stone` (line 6)"), "{message}");
     assert!(message.contains("3.000e-1 exceeds the sum of the others"), "{message}");
     let findings = with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 -0.1");
     assert!(findings.as_slice()[0].message.contains("one is negative"), "{:?}", findings.as_slice());
-    assert!(with("<mass>2<", "<mass>0<").has("model.massless"));
+    assert!(with("<mass>2<", "<mass>0<").has(Code::ModelMassless));
     // A thin rod lies on the border and is allowed.
     assert!(with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 0").as_slice().is_empty());
 }
@@ -486,7 +486,7 @@ fn an_inertia_that_no_body_has_and_a_body_without_mass_are_warned_about() {
 fn an_unknown_version_is_read_and_remarked() {
     for version in ["10901", "50000"] {
         let (_, findings) = import(&custom("q", "", "").replace("\"40000\"", &format!("\"{version}\"")));
-        assert!(findings.has("model.document"), "{version}");
+        assert!(findings.has(Code::ModelDocument), "{version}");
         assert!(findings.as_slice()[0].message.contains(version), "{:?}", findings.as_slice());
     }
     assert_refused(&custom("q", "", "").replace("\"40000\"", "\"new\""), "<OpenSimDocument", &["`new`", "Version"]);

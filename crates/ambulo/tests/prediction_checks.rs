@@ -13,7 +13,7 @@ use ambulo::analysis::{
     CarriedMass, CheckOrder, CheckedPrediction, MassSource, PredictOrder, PredictedAnalysis, PredictionChecks, Seen,
     analyse_predicted_trajectory, cycles, prediction_checks,
 };
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictSettings, Prediction, predict};
 use ambulo::ground::sole::Sole;
@@ -29,7 +29,7 @@ use footfall_trials::everything;
 use std::sync::LazyLock;
 use walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
 
-const FOUND: &str = "prediction.not_through_the_feet";
+const FOUND: Code = Code::PredictionNotThroughTheFeet;
 
 fn prediction(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Prediction {
     predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
@@ -218,7 +218,7 @@ fn hanging_in_a_harness_shows_and_a_jump_does_not() {
         let (checks, findings) = of_puppet(&falls);
         println!("falls at {g} {}", line(&checks));
         assert!(!findings.has(FOUND), "{g}: {checks:?}");
-        assert_eq!(findings.has("prediction.pull"), !is_fine, "{g}: {checks:?}");
+        assert_eq!(findings.has(Code::PredictionPull), !is_fine, "{g}: {checks:?}");
     }
 }
 
@@ -234,15 +234,15 @@ fn forces_of_the_feet_that_do_not_balance_the_motion_show() {
             };
             prediction.ground = GroundForces { bodies: bodies.iter().map(of_foot).collect() };
         });
-        let codes: Vec<&str> = findings.as_slice().iter().map(|finding| finding.code).collect();
+        let codes: Vec<Code> = findings.as_slice().iter().map(|finding| finding.code).collect();
         (failed(&checks), codes)
     };
     assert_eq!(changed(&|f| f), (vec![], vec![]));
-    assert_eq!(changed(&|f| f * 0.9), (vec!["vertical_force_feet"], vec!["prediction.weight"]));
+    assert_eq!(changed(&|f| f * 0.9), (vec!["vertical_force_feet"], vec![Code::PredictionWeight]));
     let pushed = changed(&|f| f + Vec3::x() * (0.05 * f.y));
-    assert_eq!(pushed, (vec!["fore_aft_impulse"], vec!["prediction.impulse"]));
+    assert_eq!(pushed, (vec!["fore_aft_impulse"], vec![Code::PredictionImpulse]));
     let slippery = changed(&|f| f + Vec3::z() * (0.8 * f.y));
-    assert_eq!(slippery, (vec!["friction"], vec!["prediction.friction"]));
+    assert_eq!(slippery, (vec!["friction"], vec![Code::PredictionFriction]));
 }
 
 // ---- mass ----
@@ -293,7 +293,7 @@ fn a_wrong_mass_shows_only_against_plates() {
         let (checks, findings, predicted) = of_mass(0.5, with_plates, standing_kg);
         println!("half, weighed   {}", line(&checks));
         assert_eq!((failed(&checks), checks.mass_agrees()), (vec!["mass"], Some(false)));
-        assert!(findings.has("prediction.mass") && checks.reasons.is_empty(), "{findings:?}");
+        assert!(findings.has(Code::PredictionMass) && checks.reasons.is_empty(), "{findings:?}");
         let value = checks.get("mass").unwrap().value.unwrap();
         assert!((value - 2.0).abs() < 0.02, "{value}");
         assert_eq!(predicted.analysis.mass.source, MassSource::Model, "what contradicts the model is not taken");

@@ -4,7 +4,7 @@
 
 mod free_bodies;
 
-use ambulo::findings::{Findings, Severity};
+use ambulo::findings::{Code, Findings, Severity};
 use ambulo::kinematics::{Trajectory, TrajectoryError};
 use ambulo::model::{Body, Coordinate, CoordinateKind, Drive, Function, Model};
 use ambulo::motion::filter::LowPass;
@@ -42,7 +42,7 @@ fn message(table: &Table) -> String {
     import(table).0.unwrap_err().to_string()
 }
 
-fn codes(findings: &Findings) -> Vec<(&'static str, usize)> {
+fn codes(findings: &Findings) -> Vec<(Code, usize)> {
     findings.as_slice().iter().map(|f| (f.code, f.count)).collect()
 }
 
@@ -69,14 +69,14 @@ fn degrees_become_radians_and_lengths_stay() {
 fn a_header_that_states_no_unit_is_read_as_radians_with_a_warning() {
     let (motion, findings) = import(&storage("", &format!("{NAMES}0.0\t1.5\t0.5\n")));
     assert_eq!(motion.unwrap().columns[0], Some(vec![1.5]));
-    assert_eq!(codes(&findings), [("motion.unit_unstated", 1)]);
-    assert_eq!(findings.as_slice()[0].severity, Severity::Warning);
+    assert_eq!(codes(&findings), [(Code::MotionUnitUnstated, 1)]);
+    assert_eq!(findings.as_slice()[0].severity(), Severity::Warning);
 }
 
 #[test]
 fn degrees_under_a_header_that_says_radians_are_noticed() {
     let (_, findings) = import(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t30\t0.5\n")));
-    assert_eq!(codes(&findings), [("motion.degrees_as_radians", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionDegreesAsRadians, 1)]);
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("look like degrees: they reach `pelvis_rx` 30") && text.contains("inDegrees=yes"), "{text}");
     // A length of 30 m is no angle.
@@ -94,7 +94,7 @@ fn radians_under_a_header_that_says_degrees_are_noticed_where_enough_angles_move
         coordinates_from_table(&model, &table, "walk.mot", &mut findings).unwrap();
         codes(&findings)
     };
-    assert_eq!(read("0\t0.3\t-1.2\t0.5\t0.7\n"), [("motion.radians_as_degrees", 1)]);
+    assert_eq!(read("0\t0.3\t-1.2\t0.5\t0.7\n"), [(Code::MotionRadiansAsDegrees, 1)]);
     assert_eq!(read("0\t0.3\t-12\t0.5\t0.7\n"), []);
     // Three angles near zero are no evidence.
     assert_eq!(read("0\t0.3\t-1.2\t0.5\t0\n"), []);
@@ -114,7 +114,7 @@ fn state_paths_name_coordinates_and_speeds_are_passed_over() {
 fn a_column_that_the_model_does_not_know_is_named_beside_the_coordinates_without_one() {
     let (motion, findings) = import(&storage("inDegrees=no\n", "time\tpelvis_rx\tpelvis_tilt\n0\t0.1\t0.2\n"));
     assert!(motion.is_ok());
-    assert_eq!(codes(&findings), [("motion.unknown_coordinate", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionUnknownCoordinate, 1)]);
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("no such coordinates: `pelvis_tilt`") && text.contains("pelvis_ry, pelvis_rz"), "{text}");
     assert!(!text.contains("pelvis_rx"), "{text}");
@@ -133,7 +133,7 @@ fn a_repeated_row_is_dropped_and_counted_and_a_contradiction_is_an_error() {
     let motion = motion.unwrap();
     assert_eq!(motion.times, [0.0, 0.1, 0.2]);
     assert_eq!(motion.columns[3], Some(vec![2.0, 3.0, 3.0]));
-    assert_eq!(codes(&findings), [("motion.repeated_row", 3)]);
+    assert_eq!(codes(&findings), [(Code::MotionRepeatedRow, 3)]);
     let text = message(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t1\t2\n0.1\t1\t2\n0.1\t1\t2.5\n")));
     // Three header lines, names, and the third row: line 8.
     let expected = "line 8: a second row for time 0.1 s with other numbers in `pelvis_tx`; \
@@ -201,7 +201,7 @@ fn a_short_gap_is_bridged_and_said() {
     // that where its ends are not given with derivatives.
     let [value, ..] = errors(&found.unwrap());
     assert!(value < 3e-5, "the bridge misses the curve by {value}");
-    assert_eq!(codes(&findings), [("motion.gap_filled", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionGapFilled, 1)]);
     assert_eq!(findings.as_slice()[0].message, "`pelvis_rx`: 16 missing samples were bridged by a spline");
 }
 
@@ -240,7 +240,7 @@ fn an_uneven_clock_is_resampled_and_said() {
     // derivative by some h⁴ (2π)⁶/2 = 9e-4/100.
     let [value, rate, acceleration] = errors(&found);
     assert!(value < 1e-9 && rate < 1e-6 && acceleration < 1e-3, "{value} {rate} {acceleration}");
-    assert_eq!(codes(&findings), [("motion.uneven_clock", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionUnevenClock, 1)]);
     let even: Vec<f64> = clock().iter().map(|t| (t * 1e4).round() / 1e4).collect();
     let values = even.iter().map(|&t| wave(t)).collect();
     let (_, findings) = smoothed(&recorded(even, values), Smoother::Off, Window::default());
@@ -412,7 +412,7 @@ fn a_follower_obeys_its_coupler_by_the_chain_rule() {
         assert_near(trajectory.rates(ids[1])[frame], slope * v, ROUNDING, "rate");
         assert_near(trajectory.accelerations(ids[1])[frame], slope * a + 2.0 * v * v, ROUNDING, "acceleration");
     }
-    assert_eq!(codes(&findings), [("motion.missing_coordinate", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionMissingCoordinate, 1)]);
 }
 
 #[test]
@@ -450,7 +450,7 @@ fn a_follower_recorded_in_degrees_is_recognised_and_one_that_agrees_is_not_menti
     let all = |column| complete(vec![Some(leader()), column, None, None, Some(leader())]).1;
     assert_eq!(codes(&all(follower(1.0))), []);
     let findings = all(follower(1.0_f64.to_degrees()));
-    assert_eq!(codes(&findings), [("motion.coupled_mismatch", 1)]);
+    assert_eq!(codes(&findings), [(Code::MotionCoupledMismatch, 1)]);
     assert!(findings.as_slice()[0].message.contains("in degrees under a header that says radians"));
     let findings = all(follower(1.5));
     assert!(!findings.as_slice()[0].message.contains("in degrees"));

@@ -6,7 +6,7 @@
 mod common;
 mod marker_data;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::scaling::{
     MeasuredBody, Measurement, ScalingError, SizeSettings, SizedModel, fit_size, measured_factors, size_by_measurements,
@@ -223,7 +223,7 @@ fn measured_distances_give_the_factors_of_a_known_person() {
     for ((found, expected), body) in found.iter().zip(&factors).zip(model.bodies()) {
         assert!((found - expected).norm() < 1e-12, "{}: {found} for {expected}", body.name);
     }
-    assert!(findings.has("scaling.pair"));
+    assert!(findings.has(Code::ScalingPair));
     let sized = size_by_measurements(model, &standing, &measurements, Some(60.0), &mut findings).unwrap();
     assert!(sized.rms_m < 1e-8 && sized.rms_before_m > 0.003, "{} from {}", sized.rms_m, sized.rms_before_m);
     assert!((sized.model.mass() - 60.0).abs() < 1e-9);

@@ -6,7 +6,7 @@
 mod shared_data;
 
 use ambulo::analysis::{Settings, analyse};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::model::from_osim_bytes;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
 use ambulo::simulation::scene::{Changes, Frame, Scene, SceneError, SceneFile};
@@ -147,8 +147,8 @@ fn the_crank_goes_round_and_the_rocker_to_and_fro() {
         gap = gap.max(frame.scene.largest_joint_error());
     });
     // The revolute closure holds three directions that the plane of the other hinges holds already.
-    let codes: Vec<&str> = findings.as_slice().iter().map(|f| f.code).collect();
-    assert_eq!(codes, ["closure.redundant"], "{:?}", findings.as_slice());
+    let codes: Vec<Code> = findings.as_slice().iter().map(|f| f.code).collect();
+    assert_eq!(codes, [Code::ClosureRedundant], "{:?}", findings.as_slice());
     assert!((scene.state().coordinates[crank][0].to_degrees() - 780.0).abs() < 1e-9);
     // After whole turns the rocker is where it was. Its extremes, from crank and coupler in line: law of cosines in the
     // triangle of frame 0.4, rocker 0.3 and 0.25 or 0.45.
@@ -189,7 +189,7 @@ fn friction_alone_lifts_the_box_and_holds_it() {
             pressed.push(forces.efforts[slide][0]);
         }
     });
-    assert!(findings.has("drive.gave_way") && !findings.has("solver.not_converged"));
+    assert!(findings.has(Code::DriveGaveWay) && !findings.has(Code::SolverNotConverged));
     let p = place(&scene, "box");
     assert!((p - Vec3::new(0.0, 0.34, 0.0)).norm() < 1e-6 && speed(&scene, "box") < 1e-6, "{p:?}");
     assert!(pressed.iter().all(|force| (force - 20.0).abs() < 1e-6), "the fingers press with 20 N");
@@ -423,7 +423,7 @@ position = [0, 1, 0]
 shape = { kind = "box", size = [0.1, 0.1, 0.1] }
 "#;
     let (_, findings) = build_in(Path::new(""), text, Changes::default()).unwrap();
-    assert!(findings.has("contact.not_round"), "{:?}", findings.as_slice());
+    assert!(findings.has(Code::ContactNotRound), "{:?}", findings.as_slice());
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 mod shared_data;
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::motion::skeleton::{REACH, SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use ambulo::spatial::Vec3;
 use ambulo_formats::bvh::Bvh;
@@ -121,7 +121,7 @@ fn joint_centres_stand_where_the_bones_put_them() {
     assert_at(&recording, "knee_r", 1, [0.0, 0.5, 0.09]);
     assert_at(&recording, "ankle_r", 1, [-0.42, 0.5, 0.09]);
     assert_at(&recording, "toe_r", 1, [-0.48, 0.36, 0.09]);
-    assert!(findings.has("bvh.low_trust") && findings.has("bvh.joints_missing"), "{findings:?}");
+    assert!(findings.has(Code::BvhLowTrust) && findings.has(Code::BvhJointsMissing), "{findings:?}");
 }
 
 #[test]
@@ -151,8 +151,8 @@ fn a_rig_whose_legs_lie_when_it_rests_stands_by_its_mean_posture() {
     let (head, _) = lying.split_once("0 93 0 0").unwrap();
     let frame = "0 93 0 0 0 0  0 90 0 0 0 0 0 0 0 0 0 0  0 90 0 0 0 0 0 0 0  0 0 0 0 0 0\n";
     let (recording, findings) = read(&format!("{head}{frame}{frame}"), None);
-    assert!(findings.has("bvh.rest_pose"), "{findings:?}");
-    assert!(!read(FIGURE, None).1.has("bvh.rest_pose"));
+    assert!(findings.has(Code::BvhRestPose), "{findings:?}");
+    assert!(!read(FIGURE, None).1.has(Code::BvhRestPose));
     for (name, place) in [
         ("ankle_r", [0.0, 0.08, 0.09]),
         ("toe_r", [0.14, 0.02, 0.09]),
@@ -199,9 +199,9 @@ fn unit_and_axes_are_told_from_the_body() {
     }
     // A unit of 3 cm is none; legs of 28.3 make a person of 1.9 m in inches nonetheless, and the stated stature wins.
     let (recording, findings) = read(&scaled(1.0 / 3.0), Some(1.3));
-    assert!(!findings.has("bvh.unit") && recording.statement.contains("inches"), "{}", recording.statement);
+    assert!(!findings.has(Code::BvhUnit) && recording.statement.contains("inches"), "{}", recording.statement);
     let (recording, findings) = read(&scaled(1.0 / 20.0), Some(1.7));
-    assert!(findings.has("bvh.unit") && recording.statement.contains("units of 0.19"), "{}", recording.statement);
+    assert!(findings.has(Code::BvhUnit) && recording.statement.contains("units of 0.19"), "{}", recording.statement);
     assert!((recording.height_m - 1.7).abs() < 1e-12);
     assert!(refused(&scaled(1.0 / 20.0)).contains("hint: give it with --height"), "{}", refused(&scaled(1.0 / 20.0)));
 }

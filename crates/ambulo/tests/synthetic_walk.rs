@@ -11,7 +11,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 use ambulo::analysis::{Analysis, ForceSource, MassSource, analyse_trajectory};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -157,7 +157,7 @@ fn the_correction_is_reported() {
 #[test]
 fn a_gait_that_no_small_change_makes_consistent_is_said_to_be_so() {
     let (_, findings) = made("goose", MAN, Mode::Corrected);
-    let found = findings.as_slice().iter().find(|finding| finding.code == "walk.not_consistent");
+    let found = findings.as_slice().iter().find(|finding| finding.code == Code::WalkNotConsistent);
     assert!(found.is_some_and(|finding| finding.message.contains("no small change")), "{findings:?}");
 }
 

@@ -3,7 +3,7 @@
 //! ezc3d leaves offsets where they are, so ours are read without removing them. Where the file holds the force of the
 //! foot on the plate, ezc3d passes it on as it stands and we turn it.
 
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::motion::{PlateRecording, PlateSettings, plates_from_c3d};
 use ambulo_formats::c3d::C3d;
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub(super) fn compare(
     if plates.is_empty() {
         return Ok(None);
     }
-    let turned = findings.has("plates.force_on_plate");
+    let turned = findings.has(Code::PlatesForceOnPlate);
     let mut found = PlateComparison { force_n: 0.0, center_m: 0.0, note: String::new() };
     if turned {
         found.note = "holds the force on the plate, which ezc3d does not turn".to_owned();

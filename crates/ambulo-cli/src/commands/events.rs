@@ -4,7 +4,7 @@ use crate::args::EventsArgs;
 use crate::laboratory_file::{self, LaboratoryFile};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::{EventAgreement, LaboratoryRecording, event_agreement};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
 use ambulo::ground::phases::contacts;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
@@ -75,7 +75,7 @@ fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<So
 
 fn in_world(recording: &LaboratoryRecording, findings: &mut Findings) -> LaboratoryRecording {
     let (axes, turned) = recording.in_world(findings);
-    findings.note("laboratory.axes", axes.statement);
+    findings.report(Code::LaboratoryAxes, axes.statement);
     turned
 }
 
@@ -106,7 +106,7 @@ fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec
     }
     let mut events = Vec::new();
     for (side, column) in columns {
-        findings.note("events.columns", format!("the {side} foot's upward force is `{column}`"));
+        findings.report(Code::EventsColumns, format!("the {side} foot's upward force is `{column}`"));
         for contact in contacts(times, table.column(&column).unwrap_or_default()) {
             push(&mut events, side, contact.strike_s, contact.off_s);
         }

@@ -6,7 +6,7 @@ use crate::args::Voice;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
 use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, Settings};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::report::{
     ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary,
@@ -52,8 +52,10 @@ impl Outcome<'_> {
         voice: Voice,
     ) -> Result<Verdict> {
         if analysis.cycles.is_empty() {
-            findings
-                .note("cycles.none", "no whole gait cycle in the window: cycles.csv and the figure were not written");
+            findings.report(
+                Code::CyclesNone,
+                "no whole gait cycle in the window: cycles.csv and the figure were not written",
+            );
         }
         let feasible = self.judge(&mut analysis, &mut findings);
         clock.lap("feasibility");

@@ -3,7 +3,7 @@
 use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
 use crate::{Verdict, files, printer};
-use ambulo::findings::{Finding, Severity};
+use ambulo::findings::{Code, Finding};
 use ambulo::report::OutputFile;
 use ambulo::report::page::{Folder, report_page};
 use anyhow::{Result, bail};
@@ -49,7 +49,7 @@ pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
 /// A run whose page cannot be made keeps its other results.
 pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
     let message = format!("{PAGE} was not written: {reason:#}");
-    Finding { code: "report.not_written", severity: Severity::Warning, message, count: 1 }
+    Finding { code: Code::ReportNotWritten, message, count: 1 }
 }
 
 /// The page of a run that is being written; `name` is that of its folder.

@@ -86,7 +86,7 @@ pub(crate) fn states(table: &str, findings: &Findings, voice: Voice) -> Result<(
 fn print_findings(findings: &[Finding]) {
     for finding in findings {
         let times = if finding.count > 1 { format!(" ({} times)", finding.count) } else { String::new() };
-        let severity = format!("{:?}", finding.severity).to_lowercase();
+        let severity = finding.severity();
         eprintln!("{severity}: {}{times}", finding.message.replace(" hint: ", "\n  hint: "));
     }
 }

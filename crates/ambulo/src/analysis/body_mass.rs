@@ -1,6 +1,6 @@
 //! Which body mass is believed: the one that was stated, or what plates carried while the person stood.
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 
 /// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
@@ -15,20 +15,20 @@ pub fn body_mass(stated_kg: Option<f64>, standing_kg: Option<f64>, findings: &mu
             let message = format!(
                 "{standing:.2} kg stand on the plates in the standing trial and were used; {stated:.2} kg are stated"
             );
-            findings.note("mass.standing", message);
+            findings.report(Code::MassStanding, message);
             Some(standing)
         }
         (Some(stated), Some(standing)) => {
             let message = format!(
                 "{stated:.1} kg are stated, the plates carry {standing:.1} kg in the standing trial; the stated mass was used. hint: --mass {standing:.1}"
             );
-            findings.warn("mass.mismatch", message);
+            findings.report(Code::MassMismatch, message);
             Some(stated)
         }
         (Some(stated), None) => Some(stated),
         (None, Some(standing)) => {
             let message = format!("no mass is stated; {standing:.1} kg stand on the plates in the standing trial");
-            findings.note("mass.standing", message);
+            findings.report(Code::MassStanding, message);
             Some(standing)
         }
         (None, None) => None,
@@ -47,14 +47,14 @@ mod tests {
     #[test]
     fn the_plates_are_believed_where_they_weigh_the_same_person() {
         let (mass, findings) = believed(Some(32.1), Some(31.07));
-        assert!(mass == Some(31.07) && findings.has("mass.standing"));
+        assert!(mass == Some(31.07) && findings.has(Code::MassStanding));
         assert_eq!(believed(None, Some(60.0)).0, Some(60.0));
     }
 
     #[test]
     fn a_person_beside_the_plates_is_not_weighed_by_them() {
         let (mass, findings) = believed(Some(60.0), Some(41.0));
-        assert!(mass == Some(60.0) && findings.has("mass.mismatch"));
+        assert!(mass == Some(60.0) && findings.has(Code::MassMismatch));
         assert!(believed(Some(60.0), None).1.as_slice().is_empty());
         assert_eq!(believed(None, None).0, None);
     }

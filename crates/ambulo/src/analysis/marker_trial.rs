@@ -5,7 +5,7 @@
 
 use super::feasibility::Person;
 use super::ground_agreement::Seen;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
 use crate::kinematics::calibration::{
@@ -168,8 +168,10 @@ fn hold_what_no_marker_shows(model: &Model, motion: &mut Motion, findings: &mut 
         let more = if held.len() > MOST { format!(" and {} more", held.len() - MOST) } else { String::new() };
         held.truncate(MOST);
         let names = held.join(", ");
-        findings
-            .note("markers.held", format!("no marker shows {names}{more}; the values in brackets are used throughout"));
+        findings.report(
+            Code::MarkersHeld,
+            format!("no marker shows {names}{more}; the values in brackets are used throughout"),
+        );
     }
 }
 
@@ -238,7 +240,7 @@ impl Subject {
         let (model, scaled) = match still {
             Some(still) => {
                 let sized = fit_size(model, still, SizeSettings { mass }, findings)?;
-                findings.note("scaling.fitted", scaling_message(&sized));
+                findings.report(Code::ScalingFitted, scaling_message(&sized));
                 let names = sized.model.bodies().iter().map(|body| body.name.clone());
                 (sized.model.clone(), names.zip(sized.factors).collect())
             }
@@ -293,7 +295,7 @@ fn while_seen(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecor
             markers.frames() - seen.frames(),
             markers.frames()
         );
-        findings.note("markers.ends", message);
+        findings.report(Code::MarkersEnds, message);
     }
     seen
 }

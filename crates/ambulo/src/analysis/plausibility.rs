@@ -1,8 +1,8 @@
 //! Whether model, motion and forces belong together: mistakes that leave every number finite and wrong.
 
-use super::residual::Residual;
-use crate::findings::Findings;
-use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, GroundForces};
+use super::recording::Analysis;
+use crate::findings::{Code, Findings};
+use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, GroundForces, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateKind, Model, Side};
 use crate::numerics::median;
@@ -15,20 +15,27 @@ const LARGE_RESIDUAL_BW: f64 = 0.15;
 const RANGE_SLACK_RAD: f64 = 0.35;
 
 /// A residual that is too large for the numbers to be trusted.
-pub(super) fn report_residual(residual: Option<Residual>, weight_n: f64, measured: bool, findings: &mut Findings) {
-    let Some(residual) = residual.filter(|_| measured && weight_n > 0.0) else { return };
+pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut Findings) {
+    let weight_n = analysis.mass.kg * model.gravity().norm();
+    let Some(residual) = analysis.residual.filter(|_| weight_n > 0.0) else { return };
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
             "the residual at the root is {:.0} % of body weight (walking data with every foot on a plate: below 10 %): forces, motion and model do not belong together, a foot stood off the plates, or the motion is not filtered; the moments are not to be trusted. hint: check files, sides and time origin; cut to the time when every foot on the floor is on a plate with --from and --to",
             100.0 * share
         );
-        findings.warn("residual.large", message);
+        findings.report(Code::ResidualLarge, message);
     }
 }
 
+/// Loads with the wrong sign or under the wrong foot.
+pub(super) fn report_loads(model: &Model, analysis: &Analysis, findings: &mut Findings) {
+    report_downward(model, &analysis.ground, upward(model), findings);
+    report_far_feet(model, &analysis.trajectory, &analysis.ground, findings);
+}
+
 /// Forces that pull a foot down: the force on the plate in place of the force on the foot.
-pub(super) fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
+fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
     for body in &ground.bodies {
         let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
         if mean < -CENTER_OF_PRESSURE_LOAD_N {
@@ -36,13 +43,13 @@ pub(super) fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, fi
             let message = format!(
                 "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it looks like the force on the plate. hint: change the sign of forces and torques"
             );
-            findings.warn("loads.downward", message);
+            findings.report(Code::LoadsDownward, message);
         }
     }
 }
 
 /// Centres of pressure that lie nearer to the other foot: right and left exchanged.
-pub(super) fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
+fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
     let side_of = |i: usize| Side::of_name(&model.bodies()[i].name);
     let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b.body.index()).is_some()).collect();
     let mut own: Vec<Vec<f64>> = vec![Vec::new(); feet.len()];
@@ -69,7 +76,7 @@ pub(super) fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &G
             let message = format!(
                 "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right and left may be exchanged. hint: exchange the bodies in the loads file or in --right and --left"
             );
-            findings.warn("loads.far_from_foot", message);
+            findings.report(Code::LoadsFarFromFoot, message);
         }
     }
 }
@@ -88,7 +95,7 @@ pub(super) fn report_ranges(model: &Model, trajectory: &Trajectory, findings: &m
                 "`{}` runs from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0}. hint: is this the motion of another model? Some count knee flexion positive, some negative",
                 coordinate.name
             );
-            findings.warn("motion.out_of_range", message);
+            findings.report(Code::MotionOutOfRange, message);
         }
     }
 }

@@ -5,11 +5,11 @@ use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
 use super::plausibility;
 use super::recording::{
-    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse_trajectory, trajectory_within,
+    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, trajectory_within, with_forces,
 };
 use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
-use crate::findings::{Finding, Findings};
+use crate::findings::{Code, Finding, Findings};
 use crate::ground::predict::{Known, PredictSettings, Prediction, predict};
 use crate::ground::sole::Sole;
 use crate::ground::upward;
@@ -158,26 +158,28 @@ fn with_plates(
     let mut of_plates = Findings::default();
     let measured = match plates {
         [] => None,
-        _ => Some(analyse_trajectory(model, trajectory.clone(), plates, source, &mut of_plates, &mut |_| ())?),
+        _ => Some(with_forces(model, trajectory.clone(), plates, source, &mut of_plates, &mut |_| ())?),
     };
-    report_plates(&of_plates, within.is_some(), findings);
+    if let Some(measured) = &measured {
+        report_plates(model, measured, within.is_some(), &mut of_plates);
+    }
+    for finding in of_plates.as_slice() {
+        let message = format!("plates beside the prediction: {}", finding.message);
+        findings.add(Finding { message, ..finding.clone() });
+    }
     stage("plates");
     let analysis = with_prediction(model, trajectory, &prediction, findings);
     stage("analysis");
     Ok(PredictedAnalysis { analysis, prediction, measured })
 }
 
-/// What was odd about the plates that the prediction is held against. Where nobody knows when they measured every foot, the residual
-/// of feet beside them is none.
-fn report_plates(of_plates: &Findings, window_is_known: bool, findings: &mut Findings) {
-    /// Said of the motion, which is the prediction's too, or of a residual over times without plates.
-    const OF_THE_MOTION: &str = "motion.out_of_range";
-    const OF_THE_WINDOW: &str = "residual.large";
-    let is_of_plates = |f: &&Finding| f.code != OF_THE_MOTION && (window_is_known || f.code != OF_THE_WINDOW);
-    for finding in of_plates.as_slice().iter().filter(is_of_plates) {
-        let message = format!("plates beside the prediction: {}", finding.message);
-        findings.add(Finding { message, ..finding.clone() });
+/// Judges the plates that the prediction is compared with. Where it is not known when they measured every foot, a residual may be due
+/// to a foot off the plates and is not reported. The range of the motion is judged with the prediction.
+fn report_plates(model: &Model, measured: &Analysis, window_is_known: bool, findings: &mut Findings) {
+    if window_is_known {
+        plausibility::report_residual(model, measured, findings);
     }
+    plausibility::report_loads(model, measured, findings);
 }
 
 /// Whether a sensor is fast enough for a filter.
@@ -196,7 +198,7 @@ fn with_prediction(
     let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = prediction.footfalls.events().into_iter().filter(inside).collect();
     if !events.iter().any(|event| event.kind == EventKind::Strike) {
-        findings.note("events.none", "no foot strike was found in the motion inside the window");
+        findings.report(Code::EventsNone, "no foot strike was found in the motion inside the window");
     }
     plausibility::report_ranges(model, &trajectory, findings);
     Analysis {

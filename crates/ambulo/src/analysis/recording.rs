@@ -6,7 +6,7 @@ use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
@@ -167,6 +167,25 @@ pub fn analyse_trajectory(
     findings: &mut Findings,
     stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
+    let analysis = with_forces(model, trajectory, plates, source, findings, stage)?;
+    if !plates.is_empty() {
+        plausibility::report_residual(model, &analysis, findings);
+    }
+    plausibility::report_loads(model, &analysis, findings);
+    plausibility::report_ranges(model, &analysis.trajectory, findings);
+    stage("analysis");
+    Ok(analysis)
+}
+
+/// The analysis itself, without any judgement of whether motion and forces belong together.
+pub(super) fn with_forces(
+    model: &Model,
+    trajectory: Trajectory,
+    plates: &[ForceRecording],
+    source: ForceSource,
+    findings: &mut Findings,
+    stage: &mut dyn FnMut(&'static str),
+) -> Result<Analysis, AnalysisError> {
     let (filter, within) = match source {
         ForceSource::Measured { filter, within } => (filter, within),
         ForceSource::Simulated => (None, None),
@@ -185,7 +204,7 @@ pub fn analyse_trajectory(
     let events: Vec<Event> = events(&contacts).into_iter().filter(inside).collect();
     let cycles = cycles(&events, grid);
     if !plates.is_empty() && !events.iter().any(|e| e.kind == EventKind::Strike) {
-        findings.note("events.none", "no foot strike was found in the forces inside the window");
+        findings.report(Code::EventsNone, "no foot strike was found in the forces inside the window");
     }
     let mass = match source {
         ForceSource::Measured { .. } => mass(model, &vertical, &weighing(&cycles, &events, findings), findings),
@@ -194,11 +213,6 @@ pub fn analyse_trajectory(
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
     let (first, frames) = grid.inside(within.unwrap_or_default());
     let residual = residual_within(model, &forces, first..first + frames);
-    plausibility::report_residual(residual, mass.kg * model.gravity().norm(), !plates.is_empty(), findings);
-    plausibility::report_downward(model, &ground, up, findings);
-    plausibility::report_far_feet(model, &trajectory, &ground, findings);
-    plausibility::report_ranges(model, &trajectory, findings);
-    stage("analysis");
     Ok(Analysis {
         trajectory,
         adjusted: false,
@@ -233,7 +247,7 @@ fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
     let (sided, other): (Vec<&str>, Vec<&str>) = names.partition(|name| Side::of_name(name).is_some());
     for name in other {
         let message = format!("the load on `{name}`, which is of no side, is used but not written to grf.mot");
-        findings.warn("loads.no_side", message);
+        findings.report(Code::LoadsNoSide, message);
     }
     for side in Side::BOTH {
         let bodies: Vec<&str> = sided.iter().filter(|n| Side::of_name(n) == Some(side)).copied().collect();
@@ -242,7 +256,7 @@ fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
                 "{} are pushed on the {side}; grf.mot holds their sum, on the one that carried most",
                 bodies.join(" and ")
             );
-            findings.note("loads.several_bodies", message);
+            findings.report(Code::LoadsSeveralBodies, message);
         }
     }
 }
@@ -263,7 +277,7 @@ fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings:
             start(covered),
             end(covered)
         );
-        findings.note("loads.shorter_than_motion", message);
+        findings.report(Code::LoadsShorterThanMotion, message);
     }
     covered
 }
@@ -307,7 +321,7 @@ fn weighing(cycles: &[Cycle], events: &[Event], findings: &mut Findings) -> Vec<
             "{} cycle {} ({:.3} to {:.3} s): the other foot was not seen to leave and to meet the ground; it may have stood off the plates, so this cycle's forces are not the whole body's",
             cycle.side, cycle.number, cycle.start_s, cycle.end_s
         );
-        findings.warn("cycles.other_foot_unseen", message);
+        findings.report(Code::CyclesOtherFootUnseen, message);
     }
     whole.into_iter().copied().collect()
 }
@@ -324,14 +338,14 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
         let message = format!(
             "the mean vertical force over whole cycles carries {mean:.1} kg, the model has {stated:.1} kg; a foot was off the plates, or the model is not scaled to this person. The model's mass was used"
         );
-        findings.warn("mass.not_whole_body", message);
+        findings.report(Code::MassNotWholeBody, message);
         return Mass { kg: stated, source: MassSource::Model };
     }
     if (mean / stated - 1.0).abs() > MASS_MISMATCH {
         let message = format!(
             "the plates carry {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are normalised by the plates' mass, the dynamics use the model's. hint: scale the model to this person"
         );
-        findings.warn("mass.mismatch", message);
+        findings.report(Code::MassMismatch, message);
     }
     Mass { kg: mean, source: MassSource::Plates }
 }

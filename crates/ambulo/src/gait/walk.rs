@@ -16,7 +16,7 @@ use super::request::{Gait, KnotChange, Pelvis};
 use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
 use super::stride::{StrideLaw, walking_speeds};
 use super::style::Style;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 
 /// A gait resolved on a leg length.
 #[derive(Debug, Clone, PartialEq)]
@@ -325,8 +325,8 @@ fn refuse_faults(curve: &CyclicCurve, joint: Joint, laws: &Laws) -> Result<(), G
 fn report_range(speed: f64, leg_length: f64, findings: &mut Findings) {
     let [slowest, fastest] = walking_speeds(leg_length);
     if !(slowest..=fastest).contains(&speed) {
-        findings.warn(
-            "gait.speed_range",
+        findings.report(
+            Code::GaitSpeedRange,
             format!(
                 "a speed of {speed:.2} m/s is outside walking on a leg of {leg_length:.2} m, {slowest:.2} to {fastest:.2} m/s; the \
                  joint curves are those of the nearest speed of the data"

@@ -18,7 +18,7 @@
 //! Pinned by: tests/ground_measured.rs, tests/opensim_parity.rs
 
 use crate::dynamics::LoadSeries;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::filter::{LowPass, low_pass};
@@ -249,7 +249,7 @@ fn about_origin(recording: &ForceRecording, findings: &mut Findings) -> Result<[
                 "the load `{}` has no point of application while it is unloaded; read as no load",
                 recording.name
             );
-            findings.note("loads.point_undefined", message);
+            findings.report(Code::LoadsPointUndefined, message);
         }
         if !is_finite(force) || !is_finite(moment) || !is_finite(torque) {
             return Err(MotionError::Gap { column: recording.name.clone(), from_s: time, to_s: time, longest_s: 0.0 });

@@ -9,7 +9,7 @@
 //! Pinned by: tests/retarget.rs
 
 use super::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
 use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
@@ -77,7 +77,7 @@ pub fn retarget(
             floor.abs(),
             if floor < 0.0 { "below" } else { "above" }
         );
-        findings.note("bvh.floor", message);
+        findings.report(Code::BvhFloor, message);
     }
     // What an animation program wrote has no exchanged labels, but arms so straight that only ranges keep them from turning round.
     let settings = FitSettings { guard: Guard::Off, limits: Limits::Ranges, ..FitSettings::default() };
@@ -205,7 +205,8 @@ impl Lengths {
             .map(|(name, found, usual)| format!("{name} {found:.3} m instead of {usual:.3} m"))
             .collect();
         if !unlike.is_empty() {
-            findings.note("bvh.lengths", format!("the skeleton is built unlike a usual body: {}", unlike.join(", ")));
+            findings
+                .report(Code::BvhLengths, format!("the skeleton is built unlike a usual body: {}", unlike.join(", ")));
         }
     }
 

@@ -1,7 +1,7 @@
 //! Every coordinate of a model, with two derivatives, on a uniform time grid.
 
 use super::body_motion::Posture;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
@@ -169,7 +169,7 @@ fn report_missing(model: &Model, motion: &SmoothMotion, findings: &mut Findings)
             "the recording has no column for {}; the default values in brackets are used throughout",
             missing.join(", ")
         );
-        findings.warn("motion.missing_coordinate", message);
+        findings.report(Code::MotionMissingCoordinate, message);
     }
 }
 
@@ -214,5 +214,5 @@ fn report_mismatch(
         "coordinate `{}` {source}; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
         coordinate.name
     );
-    findings.warn("motion.coupled_mismatch", message);
+    findings.report(Code::MotionCoupledMismatch, message);
 }

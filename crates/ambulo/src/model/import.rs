@@ -4,7 +4,7 @@ use super::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Knots,
     Marker, Measure, Model, ModelError, SimmSpline,
 };
-use crate::findings::{Finding, Findings, Severity};
+use crate::findings::{Code, Finding, Findings};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
 use ambulo_formats::osim::{
@@ -134,7 +134,7 @@ pub fn from_osim_bytes(bytes: &[u8], findings: &mut Findings) -> Result<Model, O
 /// Bodies outside the tree, negative masses, names that lead nowhere: see [`ImportError`].
 pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model, ImportError> {
     for remark in &document.remarks {
-        findings.warn("model.document", remark.to_string());
+        findings.report(Code::ModelDocument, remark.to_string());
     }
     note_ignored(document, findings);
     check_joints(document)?;
@@ -166,8 +166,7 @@ fn note_ignored(document: &OsimModel, findings: &mut Findings) {
     }
     let kinds: Vec<_> = document.ignored.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     findings.add(Finding {
-        code: "model.ignored",
-        severity: Severity::Note,
+        code: Code::ModelIgnored,
         message: format!("the model's forces and geometry play no part in inverse dynamics: {}", kinds.join(", ")),
         count: 1,
     });
@@ -233,12 +232,12 @@ fn import_inertia(body: &OsimBody, findings: &mut Findings) -> Result<Inertia, I
     let inertia = Inertia::new(body.mass_kg, Vec3::from(body.mass_center_m), about_center)
         .map_err(|source| ImportError::Inertia { body: body.name.clone(), line: body.line, source })?;
     if body.mass_kg < f64::MIN_POSITIVE {
-        findings.warn("model.massless", format!("body `{}` (line {}) has no mass", body.name, body.line));
+        findings.report(Code::ModelMassless, format!("body `{}` (line {}) has no mass", body.name, body.line));
     }
     if let Some(defect) = inertia.defect() {
         let message =
             format!("body `{}` (line {}) has an inertia that no rigid body has: {defect}", body.name, body.line);
-        findings.warn("model.inertia", message);
+        findings.report(Code::ModelInertia, message);
     }
     Ok(inertia)
 }
@@ -400,7 +399,7 @@ fn couple(
             let message = format!(
                 "the {kind} `{name}` (line {line}) is not enforced: forces through it are reported at the joints of the tree"
             );
-            findings.warn("model.constraint", message);
+            findings.report(Code::ModelConstraint, message);
             Ok(())
         }
         OsimConstraint::CoordinateCoupler { name, line, independent, dependent, function } => {

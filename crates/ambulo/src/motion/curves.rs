@@ -6,7 +6,7 @@ use super::gaps::{fill_gaps, spline_through};
 use super::import::{coordinates_from_table, rows_with_rising_time};
 use super::recording::MotionError;
 use super::time_grid::TimeGrid;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{CoordinateId, Model};
 use crate::numerics::NaturalSpline;
 use ambulo_formats::table::Table;
@@ -55,7 +55,7 @@ impl RecordedTable {
     pub fn read(bytes: &[u8], origin: &str, findings: &mut Findings) -> Result<RecordedTable, CurveError> {
         let (table, remarks) = Table::read_storage(bytes)?;
         for remark in remarks {
-            findings.warn("file.odd", format!("{origin}: {remark}"));
+            findings.report(Code::FileOdd, format!("{origin}: {remark}"));
         }
         Ok(RecordedTable { origin: origin.to_owned(), table })
     }
@@ -99,7 +99,7 @@ impl RecordedTable {
         };
         if turns && self.table.in_degrees.is_none() {
             let message = format!("{}: the header has no `inDegrees`; angles are read as radians", self.origin);
-            findings.warn("motion.unit_unstated", message);
+            findings.report(Code::MotionUnitUnstated, message);
         }
         let unit = if turns && self.table.in_degrees == Some(true) { 1.0_f64.to_radians() } else { 1.0 };
         let kept = rows_with_rising_time(&self.table, findings)?;

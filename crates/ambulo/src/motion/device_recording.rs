@@ -7,7 +7,7 @@
 use super::import::rows_with_rising_time;
 use super::recording::MotionError;
 use super::time_grid::{TimeGrid, interpolate};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Model;
 use ambulo_formats::table::Table;
 
@@ -28,7 +28,7 @@ impl DeviceRecording {
             let message = format!(
                 "the device was recorded from {first:.3} s to {last:.3} s only; elsewhere its contribution counts as zero"
             );
-            findings.warn("device.shorter_than_motion", message);
+            findings.report(Code::DeviceShorterThanMotion, message);
         }
     }
 
@@ -64,7 +64,8 @@ pub fn device_from_table(
         DeviceRecording { times: kept.iter().map(|&row| times[row]).collect(), columns: vec![None; names.len()] };
     for (name, values) in table.columns().skip(1) {
         let Some(index) = names.iter().position(|n| n == name) else {
-            findings.warn("device.unknown_column", format!("the model has no generalised force `{name}`; not used"));
+            findings
+                .report(Code::DeviceUnknownColumn, format!("the model has no generalised force `{name}`; not used"));
             continue;
         };
         if let Some(&row) = kept.iter().find(|&&row| !values[row].is_finite()) {

@@ -2,7 +2,7 @@
 
 use super::import::rows_with_rising_time;
 use super::recording::MotionError;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
@@ -62,7 +62,7 @@ pub fn force_recordings(
     let mut recordings = Vec::new();
     for load in &loads.forces {
         if !load.enabled {
-            findings.note("loads.switched_off", format!("the load `{}` is switched off in its file", load.name));
+            findings.report(Code::LoadsSwitchedOff, format!("the load `{}` is switched off in its file", load.name));
             continue;
         }
         let recording = ForceRecording {
@@ -125,6 +125,6 @@ fn report_millimetres(recording: &ForceRecording, findings: &mut Findings) {
             "the load `{}` acts up to {farthest:.0} m from the origin; its points look like millimetres. hint: divide the points by 1000, and the moments too if they are N.mm",
             recording.name
         );
-        findings.warn("loads.millimetres", message);
+        findings.report(Code::LoadsMillimetres, message);
     }
 }

@@ -1,6 +1,6 @@
 //! Foot strikes and toe-offs as things that are named, and those that a C3D file lists.
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use ambulo_formats::c3d::C3d;
 
@@ -53,7 +53,7 @@ pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
                     "the file's event `{}` of `{}` is no foot strike or toe-off of a side; it was not used",
                     event.label, event.context
                 );
-                findings.note("events.not_used", message);
+                findings.report(Code::EventsNotUsed, message);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::recording::MotionError;
 use super::time_grid::Window;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 use std::ops::Range;
 
@@ -58,7 +58,7 @@ pub(super) fn fill_gaps(
     }
     let spline = spline_through(name, &pick(times, &known), &pick(column, &known))?;
     let missing = column.len() - known.len();
-    findings.warn("motion.gap_filled", format!("`{name}`: {missing} missing samples were bridged by a spline"));
+    findings.report(Code::MotionGapFilled, format!("`{name}`: {missing} missing samples were bridged by a spline"));
     Ok((0..column.len()).map(|i| if column[i].is_finite() { column[i] } else { spline.value(times[i]) }).collect())
 }
 

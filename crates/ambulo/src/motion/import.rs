@@ -1,7 +1,7 @@
 //! From a table of numbers to a recording of a model's coordinates.
 
 use super::recording::{Motion, MotionError};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateKind, Model};
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
@@ -28,7 +28,8 @@ pub fn coordinates_from_table(
     let kept = rows_with_rising_time(table, findings)?;
     let times = table.times().unwrap_or_default();
     let in_degrees = table.in_degrees.unwrap_or_else(|| {
-        findings.warn("motion.unit_unstated", "the motion's header has no `inDegrees`; its angles are read as radians");
+        findings
+            .report(Code::MotionUnitUnstated, "the motion's header has no `inDegrees`; its angles are read as radians");
         false
     });
     let mut motion = Motion {
@@ -91,7 +92,7 @@ pub(super) fn rows_with_rising_time(table: &Table, findings: &mut Findings) -> R
         } else if let Some(column) = first_difference(table, before, row) {
             return Err(MotionError::TwoRows { place: place(row), time, column });
         } else {
-            findings.warn("motion.repeated_row", "rows that repeat the one before them were dropped");
+            findings.report(Code::MotionRepeatedRow, "rows that repeat the one before them were dropped");
         }
     }
     Ok(kept)
@@ -121,7 +122,7 @@ fn report_unknown(model: &Model, unknown: &[&str], motion: &Motion, findings: &m
         "the model has no such coordinates: {}; these columns were not used{unmatched}",
         unknown.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
     );
-    findings.warn("motion.unknown_coordinate", message);
+    findings.report(Code::MotionUnknownCoordinate, message);
 }
 
 fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings: &mut Findings) {
@@ -144,7 +145,7 @@ fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings:
                 "angles that were read as radians look like degrees: they reach {}. hint: set inDegrees=yes in the header of a .mot or .sto; a .csv cannot state its unit",
                 large.join(", ")
             );
-            findings.warn("motion.degrees_as_radians", message);
+            findings.report(Code::MotionDegreesAsRadians, message);
         }
         return;
     }
@@ -153,6 +154,6 @@ fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings:
         let message = format!(
             "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} where the header says degrees; they look like radians. hint: set inDegrees=no in the header"
         );
-        findings.warn("motion.radians_as_degrees", message);
+        findings.report(Code::MotionRadiansAsDegrees, message);
     }
 }

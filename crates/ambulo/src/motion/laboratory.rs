@@ -12,7 +12,7 @@
 use super::force_plate::PlateRecording;
 use super::landmarks::Landmarks;
 use super::marker_recording::{MarkerPath, MarkerRecording};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
@@ -45,6 +45,8 @@ pub struct Laboratory {
     pub metres_per_stated_metre: f64,
     /// How forward was found.
     pub heading: Heading,
+    /// How far the body turns on its way [deg]; `None` where it walks straight or not at all.
+    pub turn_deg: Option<f64>,
     /// One line for people: `lab z up, mm, walking +y -> world x forward, y up, z right, m`.
     pub statement: String,
 }
@@ -88,7 +90,9 @@ pub fn laboratory(
     let landmarks = Landmarks::find(markers);
     let up = upward(markers, &landmarks, plates, findings);
     let scale = scale(markers, up, findings);
-    let (forward, heading) = forward(markers, &landmarks, plates, up, scale, findings);
+    let travel = travel(markers, &landmarks, plates, up, scale, findings);
+    let (forward, heading) =
+        forward(travel.map(|travel| travel.direction), facing(markers, &landmarks, up), up, findings);
     let right = forward.cross(&up);
     let way = match heading {
         Heading::Walking => "walking",
@@ -100,6 +104,7 @@ pub fn laboratory(
         world_from_lab: Mat3::from_rows(&[forward.transpose(), up.transpose(), right.transpose()]),
         metres_per_stated_metre: scale,
         heading,
+        turn_deg: travel.and_then(|travel| travel.turn_deg),
         statement: format!(
             "lab {} up, {unit}, {way} {} -> world x forward, y up, z right, m",
             up_name(up),
@@ -128,7 +133,7 @@ fn upward(
                 up_name(body),
                 up_name(plate)
             );
-            findings.warn("laboratory.up_contradicted", message);
+            findings.report(Code::LaboratoryUpContradicted, message);
             body
         }
         (_, Some((plate, _))) => plate,
@@ -139,7 +144,7 @@ fn upward(
                 "no plate and no posture says which axis is up; {} was taken. hint: name heel, toe and pelvis markers as in the list of marker sets",
                 up_name(up)
             );
-            findings.warn("laboratory.up_unclear", message);
+            findings.report(Code::LaboratoryUpUnclear, message);
             up
         }
     }
@@ -179,14 +184,14 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
         let message = format!(
             "the markers span {height:.3} m from lowest to highest, which is no standing person and no slip of unit; lengths were left as they are"
         );
-        findings.warn("laboratory.size_odd", message);
+        findings.report(Code::LaboratorySizeOdd, message);
         return 1.0;
     };
     let message = format!(
         "the markers span {height:.4} m from lowest to highest by the file's unit; lengths were multiplied by {factor}, which gives {:.3} m",
         height * factor
     );
-    findings.warn("laboratory.unit_changed", message);
+    findings.report(Code::LaboratoryUnitChanged, message);
     factor
 }
 
@@ -200,16 +205,8 @@ fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
 
 // ---- forward ----
 
-fn forward(
-    markers: &MarkerRecording,
-    landmarks: &Landmarks,
-    plates: &[PlateRecording],
-    up: Vec3,
-    scale: f64,
-    findings: &mut Findings,
-) -> (Vec3, Heading) {
-    let facing = facing(markers, landmarks, up);
-    match (travel(markers, landmarks, plates, up, scale, findings), facing) {
+fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut Findings) -> (Vec3, Heading) {
+    match (travel, facing) {
         (Some(travel), None) => (snapped(travel, up), Heading::Walking),
         (Some(travel), Some(facing)) => {
             let apart = angle_deg(travel, facing);
@@ -218,13 +215,13 @@ fn forward(
             }
             if apart >= 180.0 - SIDEWAYS_DEG {
                 let message = "the body goes backwards: forward is where it looks to, against its way";
-                findings.warn("laboratory.backwards", message);
+                findings.report(Code::LaboratoryBackwards, message);
                 return (snapped(-travel, up), Heading::Walking);
             }
             let message = format!(
                 "the body goes {apart:.0} degrees beside where it looks to; forward is where it looks to. hint: swapped left and right markers look like this too"
             );
-            findings.warn("laboratory.sideways", message);
+            findings.report(Code::LaboratorySideways, message);
             (snapped(facing, up), Heading::Facing)
         }
         (None, Some(facing)) => (snapped(facing, up), Heading::Facing),
@@ -234,13 +231,20 @@ fn forward(
                 "nothing says which way is forward (the body stays where it is, and no heel, toe or pelvis marker is known); {} was taken",
                 direction_name(forward, up)
             );
-            findings.warn("laboratory.forward_unclear", message);
+            findings.report(Code::LaboratoryForwardUnclear, message);
             (forward, Heading::Unknown)
         }
     }
 }
 
-/// Where the pelvis goes, if it goes anywhere.
+/// The way of the pelvis along the floor.
+#[derive(Debug, Clone, Copy)]
+struct Travel {
+    direction: Vec3,
+    turn_deg: Option<f64>,
+}
+
+/// The way of the pelvis; `None` if it stays where it is.
 fn travel(
     markers: &MarkerRecording,
     landmarks: &Landmarks,
@@ -248,7 +252,7 @@ fn travel(
     up: Vec3,
     scale: f64,
     findings: &mut Findings,
-) -> Option<Vec3> {
+) -> Option<Travel> {
     let path = body_path(markers, landmarks, up);
     let (first, last) = (path.first()?, path.last()?);
     let way = level(last.1 - first.1, up);
@@ -259,7 +263,7 @@ fn travel(
     let middle = path[path.len() / 2].1;
     let turn = angle_deg(middle - first.1, last.1 - middle);
     if turn <= TURN_DEG {
-        return Some(way.normalize());
+        return Some(Travel { direction: way.normalize(), turn_deg: None });
     }
     let on_plates = loaded_span(plates).and_then(|[from, to]| {
         let inside: Vec<&(f64, Vec3)> = path.iter().filter(|(t, _)| (from..=to).contains(t)).collect();
@@ -270,8 +274,8 @@ fn travel(
     let message = format!(
         "the body turns by about {turn:.0} degrees on its way; forward is {chosen}, and angles of the pelvis and fore-aft forces mean less than on a straight way"
     );
-    findings.warn("laboratory.turning", message);
-    on_plates.or(Some(way.normalize()))
+    findings.report(Code::LaboratoryTurning, message);
+    Some(Travel { direction: on_plates.unwrap_or_else(|| way.normalize()), turn_deg: Some(turn) })
 }
 
 /// Instants and horizontal places of the pelvis, or of the middle of all markers that are always seen.

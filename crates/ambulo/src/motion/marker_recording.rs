@@ -1,7 +1,7 @@
 //! What cameras saw: the paths of markers, in metres, gaps as not-a-number.
 
 use super::real_points::{one_of_each_name, real_points, shared_prefix};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
@@ -210,7 +210,7 @@ fn read_zeros_as_gaps(recording: &mut MarkerRecording, findings: &mut Findings) 
     if count > 0 {
         let message =
             format!("{count} positions of exactly 0 0 0 were read as gaps, of the markers {}", names.join(", "));
-        findings.warn("markers.zero_is_gap", message);
+        findings.report(Code::MarkersZeroIsGap, message);
     }
 }
 
@@ -226,7 +226,7 @@ fn drop_impossible_places(recording: &mut MarkerRecording, findings: &mut Findin
     }
     if count > 0 {
         let message = format!("{count} positions further than {FARTHEST_M} m from the origin were read as gaps");
-        findings.warn("markers.impossible", message);
+        findings.report(Code::MarkersImpossible, message);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which points of a C3D file are markers that cameras saw.
 
 use super::marker_recording::MarkerPath;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use ambulo_formats::c3d::{C3d, Point};
 
 /// Parameters of POINT that list points which are no places (Vicon's type groups), or were computed.
@@ -49,7 +49,7 @@ pub(super) fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) 
             None => kept.push(path),
             Some(before) => {
                 let message = format!("two points are called {}; the one that was seen longer was kept", path.name);
-                findings.warn("markers.name_twice", message);
+                findings.report(Code::MarkersNameTwice, message);
                 if seen(&path) > seen(before) {
                     *before = path;
                 }

@@ -10,7 +10,7 @@ use super::filter::{LowPass, low_pass_padded};
 use super::gaps::{LONGEST_GAP_S, fill_gaps, rows_around, spline_through};
 use super::recording::{Motion, MotionError};
 use super::time_grid::{TimeGrid, Window};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 
@@ -176,7 +176,7 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
         steps[0],
         intervals / (end_s - start_s)
     );
-    findings.warn("motion.uneven_clock", message);
+    findings.report(Code::MotionUnevenClock, message);
     Ok(TimeGrid { start_s, step_s: (end_s - start_s) / intervals, frames })
 }
 

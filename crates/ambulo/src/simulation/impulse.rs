@@ -18,7 +18,7 @@ use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
 use super::world::{Impact, Joint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::spatial::{Pose, Twist};
 
 /// Forces beyond so many times the weight of everything are taken as a sign that rows contradict each other: drives without
@@ -219,8 +219,8 @@ impl StepWorkspace {
             let joint = &world.joints[joint];
             let name = joint.kind.coordinate_names()[coordinate];
             let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
-            findings.warn(
-                "drive.gave_way",
+            findings.report(
+                Code::DriveGaveWay,
                 format!(
                     "the drive of `{}` ({name}) could not keep to its motion with {max:.4} {unit} and gave way",
                     joint.name
@@ -231,8 +231,8 @@ impl StepWorkspace {
         let contradicts = convergence.residual > CONTRADICTION || convergence.residual.is_nan();
         if let (true, Some(row)) = (contradicts, convergence.worst) {
             let name = self.row_name(world, row);
-            findings.warn(
-                "solver.not_converged",
+            findings.report(
+                Code::SolverNotConverged,
                 format!("not all constraints could be met at once; the one that departs most is {name}"),
             );
         }

@@ -3,7 +3,7 @@
 use super::{Converted, lost};
 use crate::args::ConvertArgs;
 use crate::commands::result_folder::ResultFolder;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::report::page::Folder;
 use ambulo::report::{bvh_of_folder, csv_of_folder, glb_of_folder};
 use anyhow::{Result, bail};
@@ -23,7 +23,7 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
         "glb" => glb_of_folder(&folder).map(|glb| {
             lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
             let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
-            findings.note("convert.axes", format!("lengths are in metres; x forward, y up, z right{arrows}"));
+            findings.report(Code::ConvertAxes, format!("lengths are in metres; x forward, y up, z right{arrows}"));
             glb.bytes
         }),
         "bvh" => {
@@ -31,7 +31,7 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
                 &mut findings,
                 &["forces".to_owned(), "masses and inertias".to_owned(), "the time of the first frame".to_owned()],
             );
-            findings.note("convert.axes", "lengths are in centimetres; x forward, y up, z right");
+            findings.report(Code::ConvertAxes, "lengths are in centimetres; x forward, y up, z right");
             bvh_of_folder(&folder)
         }
         _ => csv_of_folder(&folder).map(String::into_bytes),

@@ -7,7 +7,7 @@ mod table;
 
 use crate::args::ConvertArgs;
 use crate::{Verdict, files, printer};
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use anyhow::{Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -118,7 +118,7 @@ fn check_target(path: &Path, args: &ConvertArgs) -> Result<()> {
 /// Says what the new format cannot hold.
 fn lost(findings: &mut Findings, what: &[String]) {
     if !what.is_empty() {
-        findings.note("convert.lost", format!("not carried over: {}", what.join(", ")));
+        findings.report(Code::ConvertLost, format!("not carried over: {}", what.join(", ")));
     }
 }
 

@@ -5,7 +5,7 @@ use crate::args::{ConvertArgs, What};
 use crate::files;
 use crate::laboratory_file::recording_of_c3d;
 use ambulo::analysis::LaboratoryRecording;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::feet_on_plates;
 use ambulo::motion::{
@@ -77,7 +77,7 @@ fn turned(
         return markers;
     }
     let axes = laboratory(&markers, plates, unit, findings);
-    findings.note("convert.axes", axes.statement.clone());
+    findings.report(Code::ConvertAxes, axes.statement.clone());
     axes.markers(&markers)
 }
 
@@ -109,7 +109,7 @@ fn analog_table(c3d: &C3d) -> Result<Table> {
 /// Ground forces by foot, and how OpenSim's tools apply them.
 fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Result<Converted> {
     let (axes, recording) = recording_of_c3d(c3d, &mut findings)?.in_world(&mut findings);
-    findings.note("convert.axes", axes.statement);
+    findings.report(Code::ConvertAxes, axes.statement);
     let LaboratoryRecording { markers, plates, .. } = recording;
     let motion = foot_motion(&markers, &mut findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], &mut findings);
@@ -118,7 +118,7 @@ fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Re
     };
     if !is_level {
         let message = "the plates have different heights; every centre of pressure was put at the first one's";
-        findings.warn("convert.heights", message);
+        findings.report(Code::ConvertHeights, message);
     }
     let points = counted(c3d.points.len(), "point");
     lost(&mut findings, &others(c3d, &[points, counted(c3d.channels.len(), "raw analog channel")]));

@@ -3,7 +3,7 @@
 use super::{Converted, lost};
 use crate::args::ConvertArgs;
 use crate::files;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::from_osim;
 use ambulo::motion::skeleton::{joint_paths, skeleton_from_bvh};
@@ -39,14 +39,14 @@ fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Resu
     let name = args.input.file_name().unwrap_or_default().to_string_lossy();
     match skeleton_from_bvh(bvh, &name, None, &mut Findings::default()) {
         Ok(skeleton) => {
-            findings.note("bvh.axes", skeleton.statement.clone());
+            findings.report(Code::BvhAxes, skeleton.statement.clone());
             let paths = joint_paths(bvh, &name, skeleton.metres_per_unit)?;
             Ok(if args.world { paths.turned(&skeleton.world_from_file) } else { paths })
         }
         Err(error) if args.world => Err(error).context("--world needs a person's skeleton"),
         Err(error) => {
-            findings.warn(
-                "bvh.unit",
+            findings.report(
+                Code::BvhUnit,
                 format!("lengths were taken as centimetres, for this is no person's skeleton: {error}"),
             );
             Ok(joint_paths(bvh, &name, CENTIMETRE)?)
@@ -83,7 +83,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let trajectory = Trajectory::complete(&model, &smoothed, &mut findings).with_context(|| shown.clone())?;
     if to == "glb" {
         lost(&mut findings, &["masses and inertias".to_owned()]);
-        findings.note("convert.axes", "lengths are in metres; x forward, y up, z right");
+        findings.report(Code::ConvertAxes, "lengths are in metres; x forward, y up, z right");
         let bytes = glb_of_motion(&model, &trajectory).with_context(|| shown.clone())?;
         return Ok(Converted { files: vec![(args.output.clone(), bytes)], findings });
     }
@@ -91,6 +91,6 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let masses =
         ["masses and inertias".to_owned(), "ranges of the joints".to_owned(), "the time of the first frame".to_owned()];
     lost(&mut findings, &masses);
-    findings.note("convert.axes", "lengths are in centimetres; x forward, y up, z right");
+    findings.report(Code::ConvertAxes, "lengths are in centimetres; x forward, y up, z right");
     Ok(Converted { files: vec![(args.output.clone(), bvh.write())], findings })
 }

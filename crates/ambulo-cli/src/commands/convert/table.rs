@@ -3,7 +3,7 @@
 use super::Converted;
 use crate::args::ConvertArgs;
 use crate::files;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 
@@ -19,11 +19,11 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], from: &str, to: &str) ->
     }
     if to == "csv" && table.in_degrees.is_some() {
         let angles = if table.in_degrees == Some(true) { "degrees" } else { "radians" };
-        findings.note("convert.lost", format!("not carried over: the header's word that angles are in {angles}"));
+        findings.report(Code::ConvertLost, format!("not carried over: the header's word that angles are in {angles}"));
     }
     if from == "csv" {
         let message = "a CSV does not say whether angles are in degrees; the new header does not either";
-        findings.note("convert.degrees", message);
+        findings.report(Code::ConvertDegrees, message);
     }
     let bytes = if to == "csv" { table.write_csv() } else { table.write_storage() };
     Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })

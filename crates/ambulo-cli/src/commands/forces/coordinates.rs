@@ -5,7 +5,7 @@ use super::{Origin, Reading, Recorded, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
 use crate::files;
 use ambulo::analysis::feasibility::Person;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::motion::{ForceRecording, Motion, coordinates_from_table, force_recordings};
 use ambulo::report::{GroundSource, Input};
@@ -84,7 +84,7 @@ pub(super) fn read_ground(
         return Ok((None, Vec::new()));
     }
     if args.grf.is_none() && args.loads.is_none() {
-        reading.findings.note("ground.predicted", NO_FORCES);
+        reading.findings.report(Code::GroundPredicted, NO_FORCES);
         return Ok((None, Vec::new()));
     }
     let ground = ground_table::read(args, model, &mut reading.findings)?;

@@ -2,7 +2,7 @@
 
 use crate::args::{FootColumns, ForcesArgs};
 use crate::files;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
@@ -93,7 +93,7 @@ fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> 
     let message = format!(
         "taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot} (override with --right, --left or --loads)"
     );
-    findings.note("loads.guessed", message);
+    findings.report(Code::LoadsGuessed, message);
     let forces = vec![
         ExternalForce::with_prefix("right", right_foot, right_prefix),
         ExternalForce::with_prefix("left", left_foot, left_prefix),

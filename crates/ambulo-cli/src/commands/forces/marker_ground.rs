@@ -3,7 +3,7 @@
 use super::{Reading, coordinates};
 use crate::args::ForcesArgs;
 use ambulo::analysis::BodyInMotion;
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::plates::{PlateContact, foot_bodies};
 use ambulo::motion::ForceRecording;
 use ambulo::report::Input;
@@ -26,7 +26,7 @@ pub(super) fn read(
     }
     let plates = body.plate_forces();
     if plates.is_empty() {
-        reading.findings.note("ground.predicted", without_forces(body));
+        reading.findings.report(Code::GroundPredicted, without_forces(body));
         return Ok((plates, coordinates::input(args, None)));
     }
     let input = Input { ground: Some(args.input.display().to_string()), ..coordinates::input(args, None) };
@@ -40,8 +40,8 @@ fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings:
     let sum: Vec3 = plates.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
     let is_upright = |sum: &Vec3| sum.y > UPRIGHT * sum.norm();
     if is_upright(&sum) && !is_upright(&(world_from_lab * sum)) {
-        findings.note(
-            "loads.world_axes",
+        findings.report(
+            Code::LoadsWorldAxes,
             "the table's forces do not stand in the axes of the markers; they are taken as x forward, y up, z right",
         );
         return;

@@ -17,7 +17,7 @@ use ambulo::analysis::{
     Analysis, AnalysisError, BodyInMotion, Event, GroundAgreement, PredictedAnalysis, PredictionChecks, Settings,
     analyse,
 };
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{DeviceRecording, ForceRecording, Motion, Smoother, Window, device_from_table};
@@ -173,6 +173,14 @@ impl Origin {
         }
     }
 
+    /// Whether the directions of both feet are known.
+    fn shows_both_feet(&self) -> bool {
+        match self {
+            Origin::Markers(followed) => followed.body.feet.feet_without_markers.is_empty(),
+            Origin::Coordinates | Origin::Skeleton(_) => true,
+        }
+    }
+
     /// The time to analyse when nobody says: all of it, or the longest time without a gap in what the markers tell.
     fn known(&self, findings: &mut Findings) -> Window {
         let Origin::Markers(followed) = self else { return Window::default() };
@@ -180,7 +188,7 @@ impl Origin {
         let message = format!(
             "markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed. hint: --max-gap bridges longer gaps, --from and --to choose another time"
         );
-        findings.warn("markers.window", message);
+        findings.report(Code::MarkersWindow, message);
         Window { from_s: Some(from), to_s: Some(to) }
     }
 
@@ -197,7 +205,7 @@ fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
     match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
         Ok(bytes) => Some(OutputFile { name: "subject.osim".to_owned(), bytes }),
         Err(reason) => {
-            findings.note("subject.not_written", format!("subject.osim was not written: {reason:#}"));
+            findings.report(Code::SubjectNotWritten, format!("subject.osim was not written: {reason:#}"));
             None
         }
     }

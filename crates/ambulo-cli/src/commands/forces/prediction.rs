@@ -8,7 +8,7 @@ use ambulo::analysis::{
     AnalysisError, CheckOrder, MassSource, PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, Seen, Settings,
     analyse_predicted,
 };
-use ambulo::findings::Findings;
+use ambulo::findings::{Code, Findings};
 use ambulo::ground::predict::PredictSettings;
 use ambulo::motion::filter::LowPass;
 use ambulo::report::{GroundSource, prediction_files};
@@ -56,8 +56,8 @@ pub(super) fn compute(
     clock.lap("checks");
     let comparison = seen.and_then(|seen| predicted.agreement(model, &seen));
     if comparison.is_none() && predicted.measured.is_some() {
-        findings.warn(
-            "comparison.none",
+        findings.report(
+            Code::ComparisonNone,
             "plates are there, but no foot stood wholly on its own one: the prediction was compared with nothing",
         );
     }
@@ -66,23 +66,24 @@ pub(super) fn compute(
             "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: with markers, --mass KG or a standing trial on plates with --static; recorded coordinates have the mass of their model",
             model.mass()
         );
-        findings.warn("mass.unverified", message);
+        findings.report(Code::MassUnverified, message);
     }
-    if findings.has("events.no_foot_markers") {
-        findings.warn(
-            "prediction.feet_unseen",
+    if !origin.shows_both_feet() {
+        findings.report(
+            Code::PredictionFeetUnseen,
             "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
         );
     }
     let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);
     if recorded_s < SHORT_S {
-        findings.warn(
-            "prediction.short",
+        findings.report(
+            Code::PredictionShort,
             "the recording holds less than a gait cycle: forces near its ends are guesses, see grf_sd.mot",
         );
     }
     let files = prediction_files(model, &predicted).unwrap_or_else(|error| {
-        findings.warn("prediction.not_written", format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
+        findings
+            .report(Code::PredictionNotWritten, format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
         Vec::new()
     });
     Ok(Computed { analysis: predicted.analysis, subject, checks: Some(checks), comparison, files })

@@ -4,6 +4,7 @@ use super::{Origin, Reading, Recorded, coordinates, loaded};
 use crate::args::ForcesArgs;
 use crate::files;
 use ambulo::analysis::feasibility::Person;
+use ambulo::findings::Code;
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anthropometry::Build;
 use ambulo::motion::skeleton::skeleton_from_bvh;
@@ -28,7 +29,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     reading.clock.lap("markers");
     if !args.no_ground {
         let message = "a BVH has no ground forces; they are predicted from the motion. hint: --no-ground computes a motion without contact";
-        reading.findings.note("ground.predicted", message);
+        reading.findings.report(Code::GroundPredicted, message);
     }
     Ok(Recorded {
         origin: Origin::Skeleton(Box::new(SubjectSummary::of_skeleton(&skeleton.statement, &body.fit))),

@@ -7,7 +7,7 @@ use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{Check, Closest, NotJudged, Reason, Verdict};
 use crate::dynamics::{Forces, Roots};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{CoordinateId, Model, Side};
@@ -160,7 +160,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
             trajectory.grid().frames,
             trajectory.grid().time(first)
         );
-        findings.note("feasibility.unmeasured_support", message);
+        findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
     tracks
 }

@@ -3,6 +3,7 @@
 use super::CheckedPrediction;
 use super::judgement::{Found, Judgement, Looked};
 use super::record::Record;
+use crate::findings::Code;
 use crate::model::Side;
 use crate::spatial::Vec3;
 use std::ops::Range;
@@ -45,7 +46,7 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
                 "the mean vertical force {whose} is {value:.2} body weights over whole cycles ({:.3} to {:.3} s); it should be 1.00",
                 time_s[0], time_s[1]
             );
-            judgement.warn("prediction.weight", message);
+            judgement.report(Code::PredictionWeight, message);
         }
     }
     let Some(value) = balance.along else { return judgement.skip(along, "the body goes nowhere") };
@@ -54,7 +55,7 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
             "the feet's mean force along the way departs by {value:+.3} body weights from what changes the body's speed ({:.3} to {:.3} s)",
             time_s[0], time_s[1]
         );
-        judgement.warn("prediction.impulse", message);
+        judgement.report(Code::PredictionImpulse, message);
     }
 }
 

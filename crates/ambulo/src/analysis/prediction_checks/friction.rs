@@ -4,6 +4,7 @@ use super::CheckedPrediction;
 use super::judgement::{Judgement, Looked};
 use super::lasting::lasting;
 use super::record::Record;
+use crate::findings::Code;
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 
 /// Horizontal over vertical force of each foot while it stands and carries.
@@ -31,6 +32,6 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement
             "the predicted force on the standing {side} foot leans so much that it needs a friction of {:.2} (at {:.3} s); {:.2} is there",
             found.value, found.time_s[0], thresholds.friction
         );
-        judgement.warn("prediction.friction", message);
+        judgement.report(Code::PredictionFriction, message);
     }
 }

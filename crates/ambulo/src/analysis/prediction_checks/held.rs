@@ -5,6 +5,7 @@ use super::lasting::lasting;
 use super::low_pass::{LowPassed, SHORTEST_S};
 use super::record::Record;
 use crate::analysis::feasibility::Check;
+use crate::findings::Code;
 
 /// A low-passed flight keeps less than this [body weights].
 const HELD_BW: f64 = 0.2;
@@ -45,6 +46,6 @@ fn pull(record: &Record, low_passed: &LowPassed, judgement: &mut Judgement<'_>) 
             "the motion falls faster than gravity: it needs a pull of {:.2} body weights downwards from {:.3} to {:.3} s, which no floor gives. hint: are the motion's unit and rate right?",
             -found.value, found.time_s[0], found.time_s[1]
         );
-        judgement.warn("prediction.pull", message);
+        judgement.report(Code::PredictionPull, message);
     }
 }

@@ -2,10 +2,7 @@
 
 use super::{PredictionCheck, PredictionChecks};
 use crate::analysis::feasibility::{Check, Reason, Thresholds};
-use crate::findings::Findings;
-
-/// Forces that do not go through the feet.
-pub(super) const NOT_THROUGH_THE_FEET: &str = "prediction.not_through_the_feet";
+use crate::findings::{Code, Findings};
 
 /// What was found so far.
 pub(super) struct Judgement<'a> {
@@ -57,16 +54,16 @@ impl<'a> Judgement<'a> {
         self.checks.checks.push(check);
     }
 
-    pub(super) fn warn(&mut self, code: &'static str, message: String) {
-        self.findings.warn(code, message);
+    pub(super) fn report(&mut self, code: Code, message: String) {
+        self.findings.report(code, message);
     }
 
     /// Forces do not go through the feet, which stands against the motion where the verdict has a check of it.
     pub(super) fn oppose(&mut self, check: Check, looked: Looked, found: Found, message: String) {
         if !self.judged.judges(check) {
-            return self.findings.warn(NOT_THROUGH_THE_FEET, message);
+            return self.findings.report(Code::PredictionNotThroughTheFeet, message);
         }
-        self.findings.warn(NOT_THROUGH_THE_FEET, message.clone());
+        self.findings.report(Code::PredictionNotThroughTheFeet, message.clone());
         let limit = if found.value < looked.allowed[0] { looked.allowed[0] } else { looked.allowed[1] };
         self.checks.reasons.push(Reason {
             check,

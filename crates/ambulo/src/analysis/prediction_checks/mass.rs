@@ -3,6 +3,7 @@
 use super::CheckedPrediction;
 use super::judgement::{Found, Judgement, Looked};
 use crate::analysis::predicted::PredictedAnalysis;
+use crate::findings::Code;
 use crate::ground::upward;
 use crate::model::Model;
 use crate::motion::Window;
@@ -90,6 +91,6 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, judgement: &mut Judgement<
             100.0 * (model / kg - 1.0).abs(),
             if model > kg { "too large" } else { "too small" }
         );
-        judgement.warn("prediction.mass", message);
+        judgement.report(Code::PredictionMass, message);
     }
 }

@@ -39,7 +39,7 @@ pub use result::{BodyChange, Consistent, CoordinateChange, FootChange, RootResid
 pub use settings::{CENTER_TOLERANCE_M, ConsistencySettings, MASS_TOLERANCE, MOST_CENTER_M, MOST_MASS_SHARE};
 
 use super::{LoadSeries, Roots, Workspace};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, Model};
 use body::Body;
@@ -216,7 +216,7 @@ fn report(consistent: &Consistent, findings: &mut Findings) {
             consistent.window_s[0],
             consistent.window_s[1]
         );
-        findings.warn("consistency.incomplete_forces", message);
+        findings.report(Code::ConsistencyIncompleteForces, message);
     }
     if !consistent.obeys(SMALL_RESIDUAL) {
         let message = format!(
@@ -224,7 +224,7 @@ fn report(consistent: &Consistent, findings: &mut Findings) {
             100.0 * after.force_rms_bw,
             after.moment_rms_nm
         );
-        findings.warn("consistency.residual_left", message);
+        findings.report(Code::ConsistencyResidualLeft, message);
     }
     for (unit, limit, shown, scale) in
         [("rad", LARGE_CHANGE_RAD, "degrees", 1.0_f64.to_degrees()), ("m", LARGE_CHANGE_M, "mm", 1e3)]
@@ -237,11 +237,11 @@ fn report(consistent: &Consistent, findings: &mut Findings) {
                 scale * change.max,
                 scale * limit
             );
-            findings.warn("consistency.large_change", message);
+            findings.report(Code::ConsistencyLargeChange, message);
         }
     }
     if !consistent.converged {
         let message = format!("the change was not settled after {} iterations", consistent.iterations);
-        findings.warn("consistency.not_settled", message);
+        findings.report(Code::ConsistencyNotSettled, message);
     }
 }

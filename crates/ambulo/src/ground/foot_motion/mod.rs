@@ -24,7 +24,7 @@ mod methods;
 mod signals;
 
 use super::phases::{Contact, contacts_of_events};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::motion::{Event, Landmarks, MarkerRecording};
 use agreement::agreed;
@@ -71,6 +71,8 @@ pub struct FootMotion {
     pub by_method: Vec<(EventMethod, Vec<Event>)>,
     /// Events that the methods agree on: the median of what they say; those that only one of several saw are left out.
     pub events: Vec<Event>,
+    /// Feet without a marker on heel or toe: their events cannot be detected, and the direction of the foot is not known.
+    pub feet_without_markers: Vec<Side>,
     /// Contacts of right and left foot, from `events`.
     pub contacts: [Vec<Contact>; 2],
     /// Speed of the floor along world x [m/s]: negative on a treadmill.
@@ -111,18 +113,19 @@ pub fn foot_motion(markers: &MarkerRecording, findings: &mut Findings) -> FootMo
             by_method.push((method, events));
         }
     }
-    let blind: Vec<String> =
-        feet.iter().filter(|f| f.heel.is_none() || f.toe.is_none()).map(|f| f.side.to_string()).collect();
-    if !blind.is_empty() {
+    let bare = feet.iter().filter(|f| f.heel.is_none() || f.toe.is_none());
+    let feet_without_markers: Vec<Side> = bare.map(|f| f.side).collect();
+    if !feet_without_markers.is_empty() {
+        let names: Vec<String> = feet_without_markers.iter().map(Side::to_string).collect();
         let message = format!(
-            "the {} foot has no marker on heel or toe; its events were not found from motion",
-            blind.join(" and the ")
+            "the {} foot has no marker on heel or toe; its events were not detected from motion",
+            names.join(" and the ")
         );
-        findings.note("events.no_foot_markers", message);
+        findings.report(Code::EventsNoFootMarkers, message);
     }
     let events = agreed(&by_method);
     let contacts = Side::BOTH.map(|side| contacts(markers, &feet, side, &events, walking));
-    FootMotion { by_method, events, contacts, floor_speed_m_s: floor, walking_speed_m_s: walking }
+    FootMotion { by_method, events, feet_without_markers, contacts, floor_speed_m_s: floor, walking_speed_m_s: walking }
 }
 
 /// Contacts from events; a foot of somebody who stands is on the ground all the time.

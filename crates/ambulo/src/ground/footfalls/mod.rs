@@ -55,7 +55,7 @@ mod instants;
 mod signals;
 mod still;
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::ground::phases::Contact;
 use crate::ground::sole::Sole;
 use crate::kinematics::Trajectory;
@@ -162,14 +162,14 @@ pub fn footfalls_at(
         } else {
             "no foot was seen to stand: the ground carries nobody in this motion"
         };
-        findings.warn("footfalls.none", why);
+        findings.report(Code::FootfallsNone, why);
     }
     let speed = belt.overall.norm();
     if speed > 0.0 {
         let message = format!(
             "the floor moves at {speed:.2} m/s under the feet: speeds of feet are counted from a treadmill's belt"
         );
-        findings.note("footfalls.belt", message);
+        findings.report(Code::FootfallsBelt, message);
     }
     Footfalls { falls, floor_velocity: belt.overall }
 }

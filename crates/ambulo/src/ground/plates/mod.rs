@@ -17,7 +17,7 @@ mod feet;
 mod windows;
 
 use super::foot_motion::FootMotion;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
@@ -109,7 +109,7 @@ pub fn feet_on_plates(
     let windows = windows::windows(&feet, &found);
     report(plates, &found, findings);
     if windows.is_empty() && !found.is_empty() {
-        findings.warn("plates.no_window", "at no time did every foot on the ground stand cleanly on a plate: totals and the forces on the pelvis cannot be judged");
+        findings.report(Code::PlatesNoWindow, "at no time did every foot on the ground stand cleanly on a plate: totals and the forces on the pelvis cannot be judged");
     }
     FeetOnPlates { contacts: found, windows }
 }
@@ -120,20 +120,20 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
         let times = format!("{:.3}-{:.3} s", contact.start_s, contact.end_s);
         let reason = &contact.reason;
         match (contact.quality, contact.side) {
-            (ContactQuality::Partial, Some(side)) => findings.warn(
-                "plates.partial",
+            (ContactQuality::Partial, Some(side)) => findings.report(
+                Code::PlatesPartial,
                 format!("{name}, {times}: not all of the {side} foot's load was measured: {reason}"),
             ),
-            (ContactQuality::TwoFeet, _) => findings.warn(
-                "plates.two_feet",
+            (ContactQuality::TwoFeet, _) => findings.report(
+                Code::PlatesTwoFeet,
                 format!("{name}, {times}: two feet on one plate: {reason}; this load was given to neither foot. hint: name the foot of the plate (`--plate`) to give it all to one"),
             ),
-            (ContactQuality::Unassigned, _) => findings.warn(
-                "plates.unassigned",
+            (ContactQuality::Unassigned, _) => findings.report(
+                Code::PlatesUnassigned,
                 format!("{name}, {times}: its load was given to no foot: {reason}. hint: name the foot of the plate (`--plate`)"),
             ),
             (ContactQuality::Shared, Some(side)) => {
-                findings.note("plates.shared", format!("{name}, {times}, {side}: {reason}; both forces were added"));
+                findings.report(Code::PlatesShared, format!("{name}, {times}, {side}: {reason}; both forces were added"));
             }
             _ => {}
         }

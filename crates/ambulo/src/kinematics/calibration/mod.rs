@@ -47,7 +47,7 @@ pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlace, SegmentScale};
 pub use upright::assume_upright_trunk;
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::full_body;
 use crate::model::marker_set::Recognised;
@@ -99,7 +99,7 @@ pub fn calibrate(
         refinement::refine(&mut calibrated, recording)?;
     }
     for assumption in &calibrated.report.assumptions {
-        findings.note("calibration.assumed", assumption.clone());
+        findings.report(Code::CalibrationAssumed, assumption.clone());
     }
     Ok(calibrated)
 }

@@ -1,7 +1,7 @@
 //! Which frames a body is measured on.
 
 use super::sight::Sight;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::numerics::median;
 
 /// What the person does in the recording that the body is measured on.
@@ -30,8 +30,8 @@ pub(super) fn frames(sight: &Sight<'_>, trial: Trial, findings: &mut Findings) -
     }
     let quiet: Vec<usize> = all.iter().copied().filter(|&frame| is_quiet(sight, frame)).collect();
     if quiet.len() < LEAST_QUIET.min(all.len()) {
-        findings.warn(
-            "calibration.not_standing",
+        findings.report(
+            Code::CalibrationNotStanding,
             format!(
                 "in the standing trial the markers move slower than {QUIET_M_PER_S} m/s in only {} of {} frames; all frames were taken. hint: give a trial in which the person stands still, or none",
                 quiet.len(),

@@ -1,7 +1,7 @@
 //! What is taken of parts that no marker shows.
 
 use super::axes::{about_x, about_y, about_z, angles_zxy, from_y_x};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Body, CoordinateId, Displacement, Drive, Model};
 use crate::motion::Motion;
 use crate::spatial::{Mat3, Vec3};
@@ -27,8 +27,8 @@ pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut F
     for (k, id) in lumbar.into_iter().enumerate() {
         motion.columns[id.index()] = Some(angles.iter().map(|a| a[k]).collect());
     }
-    findings.note(
-        "calibration.trunk_upright",
+    findings.report(
+        Code::CalibrationTrunkUpright,
         "no marker shows the trunk: it is taken as upright above the pelvis, its mass moving with the pelvis",
     );
 }

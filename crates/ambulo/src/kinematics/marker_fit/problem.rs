@@ -5,7 +5,7 @@ use super::result::FitError;
 use super::settings::{FitSettings, Limits};
 use super::solve::{Bounds, Outcome, Solver};
 use super::tree::Tree;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
@@ -250,7 +250,7 @@ fn report_uncommon(
         part("recorded", only_recorded),
         part("on the model", only_model)
     );
-    findings.note("markers.uncommon", message);
+    findings.report(Code::MarkersUncommon, message);
 }
 
 /// Names in one line; the rest counted when there are very many.

@@ -6,7 +6,7 @@ use super::gaps::State;
 use super::misplaced::Misplaced;
 use super::problem::{Problem, listed};
 use super::result::{MarkerError, MarkerFit};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::{Drive, Model};
 use crate::motion::{MarkerRecording, Motion};
 
@@ -117,7 +117,7 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
         let missing = spans(frames.count(), |f| !frames.is_seen(f, i));
         if !missing.is_empty() {
             let message = format!("marker `{}` was not seen at {}", name(i), times(problem, &missing));
-            findings.note("markers.missing", message);
+            findings.report(Code::MarkersMissing, message);
         }
         let wild = spans(frames.count(), |f| {
             let path = frames.path(f, i);
@@ -129,7 +129,7 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
                 name(i),
                 times(problem, &wild)
             );
-            findings.warn("markers.jump", message);
+            findings.report(Code::MarkersJump, message);
         }
         for j in i + 1..frames.markers() {
             let swapped = spans(frames.count(), |f| frames.path(f, i) == j);
@@ -140,7 +140,7 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
                     name(j),
                     times(problem, &swapped)
                 );
-                findings.warn("markers.swap", message);
+                findings.report(Code::MarkersSwap, message);
             }
         }
     }
@@ -156,7 +156,7 @@ pub(super) fn misplaced(problem: &Problem<'_>, markers: &[Misplaced], findings: 
             1e3 * usual_m,
             (rms_m / usual_m).powi(2)
         );
-        findings.warn("markers.misplaced", message);
+        findings.report(Code::MarkersMisplaced, message);
     }
 }
 
@@ -176,7 +176,7 @@ pub(super) fn coordinates(
         if !bridged.is_empty() {
             let message =
                 format!("too few markers determine `{name}` at {}; a curve leads across", times(problem, &bridged));
-            findings.note("markers.bridged", message);
+            findings.report(Code::MarkersBridged, message);
         }
         let gaps = spans(frames.count(), |f| states[f * unknowns + u] == State::Gap);
         if !gaps.is_empty() {
@@ -184,7 +184,7 @@ pub(super) fn coordinates(
                 "too few markers determine `{name}` at {}; it has no value there (stretches up to {longest_s} s inside the recording are bridged)",
                 times(problem, &gaps)
             );
-            findings.warn("markers.gap", message);
+            findings.report(Code::MarkersGap, message);
         }
     }
 }

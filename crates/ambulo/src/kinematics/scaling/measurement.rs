@@ -9,7 +9,7 @@
 
 use super::standing::{at_rest, complete, poses, with_markers_placed};
 use super::{ScalingError, SizedModel};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{FitSettings, Guard, fit_markers};
 use crate::model::Model;
 use crate::motion::MarkerRecording;
@@ -87,7 +87,7 @@ fn factor(
             (on_model(a), on_model(b), recorded(a), recorded(b))
         else {
             let message = format!("measurement `{}`: the pair {pair} is not in both model and trial", measurement.name);
-            findings.warn("scaling.pair", message);
+            findings.report(Code::ScalingPair, message);
             continue;
         };
         let distance_m = (model_a - model_b).norm();

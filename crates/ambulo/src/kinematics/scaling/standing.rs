@@ -1,7 +1,7 @@
 //! A standing trial as one instant, and markers put where a person has them.
 
 use super::ScalingError;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::body_motion::{Posture, body_motion};
 use crate::model::{Drive, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
@@ -37,7 +37,7 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
             1000.0 * STILL,
             moving.join(", ")
         );
-        findings.warn("scaling.moving", message);
+        findings.report(Code::ScalingMoving, message);
     }
     let times = vec![recording.times.first().copied().unwrap_or(0.0)];
     MarkerRecording { name: recording.name.clone(), rate_hz: recording.rate_hz, times, markers }

@@ -3,7 +3,7 @@
 use super::decode::{PlateSource, decode, origin_was_turned};
 use super::kind::Units;
 use super::{PlateRecording, PlateSettings, units};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::spatial::Vec3;
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
@@ -60,7 +60,7 @@ pub fn plates_from_c3d(
         let plate = source.and_then(|source| decode(&source, settings, findings));
         match plate {
             Ok(plate) => plates.push(plate),
-            Err(reason) => findings.warn("plates.unusable", format!("{name} was left out: {reason}")),
+            Err(reason) => findings.report(Code::PlatesUnusable, format!("{name} was left out: {reason}")),
         }
     }
     report_turned(&turned, platforms.len(), findings);
@@ -78,7 +78,7 @@ fn report_turned(turned: &[usize], plates: usize, findings: &mut Findings) {
     let message = format!(
         "ORIGIN of {which} leads from the surface down to the sensors, as many programs write it; it was turned round"
     );
-    findings.note("plates.origin_turned", message);
+    findings.report(Code::PlatesOriginTurned, message);
 }
 
 fn source(
@@ -129,7 +129,7 @@ fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings
         "the force plates have edges of {:.4} m by the file's unit; lengths of plates were multiplied by {factor}",
         middle * stated_m
     );
-    findings.warn("plates.unit_changed", message);
+    findings.report(Code::PlatesUnitChanged, message);
     stated_m * factor
 }
 
@@ -137,7 +137,7 @@ fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings
 fn report_polynomial(file: &C3d, findings: &mut Findings) {
     if file.parameters.numbers("FORCE_PLATFORM", "FPCOPPOLY").iter().any(|x| x.abs() > 0.0) {
         let message = "the file has a polynomial that corrects the centre of pressure (FPCOPPOLY); it was not used";
-        findings.note("plates.polynomial", message);
+        findings.report(Code::PlatesPolynomial, message);
     }
 }
 
@@ -147,7 +147,7 @@ fn report_volts(file: &C3d, platform: &Platform, name: &str, findings: &mut Find
     let known = unit.is_none_or(|u| u.is_empty() || units::force_n(u).is_some());
     if !known && platform.calibration.is_empty() {
         let message = format!("the force of {name} is in `{}`; it was read as newtons", unit.unwrap_or_default());
-        findings.warn("plates.unit_unknown", message);
+        findings.report(Code::PlatesUnitUnknown, message);
     }
 }
 

@@ -5,7 +5,7 @@ use super::clipping;
 use super::kind::{Layout, PlateKind, Units};
 use super::surface::Surface;
 use super::{PlateRecording, PlateSettings};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -80,7 +80,7 @@ pub(super) fn decode(
             "{} pulls its load down: the file holds the force of the foot on the plate; all signs of this plate were turned",
             source.name
         );
-        findings.warn("plates.force_on_plate", message);
+        findings.report(Code::PlatesForceOnPlate, message);
     }
     let vertical = vertical(&channels, reading, &surface, up);
     let baseline = baseline::find(&channels, &vertical, source.rate_hz, source.zero.clone());
@@ -119,7 +119,7 @@ fn calibrated(source: &PlateSource, layout: Layout, findings: &mut Findings) -> 
             "{} is of type {} but has no calibration matrix; its channels were taken as calibrated",
             source.name, source.number
         );
-        findings.warn("plates.no_calibration", message);
+        findings.report(Code::PlatesNoCalibration, message);
         return Ok(raw.to_vec());
     }
     if matrix.len() < rows || matrix.iter().any(|row| row.len() < layout.channels) {
@@ -148,7 +148,7 @@ fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec
                 "{} does not say how far its sensors stand apart (ORIGIN {} {} {}): its moments and its centre of pressure are meaningless",
                 source.name, stated.x, stated.y, stated.z
             );
-            findings.warn("plates.no_sensor_distance", message);
+            findings.report(Code::PlatesNoSensorDistance, message);
         }
         return origin;
     }
@@ -217,9 +217,9 @@ fn report_baseline(source: &PlateSource, baseline: &Baseline, findings: &mut Fin
     let evidence = if baseline.from_zero_frames { "the file's ZERO frames" } else { "its quietest time without load" };
     let message = format!("{} showed {offset:.1} N without load, by {evidence}; this was removed", source.name);
     if offset.abs() > LARGE_BASELINE_N {
-        findings.warn("plates.baseline", message);
+        findings.report(Code::PlatesLargeBaseline, message);
     } else if offset.abs() > SMALL_BASELINE_N {
-        findings.note("plates.baseline", message);
+        findings.report(Code::PlatesBaseline, message);
     }
 }
 
@@ -244,7 +244,7 @@ fn clipped(
                 source.name,
                 source.times[spans[0].start]
             );
-            findings.warn("plates.clipped", message);
+            findings.report(Code::PlatesClipped, message);
         }
         clipped.extend(spans.into_iter().map(|s| [source.times[s.start], source.times[s.end - 1]]));
     }
@@ -278,7 +278,7 @@ fn believed(
                 "the centre of pressure of {} is not that of a foot as the file states its units; with {what} it is, so this was assumed",
                 source.name
             );
-            findings.warn("plates.reading_changed", message);
+            findings.report(Code::PlatesReadingChanged, message);
             return other;
         }
     }
@@ -288,7 +288,7 @@ fn believed(
             source.name,
             100.0 * found
         );
-        findings.warn("plates.center_outside", message);
+        findings.report(Code::PlatesCenterOutside, message);
     }
     stated
 }

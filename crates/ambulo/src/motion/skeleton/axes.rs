@@ -3,7 +3,7 @@
 use super::error::SkeletonError;
 use super::landmarks::{Landmark, Landmarks};
 use super::poses::Skeleton;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -70,7 +70,7 @@ impl Axes {
                 mean.z,
                 axis_name(up)
             );
-            findings.warn("bvh.up_unsure", message);
+            findings.report(Code::BvhUpUnsure, message);
         }
         let (ahead, how) = ahead(&legs, up).ok_or(SkeletonError::Up)?;
         let right = ahead.cross(&up);

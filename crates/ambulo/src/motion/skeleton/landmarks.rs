@@ -1,7 +1,7 @@
 //! Which joint is which, by its name: crates/ambulo/data/bvh_names.toml.
 
 use super::error::SkeletonError;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::toml_reader::{Source, Table, TomlError};
 use ambulo_formats::bvh::Joint;
@@ -98,8 +98,10 @@ impl Landmarks {
             return Err(SkeletonError::Names { missing: needed, found: shown(joints) });
         }
         if !useful.is_empty() {
-            findings
-                .warn("bvh.joints_missing", format!("no joint was recognised as {useful}; found: {}", shown(joints)));
+            findings.report(
+                Code::BvhJointsMissing,
+                format!("no joint was recognised as {useful}; found: {}", shown(joints)),
+            );
         }
         Ok(())
     }

@@ -32,7 +32,7 @@ mod unit;
 pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
 
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Mat3;
 use ambulo_formats::bvh::Bvh;
@@ -119,13 +119,13 @@ fn leave_out_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
         path.positions.remove(0);
     }
     let message = format!("the first frame is a pose, from which joints leap at {fastest:.0} m/s; it was left out");
-    findings.note("bvh.pose", message);
+    findings.report(Code::BvhPose, message);
 }
 
 fn warn_of_low_trust(unit: &Unit, neutral: &Neutral, findings: &mut Findings) {
     let neutral = if neutral.is_resting_pose { "its resting pose" } else { "its mean posture" };
-    findings.warn(
-        "bvh.low_trust",
+    findings.report(
+        Code::BvhLowTrust,
         format!(
             "a BVH file states no mass, no unit and no up, and its motion was fitted to a skeleton and mostly filtered before: {}, \
              upright standing is {neutral}; joint centres are those of an animated figure, so forces are an estimate for comparison only",

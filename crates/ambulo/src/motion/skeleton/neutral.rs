@@ -7,7 +7,7 @@
 use super::axes::Axes;
 use super::landmarks::{Landmark, Landmarks};
 use super::poses::Skeleton;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::spatial::{Pose, Vec3};
 
@@ -38,8 +38,8 @@ impl Neutral {
             let directions = vec![[axes.up, right]; rest.len()];
             return Neutral { pelvis, is_resting_pose: true, directions };
         }
-        findings.note(
-            "bvh.rest_pose",
+        findings.report(
+            Code::BvhRestPose,
             "nobody stands upright in the file's resting pose, so the mean posture of the recording is taken for upright standing",
         );
         let mut directions = vec![[Vec3::zeros(); 2]; rest.len()];

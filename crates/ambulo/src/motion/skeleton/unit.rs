@@ -6,7 +6,7 @@
 use super::error::SkeletonError;
 use super::landmarks::{Landmark, Landmarks};
 use super::poses::Skeleton;
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Side;
 
 /// Thigh and shank as a share of stature.
@@ -65,7 +65,8 @@ impl Unit {
         let metres = expected / length;
         let statement =
             format!("lengths in units of {metres:.5} m, of which thigh and shank of {length:.4} make {against}");
-        findings.warn("bvh.unit", format!("no usual unit of length fits the stature of {height:.2} m: {statement}"));
+        findings
+            .report(Code::BvhUnit, format!("no usual unit of length fits the stature of {height:.2} m: {statement}"));
         Unit { metres, height_m: height, statement }
     }
 

@@ -18,7 +18,7 @@ use super::walker::{self, Walker};
 use super::{Coordinate, coordinate::CoordinateKind};
 use super::{Place, SceneError};
 use crate::dynamics::{Method, SolverSettings};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::simulation::state::State;
 use crate::simulation::step::{Integrator, StepSettings, StepWorkspace};
 use crate::simulation::world::{
@@ -378,8 +378,8 @@ fn report_untouchable(world: &World, findings: &mut Findings) {
             let round = a.shape.radius().is_some() || b.shape.radius().is_some();
             if a.owner != b.owner && !fixed && !round && (soft(a) || soft(b)) {
                 let (a, b) = (world.owner_name(a.owner), world.owner_name(b.owner));
-                findings.warn(
-                    "contact.not_round",
+                findings.report(
+                    Code::ContactNotRound,
                     format!(
                         "`{a}` and `{b}` pass through each other: the law hunt-crossley needs a sphere or a capsule on one \
                          side. hint: law = \"regularised\""

@@ -6,7 +6,7 @@ use super::output::Outputs;
 use super::walk_keeper::FigureWalk;
 use super::walker::{Placed, Walker};
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
@@ -182,8 +182,8 @@ impl Scene {
         if self.steps == 0 {
             for closure in self.workspace.undetermined_closures() {
                 let name = &self.world.closures[closure].name;
-                findings.note(
-                    "closure.redundant",
+                findings.report(
+                    Code::ClosureRedundant,
                     format!("the closure `{name}` holds what others hold already; of its forces the least-squares ones are given"),
                 );
             }

@@ -3,7 +3,7 @@
 use super::built::GaitSource;
 use super::function::Function;
 use super::{Place, SceneError};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::anthropometry::Build;
 use crate::model::{Model, from_osim_bytes};
 use crate::motion::RecordedTable;
@@ -102,7 +102,7 @@ impl<'a, 'f> Sources<'a, 'f> {
                  stops from one step to the next",
                 last - start
             );
-            self.findings.warn("motion.shorter_than_scene", message);
+            self.findings.report(Code::MotionShorterThanScene, message);
         }
         Ok(start)
     }

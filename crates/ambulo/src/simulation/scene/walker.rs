@@ -10,6 +10,7 @@ use super::placement::place;
 use super::sources::Sources;
 use super::{Place, SceneError};
 use crate::contact::Shape;
+use crate::findings::Code;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
 use crate::simulation::joint::rotation;
@@ -149,7 +150,7 @@ fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: 
     if !names.is_empty() {
         let names = names.join(", ");
         let message = format!("{file} has no column for {names}; the default values in brackets are used throughout");
-        sources.findings.warn("motion.missing_coordinate", message);
+        sources.findings.report(Code::MotionMissingCoordinate, message);
     }
 }
 

@@ -4,7 +4,7 @@ use super::order::WalkOrder;
 use super::report::CorrectionReport;
 use super::steady::{simulated_cycles, steady};
 use super::{SyntheticError, SyntheticWalk};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::gait::Walk;
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
@@ -42,7 +42,7 @@ fn report(
             "no small change makes this gait one that the ground carries: {:.1} N and {:.1} N.m rms are missing at the root (at most {:.1} N and {:.1} N.m are taken as none); what is missing is given from outside, and the verdict judges it. hint: another speed, step length or style, or --mode paper",
             lacking[0].rms, lacking[1].rms, allowed[0], allowed[1]
         );
-        findings.warn("walk.not_consistent", message);
+        findings.report(Code::WalkNotConsistent, message);
     }
     Ok(CorrectionReport {
         parameters: consistent.parameters(),

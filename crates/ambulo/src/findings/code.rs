@@ -1,0 +1,493 @@
+//! The list of all findings: name, severity, meaning and remedy of each.
+//!
+//! docs/FINDINGS.md is written from this list.
+
+use super::Severity;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use std::fmt;
+
+/// What is known of a code.
+struct Entry {
+    code: Code,
+    name: &'static str,
+    severity: Severity,
+    meaning: &'static str,
+    remedy: &'static str,
+}
+
+/// Makes the enum and the list of entries, in the same order. A macro, because no function can declare the variants of an enum.
+macro_rules! codes {
+    ($($variant:ident $name:literal $severity:ident $meaning:literal $remedy:literal;)*) => {
+        /// What a finding is about. Its name, such as `markers.swap`, is stable and meant for programs.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $(#[doc = $meaning] $variant,)*
+        }
+
+        /// One entry per code, in the order of the enum.
+        static ENTRIES: &[Entry] = &[
+            $(Entry {
+                code: Code::$variant,
+                name: $name,
+                severity: Severity::$severity,
+                meaning: $meaning,
+                remedy: $remedy,
+            },)*
+        ];
+    };
+}
+
+codes! {
+    // Models.
+    ModelDocument "model.document" Warning
+        "The model file has a part that was read with an assumption or not at all."
+        "Check the named line of the model file.";
+    ModelIgnored "model.ignored" Note
+        "Muscles, other forces and geometry of the model are not used by inverse dynamics."
+        "Nothing to do.";
+    ModelMassless "model.massless" Warning
+        "A body of the model has no mass."
+        "Check the mass of the body; a massless body is right only where another body carries its mass.";
+    ModelInertia "model.inertia" Warning
+        "A body's inertia is one that no rigid body can have."
+        "Correct the inertia in the model file: moments of inertia are positive, and none exceeds the sum of the other two.";
+    ModelConstraint "model.constraint" Warning
+        "A constraint of the model is not enforced; forces that pass through it are reported at the joints of the tree."
+        "Read the forces of the joints around the constraint with care, or use a model without it.";
+    // Input files.
+    FileOdd "file.odd" Warning
+        "A file departs from its format, and was read with the assumption that the message states."
+        "Check that the assumption is right, or export the file again.";
+    // Recorded coordinates.
+    MotionUnitUnstated "motion.unit_unstated" Warning
+        "The file does not state whether its angles are in degrees or radians; they were read as radians."
+        "Add `inDegrees=yes` or `inDegrees=no` to the header.";
+    MotionDegreesAsRadians "motion.degrees_as_radians" Warning
+        "Angles were read as radians but are as large as degrees would be."
+        "Set `inDegrees=yes` in the header of a `.mot` or `.sto` file; a `.csv` file cannot state its unit.";
+    MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
+        "Angles were read as degrees but are as small as radians would be."
+        "Set `inDegrees=no` in the header.";
+    MotionUnknownCoordinate "motion.unknown_coordinate" Warning
+        "Columns of the recording have names that the model has no coordinate for; they were not used."
+        "Check that recording and model belong together, or rename the columns.";
+    MotionMissingCoordinate "motion.missing_coordinate" Warning
+        "The recording has no column for coordinates of the model; their default values were used throughout."
+        "Record these coordinates, or check that their constant values suit the motion.";
+    MotionCoupledMismatch "motion.coupled_mismatch" Warning
+        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values were used."
+        "Check that recording and model belong together.";
+    MotionOutOfRange "motion.out_of_range" Warning
+        "A coordinate leaves the range that the model allows."
+        "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion positive, some negative.";
+    MotionRepeatedRow "motion.repeated_row" Warning
+        "Rows of the recording repeat the row before them and were dropped."
+        "Check the export of the file.";
+    MotionUnevenClock "motion.uneven_clock" Warning
+        "Samples of the recording are not evenly spaced in time; the recording was resampled."
+        "Check for dropped frames.";
+    MotionGapFilled "motion.gap_filled" Warning
+        "Missing samples were filled by a spline."
+        "Check the filled stretches, or fill them in the program that made the recording.";
+    MotionShorterThanScene "motion.shorter_than_scene" Warning
+        "A motion that drives a scene ends before the scene does; its last values are held from then on."
+        "Shorten the scene or lengthen the motion.";
+    // Skeletons.
+    BvhAxes "bvh.axes" Note
+        "States which axes of the skeleton file are up and forward."
+        "Nothing to do if the axes are right.";
+    BvhUpUnsure "bvh.up_unsure" Warning
+        "The upward axis of the skeleton file is not clear from the posture."
+        "Check that the figure stands upright in the result.";
+    BvhUnit "bvh.unit" Warning
+        "The unit of length of the skeleton file was guessed, and the guess does not fit a person well."
+        "Give the person's stature.";
+    BvhJointsMissing "bvh.joints_missing" Warning
+        "Useful joints were not recognised by their names."
+        "Rename the joints of the skeleton to usual names.";
+    BvhRestPose "bvh.rest_pose" Note
+        "The resting pose of the file is not upright standing, so the mean posture of the recording is used for it."
+        "Nothing to do if the person is upright on average.";
+    BvhPose "bvh.pose" Note
+        "The first frame is a calibration pose and was left out."
+        "Nothing to do.";
+    BvhFloor "bvh.floor" Note
+        "The floor was placed at the height where the ankles are lowest."
+        "Nothing to do if the person stands on flat ground.";
+    BvhLengths "bvh.lengths" Note
+        "Lengths of the skeleton differ from those of a usual body."
+        "Check the skeleton: forces depend on the lengths of its segments.";
+    BvhLowTrust "bvh.low_trust" Warning
+        "A skeleton file has no mass, no unit and mostly filtered motion: forces are estimates for comparison only."
+        "Use markers or joint coordinates where forces matter.";
+    // The laboratory's axes and units.
+    LaboratoryAxes "laboratory.axes" Note
+        "States which axes of the laboratory are up and forward."
+        "Nothing to do if the axes are right.";
+    LaboratoryUpContradicted "laboratory.up_contradicted" Warning
+        "Markers and force plates disagree on which axis is up; the markers were used."
+        "Check the corners of the force plates in the file.";
+    LaboratoryUpUnclear "laboratory.up_unclear" Warning
+        "Neither a force plate nor the posture shows which axis is up."
+        "Name heel, toe and pelvis markers as a marker set does.";
+    LaboratoryForwardUnclear "laboratory.forward_unclear" Warning
+        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing."
+        "Name heel, toe and pelvis markers as a marker set does.";
+    LaboratoryBackwards "laboratory.backwards" Warning
+        "The body walks backwards; forward is the direction in which it faces."
+        "Check left and right markers if the person walked forwards.";
+    LaboratorySideways "laboratory.sideways" Warning
+        "The body walks in another direction than it faces; forward is the direction in which it faces."
+        "Check whether left and right markers are exchanged.";
+    LaboratoryTurning "laboratory.turning" Warning
+        "The body turns on its way, so that one forward direction does not suit the whole recording."
+        "Read angles of the pelvis and fore-aft forces with care, or choose a straight part of the recording.";
+    LaboratoryUnitChanged "laboratory.unit_changed" Warning
+        "By the file's unit the markers span an impossible height; lengths were rescaled."
+        "Correct the unit in the file.";
+    LaboratorySizeOdd "laboratory.size_odd" Warning
+        "The markers span a height that is neither a standing person's nor explained by a wrong unit."
+        "Check the unit of the file, and for markers that are not on the person.";
+    // Markers.
+    MarkersZeroIsGap "markers.zero_is_gap" Warning
+        "Positions of exactly 0 0 0 were read as gaps."
+        "Export gaps as missing values.";
+    MarkersImpossible "markers.impossible" Warning
+        "Positions very far from the origin were read as gaps."
+        "Check the export of the file.";
+    MarkersNameTwice "markers.name_twice" Warning
+        "Two points have the same name; the one that is present for longer was used."
+        "Give every marker a name of its own.";
+    MarkersUncommon "markers.uncommon" Note
+        "Only the markers that both the recording and the model have are fitted."
+        "Name markers as in the model, if more of them should be used.";
+    MarkersEnds "markers.ends" Note
+        "Frames at the ends with less than half of the markers were left out."
+        "Nothing to do.";
+    MarkersMissing "markers.missing" Note
+        "A marker is missing at some times."
+        "Nothing to do; the other markers determine the posture there.";
+    MarkersJump "markers.jump" Warning
+        "A marker left its place on the body at some times and was not used there."
+        "Correct the trajectory of the marker.";
+    MarkersSwap "markers.swap" Warning
+        "Two markers had exchanged labels at some times and were exchanged back."
+        "Correct the labels.";
+    MarkersMisplaced "markers.misplaced" Warning
+        "A marker is far from its place on the body throughout; its weight was reduced."
+        "Check whether it moved after the standing trial or has another marker's label.";
+    MarkersBridged "markers.bridged" Note
+        "Too few markers determine a coordinate at some times; a smooth curve fills the gap."
+        "Read the coordinate with care there.";
+    MarkersGap "markers.gap" Warning
+        "Too few markers determine a coordinate for too long; it has no value there."
+        "Fill the markers' trajectories, or allow longer gaps.";
+    MarkersHeld "markers.held" Note
+        "No marker shows some coordinates of the body; constant values are used."
+        "Add markers on the named segments if these coordinates matter.";
+    MarkersWindow "markers.window" Warning
+        "Markers are missing for too long outside a part of the recording; only this part was analysed."
+        "Allow longer gaps, or choose another part of the recording.";
+    // The body.
+    CalibrationAssumed "calibration.assumed" Note
+        "An assumption by which the body was built from the markers."
+        "Give what is assumed (stature, mass, standing trial) if it is known.";
+    CalibrationNotStanding "calibration.not_standing" Warning
+        "The person moves in most of the standing trial; all of its frames were used."
+        "Use a trial in which the person stands still, or no standing trial.";
+    CalibrationTrunkUpright "calibration.trunk_upright" Note
+        "No marker shows the trunk; it is assumed upright above the pelvis."
+        "Add markers on the trunk.";
+    ScalingFitted "scaling.fitted" Note
+        "States how the model was scaled to the person and how well its markers fit."
+        "Nothing to do.";
+    ScalingMoving "scaling.moving" Warning
+        "Markers move in the standing trial; their mean positions were used."
+        "Use a trial in which the person stands still.";
+    ScalingPair "scaling.pair" Warning
+        "A pair of markers of a scaling measurement is missing in the model or the trial."
+        "Correct the names of the pair, or leave the measurement out.";
+    SubjectNotWritten "subject.not_written" Note
+        "The body could not be written as `subject.osim`."
+        "The message states the reason; all other results are complete.";
+    // Body mass.
+    MassStanding "mass.standing" Note
+        "The body mass was measured by force plates in the standing trial."
+        "Nothing to do.";
+    MassMismatch "mass.mismatch" Warning
+        "Two sources of the body mass disagree."
+        "Give the right mass, or scale the model to this person.";
+    MassNotWholeBody "mass.not_whole_body" Warning
+        "Force plates carry much less than the model's mass over whole gait cycles, so that the model's mass was used."
+        "Check that every foot is on a plate, and that the model is scaled to this person.";
+    MassUnverified "mass.unverified" Warning
+        "The body mass is neither given nor measured; every force is proportional to it."
+        "Give the mass or a standing trial on force plates.";
+    // Force plates.
+    PlatesUnusable "plates.unusable" Warning
+        "A force plate was left out."
+        "The message states what is missing or wrong in the file.";
+    PlatesOriginTurned "plates.origin_turned" Note
+        "ORIGIN of a plate has the opposite sign, as many programs write it, and was reversed."
+        "Nothing to do.";
+    PlatesUnitChanged "plates.unit_changed" Warning
+        "By the file's unit the force plates have an impossible size; their lengths were rescaled."
+        "Correct the unit in the file.";
+    PlatesUnitUnknown "plates.unit_unknown" Warning
+        "The unit of a force is unknown; it was read as newtons."
+        "Correct the unit in the file.";
+    PlatesPolynomial "plates.polynomial" Note
+        "The file has a polynomial that corrects the centre of pressure; it was not used."
+        "Nothing to do; the correction is some millimetres.";
+    PlatesForceOnPlate "plates.force_on_plate" Warning
+        "The file holds the force of the foot on the plate; all signs of the plate were reversed."
+        "Nothing to do if the vertical force is now upward.";
+    PlatesNoCalibration "plates.no_calibration" Warning
+        "A plate of this type has no calibration matrix; its channels were used as they are."
+        "Add the calibration matrix to the file.";
+    PlatesNoSensorDistance "plates.no_sensor_distance" Warning
+        "The file does not state where the sensors of a plate are; its moments and centre of pressure are meaningless."
+        "Add ORIGIN of the plate to the file.";
+    PlatesBaseline "plates.baseline" Note
+        "A plate showed a small force without load; it was subtracted."
+        "Nothing to do.";
+    PlatesLargeBaseline "plates.large_baseline" Warning
+        "A plate showed a large force without load; it was subtracted."
+        "Zero the plates before recording.";
+    PlatesClipped "plates.clipped" Warning
+        "A channel of a plate reached the end of its range; the force is too small there."
+        "Choose a larger range of the amplifier.";
+    PlatesReadingChanged "plates.reading_changed" Warning
+        "The centre of pressure is impossible with the stated units; other units were assumed."
+        "Correct the units in the file.";
+    PlatesCenterOutside "plates.center_outside" Warning
+        "The centre of pressure is often outside its plate."
+        "Check CORNERS, ORIGIN, CHANNEL and the units of the plate in the file.";
+    PlatesPartial "plates.partial" Warning
+        "Only part of a foot's load was measured."
+        "Choose a step that is wholly on a plate.";
+    PlatesTwoFeet "plates.two_feet" Warning
+        "Two feet were on one plate at the same time; this load was assigned to neither foot."
+        "State the foot of the plate, if all of the load belongs to one.";
+    PlatesUnassigned "plates.unassigned" Warning
+        "The load of a plate could not be assigned to a foot."
+        "State the foot of the plate.";
+    PlatesShared "plates.shared" Note
+        "One foot was on two plates at the same time; both forces were added."
+        "Nothing to do.";
+    PlatesNoWindow "plates.no_window" Warning
+        "At no time was every loaded foot wholly on a plate: totals and forces at the pelvis cannot be judged."
+        "Record steps on plates, or predict the forces.";
+    // Loads from files.
+    LoadsGuessed "loads.guessed" Note
+        "The columns of the ground forces and the feet they act on were guessed from names."
+        "State them if the guess is wrong.";
+    LoadsWorldAxes "loads.world_axes" Note
+        "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
+        "Turn the table's forces if their axes are others.";
+    LoadsSwitchedOff "loads.switched_off" Note
+        "A load is switched off in its file and was not used."
+        "Nothing to do.";
+    LoadsMillimetres "loads.millimetres" Warning
+        "A load acts so far from the origin that its points appear to be in millimetres."
+        "Divide the points by 1000, and the moments too if they are in N.mm.";
+    LoadsPointUndefined "loads.point_undefined" Note
+        "A load has no point of application while it is unloaded; it was read as zero."
+        "Nothing to do.";
+    LoadsShorterThanMotion "loads.shorter_than_motion" Note
+        "Forces were recorded for a part of the motion only; the rest was left out."
+        "Nothing to do.";
+    LoadsNoSide "loads.no_side" Warning
+        "A load acts on a body that is neither left nor right; it is used, but not in `grf.mot`."
+        "Check the body on which the load acts.";
+    LoadsSeveralBodies "loads.several_bodies" Note
+        "Loads act on several bodies of one side; `grf.mot` has their sum."
+        "Nothing to do.";
+    LoadsDownward "loads.downward" Warning
+        "A ground force pulls the foot down; it appears to be the force of the foot on the plate."
+        "Change the sign of forces and torques.";
+    LoadsFarFromFoot "loads.far_from_foot" Warning
+        "A force acts nearer to the other foot than to its own; right and left may be exchanged."
+        "Exchange the bodies on which the loads act.";
+    // Devices.
+    DeviceShorterThanMotion "device.shorter_than_motion" Warning
+        "The device was recorded for a part of the motion only; elsewhere its contribution is zero."
+        "Choose the time in which the device was recorded.";
+    DeviceUnknownColumn "device.unknown_column" Warning
+        "A column of the device's table is no generalised force of the model; it was not used."
+        "Name columns as in `moments.sto`.";
+    // Events and cycles.
+    EventsNotUsed "events.not_used" Note
+        "An event of the file is neither a foot strike nor a foot off of a side; it was not used."
+        "Nothing to do.";
+    EventsNoFootMarkers "events.no_foot_markers" Note
+        "A foot has no marker on heel or toe, so that its events cannot be detected from motion."
+        "Put markers on heel and toe of both feet.";
+    EventsColumns "events.columns" Note
+        "States which columns were read as the upward forces of the feet."
+        "Nothing to do if they are right.";
+    EventsNone "events.none" Note
+        "No foot strike was detected."
+        "Check the range, and the threshold of force if forces were measured.";
+    CyclesNone "cycles.none" Note
+        "No whole gait cycle was recorded, so that results per cycle are not written."
+        "Record two foot strikes of the same foot.";
+    CyclesOtherFootUnseen "cycles.other_foot_unseen" Warning
+        "Within a cycle the other foot's swing and stance were not detected; it may have been off the plates."
+        "Do not use the total force of this cycle.";
+    FootfallsNone "footfalls.none" Warning
+        "No stance phase was detected from the motion."
+        "Check axes and units of the motion, and that feet touch the ground.";
+    FootfallsBelt "footfalls.belt" Note
+        "The floor moves under the feet, as on a treadmill; speeds of feet are relative to the belt."
+        "Nothing to do.";
+    // Ground forces and their prediction.
+    GroundPredicted "ground.predicted" Note
+        "Without measured forces the ground forces are predicted from the motion."
+        "Give measured forces if there are any.";
+    ComparisonNone "comparison.none" Warning
+        "No foot was wholly on a plate of its own, so that the prediction could not be compared with force plates."
+        "Nothing to do.";
+    PredictionFeetUnseen "prediction.feet_unseen" Warning
+        "No marker shows the direction of a foot: its stances, centre of pressure and moments are uncertain."
+        "Put markers on heel and toe of both feet.";
+    PredictionShort "prediction.short" Warning
+        "The recording is shorter than a gait cycle; forces near its ends are uncertain."
+        "Use a longer recording; `grf_sd.mot` has the standard deviations.";
+    PredictionNotWritten "prediction.not_written" Warning
+        "`grf_sd.mot` and `grf_measured.mot` could not be written."
+        "The message states the reason.";
+    PredictionWeight "prediction.weight" Warning
+        "The mean vertical force over whole cycles is not the body weight."
+        "Check unit, rate and filter of the motion, and that the ground alone carries the body.";
+    PredictionImpulse "prediction.impulse" Warning
+        "The fore-aft force does not agree with the change of the body's speed."
+        "Check unit, rate and filter of the motion.";
+    PredictionFriction "prediction.friction" Warning
+        "A foot needs more friction than there is."
+        "Check the motion of the feet and the stances.";
+    PredictionPull "prediction.pull" Warning
+        "The motion accelerates downwards faster than gravity, which no floor can cause."
+        "Check unit and rate of the motion.";
+    PredictionMass "prediction.mass" Warning
+        "The model's mass differs from what force plates measured; all predicted forces are wrong in proportion."
+        "Give the right mass, or scale the model to this person.";
+    PredictionNotThroughTheFeet "prediction.not_through_the_feet" Warning
+        "The motion needs forces that cannot act through the feet alone."
+        "Check for a hand on a rail, a seat, a load that is carried, and errors of the motion.";
+    // Motion and forces together.
+    ResidualLarge "residual.large" Warning
+        "Residual forces at the root are large: motion, forces and model do not agree, and joint moments cannot be trusted."
+        "Check files, sides and time origin; choose the time in which every loaded foot is on a plate.";
+    ConsistencyIncompleteForces "consistency.incomplete_forces" Warning
+        "Motion and forces disagreed so much that a foot may have been where nothing measures; the motion was changed for it."
+        "Choose the time in which all forces are known.";
+    ConsistencyResidualLeft "consistency.residual_left" Warning
+        "Within its tolerances the motion cannot agree with the forces."
+        "Use wider tolerances or another mass, or check for forces that were not measured.";
+    ConsistencyLargeChange "consistency.large_change" Warning
+        "A coordinate was changed by more than the usual error of motions."
+        "Check mass, body and forces.";
+    ConsistencyNotSettled "consistency.not_settled" Warning
+        "Residual reduction did not converge."
+        "Read its results with care; wider tolerances may help.";
+    FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
+        "Frames in which a foot may be on unmeasured ground were not judged."
+        "Nothing to do.";
+    // Synthetic walks and simulation.
+    GaitSpeedRange "gait.speed_range" Warning
+        "The speed is outside the range of walking; the joint curves of the nearest speed were used."
+        "Choose a speed in the range.";
+    WalkNotConsistent "walk.not_consistent" Warning
+        "No small change makes this gait dynamically consistent; residual forces remain, and the verdict judges them."
+        "Choose another speed, step length or style.";
+    DriveGaveWay "drive.gave_way" Warning
+        "A driven joint could not follow its motion with the largest force allowed."
+        "Allow a larger force, or prescribe a slower motion.";
+    SolverNotConverged "solver.not_converged" Warning
+        "The constraints of a time step could not all be satisfied."
+        "Use a smaller time step, or remove constraints that contradict each other.";
+    ContactNotRound "contact.not_round" Warning
+        "Two bodies pass through each other, because their contact law needs a sphere or a capsule."
+        "Use the regularised law.";
+    ClosureRedundant "closure.redundant" Note
+        "A loop closure repeats constraints of others; of all possible forces the least-squares ones are given."
+        "Nothing to do, or remove the closure.";
+    // Conversion of files and the report.
+    ConvertAxes "convert.axes" Note
+        "States the unit and the axes of a converted file."
+        "Nothing to do.";
+    ConvertDegrees "convert.degrees" Note
+        "The file that was converted does not state the unit of its angles."
+        "Add `inDegrees` to the header of the new file.";
+    ConvertHeights "convert.heights" Warning
+        "Force plates have different heights; every centre of pressure was put at the height of the first."
+        "Nothing to do if the differences are small.";
+    ConvertLost "convert.lost" Note
+        "Parts of the file that the new format cannot hold."
+        "Keep the original file.";
+    ReportNotWritten "report.not_written" Warning
+        "The report page could not be written."
+        "The message states the reason; all other results are complete.";
+}
+
+impl Code {
+    /// Every code, in the order of the list.
+    pub fn all() -> impl Iterator<Item = Code> {
+        ENTRIES.iter().map(|entry| entry.code)
+    }
+
+    /// The stable name, such as `markers.swap`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.entry().name
+    }
+
+    /// The code of a name; `None` if there is none.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Code> {
+        ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
+    }
+
+    /// How much the finding matters.
+    #[must_use]
+    pub fn severity(self) -> Severity {
+        self.entry().severity
+    }
+
+    /// What the finding means, in one sentence.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        self.entry().meaning
+    }
+
+    /// What to do about it, in one sentence, without reference to any one shell.
+    #[must_use]
+    pub fn remedy(self) -> &'static str {
+        self.entry().remedy
+    }
+
+    fn entry(self) -> &'static Entry {
+        &ENTRIES[self as usize]
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Serialize for Code {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Code {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Code, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unknown = || de::Error::custom(format!("unknown finding `{name}`; expected a code of docs/FINDINGS.md"));
+        Code::from_name(&name).ok_or_else(unknown)
+    }
+}
