@@ -7,7 +7,7 @@ use super::feasibility::Person;
 use super::ground_agreement::Seen;
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion};
-use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
+use crate::ground::plates::{FeetOnPlates, feet_on_plates};
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
@@ -226,7 +226,7 @@ impl BodyInMotion {
     /// What the plates did to the feet; nothing if the body has no feet.
     #[must_use]
     pub fn plate_forces(&self) -> Vec<ForceRecording> {
-        foot_bodies(&self.subject.model).map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
+        self.subject.model.anatomy().feet().map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
     }
 }
 

@@ -11,10 +11,10 @@ use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Finding, Findings};
 use crate::ground::predict::{Known, PredictSettings, Prediction, predict};
-use crate::ground::sole::Sole;
 use crate::ground::upward;
 use crate::kinematics::Trajectory;
-use crate::model::Model;
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
@@ -29,7 +29,7 @@ pub const PLATES_LOW_PASS: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictOrder<'a> {
     /// Right and left sole.
-    pub soles: &'a [Option<Sole>; 2],
+    pub soles: &'a BySide<Option<Sole>>,
     /// How forces are predicted.
     pub settings: &'a PredictSettings,
     /// Low-pass of the plates, where there are any; `None` leaves them as they are.

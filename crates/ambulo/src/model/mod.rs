@@ -300,6 +300,13 @@ impl Model {
         self.coordinates.iter().position(|c| c.name == name).map(CoordinateId)
     }
 
+    /// The name of a coordinate without its side, as in `cycles.csv`: `knee_angle` for `knee_angle_r`.
+    #[must_use]
+    pub fn coordinate_stem(&self, id: CoordinateId) -> String {
+        let name = &self.coordinates[id.0].name;
+        Side::split_name(name).map_or_else(|| name.clone(), |(_, stem)| stem)
+    }
+
     /// All bodies, by id.
     pub fn body_ids(&self) -> impl DoubleEndedIterator<Item = BodyId> + use<> {
         (0..self.bodies.len()).map(BodyId)

@@ -1,8 +1,7 @@
 //! Where joints stand in the bodies that they join.
 
 use super::part::Part;
-use crate::ground::sole::at_rest;
-use crate::kinematics::BodyMotion;
+use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::Vec3;
 
@@ -14,7 +13,9 @@ pub(super) struct JointPlaces<'a> {
 
 impl<'a> JointPlaces<'a> {
     pub(super) fn new(model: &'a Model) -> JointPlaces<'a> {
-        JointPlaces { model, rest: at_rest(model) }
+        let q: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+        let rest = vec![0.0; q.len()];
+        JointPlaces { model, rest: body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest }) }
     }
 
     pub(super) fn part(&self, body: BodyId) -> Part {
@@ -22,7 +23,7 @@ impl<'a> JointPlaces<'a> {
     }
 
     pub(super) fn side(&self, body: BodyId) -> Option<Side> {
-        Side::of_name(&self.model.bodies()[body.index()].name)
+        self.model.anatomy().body_side(body)
     }
 
     /// Centre of the joint that carries a body, in its own frame [m].
