@@ -1,11 +1,11 @@
-//! Normative bands for page and figures, made into `crates/ambulo/data/normative/schwartz2008.toml`.
+//! Normative bands for page and figures, made into `crates/ambulo-report/data/normative/schwartz2008.toml`.
 
 use crate::normative::{self, Band, Sheet};
 use crate::workspace;
 use std::fmt::Write as _;
 use std::fs;
 
-const FILE: &str = "crates/ambulo/data/normative/schwartz2008.toml";
+const FILE: &str = "crates/ambulo-report/data/normative/schwartz2008.toml";
 
 const HEADER: &str = "\
 # Made by `cargo xtask normative-bands`; do not edit.

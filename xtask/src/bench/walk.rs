@@ -8,10 +8,11 @@ use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
-use ambulo::report::output_files;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
+use ambulo_report::figure_files;
+use ambulo_results::output_files;
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -78,7 +79,7 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
         instrumented: None,
     };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, stage)?;
-    black_box(output_files(&model, &analysis, None)?);
+    black_box((output_files(&model, &analysis, None)?, figure_files(&model, &analysis)?));
     stage("files' content");
     Ok(())
 }

@@ -8,5 +8,5 @@ pub mod plates;
 pub mod predict;
 pub mod stream;
 
-pub(crate) use measured::upward;
+pub use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};
