@@ -129,7 +129,7 @@ fn truths(
     };
     let total = Some(true_total(grid, right, left, seen));
     let right_share = Some(true_share(grid, right, left, seen));
-    let centers = Some([right.center_of_pressure.clone(), left.center_of_pressure.clone()]);
+    let centers = Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() });
     let none = Known::default;
     vec![
         ("total wrench", Known { total: total.clone(), ..none() }),

@@ -3,7 +3,7 @@
 use crate::args::{FootColumns, ForcesArgs};
 use crate::files;
 use ambulo::findings::{Code, Findings};
-use ambulo::model::Model;
+use ambulo::model::{BySide, Model};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
@@ -23,8 +23,6 @@ const USUAL_PREFIXES: [(&str, &str); 4] = [
     ("ground_force_", "1_ground_force_"),
     ("ground_force_", "l_ground_force_"),
 ];
-/// Bodies that carry the foot's load in the usual models, right and left.
-const USUAL_FEET: [(&str, &str); 3] = [("calcn_r", "calcn_l"), ("foot_r", "foot_l"), ("talus_r", "talus_l")];
 
 pub(super) fn read(args: &ForcesArgs, model: &Model, findings: &mut Findings) -> Result<GroundTable> {
     let loads = args.loads.as_deref().map(|path| read_loads(path, findings)).transpose()?;
@@ -78,12 +76,12 @@ fn named(args: &ForcesArgs) -> ExternalLoads {
     ExternalLoads { name: "feet".into(), datafile: None, forces: forces.collect() }
 }
 
-/// Usual prefixes on usual feet; what was taken is a finding.
+/// Usual prefixes on the model's feet; what was taken is a finding.
 fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
     let has = |prefix: &str| table.column(&format!("{prefix}vx")).is_some();
     let columns = USUAL_PREFIXES.iter().find(|(right, left)| has(right) && has(left));
-    let feet = USUAL_FEET.iter().find(|(right, left)| model.body(right).is_some() && model.body(left).is_some());
-    let (Some((right_prefix, left_prefix)), Some((right_foot, left_foot))) = (columns, feet) else {
+    let feet = model.anatomy().feet().map(|feet| feet.map(|body| model.bodies()[body.index()].name.as_str()));
+    let (Some((right_prefix, left_prefix)), Some(BySide { right: right_foot, left: left_foot })) = (columns, feet) else {
         bail!(
             "{}: the columns of the two feet were not recognised among {}. hint: name them with --right BODY:PREFIX and --left BODY:PREFIX, or give --loads XML",
             path.display(),

@@ -4,7 +4,7 @@ use super::{Reading, coordinates};
 use crate::args::ForcesArgs;
 use ambulo::analysis::BodyInMotion;
 use ambulo::findings::{Code, Findings};
-use ambulo::ground::plates::{PlateContact, foot_bodies};
+use ambulo::ground::plates::PlateContact;
 use ambulo::motion::ForceRecording;
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_results::Input;
@@ -60,8 +60,8 @@ fn without_forces(body: &BodyInMotion) -> String {
     } else if contacts.is_empty() {
         let found = format!("nobody stands on the file's {}", counted(body.plates.len(), "force plate"));
         (found, "--no-ground computes a motion without contact")
-    } else if foot_bodies(&body.subject.model).is_none() {
-        let found = "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l";
+    } else if body.subject.model.anatomy().feet().is_none() {
+        let found = "the model has no two legs with hip, knee, ankle and foot";
         (found.to_owned(), "give the forces with --grf and say which bodies they act on with --right and --left")
     } else {
         let one = |c: &PlateContact| {

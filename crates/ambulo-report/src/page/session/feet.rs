@@ -1,8 +1,8 @@
 //! Where the feet are when they strike.
 
 use super::results::Results;
-use ambulo::analysis::feasibility::{Person, Sole};
 use ambulo::kinematics::{Posture, body_motion};
+use ambulo::model::anatomy::Sole;
 use ambulo::model::{CoordinateKind, Model, Side};
 use ambulo::motion::interpolate;
 use ambulo::spatial::Vec3;
@@ -22,7 +22,7 @@ pub(super) struct Strike {
 /// All strikes in order of time; none without a body whose feet are known.
 pub(super) fn strikes(results: &Results) -> Vec<Strike> {
     let Some((_, model)) = &results.body else { return Vec::new() };
-    let soles = Person::of_model(model).soles;
+    let soles = model.anatomy().soles(model.stature().height_m);
     let floor = floor_velocity(results);
     let events = results.events.iter().filter(|event| event.strike);
     let strike = |time_s: f64, side: Side, sole: &Sole| {
@@ -32,8 +32,7 @@ pub(super) fn strikes(results: &Results) -> Vec<Strike> {
     };
     let mut list: Vec<Strike> = events
         .filter_map(|event| {
-            let (side, sole) =
-                Side::BOTH.into_iter().zip(&soles).find(|(side, _)| super::sides::page(*side) == event.side)?;
+            let (side, sole) = soles.iter().find(|(side, _)| super::sides::page(*side) == event.side)?;
             Some(strike(event.time_s, side, sole.as_ref()?))
         })
         .collect();

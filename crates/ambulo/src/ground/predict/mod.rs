@@ -205,7 +205,7 @@ pub enum PredictError {
     },
 }
 
-/// Predicts the forces under both feet. `soles` are those of the right and the left foot.
+/// Predicts the forces under both feet, on the bodies that carry the rear ends of the soles.
 ///
 /// # Errors
 /// A model without feet or soles, known numbers of another length than the motion: see [`PredictError`].
@@ -217,7 +217,9 @@ pub fn predict(
     findings: &mut Findings,
 ) -> Result<Prediction, PredictError> {
     let name = || model.name().to_owned();
-    let bodies = model.anatomy().feet().ok_or_else(|| PredictError::NoFeet { model: name() })?;
+    if soles.values().all(Option::is_none) {
+        return Err(PredictError::NoFeet { model: name() });
+    }
     let sole = |side: Side| soles[side].ok_or_else(|| PredictError::NoSole { model: name(), side });
     let soles = BySide { right: sole(Side::Right)?, left: sole(Side::Left)? };
     settings.known.check(trajectory.grid().frames)?;
@@ -258,7 +260,8 @@ pub fn predict(
     let mut feet = estimate(&evidence, curves)?;
     keep_on_the_ground(&mut feet, up, &settings.known);
     let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();
-    let ground = bodies.into_array().into_iter().zip(feet.values()).map(|(body, foot)| {
+    let ground = feet.iter().map(|(side, foot)| {
+        let body = soles[side].points[0].body;
         let moment: Vec<Vec3> =
             (0..foot.force.len()).map(|i| foot.center[i].cross(&foot.force[i]) + up * foot.free_moment[i]).collect();
         BodyForces::on_ground(body, &foot.force, &moment, up, &foot.height)
