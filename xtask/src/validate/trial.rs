@@ -10,7 +10,7 @@ use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{Known, PredictSettings, predict};
 use ambulo::ground::{BodyForces, feet};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::Side;
+use ambulo::model::{BySide, Side};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};

@@ -56,7 +56,7 @@ pub(super) fn groups(
 /// The quantities that the files have, over cycles or over time.
 pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
     let names = names(results);
-    clinical_quantities(|name| names.contains(name))
+    clinical_quantities(&results.clinical_names(), |name| names.contains(name))
 }
 
 fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {

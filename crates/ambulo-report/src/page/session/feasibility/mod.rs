@@ -120,9 +120,8 @@ fn panel(check: &str, quantity: &str, quantities: &[ClinicalQuantity]) -> Option
     if let Some((_, panel)) = PANELS.iter().find(|(known, _)| *known == check) {
         return Some((*panel).to_owned());
     }
-    let stem = Side::split_name(quantity).map_or_else(|| quantity.to_owned(), |(_, stem)| stem);
     let coordinates = ["strength", "power", "range"];
-    let shown = coordinates.contains(&check).then(|| words::known(&stem, quantities)).flatten()?;
+    let (shown, _) = coordinates.contains(&check).then(|| words::known(quantity, quantities)).flatten()?;
     Some(shown.id.to_owned())
 }
 
