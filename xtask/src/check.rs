@@ -1,10 +1,10 @@
 //! What CI runs, in order, up to the first failure: `cargo xtask check`.
 //!
 //! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so each can be run alone while something is
-//! mended. Without npm or Chromium the viewer's steps are skipped, and it is said; where `CI` is set that is a failure.
+//! mended. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
 
 use crate::workspace;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -13,6 +13,8 @@ use std::time::Instant;
 enum Tool {
     /// In the root of the workspace.
     Cargo,
+    /// The same, for the target `WASM`.
+    CargoForWasm,
     /// In `viewer/`.
     Npm,
 }
@@ -28,7 +30,10 @@ struct Step {
     hint: &'static str,
 }
 
-const STEPS: [Step; 7] = [
+/// The 32-bit target that the library is built for, so that it can run in a browser.
+const WASM: &str = "wasm32-unknown-unknown";
+
+const STEPS: [Step; 8] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -59,6 +64,13 @@ const STEPS: [Step; 7] = [
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
     },
     Step {
+        name: "32-bit target",
+        tool: Tool::CargoForWasm,
+        arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
+        variable: None,
+        hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
+    },
+    Step {
         name: "viewer's packages",
         tool: Tool::Npm,
         arguments: &["ci", "--no-audit", "--no-fund"],
@@ -85,14 +97,14 @@ const STEPS: [Step; 7] = [
 #[expect(clippy::print_stdout, reason = "the steps and their times are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let start = Instant::now();
-    let lacking = lacking();
-    if let (Some(lacking), true) = (lacking, std::env::var_os("CI").is_some()) {
+    let lacking = STEPS.each_ref().map(|step| step.tool.lacking());
+    if let (Some(lacking), true) = (lacking.iter().flatten().next(), std::env::var_os("CI").is_some()) {
         return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
     }
-    for (i, step) in STEPS.iter().enumerate() {
+    for (i, (step, lacking)) in STEPS.iter().zip(lacking).enumerate() {
         let head = format!("[{}/{}] {}", i + 1, STEPS.len(), step.name);
-        if let (Tool::Npm, Some(lacking)) = (step.tool, lacking) {
-            println!("{head}: skipped: no {lacking}");
+        if let Some(lacking) = lacking {
+            println!("{head}: skipped: {lacking} is not installed");
             continue;
         }
         println!("{head}: {} {}", step.tool.word(), step.arguments.join(" "));
@@ -104,23 +116,36 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// What the viewer's steps need and the machine has not.
-fn lacking() -> Option<&'static str> {
-    let starts = |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    ["npm", "chromium"].into_iter().find(|name| !starts(name))
+/// Whether the compiler has the standard library of the target `WASM`.
+fn has_wasm_target() -> bool {
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WASM]).output();
+    output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
 impl Tool {
+    /// What a step needs and the machine does not have.
+    fn lacking(self) -> Option<&'static str> {
+        let starts =
+            |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+        match self {
+            Tool::Cargo => None,
+            Tool::CargoForWasm => {
+                (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
+            }
+            Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
+        }
+    }
+
     fn word(self) -> &'static str {
         match self {
-            Tool::Cargo => "cargo",
+            Tool::Cargo | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
         }
     }
 
     fn command(self) -> Command {
         match self {
-            Tool::Cargo => workspace::cargo(),
+            Tool::Cargo | Tool::CargoForWasm => workspace::cargo(),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());

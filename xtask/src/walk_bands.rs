@@ -1,7 +1,7 @@
 //! Corrected walks against normative bands: `cargo xtask walk-bands [--write]`.
 //!
 //! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are made consistent
-//! ([`ambulo::simulation::consistent`]) and walked by the simulator on soft shoes; the last cycle is held against the tables. What is
+//! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is held against the tables. What is
 //! missed is shown as missed and is no error. With `--write` the page goes to docs/WALK_BANDS.md, its picture to docs/images.
 
 mod adjustment;

@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod files;
+mod hints;
 mod laboratory_file;
 mod printer;
 

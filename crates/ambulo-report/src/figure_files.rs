@@ -1,9 +1,8 @@
 //! The figures of a run, as names and bytes.
 
 use crate::clinical::ClinicalNames;
-use crate::figures::{CycleFigures, Mark, prediction_figure, residual_figure};
+use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
-use crate::plot::FigureError;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
 use ambulo::model::{Model, Side};

@@ -1,4 +1,40 @@
-//! Text within HTML.
+//! HTML: the document around a page, and text within it.
+
+/// An HTML document that loads nothing from any network.
+pub(super) struct Document<'a> {
+    /// Plain text.
+    pub(super) title: &'a str,
+    /// Content-Security-Policy.
+    pub(super) policy: &'a str,
+    /// CSS.
+    pub(super) style: &'a str,
+    /// HTML.
+    pub(super) body: &'a str,
+}
+
+impl Document<'_> {
+    /// The text of the file.
+    pub(super) fn html(&self) -> String {
+        let Document { policy, style, body, .. } = self;
+        let title = escaped(self.title);
+        format!(
+            r#"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<title>{title} - Ambulo</title>
+<style>{style}</style>
+</head>
+<body>
+{body}
+</body>
+</html>
+"#
+        )
+    }
+}
 
 /// Text that HTML shows as it is, in content and in attributes with double quotes.
 pub(super) fn escaped(text: &str) -> String {

@@ -4,15 +4,11 @@ pub mod clinical;
 mod exchange;
 mod figure_files;
 pub mod figures;
-mod gait_figure;
 mod html;
 pub mod normative;
 pub mod page;
-mod paper_figure;
-mod plot;
 mod reproduction;
 mod reproduction_page;
-mod scene_figures;
 mod scene_shapes;
 mod stage;
 pub mod style;
@@ -23,11 +19,7 @@ pub use exchange::{
     table_of_markers, trc_of_markers,
 };
 pub use figure_files::{figure_files, prediction_figure_file};
-pub use figures::{CycleFigures, Mark};
-pub use gait_figure::gait_figure;
-pub use paper_figure::paper_figure;
-pub use plot::FigureError;
+pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};
 pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
-pub use scene_figures::SceneCurves;
 pub use scene_shapes::scene_shapes;

@@ -1,8 +1,6 @@
 //! The files of `ambulo reproduce`, but for its JSON: figures with their numbers, and tables.
 
-use super::gait_figure::gait_figure;
-use super::paper_figure::paper_figure;
-use super::plot::FigureError;
+use super::figures::{FigureError, gait_figure, paper_figure};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::reproduction::{

@@ -2,7 +2,7 @@
 //!
 //! The paper's drawings are not repeated; its captions and what its text says of each figure stand beside ours.
 
-use super::html::escaped;
+use super::html::{Document, escaped};
 use ambulo::reproduction::{Claim, Numbers, Sensitivity, assumptions, number};
 use ambulo_results::OutputFile;
 use std::fmt::Write;
@@ -82,18 +82,8 @@ const FIGURES: [Figure; 7] = [
 pub fn reproduction_page(claims: &[Claim], sensitivities: &[Sensitivity], files: &[OutputFile]) -> OutputFile {
     let held = claims.iter().filter(|claim| claim.pass).count();
     let figures: String = FIGURES.iter().map(|figure| figure.section(claims, files)).collect();
-    let html = format!(
-        r#"<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{POLICY}">
-<title>Dynamic analysis of human walking, 1997, recomputed - Ambulo</title>
-<style>{STYLE}</style>
-</head>
-<body>
-<header>
+    let body = format!(
+        r#"<header>
 <h1>Dynamic analysis of human walking, recomputed</h1>
 <p>F. Faure, G. Debunne, M.-P. Cani, F. Multon, 8th Eurographics Workshop on Computer Animation and Simulation, 1997. Its walks are made anew in
 <b>the paper's mode</b> (rigid soles, joints driven by its curves, trunk held upright) and in a <b>corrected mode</b> (soft shoes, a moving trunk, a motion
@@ -108,16 +98,19 @@ that agrees with its forces). A claim is judged in the paper's mode; the correct
 {claims}
 <h2>What the paper does not give</h2>
 {assumptions}
-</main>
-</body>
-</html>
-"#,
+</main>"#,
         total = claims.len(),
         version = env!("CARGO_PKG_VERSION"),
         claims = claim_table(claims),
         assumptions = assumption_table(claims, sensitivities),
     );
-    OutputFile { name: "report.html".to_owned(), bytes: html.into_bytes() }
+    let page = Document {
+        title: "Dynamic analysis of human walking, 1997, recomputed",
+        policy: POLICY,
+        style: STYLE,
+        body: &body,
+    };
+    OutputFile { name: "report.html".to_owned(), bytes: page.html().into_bytes() }
 }
 
 impl Figure {
@@ -140,9 +133,7 @@ fn picture(files: &[OutputFile], number: u8) -> String {
     let name = format!("figures/figure{number}.svg");
     let svg = files.iter().find(|file| file.name == name).and_then(|file| std::str::from_utf8(&file.bytes).ok());
     match svg {
-        Some(svg) => {
-            svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"Figure {number} as found here\" "), 1)
-        }
+        Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} as found here\" "), 1),
         None => format!("Figure {number} could not be drawn."),
     }
 }

@@ -181,7 +181,7 @@ fn sticks(world: &World, number: usize) -> Vec<ViewShape> {
     joints.filter(|end| end.norm() > 1e-6).map(stick).collect()
 }
 
-fn box_of_inertia(body: &ambulo::simulation::Body) -> ViewShape {
+fn box_of_inertia(body: &ambulo::simulation::RigidBody) -> ViewShape {
     let eigen = body.inertia.symmetric_eigen();
     let moments = eigen.eigenvalues;
     let half = Vec3::from_fn(|k, _| (1.5 * (moments.sum() - 2.0 * moments[k]) / body.mass).max(1e-8).sqrt());

@@ -20,7 +20,7 @@ fn texts(svg: &str) -> Vec<String> {
 fn every_gait_has_three_curves_and_the_sub_cycles_of_its_joints() {
     for name in Gait::NAMES {
         let svg = figure(name);
-        assert!(svg.starts_with("<svg width=\"760\"") && svg.trim_end().ends_with("</svg>"), "{name}");
+        assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{name}");
         for color in ["#0072B2", "#D55E00", "#009E73"] {
             let curves = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(color));
             let points = curves.map(|line| line.matches(',').count()).max();

@@ -3,7 +3,7 @@
 use crate::summary::PeakSummary;
 use ambulo::analysis::SceneVerdict;
 use ambulo::findings::{Finding, Findings};
-use ambulo::simulation::scene::{Frame, RunStatistics, Scene};
+use ambulo::simulation::scene::{RunStatistics, Scene, SceneFrame};
 use ambulo::simulation::{Integrator, Owner};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -138,7 +138,7 @@ pub struct SceneExtremes {
 
 impl SceneExtremes {
     /// Takes in one instant.
-    pub fn add(&mut self, frame: &Frame<'_>) {
+    pub fn add(&mut self, frame: &SceneFrame<'_>) {
         let total = frame.energy.total();
         let time_s = frame.scene.state().time_s;
         if self.frames == 0 {
@@ -157,7 +157,7 @@ impl SceneExtremes {
         self.add_efforts(frame, time_s);
     }
 
-    fn add_contacts(&mut self, frame: &Frame<'_>) {
+    fn add_contacts(&mut self, frame: &SceneFrame<'_>) {
         let Some(forces) = &frame.forces else { return };
         let (mut points, mut sum) = (0, ambulo::spatial::Vec3::zeros());
         for contact in &forces.contacts {
@@ -175,7 +175,7 @@ impl SceneExtremes {
         self.contacts.obstacles_force_max_n = self.contacts.obstacles_force_max_n.max(sum.norm());
     }
 
-    fn add_efforts(&mut self, frame: &Frame<'_>, time_s: f64) {
+    fn add_efforts(&mut self, frame: &SceneFrame<'_>, time_s: f64) {
         let Some(forces) = &frame.forces else { return };
         let world = frame.scene.world();
         for (joint, efforts) in world.joints.iter().zip(&forces.efforts) {

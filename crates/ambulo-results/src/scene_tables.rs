@@ -1,8 +1,8 @@
 //! Tables of a simulated scene: one row an instant of output and body, joint coordinate, contact or closure.
 
 use crate::files::OutputFile;
-use ambulo::simulation::scene::{Frame, Outputs, Scene};
-use ambulo::simulation::{ContactForce, Joint, Owner, State, StepForces, World};
+use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
+use ambulo::simulation::{ContactForce, Owner, StepForces, TreeJoint, World, WorldState};
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3};
 use ambulo_formats::Error;
 use ambulo_formats::table::Table;
@@ -50,7 +50,7 @@ impl SceneTables {
     }
 
     /// Adds the rows of one instant.
-    pub fn add(&mut self, frame: &Frame<'_>) {
+    pub fn add(&mut self, frame: &SceneFrame<'_>) {
         self.rows += 1;
         if self.kept.poses {
             self.add_poses(frame);
@@ -103,7 +103,7 @@ impl SceneTables {
         Ok(files)
     }
 
-    fn add_poses(&mut self, frame: &Frame<'_>) {
+    fn add_poses(&mut self, frame: &SceneFrame<'_>) {
         let (world, state) = (frame.scene.world(), frame.scene.state());
         for ((body, pose), twist) in world.bodies.iter().zip(&state.poses).zip(&state.twists) {
             self.add_pose(state.time_s, &body.name, pose, twist);
@@ -124,7 +124,7 @@ impl SceneTables {
         text.push('\n');
     }
 
-    fn add_joints(&mut self, frame: &Frame<'_>) {
+    fn add_joints(&mut self, frame: &SceneFrame<'_>) {
         let (world, state) = (frame.scene.world(), frame.scene.state());
         for (number, joint) in world.joints.iter().enumerate() {
             let rates = state.rates(joint);
@@ -154,7 +154,7 @@ impl SceneTables {
     }
 
     /// Coordinates of joints that follow a recording, and `moments.sto`.
-    fn add_figures(&mut self, frame: &Frame<'_>) {
+    fn add_figures(&mut self, frame: &SceneFrame<'_>) {
         let Some(forces) = &frame.forces else { return };
         let scene = frame.scene;
         let figures = scene.generalized_forces(forces);
@@ -180,7 +180,7 @@ impl SceneTables {
         }
     }
 
-    fn add_reaction(&mut self, state: &State, joint: &Joint, world: &World, forces: &StepForces) {
+    fn add_reaction(&mut self, state: &WorldState, joint: &TreeJoint, world: &World, forces: &StepForces) {
         let pose = state.poses[joint.child];
         let center = pose.place(joint.child_from_joint.translation);
         let wrench = forces.joints[joint.child].about(pose.translation - center);
@@ -192,7 +192,7 @@ impl SceneTables {
         text.push('\n');
     }
 
-    fn add_contacts(&mut self, frame: &Frame<'_>) {
+    fn add_contacts(&mut self, frame: &SceneFrame<'_>) {
         let world = frame.scene.world();
         for (time_s, contact) in &frame.impacts {
             self.add_contact(world, *time_s, "impact", contact);
@@ -217,7 +217,7 @@ impl SceneTables {
         text.push('\n');
     }
 
-    fn add_closures(&mut self, frame: &Frame<'_>) {
+    fn add_closures(&mut self, frame: &SceneFrame<'_>) {
         let Some(forces) = &frame.forces else { return };
         let (world, state) = (frame.scene.world(), frame.scene.state());
         for (number, wrench) in &forces.closing {
@@ -235,7 +235,7 @@ impl SceneTables {
         }
     }
 
-    fn add_energy(&mut self, frame: &Frame<'_>) {
+    fn add_energy(&mut self, frame: &SceneFrame<'_>) {
         let energy = &frame.energy;
         let text = &mut self.energy;
         begin(text, frame.scene.state().time_s, &[]);

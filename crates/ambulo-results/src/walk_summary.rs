@@ -1,7 +1,7 @@
 //! The part of `summary.json` that only synthetic walks have.
 
 use ambulo::model::Model;
-use ambulo::simulation::consistent::Change;
+use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::{CorrectionReport, Progress, WalkReport};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -93,7 +93,7 @@ pub struct SolverStage {
 }
 
 impl Size {
-    fn new(change: Change, factor: f64) -> Size {
+    fn new(change: Magnitude, factor: f64) -> Size {
         Size { rms: factor * change.rms, largest: factor * change.largest }
     }
 }
@@ -134,8 +134,8 @@ impl WalkSummary {
             foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),
             foot_slip_path_mm: report.slip.map(|slip| 1e3 * slip.path),
             flight_s: report.flight_s,
-            blows: report.blows.0,
-            largest_blow_n_s: report.blows.1,
+            blows: report.impacts.0,
+            largest_blow_n_s: report.impacts.1,
             speed_drift_m_s: report.speed_drift,
             simulator_hz: report.steps_hz,
             unsolved_steps: report.unsolved_steps,

@@ -16,7 +16,7 @@ use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Vec3, Wrench};
 use common::random::{self, Curves, KINDS, Random};
 use common::{State, load_series, trajectory};
@@ -221,7 +221,7 @@ fn fitting_markers_allocates_for_the_recording_and_not_for_its_frames() {
 fn synthetic(cycles: usize) -> SyntheticWalk {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap_or_else(|e| panic!("{e}"));
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles, rate_hz: 100.0 };
     synthesise(&order, &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 

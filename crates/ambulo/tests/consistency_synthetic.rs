@@ -15,7 +15,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Body, CoordinateKind, Drive, Model};
 use ambulo::motion::{TimeGrid, Window};
-use ambulo::simulation::synthetic::{Mode, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3, Wrench};
 use std::f64::consts::TAU;
 
@@ -398,7 +398,7 @@ fn a_recording_that_would_not_fit_into_memory_is_refused_at_once() {
 fn a_simulated_walk_in_a_plane_hardly_changes() {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap();
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     let mut findings = Findings::default();
     let walk = synthesise(&order, &mut findings).unwrap();
     let model = &walk.human.model;

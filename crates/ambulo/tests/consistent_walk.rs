@@ -4,9 +4,9 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, gait_signals};
-use ambulo::simulation::{Impact, StepSettings};
+use ambulo::simulation::{ImpactLaw, StepSettings};
 use std::sync::LazyLock;
 
 /// Of the simulator [s].
@@ -31,15 +31,15 @@ fn free_walk(human: &Human) -> Walk {
     Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn consistent(human: &Human, walk: &Walk, settings: &ConsistencySettings) -> ConsistentWalk {
-    make_consistent(human, walk, settings).unwrap_or_else(|e| panic!("{e}"))
+fn consistent(human: &Human, walk: &Walk, settings: &ConsistentWalkSettings) -> ConsistentWalk {
+    make_consistent_walk(human, walk, settings).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Free walking of de Leva's man, 75 kg.
 static CASE: LazyLock<Case> = LazyLock::new(|| {
     let human = human(75.0);
     let walk = free_walk(&human);
-    let settings = ConsistencySettings::default();
+    let settings = ConsistentWalkSettings::default();
     let consistent = consistent(&human, &walk, &settings);
     let recording = consistent
         .simulate(&human, &settings, STEP_S, CYCLES, &mut Findings::default())
@@ -73,8 +73,8 @@ fn nothing_holds_the_trunk_of_a_simulated_walk() {
 #[test]
 fn the_same_curves_unchanged_need_a_hand() {
     let case = &*CASE;
-    let settings = ConsistencySettings::default();
-    let ground = Ground { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: Impact::Coulomb };
+    let settings = ConsistentWalkSettings::default();
+    let ground = Ground { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
     let signals = gait_signals(&case.walk, &case.human.model);
     let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
     let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };
@@ -126,7 +126,7 @@ fn cycles_repeat_and_sides_mirror_each_other() {
 #[test]
 fn the_plan_and_the_simulation_agree() {
     let case = &*CASE;
-    let shoes = ConsistencySettings::default().shoes;
+    let shoes = ConsistentWalkSettings::default().shoes;
     let weight = case.human.model.mass() * case.human.model.gravity().norm();
     let mut off = Vec::new();
     for row in last_cycle(&case.recording, &case.walk).step_by(7) {
@@ -169,7 +169,7 @@ fn momentum_changes_by_what_the_feet_push() {
 
 #[test]
 fn heavier_people_on_stiffer_shoes_walk_the_same_way() {
-    let settings = ConsistencySettings { instants: 24, splines: [16, 8], ..ConsistencySettings::default() };
+    let settings = ConsistentWalkSettings { instants: 24, splines: [16, 8], ..ConsistentWalkSettings::default() };
     let mut stiffer = settings;
     stiffer.shoes.stiffness *= 1.6;
     let (light, heavy) = (human(60.0), human(96.0));
@@ -189,7 +189,7 @@ fn heavier_people_on_stiffer_shoes_walk_the_same_way() {
 
 #[test]
 fn the_same_walk_has_the_same_bits() {
-    let settings = ConsistencySettings { instants: 24, splines: [16, 8], ..ConsistencySettings::default() };
+    let settings = ConsistentWalkSettings { instants: 24, splines: [16, 8], ..ConsistentWalkSettings::default() };
     let human = human(75.0);
     let walk = free_walk(&human);
     let [a, b] = [0, 1].map(|_| consistent(&human, &walk, &settings));

@@ -269,9 +269,7 @@ fn a_treadmill_that_goes_with_the_foot_is_no_sliding_and_one_that_stands_is() {
     assert_eq!(standing.against(), []);
     // A foot that carries little may slide.
     standing.ground_velocity = Vec3::zeros();
-    for foot in standing.feet.iter_mut().flatten() {
-        foot.force *= 0.9;
-    }
+    standing.feet = standing.feet.map(|foot| foot.map(|f| FootFrame { force: f.force * 0.9, ..f }));
     assert_eq!(standing.against(), []);
 }
 

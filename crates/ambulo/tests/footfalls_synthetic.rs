@@ -16,7 +16,7 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::{Event, EventKind, TimeGrid};
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Mat3, Pose, Vec3};
 use std::sync::OnceLock;
 
@@ -96,7 +96,13 @@ fn synthetic() -> &'static SyntheticWalk {
     static WALK: OnceLock<SyntheticWalk> = OnceLock::new();
     WALK.get_or_init(|| {
         let gait = Gait::named("free").unwrap();
-        let order = WalkOrder { gait: &gait, build: MAN, mode: Mode::Corrected, cycles: 6, rate_hz: 100.0 };
+        let order = SyntheticWalkSettings {
+            gait: &gait,
+            build: MAN,
+            mode: SyntheticMode::Corrected,
+            cycles: 6,
+            rate_hz: 100.0,
+        };
         synthesise(&order, &mut Findings::default()).unwrap()
     })
 }

@@ -20,14 +20,14 @@ use ambulo::ground::{BodyForces, GroundForces, feet};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::ForceRecording;
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
 use std::sync::LazyLock;
 
 static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap();
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     synthesise(&order, &mut Findings::default()).unwrap()
 });
 

@@ -18,13 +18,13 @@ use ambulo::ground::predict::{Known, PredictError, PredictSettings, Prediction, 
 use ambulo::ground::{GroundForces, feet, measured};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
 
 fn walk() -> SyntheticWalk {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap();
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     synthesise(&order, &mut Findings::default()).unwrap()
 }
 
@@ -150,7 +150,7 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     let horse = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
     assert_eq!(horse.anatomy().feet(), model.anatomy().feet(), "other names are feet all the same");
     let error = refused(&horse, &BySide::default(), &PredictSettings::default());
-    assert!(error.to_string().contains("horse") && error.to_string().contains("--no-ground"), "{error}");
+    assert!(error.to_string().contains("horse") && error.to_string().contains("expected feet"), "{error}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{EventKind, Smoother};
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
 use footfall_trials::{Recorded, everything};
 use std::sync::OnceLock;
@@ -44,7 +44,8 @@ fn walk() -> &'static SyntheticWalk {
     WALK.get_or_init(|| {
         let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
         let gait = Gait::named("free").unwrap();
-        let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 3, rate_hz: 100.0 };
+        let order =
+            SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 3, rate_hz: 100.0 };
         synthesise(&order, &mut Findings::default()).unwrap()
     })
 }

@@ -8,7 +8,8 @@
 use ambulo::dynamics::SolverSettings;
 use ambulo::findings::Findings;
 use ambulo::simulation::{
-    Body, Integrator, Joint, JointCoordinate, JointKind, State, StepSettings, StepWorkspace, World, accelerations, step,
+    Integrator, JointCoordinate, JointKind, RigidBody, StepSettings, StepWorkspace, TreeJoint, World, WorldState,
+    accelerations, step,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 use serde_json::Value;
@@ -90,7 +91,7 @@ fn human(golden: &Value, state: &Value, tau: &[f64]) -> (World, Vec<usize>) {
             let pose = Pose { rotation, translation: joint_at + arm };
             let (m, i) = if last { (mass, inertia) } else { (0.0, Mat3::zeros()) };
             let child = add(&mut world, name, m, i, pose, Twist { angular, linear });
-            world.joints.push(Joint {
+            world.joints.push(TreeJoint {
                 name: hinges[*hinge]["name"].as_str().unwrap().to_owned(),
                 child,
                 parent: Some(carrier),
@@ -108,7 +109,7 @@ fn human(golden: &Value, state: &Value, tau: &[f64]) -> (World, Vec<usize>) {
 }
 
 fn add(world: &mut World, name: &str, mass: f64, inertia: Mat3, pose: Pose, twist: Twist) -> usize {
-    world.bodies.push(Body { name: name.to_owned(), mass, inertia, pose, twist, load: Wrench::ZERO });
+    world.bodies.push(RigidBody { name: name.to_owned(), mass, inertia, pose, twist, load: Wrench::ZERO });
     world.bodies.len() - 1
 }
 
@@ -126,7 +127,7 @@ fn about(axis: &Vec3, angle: f64) -> Mat3 {
 /// Largest difference of accelerations from MuJoCo's, relative to the largest of them.
 fn acceleration_error(golden: &Value, state: &Value, tau: &[f64]) -> f64 {
     let (world, of_segment) = human(golden, state, tau);
-    let start = State::new(&world);
+    let start = WorldState::new(&world);
     let found = accelerations(&world, &start, &SolverSettings::default(), &mut StepWorkspace::default()).unwrap();
     let (mut error, mut scale) = (0.0_f64, 0.0_f64);
     for (segment, body) in of_segment.iter().enumerate() {
@@ -162,7 +163,8 @@ fn trajectory_error(golden: &Value, trajectory: &Value, integrator: Integrator, 
     let state = &golden["states"][usize::try_from(trajectory["start_state"].as_u64().unwrap()).unwrap()];
     let (world, of_segment) = human(golden, state, &numbers(&trajectory["tau"]));
     let settings = StepSettings { step_s, integrator, ..StepSettings::default() };
-    let (mut now, mut workspace, mut findings) = (State::new(&world), StepWorkspace::default(), Findings::default());
+    let (mut now, mut workspace, mut findings) =
+        (WorldState::new(&world), StepWorkspace::default(), Findings::default());
     let times = numbers(&trajectory["times_s"]);
     let mut error = 0.0_f64;
     let mut steps = 0;

@@ -23,7 +23,7 @@ use ambulo::model::{BySide, Model};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::motion::TimeGrid;
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3};
 use footfall_trials::everything;
 use std::sync::LazyLock;
@@ -250,7 +250,7 @@ fn forces_of_the_feet_that_do_not_balance_the_motion_show() {
 static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
     let gait = Gait::named("free").unwrap();
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 2, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 2, rate_hz: 100.0 };
     synthesise(&order, &mut Findings::default()).unwrap()
 });
 

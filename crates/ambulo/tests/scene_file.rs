@@ -1,9 +1,10 @@
 //! Scene files: what is read from good ones, and what is said of bad ones.
 
-use ambulo::simulation::Impact;
+use ambulo::simulation::ImpactLaw;
 use ambulo::simulation::scene::{
-    Anchor, Arm, Carrier, Change, ContactLaw, CoordinateKind, Driven, Function, GaitSource, Integrator, JointKind,
-    Method, ObstacleShape, Partner, Plot, Root, SceneError, SceneFile, Solid, WalkMode,
+    Anchor, ArmEntry, Attachment, ContactLaw, ContactPartner, CoordinateKind, DrivenCoordinates, EventAction,
+    FigureWalkMode, GaitSource, Integrator, JointAxes, Method, ObstacleShape, Plot, RootMotion, SceneError, SceneFile,
+    Solid, TimeFunction,
 };
 use ambulo::spatial::{Mat3, Vec3};
 use proptest::prelude::*;
@@ -135,11 +136,11 @@ fn the_good_scene_reads_as_it_says() {
     assert_eq!((scene.materials[0].name.as_str(), scene.materials[0].line), ("default", 0));
     assert_eq!((scene.obstacles[0].material, scene.bodies[0].shapes[0].material), (1, 0));
     assert_eq!(scene.obstacles[0].shape, ObstacleShape::Plane { normal: Vec3::y() });
-    assert_eq!(scene.joints[0].parent, Carrier::World);
-    assert_eq!((&scene.joints[1].parent, scene.joints[1].child), (&Carrier::Body(0), 1));
+    assert_eq!(scene.joints[0].parent, Attachment::World);
+    assert_eq!((&scene.joints[1].parent, scene.joints[1].child), (&Attachment::Body(0), 1));
     assert_eq!(scene.joints[1].coordinates.len(), 3);
     assert_eq!(scene.closures[0].anchor, Anchor::Start { at: Vec3::new(0.0, 0.4, 0.0) });
-    assert_eq!(scene.events[0].change, Change::RemoveClosure(0));
+    assert_eq!(scene.events[0].change, EventAction::RemoveClosure(0));
     assert!(scene.outputs.poses && scene.outputs.plots.is_empty());
 }
 
@@ -276,7 +277,7 @@ fn degrees_become_radians_and_radians_stay() {
     near_vector(scene.bodies[2].angular_velocity.unwrap(), [0.0, 0.5, 0.0]);
     assert_eq!(scene.bodies[1].angular_velocity, None);
 
-    let JointKind::Revolute { axis } = scene.joints[0].kind else { panic!("{:?}", scene.joints[0].kind) };
+    let JointAxes::Revolute { axis } = scene.joints[0].kind else { panic!("{:?}", scene.joints[0].kind) };
     near_vector(axis, [0.6, 0.0, 0.8]);
     let hinge = &scene.joints[0].coordinates[0];
     near(hinge.start, PI / 3.0);
@@ -288,19 +289,19 @@ fn degrees_become_radians_and_radians_stay() {
     near(limits.upper, 1.5);
     let motor = hinge.motor.as_ref().unwrap();
     assert!(motor.max.is_infinite());
-    let Function::Sine { amplitude, frequency_hz, phase, offset } = motor.target else { panic!("{motor:?}") };
+    let TimeFunction::Sine { amplitude, frequency_hz, phase, offset } = motor.target else { panic!("{motor:?}") };
     near(amplitude, PI / 2.0);
     near(frequency_hz, 2.0);
     near(phase, PI / 4.0);
     near(offset, -PI);
 
-    let JointKind::Planar { normal, along } = scene.joints[1].kind else { panic!("{:?}", scene.joints[1].kind) };
+    let JointAxes::Planar { normal, along } = scene.joints[1].kind else { panic!("{:?}", scene.joints[1].kind) };
     assert_eq!((normal, along), (Vec3::y(), Vec3::x()));
     let [turn, slide, other] = &scene.joints[1].coordinates[..] else { panic!("three coordinates") };
     assert_eq!([turn.kind, slide.kind], [CoordinateKind::Rotation, CoordinateKind::Translation]);
     let drive = turn.drive.as_ref().unwrap();
     near(drive.max, 12.0);
-    assert_eq!(drive.function, Function::Points(vec![(0.0, 0.0), (1.0, 180_f64.to_radians())]));
+    assert_eq!(drive.function, TimeFunction::Points(vec![(0.0, 0.0), (1.0, 180_f64.to_radians())]));
     assert!(slide.limits.unwrap().upper.is_infinite());
     near(slide.friction, 3.0);
     assert!(other.drive.is_none() && other.line == scene.joints[1].line);
@@ -311,8 +312,8 @@ fn blows_that_stick_go_with_steps_of_impulses_alone() {
     let scene = |more: &str| {
         format!("step = 0.001\nduration = 1\n{more}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n")
     };
-    assert_eq!(parse(&scene("impact = \"sticking\"")).impact, Impact::Sticking);
-    assert_eq!(parse(&scene("")).impact, Impact::Coulomb);
+    assert_eq!(parse(&scene("impact = \"sticking\"")).impact, ImpactLaw::Sticking);
+    assert_eq!(parse(&scene("")).impact, ImpactLaw::Coulomb);
     let both = scene("impact = \"sticking\"\nintegrator = \"runge-kutta\"");
     let error = SceneFile::parse(&both).unwrap_err().to_string();
     assert!(error.contains("line 3, `impact`") && error.contains("coulomb"), "{error}");
@@ -409,20 +410,22 @@ fn figures_materials_and_obstacles_read_as_they_say() {
     assert_eq!(scene.materials[2].law, ContactLaw::Regularised { friction: 0.7, stiffness: 2e4, damping: 100.0 });
 
     let [walker, doll, partner] = &scene.figures[..] else { panic!("three figures") };
-    assert_eq!((&walker.driven, walker.root, walker.from_s), (&Driven::All, Root::Driven, Some(0.4)));
+    assert_eq!((&walker.driven, walker.root, walker.from_s), (&DrivenCoordinates::All, RootMotion::Driven, Some(0.4)));
     assert_eq!(walker.motion.as_deref(), Some("walk.mot"));
     near_vector(walker.pose.place(Vec3::x()), [0.0, 0.0, 0.0]);
     assert_eq!((walker.spheres[0].body.as_str(), walker.spheres[0].material), ("calcn_r", 1));
-    assert_eq!((&doll.driven, doll.root), (&Driven::Nothing, Root::Free));
-    assert_eq!(partner.driven, Driven::Only(vec!["knee_angle_r".into(), "knee_angle_l".into()]));
+    assert_eq!((&doll.driven, doll.root), (&DrivenCoordinates::Nothing, RootMotion::Free));
+    assert_eq!(partner.driven, DrivenCoordinates::Only(vec!["knee_angle_r".into(), "knee_angle_l".into()]));
 
     let ObstacleShape::HeightField { heights, size_x, size_z } = &scene.obstacles[0].shape else { panic!("terrain") };
     assert_eq!((heights.len(), heights[1][1], *size_x, *size_z), (2, 0.2, 4.0, 2.0));
     let motion = scene.obstacles[0].motion.as_ref().unwrap();
-    assert_eq!(motion.displacement[1], Function::Constant(0.0));
-    assert_eq!(motion.displacement[2], Function::Stops(vec![(0.0, 0.0), (1.0, 1.0)]));
-    assert_eq!(motion.angle, Function::Constant(0.0));
-    let Function::Motion { place, file, column, from_s: None } = &motion.displacement[0] else { panic!("a column") };
+    assert_eq!(motion.displacement[1], TimeFunction::Constant(0.0));
+    assert_eq!(motion.displacement[2], TimeFunction::Stops(vec![(0.0, 0.0), (1.0, 1.0)]));
+    assert_eq!(motion.angle, TimeFunction::Constant(0.0));
+    let TimeFunction::Motion { place, file, column, from_s: None } = &motion.displacement[0] else {
+        panic!("a column")
+    };
     assert_eq!((file.as_str(), column.as_str()), ("belt.sto", "x"));
     assert!(place.line > 1 && place.key.starts_with("obstacle[1].motion.displacement[1]"), "{place:?}");
     assert!(matches!(scene.obstacles[1].shape, ObstacleShape::Solid(Solid::Capsule { .. })));
@@ -430,9 +433,12 @@ fn figures_materials_and_obstacles_read_as_they_say() {
     assert_eq!(scene.carrier_name(&scene.closures[0].first), "walker/hand_r");
     assert_eq!(scene.closures[0].anchor, Anchor::AsFound { on_first: Vec3::new(0.0, -0.1, 0.0) });
     // In the order of time, not of the file.
-    let changes: Vec<Change> = scene.events.iter().map(|event| event.change).collect();
-    assert_eq!(changes, [Change::AddClosure(0), Change::RemoveClosure(0)]);
-    assert_eq!((&scene.ignored[0].first, &scene.ignored[1].first), (&Partner::Figure(0), &Partner::Obstacle(1)));
+    let changes: Vec<EventAction> = scene.events.iter().map(|event| event.change).collect();
+    assert_eq!(changes, [EventAction::AddClosure(0), EventAction::RemoveClosure(0)]);
+    assert_eq!(
+        (&scene.ignored[0].first, &scene.ignored[1].first),
+        (&ContactPartner::Figure(0), &ContactPartner::Obstacle(1))
+    );
     assert_eq!(scene.outputs.plots, [Plot::Energy, Plot::Closure(0)]);
     assert!(!scene.outputs.contacts && scene.outputs.joints);
 }
@@ -910,10 +916,13 @@ fn built_figures_read_as_they_say() {
     assert!(built.build.toe_joint && (built.build.mass - 60.0).abs() < ROUNDING);
     assert_eq!((built.build.table.name(), built.shoes), ("de-leva-female", Some(0)));
     let walk = built.walk.as_ref().unwrap();
-    assert_eq!((&walk.gait, walk.speed, walk.mode), (&GaitSource::Named("slow".into()), Some(0.9), WalkMode::Curves));
+    assert_eq!(
+        (&walk.gait, walk.speed, walk.mode),
+        (&GaitSource::Named("slow".into()), Some(0.9), FigureWalkMode::Curves)
+    );
     near(walk.phase, 0.25);
     near(built.arms[1].abduction, PI / 6.0);
-    assert_eq!((built.arms[0], built.arms[1].spring), (Arm::default(), Some([20.0, 2.0])));
+    assert_eq!((built.arms[0], built.arms[1].spring), (ArmEntry::default(), Some([20.0, 2.0])));
     let [arm, knee] = &built.coordinates[..] else { panic!("two coordinates") };
     near(arm.acting.start, PI / 2.0);
     assert_eq!((arm.starts, knee.starts, knee.follow), ([true, false], [false, false], None));
@@ -921,7 +930,7 @@ fn built_figures_read_as_they_say() {
     assert!((follow.stiffness - 5.0).abs() < ROUNDING && follow.damping.abs() < ROUNDING && follow.max.is_infinite());
     let file = parse(&person(ANN, "walk = { gait = \"mine.toml\" }"));
     let walk = file.figures[0].built.as_ref().unwrap().walk.as_ref().unwrap();
-    assert_eq!((&walk.gait, walk.mode), (&GaitSource::File("mine.toml".into()), WalkMode::Corrected));
+    assert_eq!((&walk.gait, walk.mode), (&GaitSource::File("mine.toml".into()), FigureWalkMode::Corrected));
 }
 
 #[test]

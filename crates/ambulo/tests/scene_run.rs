@@ -9,7 +9,7 @@ use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::from_osim_bytes;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
-use ambulo::simulation::scene::{Changes, Frame, Scene, SceneError, SceneFile};
+use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use shared_data::data;
@@ -21,7 +21,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
-fn build_in(folder: &Path, text: &str, changes: Changes) -> Result<(Scene, Findings), SceneError> {
+fn build_in(folder: &Path, text: &str, changes: SceneSettings) -> Result<(Scene, Findings), SceneError> {
     let mut findings = Findings::default();
     let mut load = |path: &str| std::fs::read(folder.join(path)).map_err(|e| format!("{path}: {e}"));
     let scene = Scene::build(&SceneFile::parse(text)?, changes, &mut load, &mut findings)?;
@@ -29,22 +29,24 @@ fn build_in(folder: &Path, text: &str, changes: Changes) -> Result<(Scene, Findi
 }
 
 fn scene(text: &str) -> Scene {
-    build_in(Path::new(""), text, Changes::default()).unwrap_or_else(|e| panic!("{e}")).0
+    build_in(Path::new(""), text, SceneSettings::default()).unwrap_or_else(|e| panic!("{e}")).0
 }
 
 fn refusal(text: &str) -> String {
-    build_in(Path::new(""), text, Changes::default()).err().map_or_else(|| panic!("a bad scene"), |e| e.to_string())
+    build_in(Path::new(""), text, SceneSettings::default())
+        .err()
+        .map_or_else(|| panic!("a bad scene"), |e| e.to_string())
 }
 
 /// An example, shortened to `duration_s`.
 fn example(name: &str, duration_s: f64) -> Scene {
     let text = std::fs::read_to_string(folder().join(name)).unwrap();
-    let changes = Changes { duration_s: Some(duration_s), ..Changes::default() };
+    let changes = SceneSettings { duration_s: Some(duration_s), ..SceneSettings::default() };
     build_in(&folder(), &text, changes).unwrap_or_else(|e| panic!("{name}: {e}")).0
 }
 
 /// Runs to the end; the findings.
-fn run(scene: &mut Scene, visit: impl FnMut(&Frame<'_>)) -> Findings {
+fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) -> Findings {
     let mut findings = Findings::default();
     scene.run(&mut findings, visit).unwrap();
     findings
@@ -201,7 +203,7 @@ fn friction_alone_lifts_the_box_and_holds_it() {
 fn without_friction_the_box_stays_on_the_table() {
     let text = std::fs::read_to_string(folder().join("grasp.toml")).unwrap();
     let slippery = text.replace("friction = 0.8", "friction = 0.0");
-    let changes = Changes { duration_s: Some(1.8), ..Changes::default() };
+    let changes = SceneSettings { duration_s: Some(1.8), ..SceneSettings::default() };
     let (mut scene, _) = build_in(&folder(), &slippery, changes).unwrap();
     run(&mut scene, |_| {});
     assert!((place(&scene, "box").y - 0.04).abs() < 1e-6 && place(&scene, "palm").y > 0.2);
@@ -422,7 +424,7 @@ mass = 1
 position = [0, 1, 0]
 shape = { kind = "box", size = [0.1, 0.1, 0.1] }
 "#;
-    let (_, findings) = build_in(Path::new(""), text, Changes::default()).unwrap();
+    let (_, findings) = build_in(Path::new(""), text, SceneSettings::default()).unwrap();
     assert!(findings.has(Code::ContactNotRound), "{:?}", findings.as_slice());
 }
 
@@ -432,7 +434,7 @@ fn a_figure_that_a_scene_leaves_free_must_have_joints_that_the_simulator_knows()
     let Some(data) = data() else { return };
     let folder = data.join("opensim-gait2392-subject01");
     let text = "step = 0.001\nduration = 0.1\n[[figure]]\nname = \"doll\"\nmodel = \"subject01_simbody.osim\"\n";
-    let error = build_in(&folder, text, Changes::default()).err().unwrap().to_string();
+    let error = build_in(&folder, text, SceneSettings::default()).err().unwrap().to_string();
     assert!(error.starts_with("line 3, `figure[1]`: found the joint `knee_r`"), "{error}");
     assert!(error.contains("hint: drive all coordinates of the joint, or none"), "{error}");
     let text = "step = 0.001\nduration = 0.1\n[[body]]\nname = \"a\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"j\"\n\
@@ -447,7 +449,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
         "{settings}duration = 0.6\noutput_rate = 60\n[[figure]]\nname = \"walker\"\nmodel = \"subject01_simbody.osim\"\n\
          motion = \"subject01_walk1_ik.mot\"\nfrom = 1.0\nroot = \"driven\"\n{figure}"
     );
-    let (mut scene, _) = build_in(folder, &text, Changes::default()).unwrap();
+    let (mut scene, _) = build_in(folder, &text, SceneSettings::default()).unwrap();
     let mut rows: Vec<(f64, Vec<f64>)> = Vec::new();
     run(&mut scene, |frame| {
         if let Some(forces) = &frame.forces {

@@ -8,8 +8,8 @@ use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Pace, Speed, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::simulation::consistent::{ConsistencySettings, make_consistent};
-use ambulo::simulation::scene::{Changes, Frame, Scene, SceneError, SceneFile};
+use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
+use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ fn folder() -> PathBuf {
 
 fn built(text: &str) -> Result<Scene, SceneError> {
     let mut load = |path: &str| std::fs::read(folder().join(path)).map_err(|e| format!("{path}: {e}"));
-    Scene::build(&SceneFile::parse(text)?, Changes::default(), &mut load, &mut Findings::default())
+    Scene::build(&SceneFile::parse(text)?, SceneSettings::default(), &mut load, &mut Findings::default())
 }
 
 fn scene(text: &str) -> Scene {
@@ -32,7 +32,7 @@ fn example(name: &str) -> String {
     std::fs::read_to_string(folder().join(name)).unwrap()
 }
 
-fn run(scene: &mut Scene, visit: impl FnMut(&Frame<'_>)) {
+fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) {
     let statistics = scene.run(&mut Findings::default(), visit).unwrap();
     assert_eq!(statistics.not_converged, 0);
 }
@@ -77,8 +77,8 @@ fn a_walker_goes_as_its_consistent_walk_does() {
     let mut gait = Gait::named("free").unwrap();
     gait.pace.speed = Some(Speed::MetersPerSecond(1.2));
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
-    let settings = ConsistencySettings::default();
-    let consistent = make_consistent(&human, &walk, &settings).unwrap();
+    let settings = ConsistentWalkSettings::default();
+    let consistent = make_consistent_walk(&human, &walk, &settings).unwrap();
     let known = consistent.simulate(&human, &settings, 0.001, 1.0, &mut Findings::default()).unwrap();
     let walks = scene.walks().unwrap();
     for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r", "pelvis_tilt"] {
@@ -142,7 +142,7 @@ fn a_walk_that_hits_a_kerb_is_infeasible_from_then_on_and_feasible_without_it() 
 }
 
 /// Forces on the first body of a closure, at its point.
-fn closing(frame: &Frame<'_>, name: &str) -> Option<Vec3> {
+fn closing(frame: &SceneFrame<'_>, name: &str) -> Option<Vec3> {
     let closure = frame.scene.world().closures.iter().position(|closure| closure.name == name).unwrap();
     let forces = frame.forces.as_ref()?;
     forces.closing.iter().find(|(number, _)| *number == closure).map(|(_, wrench)| wrench.force)

@@ -8,7 +8,9 @@ mod common;
 use ambulo::contact::{HuntCrossley, Shape};
 use ambulo::dynamics::SolverSettings;
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
-use ambulo::simulation::{ContactLaw, Impact, JointKind, Material, ObstaclePath, Owner, Signal, State, World, energy};
+use ambulo::simulation::{
+    ContactLaw, ImpactLaw, JointKind, Material, ObstaclePath, Owner, Signal, World, WorldState, energy,
+};
 use ambulo::spatial::{Pose, Vec3};
 use common::random::Random;
 use common::worlds::{
@@ -654,7 +656,7 @@ struct Departures {
 
 /// One step, and how far its forces and velocities are from Newton, Signorini and Coulomb.
 fn departures(run: &mut Run, sum: &mut Departures) {
-    let (before, momentum): (State, Vec3) = (run.state.clone(), run.momentum().0);
+    let (before, momentum): (WorldState, Vec3) = (run.state.clone(), run.momentum().0);
     if !run.step().converged {
         sum.unconverged += 1;
         return;
@@ -729,7 +731,7 @@ fn a_figure_whose_feet_slide_apart_obeys_newton_signorini_and_coulomb() {
 // ---- points that strike ----
 
 /// A ball of 2 kg and 0.1 m flying forwards and down, 1 mm above the floor of friction 0.1.
-fn thrown_ball(impact: Impact) -> Run {
+fn thrown_ball(impact: ImpactLaw) -> Run {
     let mut world = World { impact, ..of_rigid(0.1, 0.5) };
     let floor = add_floor(&mut world, Pose::IDENTITY);
     let ball = add_ball(&mut world, 2.0, 0.1, v(0.0, 0.101, 0.0));
@@ -740,8 +742,8 @@ fn thrown_ball(impact: Impact) -> Run {
 
 #[test]
 fn a_point_that_strikes_and_sticks_loses_all_its_velocity() {
-    let mut run = thrown_ball(Impact::Sticking);
-    while run.workspace.blows().is_empty() {
+    let mut run = thrown_ball(ImpactLaw::Sticking);
+    while run.workspace.impacts().is_empty() {
         run.step();
     }
     // A uniform ball that is stopped where it touches rolls on with 5/7 of its speed, whatever friction and restitution say.
@@ -750,23 +752,23 @@ fn a_point_that_strikes_and_sticks_loses_all_its_velocity() {
     let touching = run.velocity(0) + run.spin(0).cross(&v(0.0, -0.1, 0.0));
     assert!((run.velocity(0) - v(at, 0.0, 0.0)).norm() < slack, "{}", run.velocity(0));
     assert!(touching.norm() < slack, "{touching}");
-    // The blow is apart from the force of the step, which carries the weight; both act on the floor, the first surface.
-    let [blow] = run.workspace.blows() else { panic!("one blow") };
-    let impulse = -blow.contacts[0].force;
-    assert!((impulse - v(2.0 * (at - 3.0), 2.0 * (2.0 + G * blow.time_s), 0.0)).norm() < 2.0 * slack, "{impulse}");
+    // The impact is apart from the force of the step, which carries the weight; both act on the floor, the first surface.
+    let [impact] = run.workspace.impacts() else { panic!("one impact") };
+    let impulse = -impact.contacts[0].force;
+    assert!((impulse - v(2.0 * (at - 3.0), 2.0 * (2.0 + G * impact.time_s), 0.0)).norm() < 2.0 * slack, "{impulse}");
     let resting = run.forces().contacts[0].force;
-    // What the blow leaves to its tolerance, 1e-10 of 2 m/s, over a step of 10 us.
+    // What the impact leaves to its tolerance, 1e-10 of 2 m/s, over a step of 10 us.
     assert!((resting - v(0.0, -2.0 * G, 0.0)).norm() < 4e-5, "{resting}");
     // What rests does not strike again.
-    run.watch(0.1, |run| assert!(run.workspace.blows().is_empty()));
+    run.watch(0.1, |run| assert!(run.workspace.impacts().is_empty()));
     assert_near(run.place(0).y, 0.1, 1e-9, "it rests on its radius");
 }
 
 #[test]
 fn without_that_the_same_ball_bounces_and_slides() {
-    let mut run = thrown_ball(Impact::Coulomb);
+    let mut run = thrown_ball(ImpactLaw::Coulomb);
     run.to(0.01);
-    assert!(run.workspace.blows().is_empty());
+    assert!(run.workspace.impacts().is_empty());
     assert!(run.velocity(0).y > 0.9, "half of 2 m/s come back: {}", run.velocity(0));
     assert!(run.velocity(0).x > 2.6, "friction takes 0.1 of 3 x 2 N.s at most: {}", run.velocity(0));
 }
@@ -774,7 +776,7 @@ fn without_that_the_same_ball_bounces_and_slides() {
 #[test]
 fn a_driven_arm_that_strikes_stops_the_carriage_that_it_hangs_on() {
     // A carriage of 3 kg that slides along x and y carries an arm of 1 kg whose hinge turns at 4 rad/s, tip down at the start.
-    let mut world = World { impact: Impact::Sticking, ..of_rigid(0.2, 0.0) };
+    let mut world = World { impact: ImpactLaw::Sticking, ..of_rigid(0.2, 0.0) };
     add_floor(&mut world, Pose::IDENTITY);
     let carriage = add_body(&mut world, 3.0, [0.1; 3], turned(0.0, v(0.0, 0.501, 0.0)));
     let arm = add_ball(&mut world, 1.0, 0.1, v(0.0, 0.101, 0.0));
@@ -785,18 +787,18 @@ fn a_driven_arm_that_strikes_stops_the_carriage_that_it_hangs_on() {
     world.bodies[carriage].twist.linear = v(1.0, -1.0, 0.0);
     world.bodies[arm].twist = ambulo::spatial::Twist { angular: v(0.0, 0.0, 4.0), linear: v(1.0 + 1.6, -1.0, 0.0) };
     let mut run = Run::new(world, 1e-4);
-    while run.workspace.blows().is_empty() {
+    while run.workspace.impacts().is_empty() {
         run.step();
     }
     // Forwards the tip goes 2 m/s = 4 rad/s x 0.5 m faster than the carriage: that goes backwards now. Friction of 0.2 could not
     // have done it.
-    let blow = &run.workspace.blows()[0];
+    let impact = &run.workspace.impacts()[0];
     assert_near(run.velocity(0).x, -2.0, 5e-3, "the carriage goes back");
-    let force = -blow.contacts[0].force;
+    let force = -impact.contacts[0].force;
     assert_near(force.x, -4.0 * 3.0, 0.05, "forward impulse on the arm");
-    assert_near(force.y, 4.0 * (1.0 + G * blow.time_s), 0.05, "upward impulse on the arm");
+    assert_near(force.y, 4.0 * (1.0 + G * impact.time_s), 0.05, "upward impulse on the arm");
     // The drives hold the rates that they had: their impulses are those of the arm about its hinge.
-    let [hinge_impulse] = blow.efforts[1][..] else { panic!("one coordinate") };
+    let [hinge_impulse] = impact.efforts[1][..] else { panic!("one coordinate") };
     // The arm's mass centre goes from 2.6 to -0.4 m/s, 0.4 m below the hinge; its spin stays.
     let inertial = 1.0 * -3.0 * 0.4;
     assert_near(hinge_impulse, inertial - force.x * 0.5, 0.05, "impulse of the hinge");

@@ -6,7 +6,7 @@ mod common;
 
 use ambulo::contact::{HuntCrossley, Shape};
 use ambulo::simulation::{
-    ContactLaw, Drive, JointKind, Material, Motor, ObstaclePath, Owner, Signal, Spring, State, World, energy,
+    ContactLaw, JointDrive, JointKind, Material, Motor, ObstaclePath, Owner, Signal, Spring, World, WorldState, energy,
     largest_joint_error,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
@@ -98,7 +98,7 @@ fn a_saved_state_resumes_bit_for_bit() {
     again.to(10.0);
     assert_eq!(again.state, whole.state, "the same input, the same bits");
     let mut nudged = Run::new(medley(), 2e-3);
-    nudged.state = State { time_s: saved.time_s, ..saved };
+    nudged.state = WorldState { time_s: saved.time_s, ..saved };
     nudged.state.poses[0].translation.x += 1e-15;
     assert_ne!(nudged.to(10.0).state, whole.state, "a nudge of 1e-15 m must show");
 }
@@ -150,7 +150,7 @@ fn material(r: &mut Random) -> Material {
 fn act(world: &mut World, joint: usize, r: &mut Random) {
     for acting in &mut world.joints[joint].coordinates {
         if r.chance(0.25) {
-            acting.drive = Some(Drive { signal: signal(r), max: r.chance(0.3).then(|| r.between(0.1, 100.0)) });
+            acting.drive = Some(JointDrive { signal: signal(r), max: r.chance(0.3).then(|| r.between(0.1, 100.0)) });
         }
         if r.chance(0.2) {
             acting.spring =
@@ -229,7 +229,7 @@ fn random_scene(r: &mut Random) -> World {
     world
 }
 
-fn finite(state: &State) -> bool {
+fn finite(state: &WorldState) -> bool {
     let six = |t: &Twist| t.angular.iter().chain(t.linear.iter()).all(|x| x.is_finite());
     let pose = |p: &Pose| p.rotation.iter().chain(p.translation.iter()).all(|x| x.is_finite());
     state.poses.iter().all(pose)

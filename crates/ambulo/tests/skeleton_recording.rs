@@ -203,7 +203,7 @@ fn unit_and_axes_are_told_from_the_body() {
     let (recording, findings) = read(&scaled(1.0 / 20.0), Some(1.7));
     assert!(findings.has(Code::BvhUnit) && recording.statement.contains("units of 0.19"), "{}", recording.statement);
     assert!((recording.height_m - 1.7).abs() < 1e-12);
-    assert!(refused(&scaled(1.0 / 20.0)).contains("hint: give it with --height"), "{}", refused(&scaled(1.0 / 20.0)));
+    assert!(refused(&scaled(1.0 / 20.0)).contains("expected the stature"), "{}", refused(&scaled(1.0 / 20.0)));
 }
 
 /// The figure in another unit.

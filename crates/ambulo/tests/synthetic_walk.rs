@@ -16,15 +16,15 @@ use ambulo::gait::Gait;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::reproduction::{Footwear, Request, paper_walk};
-use ambulo::simulation::synthetic::{Mode, SyntheticError, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
 
-fn order<'a>(gait: &'a Gait, build: Build, mode: Mode) -> WalkOrder<'a> {
-    WalkOrder { gait, build, mode, cycles: 2, rate_hz: 100.0 }
+fn order<'a>(gait: &'a Gait, build: Build, mode: SyntheticMode) -> SyntheticWalkSettings<'a> {
+    SyntheticWalkSettings { gait, build, mode, cycles: 2, rate_hz: 100.0 }
 }
 
-fn made(gait: &str, build: Build, mode: Mode) -> (SyntheticWalk, Findings) {
+fn made(gait: &str, build: Build, mode: SyntheticMode) -> (SyntheticWalk, Findings) {
     let (gait, mut findings) = (Gait::named(gait).unwrap(), Findings::default());
     (synthesise(&order(&gait, build, mode), &mut findings).unwrap(), findings)
 }
@@ -54,7 +54,7 @@ fn worst_moment(walk: &SyntheticWalk, analysis: &Analysis) -> (f64, String) {
 #[test]
 fn inverse_dynamics_finds_the_efforts_of_the_simulator() {
     for toe_joint in [true, false] {
-        let (walk, _) = made("free", Build { toe_joint, ..MAN }, Mode::Corrected);
+        let (walk, _) = made("free", Build { toe_joint, ..MAN }, SyntheticMode::Corrected);
         let analysis = analysed(&walk);
         let (worst, name) = worst_moment(&walk, &analysis);
         println!("toe joint {toe_joint}: moments differ by {worst:.4} N.m at most, {name}");
@@ -74,7 +74,7 @@ fn inverse_dynamics_finds_the_efforts_of_the_simulator() {
 fn the_agreement_grows_with_the_rate_of_the_simulator() {
     let gait = Gait::named("free").unwrap();
     let worst = [1000.0, 4000.0].map(|rate_hz| {
-        let order = WalkOrder { rate_hz, cycles: 1, ..order(&gait, MAN, Mode::Corrected) };
+        let order = SyntheticWalkSettings { rate_hz, cycles: 1, ..order(&gait, MAN, SyntheticMode::Corrected) };
         let walk = synthesise(&order, &mut Findings::default()).unwrap();
         worst_moment(&walk, &analysed(&walk)).0
     });
@@ -84,7 +84,7 @@ fn the_agreement_grows_with_the_rate_of_the_simulator() {
 
 #[test]
 fn without_the_ground_forces_the_moments_are_others() {
-    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let (walk, _) = made("free", MAN, SyntheticMode::Corrected);
     let bare = SyntheticWalk { loads: Vec::new(), ..walk };
     let analysis = analysed(&bare);
     assert!(worst_moment(&bare, &analysis).0 > 50.0);
@@ -93,7 +93,7 @@ fn without_the_ground_forces_the_moments_are_others() {
 
 #[test]
 fn every_cycle_is_whole_and_like_the_one_before() {
-    let (walk, findings) = made("free", MAN, Mode::Corrected);
+    let (walk, findings) = made("free", MAN, SyntheticMode::Corrected);
     let analysis = analysed(&walk);
     for side in Side::BOTH {
         let cycles: Vec<_> = analysis.cycles.iter().filter(|cycle| cycle.side == side).collect();
@@ -125,7 +125,7 @@ fn every_cycle_is_whole_and_like_the_one_before() {
 
 #[test]
 fn the_ground_carries_the_weight() {
-    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let (walk, _) = made("free", MAN, SyntheticMode::Corrected);
     let analysis = analysed(&walk);
     let (grid, cycle) = (analysis.trajectory.grid(), analysis.cycles[0]);
     let inside: Vec<usize> =
@@ -139,7 +139,7 @@ fn the_ground_carries_the_weight() {
 
 #[test]
 fn the_correction_is_reported() {
-    let (walk, _) = made("free", MAN, Mode::Corrected);
+    let (walk, _) = made("free", MAN, SyntheticMode::Corrected);
     let report = walk.report.correction.unwrap();
     assert!(report.parameters > 50);
     let names: Vec<&str> = report.adjustment.angles.iter().map(|(name, _)| name.as_str()).collect();
@@ -156,7 +156,7 @@ fn the_correction_is_reported() {
 
 #[test]
 fn a_gait_that_no_small_change_makes_consistent_is_said_to_be_so() {
-    let (_, findings) = made("goose", MAN, Mode::Corrected);
+    let (_, findings) = made("goose", MAN, SyntheticMode::Corrected);
     let found = findings.as_slice().iter().find(|finding| finding.code == Code::WalkNotConsistent);
     assert!(found.is_some_and(|finding| finding.message.contains("no small change")), "{findings:?}");
 }
@@ -164,8 +164,8 @@ fn a_gait_that_no_small_change_makes_consistent_is_said_to_be_so() {
 #[test]
 fn the_papers_mode_holds_the_trunk_and_keeps_its_blows_apart() {
     let build = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false };
-    let (walk, _) = made("standard", build, Mode::Paper);
-    assert!(walk.report.correction.is_none() && walk.report.blows.0 > 0 && walk.report.blows.1 > 0.0);
+    let (walk, _) = made("standard", build, SyntheticMode::Paper);
+    assert!(walk.report.correction.is_none() && walk.report.impacts.0 > 0 && walk.report.impacts.1 > 0.0);
     assert!(walk.report.trunk_torque.rms > 20.0, "{:?}", walk.report.trunk_torque);
     let tilt = walk.human.model.coordinate("pelvis_tilt").unwrap();
     assert!(walk.trajectory.values(tilt).iter().all(|angle| angle.abs() < 1e-12));
@@ -174,7 +174,7 @@ fn the_papers_mode_holds_the_trunk_and_keeps_its_blows_apart() {
 #[test]
 fn the_papers_mode_is_the_one_whose_claims_are_judged() {
     let build = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false };
-    let (walk, _) = made("standard", build, Mode::Paper);
+    let (walk, _) = made("standard", build, SyntheticMode::Paper);
     let (gait, human) = (Gait::named("standard").unwrap(), build.human().unwrap());
     let request =
         Request { gait: &gait, human: &human, shoes: Footwear::Own, friction: 1.0, rate_hz: 1000.0, cycles: 5 };
@@ -192,14 +192,15 @@ fn the_papers_mode_is_the_one_whose_claims_are_judged() {
 #[test]
 fn orders_that_make_no_walk_are_refused() {
     let gait = Gait::named("free").unwrap();
-    let refused = |order: WalkOrder<'_>| synthesise(&order, &mut Findings::default()).unwrap_err().to_string();
-    let good = order(&gait, MAN, Mode::Corrected);
-    assert_eq!(refused(WalkOrder { cycles: 0, ..good }), "found 0 cycles; expected 1 to 1000");
+    let refused =
+        |order: SyntheticWalkSettings<'_>| synthesise(&order, &mut Findings::default()).unwrap_err().to_string();
+    let good = order(&gait, MAN, SyntheticMode::Corrected);
+    assert_eq!(refused(SyntheticWalkSettings { cycles: 0, ..good }), "found 0 cycles; expected 1 to 1000");
     for rate_hz in [0.0, -100.0, f64::NAN, 1e9] {
-        assert!(refused(WalkOrder { rate_hz, ..good }).contains("Hz; expected 20 to 5000 Hz"), "{rate_hz}");
+        assert!(refused(SyntheticWalkSettings { rate_hz, ..good }).contains("Hz; expected 20 to 5000 Hz"), "{rate_hz}");
     }
     let heavy = Build { mass: 1000.0, ..MAN };
-    let error = synthesise(&order(&gait, heavy, Mode::Corrected), &mut Findings::default()).unwrap_err();
+    let error = synthesise(&order(&gait, heavy, SyntheticMode::Corrected), &mut Findings::default()).unwrap_err();
     assert!(matches!(error, SyntheticError::Build(_)), "{error}");
 }
 
@@ -207,7 +208,7 @@ fn orders_that_make_no_walk_are_refused() {
 fn other_rates_show_the_same_walk() {
     let gait = Gait::named("free").unwrap();
     let at = |rate_hz: f64| {
-        let order = WalkOrder { rate_hz, cycles: 1, ..order(&gait, MAN, Mode::Corrected) };
+        let order = SyntheticWalkSettings { rate_hz, cycles: 1, ..order(&gait, MAN, SyntheticMode::Corrected) };
         synthesise(&order, &mut Findings::default()).unwrap()
     };
     let (coarse, fine) = (at(50.0), at(250.0));

@@ -8,7 +8,7 @@ use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
-use ambulo::simulation::{Impact, Signal, StepSettings};
+use ambulo::simulation::{ImpactLaw, Signal, StepSettings};
 use ambulo::spatial::{Vec3, Wrench};
 
 const G: f64 = 9.80665;
@@ -18,7 +18,7 @@ fn human() -> Human {
 }
 
 fn ground(friction: f64) -> Ground {
-    Ground { friction, shoes: Shoes::Rigid, impact: Impact::Sticking }
+    Ground { friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
 }
 
 fn walker(gait: &str, human: &Human, ground: &Ground) -> (Walker, f64) {
@@ -84,22 +84,22 @@ fn torques_of_the_multipliers_are_those_of_inverse_dynamics() {
 }
 
 #[test]
-fn forces_and_blows_carry_the_weight() {
+fn forces_and_impacts_carry_the_weight() {
     let recording = walked("standard", &ground(1.0), 1e-3, 12.0);
     let (grid, weight) = (recording.grid(), 80.0 * G);
     // From the middle of a cycle's flight on, six whole cycles: momentum comes back to where it was.
     let (from, to) = (6000, 12000);
     let vertical: f64 = recording.feet.iter().flat_map(|foot| &foot.force[from..to]).map(|f| f.y).sum();
     let within = |t: f64| (grid.time(from)..grid.time(to - 1)).contains(&t);
-    let blows = recording.blows.iter().filter(|blow| within(blow.time_s));
-    let blows: f64 = blows.flat_map(|blow| &blow.impulses).map(|impulse| impulse.y).sum();
-    let carried = (vertical * grid.step_s + blows) / (6.0 * weight);
+    let impacts = recording.impacts.iter().filter(|impact| within(impact.time_s));
+    let impacts: f64 = impacts.flat_map(|impact| &impact.impulses).map(|impulse| impulse.y).sum();
+    let carried = (vertical * grid.step_s + impacts) / (6.0 * weight);
     assert!((carried - 1.0).abs() < 1e-3, "{carried} of the weight");
     let forward: f64 = recording.feet.iter().flat_map(|foot| &foot.force[from..to]).map(|f| f.x).sum();
-    let blows: f64 =
-        recording.blows.iter().filter(|blow| within(blow.time_s)).flat_map(|b| &b.impulses).map(|i| i.x).sum();
-    assert!((forward * grid.step_s + blows).abs() < 1e-3 * weight, "forwards nothing is left");
-    // Without the blows it would not do.
+    let impacts: f64 =
+        recording.impacts.iter().filter(|impact| within(impact.time_s)).flat_map(|b| &b.impulses).map(|i| i.x).sum();
+    assert!((forward * grid.step_s + impacts).abs() < 1e-3 * weight, "forwards nothing is left");
+    // Without the impacts it would not do.
     assert!((vertical * grid.step_s / (6.0 * weight) - 1.0).abs() > 0.05);
 }
 
@@ -130,8 +130,9 @@ fn in_flight_the_mass_centre_falls_freely() {
     let masses: Vec<f64> = recording.model.bodies().iter().map(|body| body.inertia.mass()).collect();
     let mut fallen = 0;
     each_body_motion(&recording.model, &recording.trajectory, |row, motions| {
-        let near_blow = recording.blows.iter().any(|blow| (blow.time_s - recording.grid().time(row)).abs() < 1e-3);
-        if near_blow || !recording.flies(row) {
+        let near_impact =
+            recording.impacts.iter().any(|impact| (impact.time_s - recording.grid().time(row)).abs() < 1e-3);
+        if near_impact || !recording.flies(row) {
             return;
         }
         let sum: Vec3 = motions.iter().zip(&masses).map(|(motion, m)| motion.acceleration.linear * *m).sum();
@@ -156,7 +157,7 @@ fn right_and_left_do_the_same_half_a_cycle_later() {
 fn the_same_walk_has_the_same_bits() {
     let one = walked("short", &ground(1.0), 1e-3, 2.0);
     let other = walked("short", &ground(1.0), 1e-3, 2.0);
-    assert_eq!((one.efforts, one.blows), (other.efforts, other.blows));
+    assert_eq!((one.efforts, one.impacts), (other.efforts, other.impacts));
 }
 
 #[test]

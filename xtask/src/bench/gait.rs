@@ -8,7 +8,7 @@ use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::Posture;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::reproduction::{Footwear, Request, paper_human, paper_walk};
-use ambulo::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 
@@ -79,7 +79,7 @@ fn cycle(human: &Human) -> Result<Timing, String> {
 /// [s]
 fn consistent(human: &Human) -> Result<(Timing, ConsistentWalk), String> {
     let walk = free(human)?;
-    let make = || make_consistent(human, &walk, &ConsistencySettings::default()).map_err(|e| e.to_string());
+    let make = || make_consistent_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| e.to_string());
     let made = make()?;
     let mut times = Vec::new();
     for _ in 0..RUNS {
@@ -94,7 +94,7 @@ fn consistent(human: &Human) -> Result<(Timing, ConsistentWalk), String> {
 fn corrected(human: &Human, walk: &ConsistentWalk) -> Result<Timing, String> {
     let simulate = || {
         let findings = &mut Findings::default();
-        walk.simulate(human, &ConsistencySettings::default(), STEP_S, CYCLES as f64, findings)
+        walk.simulate(human, &ConsistentWalkSettings::default(), STEP_S, CYCLES as f64, findings)
             .map_err(|e| e.to_string())
     };
     let steps = simulate()?.grid().frames;

@@ -19,7 +19,7 @@ use ambulo::model::{BySide, Model};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
-use ambulo::simulation::synthetic::{Mode, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 use std::hint::black_box;
 
 /// A prediction from a trajectory takes at most this a frame [us].
@@ -40,7 +40,8 @@ const LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 pub(super) fn bench() -> Result<Vec<Row>, String> {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
     let gait = Gait::named("free").map_err(|e| e.to_string())?;
-    let order = WalkOrder { gait: &gait, build, mode: Mode::Corrected, cycles: 6, rate_hz: RATE_HZ };
+    let order =
+        SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 6, rate_hz: RATE_HZ };
     let walk = synthesise(&order, &mut Findings::default()).map_err(|e| e.to_string())?;
     let (model, soles) = (&walk.human.model, Person::of_human(&walk.human).soles);
     let mut rows = of_trajectory("synthetic walk", model, &walk.trajectory, &soles)?;

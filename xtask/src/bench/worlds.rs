@@ -4,7 +4,7 @@
 
 use ambulo::contact::Shape;
 use ambulo::simulation::{
-    Body, Closure, Joint, JointCoordinate, JointKind, Material, Obstacle, Owner, Spring, Surface, World,
+    Closure, JointCoordinate, JointKind, Material, Obstacle, Owner, RigidBody, Spring, Surface, TreeJoint, World,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
@@ -19,8 +19,8 @@ fn empty() -> World {
     World { gravity: GRAVITY, ..World::default() }
 }
 
-fn body(name: String, mass: f64, inertia: [f64; 3], at: Vec3) -> Body {
-    Body {
+fn body(name: String, mass: f64, inertia: [f64; 3], at: Vec3) -> RigidBody {
+    RigidBody {
         name,
         mass,
         inertia: Mat3::from_diagonal(&Vec3::from(inertia)),
@@ -35,9 +35,9 @@ fn along(axis: Vec3) -> Mat3 {
     Mat3::from_columns(&[Vec3::new(axis.z, axis.x, axis.y), Vec3::new(axis.y, axis.z, axis.x), axis])
 }
 
-fn hinge(child: usize, parent: Option<usize>, in_parent: Vec3, in_child: Vec3, axis: Vec3) -> Joint {
+fn hinge(child: usize, parent: Option<usize>, in_parent: Vec3, in_child: Vec3, axis: Vec3) -> TreeJoint {
     let at = |translation| Pose { rotation: along(axis), translation };
-    Joint {
+    TreeJoint {
         name: format!("hinge {child}"),
         child,
         parent,
@@ -164,7 +164,7 @@ fn add_segment(
             [x, y] => (JointKind::Universal, Mat3::from_columns(&[*x, *y, x.cross(y)])),
             _ => (JointKind::Ball, Mat3::identity()),
         };
-        world.joints.push(Joint {
+        world.joints.push(TreeJoint {
             name,
             child: number,
             parent: Some(parent),

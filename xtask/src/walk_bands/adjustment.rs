@@ -2,7 +2,7 @@
 
 use ambulo::gait::WalkCoordinates;
 use ambulo::model::anthropometry::Human;
-use ambulo::simulation::consistent::ConsistentWalk;
+use ambulo::simulation::consistent_walk::ConsistentWalk;
 
 /// Instants of a cycle that are looked at.
 const INSTANTS: usize = 200;

@@ -9,7 +9,7 @@ use ambulo::kinematics::each_body_motion;
 use ambulo::model::Model;
 use ambulo::model::anthropometry::{Build, Human};
 use ambulo::reproduction::{extremes, mean, rms};
-use ambulo::simulation::consistent::{ConsistencySettings, make_consistent};
+use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::walking::{StanceSlip, WalkRecording};
 use cpu_time::ThreadTime;
 
@@ -69,9 +69,9 @@ pub(super) fn walk(build: &Build, speed: f64) -> Result<Cycle, String> {
     gait.pace.speed = Some(Speed::Dimensionless(speed));
     let mut findings = Findings::default();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut findings).map_err(|e| e.to_string())?;
-    let settings = ConsistencySettings::default();
+    let settings = ConsistentWalkSettings::default();
     let start = ThreadTime::now();
-    let consistent = make_consistent(&human, &walk, &settings).map_err(|e| e.to_string())?;
+    let consistent = make_consistent_walk(&human, &walk, &settings).map_err(|e| e.to_string())?;
     let consistent_s = start.elapsed().as_secs_f64();
     let start = ThreadTime::now();
     let recording = consistent.simulate(&human, &settings, STEP_S, CYCLES as f64, &mut findings);

@@ -16,7 +16,7 @@ const HEAD: &str = "\
 
 Made by `cargo xtask walk-bands --write`; do not edit. What is missed stands here as missed.
 
-A synthetic walk is made consistent (`simulation::consistent`, settings as they come) and then walked by the simulator on soft
+A synthetic walk is made consistent (`simulation::consistent_walk`, settings as they come) and then walked by the simulator on soft
 shoes: joints driven, the root free to slide, steps of 1 ms, 6 cycles. Ground forces, joint moments, slip and the torque that holds
 the trunk are those of the simulator in the last cycle, not those of the plan.
 
@@ -180,7 +180,7 @@ fn adjusted(results: &Results) -> String {
     table.row(["simulated over CPU time".to_owned(), a, b, c, d, e]);
     format!(
         "{} numbers were adjusted, factors of splines of hip, knee, ankle, toes, pelvis, trunk and the path of the mid-hip, by the \
-         laws of\nmotion and the deviations in `ConsistencySettings`, anew for each walk. The gait has no height of the mid-hip and no \
+         laws of\nmotion and the deviations in `ConsistentWalkSettings`, anew for each walk. The gait has no height of the mid-hip and no \
          toes: there the\nwhole motion is the adjustment.\n\n{}",
         free.parameters,
         table.text()

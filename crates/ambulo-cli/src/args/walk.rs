@@ -1,7 +1,7 @@
 //! `ambulo walk` and `ambulo demo`: what may be typed.
 
 use super::Voice;
-use ambulo::simulation::synthetic::Mode;
+use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -116,10 +116,10 @@ pub(crate) enum WalkMode {
 }
 
 impl WalkMode {
-    pub(crate) fn mode(self) -> Mode {
+    pub(crate) fn mode(self) -> SyntheticMode {
         match self {
-            WalkMode::Corrected => Mode::Corrected,
-            WalkMode::Paper => Mode::Paper,
+            WalkMode::Corrected => SyntheticMode::Corrected,
+            WalkMode::Paper => SyntheticMode::Paper,
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::{Verdict, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
 use anyhow::Result;
@@ -17,7 +17,13 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let gait = Gait::named("free")?;
-    let order = WalkOrder { gait: &gait, build: default_build(), mode: Mode::Corrected, cycles: 3, rate_hz: 100.0 };
+    let order = SyntheticWalkSettings {
+        gait: &gait,
+        build: default_build(),
+        mode: SyntheticMode::Corrected,
+        cycles: 3,
+        rate_hz: 100.0,
+    };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
     let made = Made { walk: &walk, order: &order, thresholds: &Thresholds::default(), read: &[] };

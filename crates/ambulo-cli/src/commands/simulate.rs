@@ -7,7 +7,7 @@ use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
-use ambulo::simulation::scene::{Changes, SavedState, Scene, SceneFile};
+use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
 use ambulo_results::{SceneExtremes, SceneInput, SceneTables};
 use anyhow::{Context, Result, bail};
@@ -81,7 +81,7 @@ fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings
         anyhow::anyhow!("{}: byte {} is not UTF-8; expected a scene in TOML", shown(), e.utf8_error().valid_up_to())
     })?;
     let file = SceneFile::parse(&text).with_context(shown)?;
-    let changes = Changes { step_s: args.step, duration_s: args.duration };
+    let changes = SceneSettings { step_s: args.step, duration_s: args.duration };
     let (step_s, end_s) = (args.step.unwrap_or(file.step_s), args.duration.unwrap_or(file.duration_s));
     if step_s > end_s || end_s / step_s > MOST_STEPS {
         bail!("{}: steps of {step_s} s over {end_s} s; expected one step at least and 1e9 at most", shown());

@@ -12,7 +12,7 @@ use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::to_osim;
 use ambulo::motion::{Smoother, Window};
-use ambulo::simulation::synthetic::{Mode, SyntheticWalk, WalkOrder, synthesise};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_report::gait_figure;
 use ambulo_results::{GroundSource, Input, OutputFile, WalkSummary};
 use anyhow::{Context, Result};
@@ -35,7 +35,8 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
     let gait = if args.mode == WalkMode::Corrected { put_right(gait, &args.gait) } else { gait };
-    let order = WalkOrder { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
+    let order =
+        SyntheticWalkSettings { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
     let made = Made { walk: &walk, order: &order, thresholds: &thresholds, read: &read };
@@ -49,7 +50,7 @@ const DEFAULT_OUTPUT: &str = "out";
 /// A walk that was made, and what it is judged by.
 pub(super) struct Made<'a> {
     pub(super) walk: &'a SyntheticWalk,
-    pub(super) order: &'a WalkOrder<'a>,
+    pub(super) order: &'a SyntheticWalkSettings<'a>,
     pub(super) thresholds: &'a Thresholds,
     pub(super) read: &'a [PathBuf],
 }
@@ -106,10 +107,10 @@ fn gait_file(walk: &Walk) -> Result<OutputFile> {
     Ok(OutputFile { name: "figures/gait.svg".to_owned(), bytes: gait_figure(walk)?.into_bytes() })
 }
 
-fn input(order: &WalkOrder<'_>) -> Input {
+fn input(order: &SyntheticWalkSettings<'_>) -> Input {
     let rule = match order.mode {
-        Mode::Corrected => "soft shoes",
-        Mode::Paper => "rigid soles",
+        SyntheticMode::Corrected => "soft shoes",
+        SyntheticMode::Paper => "rigid soles",
     };
     Input {
         motion: format!("gait {}", order.gait.name),

@@ -18,6 +18,7 @@ pub(crate) use simulate::simulate;
 pub(crate) use tools::{ComparedColumn, compare, convert, events, info};
 
 use crate::args::Voice;
+use crate::hints;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::findings::{Finding, Findings};
 use anyhow::Result;
@@ -58,10 +59,7 @@ pub(crate) fn guide() -> Result<()> {
 /// An error: what and where on the first line, what to do on the second.
 pub(crate) fn error(error: &anyhow::Error) {
     let message = error.chain().map(ToString::to_string).collect::<Vec<_>>().join(": ");
-    match message.split_once("hint: ") {
-        Some((what, hint)) => eprintln!("error: {}\n  hint: {hint}", what.trim_end()),
-        None => eprintln!("error: {message}"),
-    }
+    eprintln!("error: {}", with_hint(&message, hints::of_error(error)));
 }
 
 /// A line about what takes a while, for people.
@@ -87,7 +85,18 @@ fn print_findings(findings: &[Finding]) {
     for finding in findings {
         let times = if finding.count > 1 { format!(" ({} times)", finding.count) } else { String::new() };
         let severity = finding.severity();
-        eprintln!("{severity}: {}{times}", finding.message.replace(" hint: ", "\n  hint: "));
+        let message = with_hint(&format!("{}{times}", finding.message), hints::of_finding(finding.code));
+        eprintln!("{severity}: {message}");
+    }
+}
+
+/// A message with its own hint and that of the command on a second line.
+fn with_hint(message: &str, of_command: Option<&str>) -> String {
+    let (what, own) = message.split_once("hint: ").map_or((message, None), |(what, own)| (what, Some(own)));
+    let hints: Vec<&str> = own.into_iter().chain(of_command).collect();
+    match hints.is_empty() {
+        true => what.to_owned(),
+        false => format!("{}\n  hint: {}", what.trim_end(), hints.join("; ")),
     }
 }
 

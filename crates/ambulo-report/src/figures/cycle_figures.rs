@@ -161,6 +161,7 @@ impl CycleFigures<'_> {
             panel_height: plan.panel_height,
             legend: self.legend(style, &panels, &dash),
             notes: self.notes(&panels),
+            panel_legends: Vec::new(),
             description: panels.iter().map(CyclePanel::description).collect::<Vec<_>>().join(" "),
         };
         Ok(Some(sheet.draw(|drawing, slot| panels[slot.number].draw(drawing, style, slot, self.marks))))

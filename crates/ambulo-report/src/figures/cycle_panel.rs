@@ -97,7 +97,7 @@ impl<'a> CyclePanel<'a> {
     }
 
     pub(super) fn draw(&self, drawing: &mut Drawing, style: &Style, slot: Slot, marks: &[Mark]) {
-        let axes = Axes { place: slot.place, along: [0.0, 100.0], up: self.range() };
+        let axes = Axes::new(slot.place, [0.0, 100.0], self.range());
         let mut attributes = vec![("id", self.quantity.id.to_owned())];
         attributes.extend(axes.attributes());
         drawing.open(&self.description(), &attributes);
@@ -118,12 +118,13 @@ impl<'a> CyclePanel<'a> {
             unit: &unit,
             directions: [self.quantity.positive, self.quantity.negative],
             abscissa: slot.named.then_some("gait cycle (%)"),
+            legend_height: slot.legend_height,
         };
         axes.draw_frame(drawing, style, words);
         drawing.close();
     }
 
-    fn draw_cycles(&self, drawing: &mut Drawing, style: &Style, axes: &Axes, side: Side) {
+    fn draw_cycles(&self, drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, side: Side) {
         let curves = self.of_side(side);
         let stroke =
             Stroke { opacity: style.cycle_opacity, ..Stroke::solid(&style.side(side).color, style.lines_pt.cycle) };
@@ -143,7 +144,7 @@ impl<'a> CyclePanel<'a> {
         }
     }
 
-    fn draw_mean(&self, drawing: &mut Drawing, style: &Style, axes: &Axes, side: Side) {
+    fn draw_mean(&self, drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, side: Side) {
         let Some(mean) = self.mean(side) else { return };
         let dash = dashes(style, side);
         let stroke = Stroke { dash: &dash, ..Stroke::solid(&style.side(side).color, style.lines_pt.mean) };
@@ -151,7 +152,7 @@ impl<'a> CyclePanel<'a> {
         drawing.polyline(&placed(axes, &mean), stroke, &tags(side, "mean", count));
     }
 
-    fn draw_marks(&self, drawing: &mut Drawing, style: &Style, axes: &Axes, marks: &[Mark]) {
+    fn draw_marks(&self, drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, marks: &[Mark]) {
         let stroke = Stroke::solid(&style.infeasible.color, style.lines_pt.infeasible);
         let bottom = axes.place[3];
         for curve in &self.curves {
@@ -184,7 +185,7 @@ fn tags(side: Side, role: &str, number: usize) -> [(&'static str, String); 3] {
     [("data-side", side.letter().to_owned()), ("data-role", role.to_owned()), number]
 }
 
-fn draw_band(drawing: &mut Drawing, style: &Style, axes: &Axes, band: &NormativeBand) {
+fn draw_band(drawing: &mut Drawing, style: &Style, axes: &Axes<'_>, band: &NormativeBand) {
     let percent = |i: usize| 100.0 * i as f64 / (band.mean.len().max(2) - 1) as f64;
     let edge = |sign: f64| {
         let values = band.mean.iter().zip(&band.sd).enumerate();
@@ -195,7 +196,7 @@ fn draw_band(drawing: &mut Drawing, style: &Style, axes: &Axes, band: &Normative
     drawing.polygon(&corners, &style.band.color, style.band.opacity, &[("data-role", "band".to_owned())]);
 }
 
-fn placed(axes: &Axes, values: &[f64]) -> Vec<[f64; 2]> {
+fn placed(axes: &Axes<'_>, values: &[f64]) -> Vec<[f64; 2]> {
     let last = (values.len().max(2) - 1) as f64;
     values.iter().enumerate().map(|(i, y)| axes.at([100.0 * i as f64 / last, *y])).collect()
 }

@@ -1,29 +1,34 @@
-//! A figure of panels in rows and columns: head and legend above, notes below.
+//! Lays out a figure: title, caption and legend above, panels in rows and columns, notes below.
 
 use super::axes::{ABOVE, BELOW, BELOW_NAMELESS, LEFT};
 use super::svg::{Anchor, Drawing, Letters, Stroke, points, text_width};
 use crate::style::Style;
 use std::ops::Range;
 
-/// Margin of the paper, between panels, and between lines of the head [pt].
+/// Margin of the paper and space between panels [pt]; distance of lines of text, in font sizes.
 const MARGIN: f64 = 6.0;
 const BETWEEN: f64 = 9.0;
 const LEADING: f64 = 1.35;
-/// Length of a legend's line, and the gap behind an entry [pt].
+/// Length of a line in a legend, and the gap after an entry [pt].
 const SAMPLE: f64 = 16.0;
 const ENTRY_GAP: f64 = 12.0;
 
-/// An entry of the legend.
+/// The symbol of a legend's entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sample<'a> {
     Line(Stroke<'a>),
-    /// A short upright line.
+    /// A short vertical line.
     Tick(Stroke<'a>),
+    /// A point of a colour.
+    Dot(&'a str),
     /// A patch of a colour with its opacity.
     Patch(&'a str, f64),
 }
 
-/// What stands around the panels, and how they are arranged.
+/// Entries of a legend.
+pub(super) type Legend<'a> = Vec<(Sample<'a>, String)>;
+
+/// Everything around the panels, and their arrangement.
 #[derive(Debug, Clone)]
 pub(super) struct Sheet<'a> {
     pub(super) style: &'a Style,
@@ -34,18 +39,22 @@ pub(super) struct Sheet<'a> {
     pub(super) rows: Vec<Range<usize>>,
     /// Height of the axes [pt].
     pub(super) panel_height: f64,
-    pub(super) legend: Vec<(Sample<'a>, String)>,
+    pub(super) legend: Legend<'a>,
+    /// Legends above the axes of single panels; shorter than the number of panels if the rest has none.
+    pub(super) panel_legends: Vec<Legend<'a>>,
     pub(super) notes: Vec<String>,
-    /// What the figure shows, for those who cannot see it.
+    /// Content of the figure, for screen readers.
     pub(super) description: String,
 }
 
-/// A panel's place: number, rectangle of its axes, and whether the abscissa's name belongs below it.
+/// The place of a panel: its number, the rectangle of its axes, and whether it has to name the abscissa.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slot {
     pub(super) number: usize,
     pub(super) place: [f64; 4],
     pub(super) named: bool,
+    /// Height of the legend between title and axes [pt].
+    pub(super) legend_height: f64,
 }
 
 impl Sheet<'_> {
@@ -53,18 +62,24 @@ impl Sheet<'_> {
     pub(super) fn draw(&self, mut panel: impl FnMut(&mut Drawing, Slot)) -> String {
         let mut drawing = Drawing::new(points(self.width_mm), &self.style.font.family);
         let mut y = self.draw_head(&mut drawing);
-        let columns = self.rows.iter().map(Range::len).max().unwrap_or(1).max(1);
-        let cell = (drawing.width() - 2.0 * MARGIN + BETWEEN) / columns as f64;
+        let axes_width = axes_width(self.width_mm, self.rows.iter().map(Range::len).max().unwrap_or(1));
         for (number, row) in self.rows.iter().enumerate() {
+            let lines = row.clone().filter_map(|panel| self.panel_legends.get(panel));
+            let lines = lines.map(|legend| self.placed(legend, axes_width).last().map_or(0, |entry| entry.line + 1));
+            let legend_height = lines.max().unwrap_or(0) as f64 * LEADING * self.style.font.label_pt;
             let named = |column: usize| self.rows[number + 1..].iter().all(|below| below.len() <= column);
             for (column, panel_number) in row.clone().enumerate() {
-                let left = MARGIN + column as f64 * cell;
-                let (top, right) = (y + ABOVE, left + cell - BETWEEN - 4.0);
-                let place = [left + LEFT, top, right, top + self.panel_height];
-                panel(&mut drawing, Slot { number: panel_number, place, named: named(column) });
+                let left = MARGIN + LEFT + column as f64 * (axes_width + AROUND);
+                let (top, right) = (y + ABOVE + legend_height, left + axes_width);
+                let place = [left, top, right, top + self.panel_height];
+                if let Some(legend) = self.panel_legends.get(panel_number) {
+                    let from = [left, y + ABOVE - 4.5];
+                    self.draw_legend(&mut drawing, legend, from, right);
+                }
+                panel(&mut drawing, Slot { number: panel_number, place, named: named(column), legend_height });
             }
             let below = if (0..row.len()).any(named) { BELOW } else { BELOW_NAMELESS };
-            y += ABOVE + self.panel_height + below + 2.0;
+            y += ABOVE + legend_height + self.panel_height + below + 2.0;
         }
         y = self.draw_notes(&mut drawing, y);
         let title = format!("{}: {}", self.title, self.caption);
@@ -84,20 +99,39 @@ impl Sheet<'_> {
             drawing.text([MARGIN, y], &line, caption);
         }
         if !self.legend.is_empty() {
-            y += LEADING * font.label_pt + 1.0;
-        }
-        let mut x = MARGIN;
-        for (sample, name) in &self.legend {
-            let wide = SAMPLE + 3.0 + text_width(name, font.label_pt);
-            if x > MARGIN && x + wide > drawing.width() - MARGIN {
-                (x, y) = (MARGIN, y + LEADING * font.label_pt);
-            }
-            draw_sample(drawing, *sample, [x, y - 0.35 * font.label_pt], font.label_pt);
-            let words = Letters::plain(font.label_pt, ink, Anchor::Start);
-            drawing.text([x + SAMPLE + 3.0, y], name, words);
-            x += wide + ENTRY_GAP;
+            y = self.draw_legend(drawing, &self.legend, [MARGIN, y + 1.0], drawing.width() - MARGIN);
         }
         y + 5.0
+    }
+
+    /// Draws a legend below a point and up to an abscissa; returns its last baseline.
+    fn draw_legend(&self, drawing: &mut Drawing, legend: &Legend<'_>, [left, top]: [f64; 2], right: f64) -> f64 {
+        let size = self.style.font.label_pt;
+        let words = Letters::plain(size, &self.style.text.color, Anchor::Start);
+        let mut y = top;
+        for Entry { sample, name, indent, line } in self.placed(legend, right - left) {
+            y = top + (line + 1) as f64 * LEADING * size;
+            draw_sample(drawing, sample, [left + indent, y - 0.35 * size], size);
+            drawing.text([left + indent + SAMPLE + 3.0, y], &name, words);
+        }
+        y
+    }
+
+    /// Places the entries of a legend in lines of a width; names that are longer than a line are cut.
+    fn placed<'l>(&self, legend: &Legend<'l>, room: f64) -> Vec<Entry<'l>> {
+        let size = self.style.font.label_pt;
+        let (mut indent, mut line) = (0.0, 0);
+        let place = |(sample, name): &(Sample<'l>, String)| {
+            let name = cut(name, size, room - SAMPLE - 3.0);
+            let wide = SAMPLE + 3.0 + text_width(&name, size);
+            if indent > 0.0 && indent + wide > room {
+                (indent, line) = (0.0, line + 1);
+            }
+            let entry = Entry { sample: *sample, name, indent, line };
+            indent += wide + ENTRY_GAP;
+            entry
+        };
+        legend.iter().map(place).collect()
     }
 
     fn draw_notes(&self, drawing: &mut Drawing, from: f64) -> f64 {
@@ -113,12 +147,29 @@ impl Sheet<'_> {
     }
 }
 
+/// An entry of a legend with its place: distance from the left [pt], and line.
+struct Entry<'a> {
+    sample: Sample<'a>,
+    name: String,
+    indent: f64,
+    line: usize,
+}
+
+/// Space between the axes of two columns [pt].
+const AROUND: f64 = LEFT + BETWEEN + 4.0;
+
+/// Width of the axes of a panel [pt] in a figure of so many columns.
+pub(super) fn axes_width(width_mm: f64, columns: usize) -> f64 {
+    (points(width_mm) - 2.0 * MARGIN + BETWEEN) / columns.max(1) as f64 - AROUND
+}
+
 fn draw_sample(drawing: &mut Drawing, sample: Sample<'_>, [x, y]: [f64; 2], size: f64) {
     match sample {
         Sample::Line(stroke) => drawing.line([x, y], [x + SAMPLE, y], stroke),
         Sample::Tick(stroke) => {
             drawing.line([x + 0.7 * SAMPLE, y - 0.4 * size], [x + 0.7 * SAMPLE, y + 0.4 * size], stroke);
         }
+        Sample::Dot(color) => drawing.circle([x + 0.7 * SAMPLE, y], 0.3 * size, color),
         Sample::Patch(color, opacity) => {
             let (top, bottom) = (y - 0.4 * size, y + 0.4 * size);
             let corners = [[x, top], [x + SAMPLE, top], [x + SAMPLE, bottom], [x, bottom]];

@@ -1,7 +1,6 @@
-//! A drawing as SVG text: lines, areas and real letters, lengths in points (1/72 inch), shown at its size in millimetres.
+//! Writes SVG: lines, areas and text as text, in points (1/72 inch), with the size of the drawing in millimetres.
 //!
-//! Written here and not by the plotting library, which rounds to whole pixels, makes a path of every dash and knows no groups: a figure
-//! of a paper is scaled, edited and searched.
+//! Coordinates keep two decimals, dashes are attributes and panels are groups, so that a figure can be scaled, edited and searched.
 
 use std::fmt::Write as _;
 
@@ -131,6 +130,15 @@ impl Drawing {
         self.put("/>\n");
     }
 
+    /// A filled circle; nothing if its centre is not finite.
+    pub(super) fn circle(&mut self, center: [f64; 2], radius: f64, fill: &str) {
+        if center.iter().any(|x| !x.is_finite()) {
+            return;
+        }
+        let ([x, y], r, fill) = (center.map(short), short(radius), escaped(fill));
+        self.write(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"/>\n"));
+    }
+
     /// A text on the line through a point.
     pub(super) fn text(&mut self, [x, y]: [f64; 2], text: &str, letters: Letters<'_>) {
         let [x, y, size] = [x, y, letters.size].map(short);
@@ -147,7 +155,8 @@ impl Drawing {
         ));
     }
 
-    /// The file: `height` [pt], a title and a description for those who cannot see it, the colour of the ground.
+    /// The file: `height` [pt], title and description for screen readers, background colour. It has no ids, so that several
+    /// drawings can be part of one page.
     pub(super) fn finish(self, height: f64, title: &str, description: &str, ground: &str) -> String {
         let mm = |length: f64| short(length / POINTS_PER_MM);
         let (w, h) = (short(self.width), short(height));
@@ -155,8 +164,8 @@ impl Drawing {
         let (family, ground) = (escaped(&self.family), escaped(ground));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
-             aria-labelledby=\"title desc\" font-family=\"{family}\" stroke-linejoin=\"round\">\n\
-             <title id=\"title\">{title}</title>\n<desc id=\"desc\">{description}</desc>\n\
+             font-family=\"{family}\" stroke-linejoin=\"round\">\n\
+             <title>{title}</title>\n<desc>{description}</desc>\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"{ground}\"/>\n{}</svg>\n",
             mm(self.width),
             mm(height),

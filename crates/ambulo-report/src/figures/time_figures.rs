@@ -217,6 +217,7 @@ impl TimeFigure<'_> {
             legend: self.legend.clone(),
             description: words.chain(self.notes.iter().cloned()).collect::<Vec<_>>().join(" "),
             notes: self.notes.clone(),
+            panel_legends: Vec::new(),
         };
         sheet.draw(|drawing, slot| self.draw_panel(drawing, &panels[slot.number], times, slot))
     }
@@ -227,7 +228,7 @@ impl TimeFigure<'_> {
             series.values.iter().enumerate().flat_map(move |(i, x)| [x - spread(i), x + spread(i)])
         });
         let along = [times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0)];
-        let axes = Axes { place: slot.place, along, up: range(edges.chain([0.0]), panel.least) };
+        let axes = Axes::new(slot.place, along, range(edges.chain([0.0]), panel.least));
         let mut attributes = vec![("id", panel.id.to_owned())];
         attributes.extend(axes.attributes());
         drawing.open("", &attributes);
@@ -239,12 +240,18 @@ impl TimeFigure<'_> {
         axes.draw_frame(
             drawing,
             self.style,
-            AxisWords { title: panel.title, unit: &panel.unit, directions: panel.directions, abscissa },
+            AxisWords {
+                title: panel.title,
+                unit: &panel.unit,
+                directions: panel.directions,
+                abscissa,
+                legend_height: slot.legend_height,
+            },
         );
         drawing.close();
     }
 
-    fn draw_series(&self, drawing: &mut Drawing, axes: &Axes, series: &Series<'_>, times: &[f64]) {
+    fn draw_series(&self, drawing: &mut Drawing, axes: &Axes<'_>, series: &Series<'_>, times: &[f64]) {
         let every = times.len().div_ceil(MOST_POINTS).max(1);
         let chosen = || (0..times.len().min(series.values.len())).step_by(every);
         let side = series.side.map_or("", Side::letter);

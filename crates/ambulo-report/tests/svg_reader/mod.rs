@@ -23,6 +23,8 @@ pub(crate) struct Panel {
     pub(crate) id: String,
     /// Left, top, right, bottom [pt].
     pub(crate) place: [f64; 4],
+    /// Abscissas at the left and at the right.
+    pub(crate) along: [f64; 2],
     /// Ordinates at bottom and top.
     pub(crate) up: [f64; 2],
     pub(crate) lines: Vec<Line>,
@@ -68,7 +70,19 @@ fn numbers<const N: usize>(node: Node<'_, '_>, attribute: &str) -> [f64; N] {
     cells.map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap()
 }
 
-fn panel(group: Node<'_, '_>) -> Panel {
+/// Names and points of the curves of all panels of a chart, in the numbers of their axes.
+pub(crate) fn curves(text: &str) -> Vec<(String, Vec<[f64; 2]>)> {
+    let document = Document::parse(text).unwrap_or_else(|e| panic!("no XML: {e}\n{text}"));
+    let lines = document.descendants().filter(|node| node.has_tag_name("polyline") && node.has_attribute("data-name"));
+    let curve = |line: Node<'_, '_>| {
+        let group = line.parent().unwrap();
+        (line.attribute("data-name").unwrap().to_owned(), points(group, line))
+    };
+    lines.map(curve).collect()
+}
+
+/// The points of a line in the numbers of its panel's axes.
+fn points(group: Node<'_, '_>, line: Node<'_, '_>) -> Vec<[f64; 2]> {
     let [left, top, right, bottom] = numbers(group, "data-place");
     let (along, up): ([f64; 2], [f64; 2]) = (numbers(group, "data-along"), numbers(group, "data-up"));
     let number = |point: &str| {
@@ -78,19 +92,26 @@ fn panel(group: Node<'_, '_>) -> Panel {
         let high = (bottom - y) / (bottom - top);
         [along[0] + across * (along[1] - along[0]), up[0] + high * (up[1] - up[0])]
     };
+    line.attribute("points").unwrap().split(' ').map(number).collect()
+}
+
+fn panel(group: Node<'_, '_>) -> Panel {
+    let [left, top, right, bottom] = numbers(group, "data-place");
+    let (along, up) = (numbers(group, "data-along"), numbers(group, "data-up"));
     let line = |node: Node<'_, '_>| {
         let cycle = node.attribute("data-cycle").or(node.attribute("data-cycles"));
         Line {
             side: if node.attribute("data-side") == Some("l") { Side::Left } else { Side::Right },
             role: node.attribute("data-role").unwrap().to_owned(),
             number: cycle.map_or(0, |text| text.parse().unwrap()),
-            points: node.attribute("points").unwrap().split(' ').map(number).collect(),
+            points: points(group, node),
         }
     };
     let of = |tag: &'static str| group.children().filter(move |node| node.has_tag_name(tag));
     Panel {
         id: group.attribute("id").unwrap().to_owned(),
         place: [left, top, right, bottom],
+        along,
         up,
         lines: of("polyline").filter(|node| node.has_attribute("data-role")).map(line).collect(),
         bands: of("polygon").filter(|node| node.attribute("data-role") == Some("band")).count(),

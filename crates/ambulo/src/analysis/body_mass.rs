@@ -20,9 +20,9 @@ pub fn body_mass(stated_kg: Option<f64>, standing_kg: Option<f64>, findings: &mu
         }
         (Some(stated), Some(standing)) => {
             let message = format!(
-                "{stated:.1} kg are stated, the plates carry {standing:.1} kg in the standing trial; the stated mass was used. hint: --mass {standing:.1}"
+                "the stated mass is {stated:.1} kg, force plates measured {standing:.1} kg in the standing trial; the stated mass was used"
             );
-            findings.report(Code::MassMismatch, message);
+            findings.report(Code::MassStandingMismatch, message);
             Some(stated)
         }
         (Some(stated), None) => Some(stated),
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn a_person_beside_the_plates_is_not_weighed_by_them() {
         let (mass, findings) = believed(Some(60.0), Some(41.0));
-        assert!(mass == Some(60.0) && findings.has(Code::MassMismatch));
+        assert!(mass == Some(60.0) && findings.has(Code::MassStandingMismatch));
         assert!(believed(Some(60.0), None).1.as_slice().is_empty());
         assert_eq!(believed(None, None).0, None);
     }

@@ -60,7 +60,7 @@ pub enum ComparisonError {
     },
     /// A value that is no number.
     #[error(
-        "a value that is not a finite number at {time_s:.4} s; expected finite curves. hint: cut the range with --from and --to"
+        "a value that is not a finite number at {time_s:.4} s; expected finite curves. hint: choose a range without this instant"
     )]
     NotFinite {
         /// The instant [s].

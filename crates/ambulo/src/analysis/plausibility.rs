@@ -21,7 +21,7 @@ pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
-            "the residual at the root is {:.0} % of body weight (walking data with every foot on a plate: below 10 %): forces, motion and model do not belong together, a foot stood off the plates, or the motion is not filtered; the moments are not to be trusted. hint: check files, sides and time origin; cut to the time when every foot on the floor is on a plate with --from and --to",
+            "the residual at the root is {:.0} % of body weight (walking data with every foot on a plate: below 10 %): forces, motion and model do not belong together, a foot stood off the plates, or the motion is not filtered; the moments are not to be trusted. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
             100.0 * share
         );
         findings.report(Code::ResidualLarge, message);
@@ -74,7 +74,7 @@ fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces
         {
             let name = &model.bodies()[foot.body.index()].name;
             let message = format!(
-                "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right and left may be exchanged. hint: exchange the bodies in the loads file or in --right and --left"
+                "the force on `{name}` acts {own:.2} m from it and {other:.2} m from the other foot (medians); right and left may be exchanged. hint: exchange the bodies on which the loads act"
             );
             findings.report(Code::LoadsFarFromFoot, message);
         }

@@ -213,7 +213,7 @@ fn placed(world_from_second: &Pose, touch: &Touch) -> ContactPoint {
         point: world_from_second.place(touch.point),
         normal: world_from_second.rotation * touch.outward,
         gap: touch.gap,
-        feature: mixed(touch.feature.map(|number| number as u64)),
+        feature: mixed(touch.feature),
     }
 }
 

@@ -102,7 +102,7 @@ impl HeightField {
     pub(super) fn ball_touches(&self, center: Vec3, radius: f64, reach: f64, mut report: impl FnMut(Touch)) {
         let touch = |outward: Vec3, distance: f64, number: usize| {
             let gap = distance - radius;
-            Touch { point: center - outward * (radius + gap / 2.0), outward, gap, feature: [0, number, 0, 0] }
+            Touch { point: center - outward * (radius + gap / 2.0), outward, gap, feature: [0, number as u64, 0, 0] }
         };
         if let Some(above) = self.triangle_at(center) {
             let distance = above.normal.dot(&(center - above.corners[0]));
@@ -137,7 +137,7 @@ impl HeightField {
     pub(super) fn capsule_touches(&self, ends: Segment, radius: f64, reach: f64, mut report: impl FnMut(Touch)) {
         for (number, end) in ends.into_iter().enumerate() {
             self.ball_touches(end, radius, reach, |t| {
-                report(Touch { feature: [t.feature[0], t.feature[1], number, 0], ..t });
+                report(Touch { feature: [t.feature[0], t.feature[1], number as u64, 0], ..t });
             });
         }
         let around = Vec3::repeat(radius + reach);
@@ -145,7 +145,7 @@ impl HeightField {
         let between = |share: f64| share > 0.0 && share < 1.0;
         for ridge in self.ridges(low, high) {
             let (s, t) = nearest_shares(ends, ridge.ends);
-            let touch = core_touch(at_share(ends, s), at_share(ridge.ends, t), radius, [1, ridge.number, 0, 0]);
+            let touch = core_touch(at_share(ends, s), at_share(ridge.ends, t), radius, [1, ridge.number as u64, 0, 0]);
             if let Some(touch) = touch
                 && between(s)
                 && between(t)
@@ -157,7 +157,7 @@ impl HeightField {
         for [i, j] in self.inner_points(low, high) {
             let peak = self.point(i, j);
             let s = nearest_share(peak, ends);
-            let touch = core_touch(at_share(ends, s), peak, radius, [2, i, j, 0]);
+            let touch = core_touch(at_share(ends, s), peak, radius, [2, i as u64, j as u64, 0]);
             if let Some(touch) = touch
                 && between(s)
                 && self.is_peak(i, j, touch.outward)
@@ -173,7 +173,7 @@ impl HeightField {
             if let Some(Triangle { corners: [p, ..], normal, .. }) = self.triangle_at(*corner) {
                 let gap = normal.dot(&(corner - p));
                 let point = corner - normal * (gap / 2.0);
-                report(Touch { point, outward: normal, gap, feature: [0, number, 0, 0] });
+                report(Touch { point, outward: normal, gap, feature: [0, number as u64, 0, 0] });
             }
         }
         let around = Vec3::repeat(reach.max(0.0));
@@ -186,7 +186,7 @@ impl HeightField {
                     && lies_between(touch.outward, ridge.normals)
                     && lies_between(touch.outward, against)
                 {
-                    report(Touch { feature: [1, ridge.number, number, 0], ..touch });
+                    report(Touch { feature: [1, ridge.number as u64, number as u64, 0], ..touch });
                 }
             }
         }
@@ -197,7 +197,12 @@ impl HeightField {
                 if face.normal.y < 0.0 && self.is_peak(i, j, -face.normal) && solid.is_over(number, peak, 0.0) {
                     let gap = face.normal.dot(&peak) - face.height;
                     let point = peak - face.normal * (gap / 2.0);
-                    report(Touch { point, outward: -face.normal, gap, feature: [2, i * self.columns + j, number, 0] });
+                    report(Touch {
+                        point,
+                        outward: -face.normal,
+                        gap,
+                        feature: [2, (i * self.columns + j) as u64, number as u64, 0],
+                    });
                 }
             }
         }
@@ -330,7 +335,7 @@ fn lies_between(outward: Vec3, [n, m]: [Vec3; 2]) -> bool {
 
 /// A ball about a point of a capsule's axis, and a point of the ground: above it or, overlapping by more than the
 /// radius, below. `None` where they coincide.
-fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [usize; 4]) -> Option<Touch> {
+fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [u64; 4]) -> Option<Touch> {
     let way = core - ground;
     let distance = way.norm().copysign(way.y);
     if distance.abs() <= 0.0 {

@@ -39,7 +39,7 @@ struct Way {
 }
 
 impl Way {
-    fn touch(&self, radius: f64, feature: [usize; 4]) -> Touch {
+    fn touch(&self, radius: f64, feature: [u64; 4]) -> Touch {
         let gap = self.distance - radius;
         Touch { point: self.point - self.outward * (radius + gap / 2.0), outward: self.outward, gap, feature }
     }
@@ -54,7 +54,7 @@ pub(super) fn ball_touch(solid: &Polytope, center: Vec3, radius: f64) -> Touch {
 pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, mut report: impl FnMut(Touch)) {
     let nearest = way_to_segment(solid, segment);
     let mut lowest = f64::MAX;
-    let mut report_end = |way: Way, feature: [usize; 4]| {
+    let mut report_end = |way: Way, feature: [u64; 4]| {
         let touch = way.touch(radius, feature);
         lowest = lowest.min(touch.gap);
         report(touch);
@@ -62,7 +62,7 @@ pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, m
     if let Some(face) = facing(solid, nearest.outward) {
         if let Some(ends) = over_face(solid, face, segment) {
             for (share, name) in ends {
-                report_end(way_to_plane(solid, face, at_share(segment, share)), [1, face, name, 0]);
+                report_end(way_to_plane(solid, face, at_share(segment, share)), [1, face as u64, name as u64, 0]);
             }
         }
     } else if let (1, number) = (nearest.feature[0], nearest.feature[1]) {
@@ -71,7 +71,7 @@ pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, m
             for (k, share) in shares.into_iter().enumerate() {
                 let point = at_share(segment, share);
                 if let Some(way) = way_between(point, nearest_point(point, edge), nearest.feature) {
-                    report_end(way, [2, number, k, 0]);
+                    report_end(way, [2, number as u64, k as u64, 0]);
                 }
             }
         }

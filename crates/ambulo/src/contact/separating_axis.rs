@@ -33,8 +33,8 @@ pub(super) struct Touch {
     /// From the first solid towards the second.
     pub(super) outward: Vec3,
     pub(super) gap: f64,
-    /// What touches what: kind and number of the features.
-    pub(super) feature: [usize; 4],
+    /// Kind and numbers of the two features that touch; 64 bits on every target, since `face_touches` packs three numbers into one.
+    pub(super) feature: [u64; 4],
 }
 
 /// Which features separate two solids most.
@@ -57,15 +57,15 @@ pub(super) fn touches(first: &Polytope, second: &Polytope, reach: f64, mut repor
     match separating_axis(first, second, reach) {
         None => {}
         Some(Axis::FaceOfFirst(face)) => face_touches(first, face, second, reach, |t| {
-            report(Touch { feature: [0, face, t.feature[0], t.feature[1]], ..t });
+            report(Touch { feature: [0, face as u64, t.feature[0], t.feature[1]], ..t });
         }),
         Some(Axis::FaceOfSecond(face)) => face_touches(second, face, first, reach, |t| {
-            report(Touch { outward: -t.outward, feature: [1, face, t.feature[0], t.feature[1]], ..t });
+            report(Touch { outward: -t.outward, feature: [1, face as u64, t.feature[0], t.feature[1]], ..t });
         }),
         Some(Axis::Edges(a, b, outward)) => {
             let touch = edge_touch(first.ends(&first.net.edges[a]), second.ends(&second.net.edges[b]), outward);
             if touch.gap < reach {
-                report(Touch { feature: [2, a, b, 0], ..touch });
+                report(Touch { feature: [2, a as u64, b as u64, 0], ..touch });
             }
         }
     }
@@ -175,7 +175,8 @@ fn face_touches(solid: &Polytope, face: usize, other: &Polytope, reach: f64, mut
     for corner in &polygon {
         let gap = normal.dot(&corner.point) - height;
         if gap < reach {
-            let name = (opposing << 36) | (corner.origin[0] << 18) | corner.origin[1];
+            let [from, to] = corner.origin.map(|number| number as u64);
+            let name = ((opposing as u64) << 36) | (from << 18) | to;
             let point = corner.point - normal * (gap / 2.0);
             report(Touch { point, outward: normal, gap, feature: [name, 0, 0, 0] });
         }

@@ -40,8 +40,8 @@ macro_rules! codes {
 codes! {
     // Models.
     ModelDocument "model.document" Warning
-        "The model file has a part that was read with an assumption or not at all."
-        "Check the named line of the model file.";
+        "The version of the model file is not one of the known versions."
+        "Check the results, or save the model in a known version with OpenSim.";
     ModelIgnored "model.ignored" Note
         "Muscles, other forces and geometry of the model are not used by inverse dynamics."
         "Nothing to do.";
@@ -215,8 +215,11 @@ codes! {
         "The body mass was measured by force plates in the standing trial."
         "Nothing to do.";
     MassMismatch "mass.mismatch" Warning
-        "Two sources of the body mass disagree."
-        "Give the right mass, or scale the model to this person.";
+        "Force plates measured another mass over whole gait cycles than the model has; results are normalised by the measured mass, the dynamics use the model's."
+        "Scale the model to this person.";
+    MassStandingMismatch "mass.standing_mismatch" Warning
+        "The stated body mass differs from what force plates measured in the standing trial; the stated mass was used."
+        "Give the measured mass, or check the standing trial.";
     MassNotWholeBody "mass.not_whole_body" Warning
         "Force plates carry much less than the model's mass over whole gait cycles, so that the model's mass was used."
         "Check that every foot is on a plate, and that the model is scaled to this person.";
@@ -380,13 +383,13 @@ codes! {
         "Residual forces at the root are large: motion, forces and model do not agree, and joint moments cannot be trusted."
         "Check files, sides and time origin; choose the time in which every loaded foot is on a plate.";
     ConsistencyIncompleteForces "consistency.incomplete_forces" Warning
-        "Motion and forces disagreed so much that a foot may have been where nothing measures; the motion was changed for it."
+        "Motion and forces disagreed by more than half the body weight, as if a foot had been where nothing measures; the motion was changed for it."
         "Choose the time in which all forces are known.";
     ConsistencyResidualLeft "consistency.residual_left" Warning
-        "Within its tolerances the motion cannot agree with the forces."
+        "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body weight times one metre, is left at the root."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
-        "A coordinate was changed by more than the usual error of motions."
+        "A coordinate was changed by more than the usual error of motions: 2 degrees, or 30 mm at the root."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
         "Residual reduction did not converge."

@@ -1,6 +1,6 @@
 //! Ground forces of people against speed: mean curves of one foot over its cycle.
 //!
-//! What walks are drawn towards when they are made consistent ([`crate::simulation::consistent`]). The laws are quadratics through
+//! What walks are drawn towards when they are made consistent ([`crate::simulation::consistent_walk`]). The laws are quadratics through
 //! three of the five speeds of Schwartz, Rozumalski, Trost 2008 (very slow, free, very fast); the two others judge them. Made by
 //! `cargo xtask fit-gait`; the file's header tells source, licence and errors.
 

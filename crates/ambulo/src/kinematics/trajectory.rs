@@ -19,7 +19,7 @@ pub struct Trajectory {
 pub enum TrajectoryError {
     /// A number that is not finite.
     #[error(
-        "coordinate `{coordinate}` is not a finite number at {time_s:.4} s; expected values without gaps. hint: cut the range with --from and --to, or fill the gap"
+        "coordinate `{coordinate}` is not a finite number at {time_s:.4} s; expected values without gaps. hint: choose a range without the gap, or fill it"
     )]
     NotFinite {
         /// The coordinate.

@@ -70,9 +70,7 @@ pub enum MotionError {
         known: String,
     },
     /// A column that a force recording must have.
-    #[error(
-        "no column `{column}` for {purpose}; found {found}. hint: check the identifiers of the external loads, or use --right and --left"
-    )]
+    #[error("no column `{column}` for {purpose}; found {found}. hint: check the identifiers of the external loads")]
     NoColumn {
         /// The column.
         column: String,
@@ -101,7 +99,7 @@ pub enum MotionError {
     },
     /// A gap that is too long to fill, or that touches the end.
     #[error(
-        "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most {longest_s} s. hint: cut the range with --from and --to"
+        "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most {longest_s} s. hint: choose a range without the gap"
     )]
     Gap {
         /// The column.
@@ -137,7 +135,7 @@ pub enum MotionError {
     },
     /// A measured force that is no number.
     #[error(
-        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s while it carries force; expected numbers. hint: cut the range with --from and --to"
+        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s while it carries force; expected numbers. hint: choose a range without this instant"
     )]
     ForceNotFinite {
         /// Name of the load.

@@ -8,7 +8,7 @@ use super::paper_settings::PaperSettings;
 use super::{Judgement, judgements};
 use crate::contact::HuntCrossley;
 use crate::gait::Style;
-use crate::simulation::Impact;
+use crate::simulation::ImpactLaw;
 
 /// A value that the paper does not give.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ pub fn assumptions() -> Vec<Assumption> {
             "velocities of what strikes while other points rest",
             "the striking point loses all its velocity, the others obey Coulomb's law",
             "the paper: the relative velocity at the contact point is cancelled",
-            vec![("Coulomb's law for blows too", PaperSettings { impact: Impact::Coulomb, ..taken })],
+            vec![("Coulomb's law for blows too", PaperSettings { impact: ImpactLaw::Coulomb, ..taken })],
         ),
         with(
             "stiffness of the soft shoes",

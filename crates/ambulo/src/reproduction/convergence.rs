@@ -113,5 +113,5 @@ fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
 fn blows_until(run: &Run, coordinate: &str, from_s: f64, to_s: f64) -> f64 {
     let Some(id) = run.recording.coordinate(coordinate) else { return 0.0 };
     let within = |t: f64| t >= from_s - 1e-9 && t < to_s - 1e-9;
-    run.recording.blows.iter().filter(|blow| within(blow.time_s)).map(|blow| blow.efforts[id.index()]).sum()
+    run.recording.impacts.iter().filter(|blow| within(blow.time_s)).map(|blow| blow.efforts[id.index()]).sum()
 }

@@ -1,21 +1,21 @@
 //! The corrected mode: the same gaits on the same figure, put right.
 //!
 //! Against the paper's mode: joint curves whose knots carry velocity and acceleration, a pelvis and trunk that move, a toe joint,
-//! soft shoes, and the motion made consistent ([`crate::simulation::consistent`]): its forces come from the ground alone.
+//! soft shoes, and the motion made consistent ([`crate::simulation::consistent_walk`]): its forces come from the ground alone.
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Request, Run};
 use crate::findings::Findings;
 use crate::gait::{Gait, Style, Walk};
 use crate::model::anthropometry::{Build, Human};
-use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use crate::simulation::walking::{Ground, Shoes};
-use crate::simulation::{Impact, Integrator, StepSettings};
+use crate::simulation::{ImpactLaw, Integrator, StepSettings};
 
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
 #[derive(Debug, Default)]
 pub struct Corrected {
-    settings: ConsistencySettings,
+    settings: ConsistentWalkSettings,
     kept: Vec<Kept>,
 }
 
@@ -40,9 +40,9 @@ impl Corrected {
             Footwear::Own | Footwear::Soft => Ground {
                 friction: self.settings.shoes.dynamic_friction,
                 shoes: Shoes::HuntCrossley(self.settings.shoes),
-                impact: Impact::Coulomb,
+                impact: ImpactLaw::Coulomb,
             },
-            Footwear::Rigid => Ground { friction: request.friction, shoes: Shoes::Rigid, impact: Impact::Sticking },
+            Footwear::Rigid => Ground { friction: request.friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking },
         };
         let steps =
             StepSettings { step_s: 1.0 / request.rate_hz, integrator: Integrator::Impulse, ..StepSettings::default() };
@@ -70,7 +70,7 @@ impl Corrected {
         // The same speed, steps and changes, by curves that carry velocity and acceleration.
         let gait = request.gait.clone().in_style(Style::Knots);
         let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default())?;
-        let walk = make_consistent(&human, &walk, &self.settings)
+        let walk = make_consistent_walk(&human, &walk, &self.settings)
             .map_err(|e| ReproductionError::Mode { gait: gait.name.clone(), reason: e.to_string() })?;
         self.kept.push(Kept { gait: request.gait.clone(), figure, human, walk });
         Ok(self.kept.len() - 1)

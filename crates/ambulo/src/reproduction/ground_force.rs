@@ -66,7 +66,7 @@ pub(super) fn bounce(run: &Run) -> Numbers {
         .map(|foot| steady.rows().skip(1).filter(|row| foot.loaded(*row) && !foot.loaded(row - 1)).count())
         .sum();
     let (start, end) = (steady.start_s(), steady.end_s());
-    let within = run.recording.blows.iter().filter(|blow| (start..end).contains(&blow.time_s));
+    let within = run.recording.impacts.iter().filter(|blow| (start..end).contains(&blow.time_s));
     let blow: f64 = within.map(|blow| blow.impulses.iter().map(|impulse| impulse.y).sum::<f64>()).sum();
     let most = steady.rows().map(|row| run.recording.feet.iter().map(|foot| foot.force[row].y).sum::<f64>());
     numbers([

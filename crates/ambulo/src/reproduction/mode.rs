@@ -6,7 +6,7 @@ use crate::findings::Findings;
 use crate::gait::{Gait, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker};
-use crate::simulation::{Impact, StepSettings};
+use crate::simulation::{ImpactLaw, StepSettings};
 
 /// A walk that a claim needs.
 #[derive(Debug, Clone, Copy)]
@@ -80,7 +80,7 @@ pub fn paper_walk_with(settings: &PaperSettings, request: &Request<'_>) -> Resul
     let walk = Walk::new(&settings.gait(request.gait), human.dimensions.leg_length, &mut findings)?;
     let (shoes, impact) = match request.shoes {
         Footwear::Own | Footwear::Rigid => (Shoes::Rigid, settings.impact),
-        Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), Impact::Coulomb),
+        Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), ImpactLaw::Coulomb),
     };
     let ground = Ground { friction: request.friction, shoes, impact };
     let walker = Walker::new(&human, settings.signals(&walk, &human.model), &ground, walk.speed())?;

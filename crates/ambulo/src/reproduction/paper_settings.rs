@@ -7,7 +7,7 @@ use crate::gait::{Gait, Pelvis, Style, Walk};
 use crate::model::anthropometry::Human;
 use crate::model::{Function, Model};
 use crate::simulation::walking::gait_signals;
-use crate::simulation::{Impact, Signal};
+use crate::simulation::{ImpactLaw, Signal};
 
 /// What the paper leaves open. The default is what its mode takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ pub struct PaperSettings {
     /// Step length of one gait against the standard one, in place of its own.
     pub own_length: Option<(&'static str, f64)>,
     /// What becomes of the velocity of what strikes.
-    pub impact: Impact,
+    pub impact: ImpactLaw,
     /// Soft shoes.
     pub soft_shoes: HuntCrossley,
 }
@@ -51,7 +51,7 @@ impl Default for PaperSettings {
             step_length: 1.0,
             step_height: 1.0,
             own_length: None,
-            impact: Impact::Sticking,
+            impact: ImpactLaw::Sticking,
             soft_shoes: HuntCrossley::FALISSE_2022,
         }
     }

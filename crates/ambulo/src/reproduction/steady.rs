@@ -59,7 +59,7 @@ impl<'a> Steady<'a> {
     /// Blows within the steady cycles: when [s].
     pub fn blows(&self) -> impl Iterator<Item = f64> + '_ {
         let (start, end) = (self.start_s(), self.end_s());
-        self.run.recording.blows.iter().map(|blow| blow.time_s).filter(move |t| (start..end).contains(t))
+        self.run.recording.impacts.iter().map(|blow| blow.time_s).filter(move |t| (start..end).contains(t))
     }
 
     /// Values of a series at 0 to 100 % of each cycle, on straight lines between rows; the end of the last cycle is that of
@@ -116,7 +116,7 @@ impl<'a> Steady<'a> {
     /// Whether an instant lies within a margin of a blow.
     #[must_use]
     pub fn near_blow(&self, time_s: f64) -> bool {
-        self.run.recording.blows.iter().any(|blow| (blow.time_s - time_s).abs() < BLOW_MARGIN_S)
+        self.run.recording.impacts.iter().any(|blow| (blow.time_s - time_s).abs() < BLOW_MARGIN_S)
     }
 }
 

@@ -14,8 +14,8 @@
 
 use super::joint::{JointKind, MOST, rotation_vector};
 use super::rates::rates;
-use super::state::{RowKey, State};
-use super::world::{Closure, Joint, JointCoordinate, World};
+use super::state::{RowKey, WorldState};
+use super::world::{Closure, JointCoordinate, TreeJoint, World};
 use crate::dynamics::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
@@ -50,7 +50,7 @@ pub(crate) struct Assembly {
     pub(crate) slots: Vec<Slot>,
     /// All free directions of each joint, driven ones too.
     pub(crate) directions: Vec<[Six; MOST]>,
-    /// Joint of each body.
+    /// TreeJoint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
 }
 
@@ -91,7 +91,7 @@ impl Prescribed {
     }
 
     /// Where a joint's child shall be, seen from its parent.
-    pub(crate) fn goal(&self, joint: &Joint) -> Option<Pose> {
+    pub(crate) fn goal(&self, joint: &TreeJoint) -> Option<Pose> {
         let follows = joint.follows?;
         let poses = &self.figures[follows.figure];
         let parent = follows.parent.map_or(Pose::IDENTITY, |p| poses[p]);
@@ -104,7 +104,7 @@ impl Assembly {
     pub(crate) fn fill(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         prescribed: &Prescribed,
         yielding: &Yielding,
         span: Span,
@@ -158,7 +158,7 @@ impl Assembly {
         self.keys.push(RowKey::Closure(number));
     }
 
-    fn add_body(&mut self, world: &World, state: &State, body: usize, h: f64) {
+    fn add_body(&mut self, world: &World, state: &WorldState, body: usize, h: f64) {
         let (about, pose, twist) = (&world.bodies[body], &state.poses[body], &state.twists[body]);
         let inertia = pose.rotation * about.inertia * pose.rotation.transpose();
         let omega = twist.angular + gyroscopic_change(&inertia, &twist.angular, h);
@@ -185,7 +185,7 @@ impl Assembly {
     fn add_joint(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         prescribed: &Prescribed,
         yielding: &Yielding,
         number: usize,
@@ -214,7 +214,7 @@ impl Assembly {
         for k in 0..q.len() {
             goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
         }
-        // At an instant drives hold the rates that they have: a blow is none of their doing.
+        // At an instant drives hold the rates that they have: a impact is none of their doing.
         let (way, h) = if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.way(q, &goal), h) };
         for k in 0..q.len() {
             if drive_of(k).is_some() {
@@ -236,7 +236,7 @@ impl Assembly {
     fn add_coordinate(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         prescribed: &Prescribed,
         yielding: &Yielding,
         slot: usize,
@@ -301,7 +301,7 @@ fn gyroscopic_change(inertia: &Mat3, omega: &Vec3, h: f64) -> Vec3 {
 }
 
 /// The twist, as a motion of the child's mass centre against its parent, that takes a followed body to its place in one step.
-fn following(state: &State, joint: &Joint, goal: &Pose, h: f64) -> Six {
+fn following(state: &WorldState, joint: &TreeJoint, goal: &Pose, h: f64) -> Six {
     let now = state.poses[joint.child];
     let goal = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * *goal;
     let turn = rotation_vector(&(goal.rotation * now.rotation.transpose())) / h;
@@ -310,7 +310,7 @@ fn following(state: &State, joint: &Joint, goal: &Pose, h: f64) -> Six {
 }
 
 /// The child's motion against its parent as it is.
-fn carried_along(state: &State, joint: &Joint) -> Six {
+fn carried_along(state: &WorldState, joint: &TreeJoint) -> Six {
     let (child, center) = (state.twists[joint.child], state.poses[joint.child].translation);
     let (angular, linear) = joint.parent.map_or((child.angular, child.linear), |p| {
         let parent = state.twists[p];

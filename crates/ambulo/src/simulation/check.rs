@@ -1,6 +1,6 @@
 //! Whether a world's description makes sense.
 
-use super::world::{Joint, Owner, World};
+use super::world::{Owner, TreeJoint, World};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 
 /// Departure of a frame's axes from an orthonormal right-handed set that is more than rounding.
@@ -11,7 +11,7 @@ const SKEW: f64 = 1e-9;
 #[non_exhaustive]
 #[error("{what} `{name}`: {complaint}")]
 pub struct WorldError {
-    /// Body, joint, closure, obstacle or surface.
+    /// RigidBody, joint, closure, obstacle or surface.
     pub what: &'static str,
     /// Its name, or its number.
     pub name: String,
@@ -74,7 +74,7 @@ impl World {
         Ok(())
     }
 
-    fn check_joint(&self, joint: &Joint) -> Result<(), WorldError> {
+    fn check_joint(&self, joint: &TreeJoint) -> Result<(), WorldError> {
         let wrong = |complaint| WorldError { what: "joint", name: joint.name.clone(), complaint };
         self.known(joint.child).map_err(wrong)?;
         joint.parent.map_or(Ok(()), |parent| self.known(parent)).map_err(wrong)?;

@@ -7,7 +7,7 @@
 use super::assemble::{Prescribed, Span, twist};
 use super::impulse::advance;
 use super::projection::{closure_errors, share_of_displacements};
-use super::state::{RowKey, State};
+use super::state::{RowKey, WorldState};
 use super::step::{StepSettings, StepWorkspace};
 use super::world::World;
 use crate::dynamics::{LinkError, Six, solve_graph};
@@ -20,12 +20,12 @@ const FAR: f64 = 1e-4;
 const ROUNDS: usize = 8;
 
 /// Largest error of a closure [m, rad].
-fn largest_error(world: &World, state: &State, number: usize) -> f64 {
+fn largest_error(world: &World, state: &WorldState, number: usize) -> f64 {
     closure_errors(world, state, number).1.iter().fold(0.0, |m: f64, e| m.max(e.abs()))
 }
 
 /// Whether a closure is still on its way together, as when a hand has just been taken: such are left to close at their pace.
-pub(super) fn closing(world: &World, state: &State) -> bool {
+pub(super) fn closing(world: &World, state: &WorldState) -> bool {
     (0..world.closures.len()).any(|number| world.closures[number].active && largest_error(world, state, number) > FAR)
 }
 
@@ -33,7 +33,7 @@ impl StepWorkspace {
     pub(super) fn close(
         &mut self,
         world: &World,
-        state: &mut State,
+        state: &mut WorldState,
         prescribed: &Prescribed,
         settings: &StepSettings,
     ) -> Result<(), LinkError> {
@@ -74,7 +74,7 @@ impl StepWorkspace {
     }
 
     /// Whether a closure of the step is open.
-    fn open(&self, world: &World, state: &State) -> bool {
+    fn open(&self, world: &World, state: &WorldState) -> bool {
         self.assembly.keys.iter().any(|key| match key {
             RowKey::Closure(number) => largest_error(world, state, *number) > CLOSED,
             _ => false,

@@ -1,6 +1,6 @@
 //! Energies of a world.
 
-use super::state::State;
+use super::state::WorldState;
 use super::world::World;
 
 /// Energies at one instant [J].
@@ -24,7 +24,7 @@ impl Energy {
 
 /// Energies of the world.
 #[must_use]
-pub fn energy(world: &World, state: &State) -> Energy {
+pub fn energy(world: &World, state: &WorldState) -> Energy {
     let mut energy = Energy::default();
     for ((body, pose), twist) in world.bodies.iter().zip(&state.poses).zip(&state.twists) {
         let inertia = pose.rotation * body.inertia * pose.rotation.transpose();

@@ -44,7 +44,7 @@ pub struct ContactForce {
 
 /// What happens at one instant at which surfaces meet.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Blow {
+pub struct Impact {
     /// When [s].
     pub time_s: f64,
     /// Where, with impulses [N.s] for forces.

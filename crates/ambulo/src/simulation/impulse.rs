@@ -13,10 +13,10 @@
 use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
 use super::closing::closing;
 use super::joint::{orthonormal, rotation};
-use super::state::{RowKey, State};
+use super::state::{RowKey, WorldState};
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::ObstacleMotion;
-use super::world::{Impact, Joint, World};
+use super::world::{ImpactLaw, TreeJoint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
 use crate::findings::{Code, Findings};
 use crate::spatial::{Pose, Twist};
@@ -32,7 +32,7 @@ const CONTRADICTION: f64 = 1e-6;
 /// Advances the state by `h`.
 pub(super) fn impulse_step(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     h: f64,
     settings: &StepSettings,
     w: &mut StepWorkspace,
@@ -48,7 +48,7 @@ pub(super) fn impulse_step(
 
 fn prescribed_step(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     h: f64,
     settings: &StepSettings,
     prescribed: &Prescribed,
@@ -58,7 +58,7 @@ fn prescribed_step(
     obstacle_motion(world, state.time_s, h, &mut w.obstacles);
     let still_closing = closing(world, state);
     w.touch.detect(world, state, &w.obstacles, h);
-    if world.impact == Impact::Sticking {
+    if world.impact == ImpactLaw::Sticking {
         w.touch.keep_touching(world, state);
         w.strike(world, state, settings, prescribed, findings)?;
         w.step_s = h;
@@ -112,7 +112,7 @@ impl StepWorkspace {
     pub(super) fn solve(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         span: Span,
         settings: &StepSettings,
         prescribed: &Prescribed,
@@ -120,7 +120,7 @@ impl StepWorkspace {
     ) -> Result<(), LinkError> {
         let h = span.h;
         let unreasonable = match span.instant {
-            // A blow has an impulse, not a force.
+            // A impact has an impulse, not a force.
             true => f64::INFINITY,
             false => UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY),
         };
@@ -151,7 +151,7 @@ impl StepWorkspace {
     }
 
     /// Keeps the impulses for the next step to guess from.
-    fn remember(&self, state: &mut State) {
+    fn remember(&self, state: &mut WorldState) {
         let groups = || self.assembly.keys.iter().zip(&self.assembly.graph.groups);
         let impulses = |group: &ConstraintGroup| {
             let mut impulses = [0.0; 6];
@@ -169,7 +169,7 @@ impl StepWorkspace {
     }
 
     /// Impulses of the last step as a guess; a new contact is taken to push and to stick.
-    fn guess(&mut self, state: &State) {
+    fn guess(&mut self, state: &WorldState) {
         let lambda = &mut self.solution.lambda;
         lambda.clear();
         lambda.resize(self.assembly.graph.rows.len(), 0.0);
@@ -185,7 +185,7 @@ impl StepWorkspace {
 
     /// Drives whose effort exceeds their limit, or reason.
     fn overloaded(&mut self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
-        let driven = |j: &Joint| j.coordinates.iter().any(|c| c.drive.is_some());
+        let driven = |j: &TreeJoint| j.coordinates.iter().any(|c| c.drive.is_some());
         if !world.joints.iter().any(driven) {
             return Vec::new();
         }

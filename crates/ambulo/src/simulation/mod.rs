@@ -1,7 +1,7 @@
 //! Worlds stepped through time: figures, obstacles, driven joints, collisions, scenes.
 //!
-//! A [`World`] describes bodies, the [`Joint`]s that make trees of them, [`Closure`]s that close loops, and [`Surface`]s that
-//! may touch. A [`State`] says where everything is; [`step`] advances it, and [`StepWorkspace::forces`] reads the forces off the
+//! A [`World`] describes bodies, the [`TreeJoint`]s that make trees of them, [`Closure`]s that close loops, and [`Surface`]s that
+//! may touch. A [`WorldState`] says where everything is; [`step`] advances it, and [`StepWorkspace::forces`] reads the forces off the
 //! multipliers. Bodies have six coordinates each; there is no limit on their number but memory.
 //!
 //! A pendulum, a point of 1 kg on a rod of 1 m, let go at the level of its hinge, passes below it at √(2 g l):
@@ -9,12 +9,12 @@
 //! ```
 //! use ambulo::findings::Findings;
 //! use ambulo::simulation::{
-//!     Body, Integrator, Joint, JointCoordinate, JointKind, State, StepSettings, StepWorkspace, World, step,
+//!     RigidBody, Integrator, TreeJoint, JointCoordinate, JointKind, WorldState, StepSettings, StepWorkspace, World, step,
 //! };
 //! use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 //!
 //! let mut world = World::default();
-//! world.bodies.push(Body {
+//! world.bodies.push(RigidBody {
 //!     name: "bob".to_owned(),
 //!     mass: 1.0,
 //!     inertia: Mat3::zeros(),
@@ -22,7 +22,7 @@
 //!     twist: Twist::ZERO,
 //!     load: Wrench::ZERO,
 //! });
-//! world.joints.push(Joint {
+//! world.joints.push(TreeJoint {
 //!     name: "hinge".to_owned(),
 //!     child: 0,
 //!     parent: None,                                              // the world
@@ -35,7 +35,7 @@
 //! world.check()?;
 //!
 //! let settings = StepSettings { integrator: Integrator::RungeKutta, ..StepSettings::default() };
-//! let (mut state, mut workspace, mut findings) = (State::new(&world), StepWorkspace::default(), Findings::default());
+//! let (mut state, mut workspace, mut findings) = (WorldState::new(&world), StepWorkspace::default(), Findings::default());
 //! let mut fastest = 0.0_f64;
 //! for _ in 0..2000 {
 //!     step(&world, &mut state, &settings, &mut workspace, &mut findings)?;
@@ -50,12 +50,12 @@
 //! How it works and what it is measured to do: docs/SIMULATION.md and docs/BENCHMARKS.md.
 
 mod assemble;
-mod blow;
 mod check;
 mod closing;
-pub mod consistent;
+pub mod consistent_walk;
 mod energy;
 mod forces;
+mod impact;
 mod impulse;
 mod joint;
 mod projection;
@@ -75,14 +75,14 @@ pub mod walking;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
-pub use forces::{Blow, ContactForce, StepForces};
+pub use forces::{ContactForce, Impact, StepForces};
 pub use joint::JointKind;
 pub use projection::largest_joint_error;
 pub use samples::Samples;
 pub use signal::Signal;
-pub use state::{RowKey, State};
+pub use state::{RowKey, WorldState};
 pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
 pub use world::{
-    Body, Closure, ContactLaw, Drive, Figure, Follows, Impact, Joint, JointCoordinate, Material, Motor, Obstacle,
-    ObstaclePath, Owner, Spring, Surface, World,
+    Closure, ContactLaw, Figure, Follows, ImpactLaw, JointCoordinate, JointDrive, Material, Motor, Obstacle,
+    ObstaclePath, Owner, RigidBody, Spring, Surface, TreeJoint, World,
 };

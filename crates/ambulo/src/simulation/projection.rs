@@ -3,9 +3,9 @@
 use super::assemble::{Prescribed, twist};
 use super::impulse::advance;
 use super::joint::{Coordinates, JointKind, MOST, drift, orthonormal};
-use super::state::{RowKey, State};
+use super::state::{RowKey, WorldState};
 use super::step::StepWorkspace;
-use super::world::{Joint, World};
+use super::world::{TreeJoint, World};
 use crate::dynamics::{Six, project_displacements};
 use crate::spatial::{Pose, Vec3};
 
@@ -15,7 +15,7 @@ pub(super) const CLOSING_SPEED: f64 = 1.0;
 const MOST_LEVERAGE: f64 = 10.0;
 impl StepWorkspace {
     /// Step 4: what has drifted goes back along M⁻¹ Jᵀ.
-    pub(super) fn project(&mut self, world: &World, state: &mut State, prescribed: &Prescribed, h: f64) {
+    pub(super) fn project(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
         let most = CLOSING_SPEED * h;
         for (body, joint) in self.assembly.joint_of.iter().enumerate() {
             self.assembly.graph.terms.offset[body] = match joint {
@@ -52,7 +52,7 @@ impl StepWorkspace {
     }
 
     /// Moves bodies by the displacements that carry rows to their targets.
-    fn displace(&mut self, world: &World, state: &mut State) {
+    fn displace(&mut self, world: &World, state: &mut WorldState) {
         let graph = &self.assembly.graph;
         project_displacements(graph, &self.targets, &mut self.solver, &mut self.displacements, &mut self.shifts);
         let offsets = &self.assembly.graph.terms.offset;
@@ -68,7 +68,7 @@ impl StepWorkspace {
     }
 
     /// Puts every child exactly where its joint's coordinates have it (without projection, only reads the coordinates).
-    pub(super) fn seat(&self, world: &World, state: &mut State, prescribed: &Prescribed, exactly: bool) {
+    pub(super) fn seat(&self, world: &World, state: &mut WorldState, prescribed: &Prescribed, exactly: bool) {
         for &(body, _) in self.solver.outwards() {
             if let Some(number) = self.assembly.joint_of[body] {
                 self.seat_body(world, state, prescribed, (body, number), exactly);
@@ -81,7 +81,7 @@ impl StepWorkspace {
     pub(super) fn seat_body(
         &self,
         world: &World,
-        state: &mut State,
+        state: &mut WorldState,
         prescribed: &Prescribed,
         (body, number): (usize, usize),
         exactly: bool,
@@ -111,8 +111,8 @@ impl StepWorkspace {
     #[inline(always)]
     fn coordinates(
         &self,
-        state: &State,
-        joint: &Joint,
+        state: &WorldState,
+        joint: &TreeJoint,
         number: usize,
         prescribed: &Prescribed,
         exactly: bool,
@@ -152,7 +152,7 @@ pub(super) fn share_of_displacements(targets: &[f64], offsets: &[Six], displacem
     if largest > MOST_LEVERAGE * error { MOST_LEVERAGE * error / largest } else { 1.0 }
 }
 
-/// Joint, coordinate and value of a limit.
+/// TreeJoint, coordinate and value of a limit.
 pub(super) fn limit_of(world: &World, key: RowKey) -> Option<(usize, usize, f64)> {
     let limits = |joint: usize, k: usize| world.joints[joint].coordinates[k].limits;
     match key {
@@ -163,7 +163,7 @@ pub(super) fn limit_of(world: &World, key: RowKey) -> Option<(usize, usize, f64)
 }
 
 /// The displacement of a child's mass centre against its parent that undoes its drift.
-fn joint_correction(state: &State, joint: &Joint, last: &[f64], prescribed: &Prescribed) -> Six {
+fn joint_correction(state: &WorldState, joint: &TreeJoint, last: &[f64], prescribed: &Prescribed) -> Six {
     let frames = state.frames(joint);
     let (turn, shift) = match prescribed.goal(joint) {
         None => drift(joint.kind, &frames, last),
@@ -179,7 +179,7 @@ fn joint_correction(state: &State, joint: &Joint, last: &[f64], prescribed: &Pre
 }
 
 /// Frames of a closure, and its errors along its rows [rad, m].
-pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (super::joint::Frames, Vec<f64>) {
+pub(crate) fn closure_errors(world: &World, state: &WorldState, number: usize) -> (super::joint::Frames, Vec<f64>) {
     let closure = &world.closures[number];
     let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
     let frames = super::joint::Frames {
@@ -194,7 +194,7 @@ pub(crate) fn closure_errors(world: &World, state: &State, number: usize) -> (su
 
 /// Largest distance of any joint or closure from where it holds [m].
 #[must_use]
-pub fn largest_joint_error(world: &World, state: &State) -> f64 {
+pub fn largest_joint_error(world: &World, state: &WorldState) -> f64 {
     let joints =
         world.joints.iter().zip(&state.coordinates).filter(|(j, _)| j.follows.is_none()).map(|(joint, last)| {
             let (_, shift) = drift(joint.kind, &state.frames(joint), last);

@@ -1,12 +1,12 @@
 //! Velocities between a child and its parent.
 
 use super::joint::{Coordinates, Frames, JointKind, MOST};
-use super::state::State;
-use super::world::Joint;
+use super::state::WorldState;
+use super::world::TreeJoint;
 use crate::spatial::{Twist, Vec3};
 
 /// Motion of C against P, world axes: relative angular velocity [rad/s], velocity of C's origin against the parent [m/s].
-pub(crate) fn relative(state: &State, joint: &Joint, frames: &Frames) -> (Vec3, Vec3) {
+pub(crate) fn relative(state: &WorldState, joint: &TreeJoint, frames: &Frames) -> (Vec3, Vec3) {
     let child = &state.twists[joint.child];
     let origin = frames.child.translation;
     let of_child = child.velocity_at(origin - state.poses[joint.child].translation);
@@ -21,7 +21,7 @@ pub(crate) fn relative(state: &State, joint: &Joint, frames: &Frames) -> (Vec3, 
 }
 
 /// Rates of the coordinates, read off the relative motion.
-pub(crate) fn rates(state: &State, joint: &Joint, frames: &Frames) -> Coordinates {
+pub(crate) fn rates(state: &WorldState, joint: &TreeJoint, frames: &Frames) -> Coordinates {
     let (omega, v) = relative(state, joint, frames);
     let p = frames.parent.rotation.transpose();
     let (w, v) = (p * omega, p * v);

@@ -12,10 +12,10 @@ use super::assemble::{Prescribed, twist};
 use super::impulse::advance;
 use super::joint::JointKind;
 use super::projection::{CLOSING_SPEED, goes_straight, limit_of, share_of_displacements};
-use super::state::State;
+use super::state::WorldState;
 use super::step::StepWorkspace;
 use super::touch::Touch;
-use super::world::{Joint, World};
+use super::world::{TreeJoint, World};
 use crate::dynamics::{Six, project_placed};
 
 impl StepWorkspace {
@@ -23,7 +23,7 @@ impl StepWorkspace {
     pub(super) fn only_slides(&self, world: &World) -> bool {
         let driven =
             |number: usize, k: usize| world.joints[number].coordinates[k].drive.is_some() && !self.gave_way(number, k);
-        let fits = |(number, joint): (usize, &Joint)| match (joint.parent, joint.kind) {
+        let fits = |(number, joint): (usize, &TreeJoint)| match (joint.parent, joint.kind) {
             _ if joint.follows.is_some() => true,
             (None, JointKind::Planar) => driven(number, 2),
             (None, JointKind::Prismatic) => true,
@@ -34,7 +34,7 @@ impl StepWorkspace {
     }
 
     /// Places all bodies at the end of the step.
-    pub(super) fn slide(&mut self, world: &World, state: &mut State, prescribed: &Prescribed, h: f64) {
+    pub(super) fn slide(&mut self, world: &World, state: &mut WorldState, prescribed: &Prescribed, h: f64) {
         self.displacements.clear();
         self.displacements.resize(world.bodies.len(), Six::zeros());
         for at in 0..self.solver.outwards().len() {
@@ -68,7 +68,7 @@ impl StepWorkspace {
     }
 
     /// Gap of a touch where the bodies are now [m].
-    fn gap_as_placed(&self, world: &World, state: &State, touch: &Touch, h: f64) -> f64 {
+    fn gap_as_placed(&self, world: &World, state: &WorldState, touch: &Touch, h: f64) -> f64 {
         let moved = |surface: usize| self.touch.moved(world, state, surface);
         match (moved(touch.surfaces.0), moved(touch.surfaces.1)) {
             (Some(first), Some(second)) => touch.at.gap + touch.at.normal.dot(&(first - second)),
@@ -83,7 +83,7 @@ impl StepWorkspace {
     }
 
     /// Step 4: all that a root carries goes with it.
-    fn shift(&mut self, world: &World, state: &mut State, h: f64) {
+    fn shift(&mut self, world: &World, state: &mut WorldState, h: f64) {
         let most = CLOSING_SPEED * h;
         self.targets.iter_mut().for_each(|target| *target = target.clamp(-most, most));
         let graph = &self.assembly.graph;

@@ -20,8 +20,8 @@ use super::assemble::{Assembly, Slot, closing_rows, twist};
 use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
 use super::projection::closure_errors;
 use super::rates::rates;
-use super::state::{RowKey, State};
-use super::world::{Joint, World};
+use super::state::{RowKey, WorldState};
+use super::world::{TreeJoint, World};
 use crate::dynamics::{
     BodyTerms, Constraint, GraphSolution, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements,
     solve_graph,
@@ -69,7 +69,7 @@ pub(crate) struct Stage<'a> {
 /// Advances the state by `h`. The first stage's forces stay in `first`.
 pub(crate) fn runge_kutta(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     h: f64,
     settings: &SolverSettings,
     solver: &mut GraphWorkspace,
@@ -103,7 +103,7 @@ pub(crate) fn runge_kutta(
 /// Accelerations of all bodies at their mass centres, world axes, as nothing touched; forces stay in `first`.
 pub(crate) fn accelerations(
     world: &World,
-    state: &State,
+    state: &WorldState,
     settings: &SolverSettings,
     solver: &mut GraphWorkspace,
     first: &mut Stage<'_>,
@@ -128,7 +128,7 @@ struct Tree {
 }
 
 impl Tree {
-    fn new(world: &World, state: &State) -> Tree {
+    fn new(world: &World, state: &WorldState) -> Tree {
         let joint_of = world.joint_of_body();
         let mut outwards = Vec::with_capacity(world.bodies.len());
         let mut coordinates = 0;
@@ -140,12 +140,12 @@ impl Tree {
         Tree { outwards, coordinates }
     }
 
-    fn start_rates(&self, state: &State) -> Vec<f64> {
+    fn start_rates(&self, state: &WorldState) -> Vec<f64> {
         self.outwards.iter().flat_map(|branch| branch.rates(state)).collect()
     }
 
     /// Poses and twists of these coordinates, and in the motion itself what is prescribed.
-    fn place(&self, world: &World, motion: &mut Motion, state: &mut State) {
+    fn place(&self, world: &World, motion: &mut Motion, state: &mut WorldState) {
         let goals = Goals::at(world, state.time_s);
         for branch in &self.outwards {
             branch.prescribe(world, &goals, motion, state.time_s);
@@ -178,7 +178,7 @@ impl Tree {
         world: &World,
         motion: &Motion,
         time_s: f64,
-        here: &mut State,
+        here: &mut WorldState,
         settings: &SolverSettings,
         solver: &mut GraphWorkspace,
         stage: &mut Stage<'_>,
@@ -208,7 +208,7 @@ impl Tree {
     }
 
     /// The graph of accelerations.
-    fn fill(&self, world: &World, state: &State, motion: &Motion, slope: &mut Motion, assembly: &mut Assembly) {
+    fn fill(&self, world: &World, state: &WorldState, motion: &Motion, slope: &mut Motion, assembly: &mut Assembly) {
         assembly.begin(world);
         let goals = Goals::at(world, state.time_s);
         let mut of_body: Vec<Option<&Branch>> = vec![None; world.bodies.len()];
@@ -236,7 +236,7 @@ impl Tree {
     fn close(
         &self,
         world: &World,
-        state: &mut State,
+        state: &mut WorldState,
         settings: &SolverSettings,
         solver: &mut GraphWorkspace,
         stage: &mut Stage<'_>,
@@ -306,7 +306,7 @@ fn parents_first(world: &World, joint_of: &[Option<usize>]) -> Vec<usize> {
 }
 
 impl Branch {
-    fn new(world: &World, state: &State, body: usize, number: Option<usize>, first: usize) -> Branch {
+    fn new(world: &World, state: &WorldState, body: usize, number: Option<usize>, first: usize) -> Branch {
         let joint = number.map(|n| &world.joints[n]);
         let follows = joint.is_some_and(|j| j.follows.is_some());
         let parent = joint.and_then(|j| j.parent);
@@ -327,13 +327,13 @@ impl Branch {
         }
     }
 
-    fn frames(&self, state: &State) -> Frames {
+    fn frames(&self, state: &WorldState) -> Frames {
         let parent = self.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * self.parent_from_joint;
         Frames { parent, child: state.poses[self.body] * self.joint_from_child.inverse() }
     }
 
-    fn rates(&self, state: &State) -> Vec<f64> {
-        let like = Joint {
+    fn rates(&self, state: &WorldState) -> Vec<f64> {
+        let like = TreeJoint {
             name: String::new(),
             child: self.body,
             parent: self.parent,
@@ -347,7 +347,7 @@ impl Branch {
     }
 
     /// The joint's own description, unless the body is free or follows a recording.
-    fn joint<'w>(&self, world: &'w World) -> Option<&'w Joint> {
+    fn joint<'w>(&self, world: &'w World) -> Option<&'w TreeJoint> {
         self.joint.map(|n| &world.joints[n])
     }
 
@@ -406,7 +406,7 @@ impl Branch {
     }
 
     /// What drives and figures prescribe of the velocity.
-    fn driven_velocity(&self, world: &World, state: &State, motion: &Motion) -> Six {
+    fn driven_velocity(&self, world: &World, state: &WorldState, motion: &Motion) -> Six {
         let mut offset = Six::zeros();
         let Some(joint) = self.joint(world) else { return offset };
         let frames = self.frames(state);
@@ -425,7 +425,7 @@ impl Branch {
     fn fill(
         &self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         motion: &Motion,
         goals: &Goals,
         slope: &mut Motion,
@@ -472,7 +472,7 @@ impl Branch {
     /// w of the velocities alone.
     fn velocity_products(
         &self,
-        state: &State,
+        state: &WorldState,
         frames: &Frames,
         motion: &Motion,
         directions: &[Six; MOST],
@@ -503,7 +503,7 @@ impl Branch {
 }
 
 /// Targets of a closure's rows: what velocities contribute to the second derivative of its errors.
-fn aim(rows: &mut [Constraint], world: &World, state: &State, number: usize, frames: &Frames) {
+fn aim(rows: &mut [Constraint], world: &World, state: &WorldState, number: usize, frames: &Frames) {
     let closure = &world.closures[number];
     let c = &state.twists[closure.first];
     let still = (Twist::ZERO, Vec3::zeros());
@@ -545,7 +545,7 @@ impl Goals {
     }
 
     /// Relative motion of a child against its parent, in the parent's axes, mass centre to mass centre.
-    fn of(&self, joint: &Joint) -> Option<Goal> {
+    fn of(&self, joint: &TreeJoint) -> Option<Goal> {
         let follows = joint.follows?;
         let motions = &self.0[follows.figure];
         let child = &motions[follows.body];

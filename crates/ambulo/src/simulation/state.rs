@@ -1,13 +1,13 @@
 //! Where everything is and how it moves at one instant.
 
 use super::joint::{Coordinates, Frames};
-use super::world::{Joint, World};
+use super::world::{TreeJoint, World};
 use crate::spatial::{Pose, Twist};
 use std::collections::BTreeMap;
 
 /// The state of a world. A copy resumes bit for bit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State {
+pub struct WorldState {
     /// Time [s].
     pub time_s: f64,
     /// `world_from_body` of every body, origin at its mass centre.
@@ -41,32 +41,32 @@ pub enum RowKey {
     SoftFriction(usize, usize, u64),
 }
 
-impl State {
+impl WorldState {
     /// The start of a world: bodies as described, joints' coordinates as measured.
     #[must_use]
-    pub fn new(world: &World) -> State {
-        let mut state = State {
+    pub fn new(world: &World) -> WorldState {
+        let mut state = WorldState {
             time_s: 0.0,
             poses: world.bodies.iter().map(|b| b.pose).collect(),
             twists: world.bodies.iter().map(|b| b.twist).collect(),
             coordinates: Vec::new(),
             guess: BTreeMap::new(),
         };
-        let measured = |joint: &Joint| state.measured(joint, &[])[..joint.kind.freedom()].to_vec();
+        let measured = |joint: &TreeJoint| state.measured(joint, &[])[..joint.kind.freedom()].to_vec();
         state.coordinates = world.joints.iter().map(measured).collect();
         state
     }
 
     /// Frames of a joint.
     #[inline(always)]
-    pub(crate) fn frames(&self, joint: &Joint) -> Frames {
+    pub(crate) fn frames(&self, joint: &TreeJoint) -> Frames {
         let parent = joint.parent.map_or(Pose::IDENTITY, |p| self.poses[p]);
         Frames { parent: parent * joint.parent_from_joint, child: self.poses[joint.child] * joint.child_from_joint }
     }
 
     /// Coordinates of a joint as the poses have them; angles are those nearest to `last`.
     #[inline(always)]
-    pub(crate) fn measured(&self, joint: &Joint, last: &[f64]) -> Coordinates {
+    pub(crate) fn measured(&self, joint: &TreeJoint, last: &[f64]) -> Coordinates {
         let Frames { parent, child } = self.frames(joint);
         joint.kind.coordinates(&(parent.inverse() * child), last)
     }
@@ -80,7 +80,7 @@ impl State {
 
     /// Rates of a joint's coordinates [rad/s, m/s].
     #[must_use]
-    pub fn rates(&self, joint: &Joint) -> Vec<f64> {
+    pub fn rates(&self, joint: &TreeJoint) -> Vec<f64> {
         let frames = self.frames(joint);
         super::rates::rates(self, joint, &frames)[..joint.kind.freedom()].to_vec()
     }

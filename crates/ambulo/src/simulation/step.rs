@@ -5,12 +5,12 @@
 //! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
 
 use super::assemble::{Assembly, Prescribed};
-use super::blow::impact;
-use super::forces::{Blow, StepForces};
+use super::forces::{Impact, StepForces};
+use super::impact::impact;
 use super::impulse::{impulse_step, obstacle_motion};
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
-use super::state::{RowKey, State};
+use super::state::{RowKey, WorldState};
 use super::touch::{ObstacleMotion, Touch, TouchWorkspace};
 use super::world::{ContactLaw, World};
 use crate::dynamics::{
@@ -89,9 +89,9 @@ pub struct StepWorkspace {
     pub(crate) wrenches: Vec<Six>,
     pub(crate) step_s: f64,
     /// Collisions within the last step.
-    pub(crate) blows: Vec<Blow>,
+    pub(crate) impacts: Vec<Impact>,
     /// Twists of all bodies after the last of them; without meaning if there was none.
-    pub(crate) after_blows: Vec<Twist>,
+    pub(crate) after_impacts: Vec<Twist>,
 }
 
 impl StepWorkspace {
@@ -116,11 +116,11 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Blows of the last step that are apart from its forces: a smooth step's collisions, or those of
-    /// [`Impact::Sticking`](super::Impact::Sticking).
+    /// Impacts of the last step that are apart from its forces: a smooth step's collisions, or those of
+    /// [`ImpactLaw::Sticking`](super::ImpactLaw::Sticking).
     #[must_use]
-    pub fn blows(&self) -> &[Blow] {
-        &self.blows
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
     }
 }
 
@@ -133,12 +133,12 @@ impl StepWorkspace {
 /// Joints that are no forest.
 pub fn step(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     settings: &StepSettings,
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    w.blows.clear();
+    w.impacts.clear();
     match settings.integrator {
         Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
@@ -152,7 +152,7 @@ pub fn step(
 /// Joints that are no forest.
 pub fn accelerations(
     world: &World,
-    state: &State,
+    state: &WorldState,
     solver: &SolverSettings,
     w: &mut StepWorkspace,
 ) -> Result<Vec<Twist>, LinkError> {
@@ -165,7 +165,7 @@ pub fn accelerations(
 /// Smooth stretches and the collisions between them.
 fn smooth_step(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     settings: &StepSettings,
     w: &mut StepWorkspace,
     findings: &mut Findings,
@@ -204,7 +204,7 @@ fn smooth_step(
 }
 
 /// Whether nothing touches that does not part, and nothing rubs.
-fn smooth_here(world: &World, state: &State, w: &mut StepWorkspace, h: f64) -> bool {
+fn smooth_here(world: &World, state: &WorldState, w: &mut StepWorkspace, h: f64) -> bool {
     let rubs = world.joints.iter().any(|j| j.coordinates.iter().any(|c| c.friction > 0.0));
     // The derivatives of a driven rotation vector are no angular velocity and acceleration.
     let turned = world.joints.iter().any(|j| {
@@ -224,7 +224,7 @@ impl StepWorkspace {
     fn runge_kutta(
         &mut self,
         world: &World,
-        state: &mut State,
+        state: &mut WorldState,
         h: f64,
         settings: &StepSettings,
     ) -> Result<(), LinkError> {
@@ -249,7 +249,7 @@ impl StepWorkspace {
         Ok(())
     }
 
-    fn overloaded_or_limited(&self, world: &World, end: &State) -> bool {
+    fn overloaded_or_limited(&self, world: &World, end: &WorldState) -> bool {
         let limited = world.joints.iter().zip(&end.coordinates).any(|(joint, q)| {
             joint.coordinates.iter().zip(q).any(|(acting, q)| {
                 acting.limits.0.is_some_and(|low| *q <= low) || acting.limits.1.is_some_and(|high| *q >= high)
@@ -266,7 +266,7 @@ impl StepWorkspace {
     }
 
     /// Least distance of surfaces that may touch [m]; infinite if none come near.
-    fn least_gap(&mut self, world: &World, state: &State) -> f64 {
+    fn least_gap(&mut self, world: &World, state: &WorldState) -> f64 {
         let mut obstacles = ObstacleMotion::new();
         obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);
         let mut probe = std::mem::take(&mut self.touch);

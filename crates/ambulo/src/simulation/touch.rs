@@ -15,8 +15,8 @@
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.3 (contact as a joint that is destroyed when it would pull;
 //! restitution zero by default).
 
-use super::state::{RowKey, State};
-use super::world::{ContactLaw, Impact, Material, Owner, Surface, World};
+use super::state::{RowKey, WorldState};
+use super::world::{ContactLaw, ImpactLaw, Material, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
 use crate::dynamics::{Acting, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
 use crate::spatial::{Pose, Twist, Vec3};
@@ -51,7 +51,7 @@ pub(crate) struct Touch {
     pub(crate) surface_speed: f64,
     /// Whether overlap is to be projected out.
     pub(crate) rigid: bool,
-    /// Where points strike ([`Impact::Sticking`]): whether this one was in touch before, or gives; and whether it is the one
+    /// Where points strike ([`ImpactLaw::Sticking`]): whether this one was in touch before, or gives; and whether it is the one
     /// that is to lose all its velocity.
     pub(crate) known: bool,
     pub(crate) sticks: bool,
@@ -76,7 +76,7 @@ pub(crate) type ObstacleMotion = Vec<(Pose, Twist)>;
 
 impl TouchWorkspace {
     /// Finds all points where surfaces are, or within the step could come, in touch.
-    pub(crate) fn detect(&mut self, world: &World, state: &State, obstacles: &ObstacleMotion, step_s: f64) {
+    pub(crate) fn detect(&mut self, world: &World, state: &WorldState, obstacles: &ObstacleMotion, step_s: f64) {
         self.touches.clear();
         if world.surfaces.is_empty() {
             return;
@@ -118,7 +118,7 @@ impl TouchWorkspace {
 
     /// How far the origin of a surface has gone since detection [m], where that tells how far its points have: of balls, and of
     /// what does not move.
-    pub(crate) fn moved(&self, world: &World, state: &State, surface: usize) -> Option<Vec3> {
+    pub(crate) fn moved(&self, world: &World, state: &WorldState, surface: usize) -> Option<Vec3> {
         let about = &world.surfaces[surface];
         match about.owner {
             Owner::Body(body) if about.shape.is_sphere() => {
@@ -141,7 +141,13 @@ impl TouchWorkspace {
     }
 
     /// Whether surfaces nearer than `touching` [m] do not part.
-    pub(crate) fn approaches(&self, world: &World, state: &State, obstacles: &ObstacleMotion, touching: f64) -> bool {
+    pub(crate) fn approaches(
+        &self,
+        world: &World,
+        state: &WorldState,
+        obstacles: &ObstacleMotion,
+        touching: f64,
+    ) -> bool {
         self.touches
             .iter()
             .filter(|touch| touch.at.gap <= touching)
@@ -149,7 +155,7 @@ impl TouchWorkspace {
     }
 
     /// For points that strike: drops what does not touch yet, and tells what did so before.
-    pub(crate) fn keep_touching(&mut self, world: &World, state: &State) {
+    pub(crate) fn keep_touching(&mut self, world: &World, state: &WorldState) {
         self.touches.retain_mut(|touch| {
             let (a, b) = touch.surfaces;
             let law = |surface: usize| world.materials[world.surfaces[surface].material].law;
@@ -163,7 +169,7 @@ impl TouchWorkspace {
     }
 
     /// The point that was the first to strike, by its overlap and speed.
-    pub(crate) fn next_striker(&self, world: &World, state: &State, obstacles: &ObstacleMotion) -> Option<usize> {
+    pub(crate) fn next_striker(&self, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> Option<usize> {
         let mut first: Option<(usize, f64)> = None;
         for (number, touch) in self.touches.iter().enumerate().filter(|(_, touch)| !touch.known) {
             let speed = -parting_speed(touch, world, state, obstacles);
@@ -181,7 +187,7 @@ impl TouchWorkspace {
     pub(crate) fn add_rows(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         obstacles: &ObstacleMotion,
         step_s: f64,
         graph: &mut ConstraintGraph,
@@ -196,7 +202,7 @@ impl TouchWorkspace {
 
 struct Rows<'a> {
     world: &'a World,
-    state: &'a State,
+    state: &'a WorldState,
     obstacles: &'a ObstacleMotion,
     step_s: f64,
     graph: &'a mut ConstraintGraph,
@@ -228,7 +234,7 @@ impl Rows<'_> {
             ContactLaw::Rigid => {
                 // Faster than what gravity gives within a few steps is an impact.
                 let resting = 4.0 * h * self.world.gravity.norm();
-                let rebounds = material.restitution > 0.0 && self.world.impact == Impact::Coulomb;
+                let rebounds = material.restitution > 0.0 && self.world.impact == ImpactLaw::Coulomb;
                 let bounces = rebounds && u[0] < -resting;
                 if bounces && gap > 0.0 {
                     return false;
@@ -356,7 +362,7 @@ impl Rows<'_> {
 }
 
 /// Speed at which the surfaces of a touch part [m/s].
-fn parting_speed(touch: &Touch, world: &World, state: &State, obstacles: &ObstacleMotion) -> f64 {
+fn parting_speed(touch: &Touch, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> f64 {
     let velocity = |surface: usize| match world.surfaces[surface].owner {
         Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
         Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
@@ -371,7 +377,7 @@ fn open(gap: f64) -> f64 {
 }
 
 /// Pose of a surface's owner and a bound on the speed of the surface's points [m/s].
-fn owner_motion(state: &State, obstacles: &ObstacleMotion, surface: &Surface) -> (Pose, f64) {
+fn owner_motion(state: &WorldState, obstacles: &ObstacleMotion, surface: &Surface) -> (Pose, f64) {
     let (pose, twist) = match surface.owner {
         Owner::Body(body) => (state.poses[body], state.twists[body]),
         Owner::Obstacle(obstacle) => obstacles[obstacle],

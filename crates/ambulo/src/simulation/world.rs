@@ -13,9 +13,9 @@ pub struct World {
     /// Acceleration of a body that nothing holds [m/s²].
     pub gravity: Vec3,
     /// All bodies.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<RigidBody>,
     /// Joints of the trees: each body is the child of one at most; one without is free.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<TreeJoint>,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
     /// Bodies that forces do not move.
@@ -25,7 +25,7 @@ pub struct World {
     /// What surfaces are made of.
     pub materials: Vec<Material>,
     /// What becomes of the velocity of a point that strikes another one.
-    pub impact: Impact,
+    pub impact: ImpactLaw,
     /// Pairs of owners that pass through each other, beside bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
     /// Recordings that joints follow.
@@ -43,7 +43,7 @@ impl Default for World {
             obstacles: Vec::new(),
             surfaces: Vec::new(),
             materials: Vec::new(),
-            impact: Impact::Coulomb,
+            impact: ImpactLaw::Coulomb,
             ignored: Vec::new(),
             figures: Vec::new(),
         }
@@ -52,7 +52,7 @@ impl Default for World {
 
 /// A rigid body; its frame has the origin at the mass centre.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub struct RigidBody {
     /// Name, for findings and tables.
     pub name: String,
     /// Mass [kg].
@@ -69,7 +69,7 @@ pub struct Body {
 
 /// A joint between a child and its parent.
 #[derive(Debug, Clone)]
-pub struct Joint {
+pub struct TreeJoint {
     /// Name, for findings and tables.
     pub name: String,
     /// The body that hangs on it.
@@ -103,7 +103,7 @@ pub struct Follows {
 #[derive(Debug, Clone, Default)]
 pub struct JointCoordinate {
     /// Prescribes it.
-    pub drive: Option<Drive>,
+    pub drive: Option<JointDrive>,
     /// Pulls it towards a place.
     pub spring: Option<Spring>,
     /// Pulls it towards a moving place, with bounded force.
@@ -132,7 +132,7 @@ impl JointCoordinate {
 
 /// Prescribed motion of a coordinate.
 #[derive(Debug, Clone)]
-pub struct Drive {
+pub struct JointDrive {
     /// What it follows.
     pub signal: Signal,
     /// Largest force [N.m or N]: beyond it the drive gives way, and a finding says so.
@@ -243,14 +243,14 @@ pub struct Surface {
 
 /// What becomes of the velocity of a point that strikes another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Impact {
-    /// Along the normal, restitution says; across it, Coulomb's law holds for impulses as for forces. Blows are part of the
+pub enum ImpactLaw {
+    /// Along the normal, restitution says; across it, Coulomb's law holds for impulses as for forces. Impacts are part of the
     /// step in which surfaces meet.
     #[default]
     Coulomb,
     /// All of it is cancelled, along the surfaces too, whatever the friction (the paper's rule, section 3.3). Surfaces touch
     /// once their gap has closed; a point that was not in touch before then strikes at an instant of its own, those that
-    /// rest obeying Coulomb's law, and the step goes on from there. The blows are in `StepWorkspace::blows`, apart from
+    /// rest obeying Coulomb's law, and the step goes on from there. The impacts are in `StepWorkspace::impacts`, apart from
     /// the forces. Restitution plays no part; materials that give do not strike. Only steps of impulses know it.
     Sticking,
 }

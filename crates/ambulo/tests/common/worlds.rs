@@ -5,8 +5,8 @@ use ambulo::contact::Shape;
 use ambulo::dynamics::Convergence;
 use ambulo::findings::Findings;
 use ambulo::simulation::{
-    Body, Closure, Drive, Joint, JointCoordinate, JointKind, Material, Obstacle, ObstaclePath, Owner, Signal, State,
-    StepForces, StepSettings, StepWorkspace, Surface, World, step,
+    Closure, JointCoordinate, JointDrive, JointKind, Material, Obstacle, ObstaclePath, Owner, RigidBody, Signal,
+    StepForces, StepSettings, StepWorkspace, Surface, TreeJoint, World, WorldState, step,
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
@@ -47,7 +47,7 @@ pub(crate) fn of_rigid(friction: f64, restitution: f64) -> World {
 pub(crate) fn add_body(world: &mut World, mass: f64, inertia: [f64; 3], pose: Pose) -> usize {
     let name = format!("body {}", world.bodies.len());
     let inertia = Mat3::from_diagonal(&Vec3::from(inertia));
-    world.bodies.push(Body { name, mass, inertia, pose, twist: Twist::ZERO, load: Wrench::ZERO });
+    world.bodies.push(RigidBody { name, mass, inertia, pose, twist: Twist::ZERO, load: Wrench::ZERO });
     world.bodies.len() - 1
 }
 
@@ -58,7 +58,7 @@ pub(crate) fn add_joint(
     parent: Option<usize>,
     [parent_from_joint, child_from_joint]: [Pose; 2],
 ) -> usize {
-    world.joints.push(Joint {
+    world.joints.push(TreeJoint {
         name: format!("joint {}", world.joints.len()),
         child,
         parent,
@@ -96,7 +96,7 @@ pub(crate) fn add_closure(
 }
 
 pub(crate) fn drive(world: &mut World, joint: usize, coordinate: usize, signal: Signal) {
-    world.joints[joint].coordinates[coordinate].drive = Some(Drive { signal, max: None });
+    world.joints[joint].coordinates[coordinate].drive = Some(JointDrive { signal, max: None });
 }
 
 pub(crate) fn sine(amplitude: f64, frequency_hz: f64, phase: f64, offset: f64) -> Signal {
@@ -145,7 +145,7 @@ pub(crate) fn add_solid(world: &mut World, mass: f64, shape: Shape, pose: Pose) 
 #[derive(Clone)]
 pub(crate) struct Run {
     pub(crate) world: World,
-    pub(crate) state: State,
+    pub(crate) state: WorldState,
     pub(crate) settings: StepSettings,
     pub(crate) workspace: StepWorkspace,
     pub(crate) findings: Findings,
@@ -154,7 +154,7 @@ pub(crate) struct Run {
 impl Run {
     pub(crate) fn new(world: World, step_s: f64) -> Run {
         Run {
-            state: State::new(&world),
+            state: WorldState::new(&world),
             world,
             settings: StepSettings { step_s, ..StepSettings::default() },
             workspace: StepWorkspace::default(),

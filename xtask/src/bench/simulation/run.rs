@@ -3,7 +3,9 @@
 use super::super::timing::Timing;
 use ambulo::dynamics::Convergence;
 use ambulo::findings::Findings;
-use ambulo::simulation::{State, StepForces, StepSettings, StepWorkspace, World, energy, largest_joint_error, step};
+use ambulo::simulation::{
+    StepForces, StepSettings, StepWorkspace, World, WorldState, energy, largest_joint_error, step,
+};
 use cpu_time::ThreadTime;
 
 /// Step [s].
@@ -21,7 +23,7 @@ const WATCH: usize = 10;
 pub(super) struct Simulation<'a> {
     pub(super) world: &'a World,
     settings: StepSettings,
-    pub(super) state: State,
+    pub(super) state: WorldState,
     workspace: StepWorkspace,
     findings: Findings,
 }
@@ -45,7 +47,7 @@ pub(super) struct Run {
 impl<'a> Simulation<'a> {
     pub(super) fn new(world: &'a World, settings: StepSettings) -> Simulation<'a> {
         let (workspace, findings) = (StepWorkspace::default(), Findings::default());
-        Simulation { world, settings, state: State::new(world), workspace, findings }
+        Simulation { world, settings, state: WorldState::new(world), workspace, findings }
     }
 
     /// Goes on in another world of the same bodies.

@@ -14,7 +14,7 @@
 
 use super::super::timing::Timing;
 use super::run::{DURATION_S, STEP_S, Simulation};
-use ambulo::simulation::{ContactForce, Owner, State, StepSettings, World};
+use ambulo::simulation::{ContactForce, Owner, StepSettings, World, WorldState};
 use ambulo::spatial::{Vec3, Wrench};
 use std::collections::BTreeMap;
 
@@ -163,7 +163,7 @@ fn push(world: &World) -> Result<Pushed, String> {
 }
 
 impl Left {
-    fn look(&mut self, world: &World, before: &State, after: &State, contacts: &[ContactForce]) {
+    fn look(&mut self, world: &World, before: &WorldState, after: &WorldState, contacts: &[ContactForce]) {
         let (weight, fall) = (weight(world), world.gravity.norm() * STEP_S);
         // What is not a number must not be passed over, as `max` would.
         let raise = |worst: &mut f64, now: f64| *worst = if now.is_nan() { f64::INFINITY } else { worst.max(now) };
@@ -179,7 +179,7 @@ impl Left {
             raise(&mut self.cone, (rubbing.norm() - limit).max(0.0));
             raise(&mut self.slip, (rubbing - onto_disc(rubbing - along(contact, velocity) / fall, limit)).norm());
         }
-        let momentum = |state: &State| -> Vec3 {
+        let momentum = |state: &WorldState| -> Vec3 {
             world.bodies.iter().zip(&state.twists).map(|(body, twist)| twist.linear * body.mass).sum()
         };
         let loads: Vec3 = world.bodies.iter().map(|body| body.load.force + world.gravity * body.mass).sum();
@@ -217,7 +217,7 @@ fn upward(world: &World, contact: &ContactForce) -> f64 {
 }
 
 /// Velocity after the step of the point that touched at its start.
-fn velocity(world: &World, before: &State, after: &State, contact: &ContactForce) -> Vec3 {
+fn velocity(world: &World, before: &WorldState, after: &WorldState, contact: &ContactForce) -> Vec3 {
     let body = body(world, contact);
     after.twists[body].velocity_at(contact.point - before.poses[body].translation)
 }
@@ -239,7 +239,7 @@ fn sticks(world: &World, contact: &ContactForce) -> bool {
 }
 
 /// How far the lowest sphere is below the floor [m]; 0 above it.
-fn penetration(world: &World, state: &State) -> f64 {
+fn penetration(world: &World, state: &WorldState) -> f64 {
     let depth = |surface: &ambulo::simulation::Surface| match (surface.owner, surface.shape.radius()) {
         (Owner::Body(body), Some(radius)) => radius - state.poses[body].place(surface.owner_from_shape.translation).z,
         _ => 0.0,

@@ -32,7 +32,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
 }
 
 /// What is said where nothing was measured.
-pub(super) const NO_FORCES: &str = "no ground forces were given; they are predicted from the motion. hint: --grf gives measured ones, --no-ground computes a motion without contact";
+pub(super) const NO_FORCES: &str = "no ground forces were given; they are predicted from the motion";
 
 fn refuse_what_is_for_markers(args: &ForcesArgs) -> Result<()> {
     let given = [

@@ -88,9 +88,8 @@ fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> 
             table.names().join(", ")
         );
     };
-    let message = format!(
-        "taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot} (override with --right, --left or --loads)"
-    );
+    let message =
+        format!("taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot}");
     findings.report(Code::LoadsGuessed, message);
     let forces = vec![
         ExternalForce::with_prefix("right", right_foot, right_prefix),

@@ -4,7 +4,6 @@ use super::{Reading, coordinates};
 use crate::args::ForcesArgs;
 use ambulo::analysis::BodyInMotion;
 use ambulo::findings::{Code, Findings};
-use ambulo::ground::plates::PlateContact;
 use ambulo::motion::ForceRecording;
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_results::Input;
@@ -49,31 +48,24 @@ fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings:
     plates.iter_mut().for_each(|plate| plate.turn(world_from_lab));
 }
 
-/// Why there are no forces under the feet, and what can be done.
+/// Why there are no forces under the feet.
 fn without_forces(body: &BodyInMotion) -> String {
     let contacts = &body.on_plates.contacts;
-    let (found, hint) = if body.plates.is_empty() {
-        (
-            "the file has no force plates".to_owned(),
-            "--grf gives measured ones, --no-ground computes a motion without contact",
-        )
+    let found = if body.plates.is_empty() {
+        "the file has no force plates".to_owned()
     } else if contacts.is_empty() {
-        let found = format!("nobody stands on the file's {}", counted(body.plates.len(), "force plate"));
-        (found, "--no-ground computes a motion without contact")
+        format!("no load was measured on the file's {}", counted(body.plates.len(), "force plate"))
     } else if body.subject.model.anatomy().feet().is_none() {
-        let found = "the model has no two legs with hip, knee, ankle and foot";
-        (found.to_owned(), "give the forces with --grf and say which bodies they act on with --right and --left")
+        "the model has no two legs with hip, knee, ankle and foot".to_owned()
     } else {
-        let one = |c: &PlateContact| {
-            format!("{}, {:.3}-{:.3} s: {}", body.plates[c.plate].name, c.start_s, c.end_s, c.reason)
-        };
-        let found = format!("no plate's load belongs to one foot ({})", one(&contacts[0]));
-        (
-            found,
-            "--plate 1=r says whose foot a plate carries; a person who stands is for --static, beside a trial that walks",
+        let first = &contacts[0];
+        let plate = &body.plates[first.plate].name;
+        format!(
+            "no plate's load belongs to one foot ({plate}, {:.3}-{:.3} s: {})",
+            first.start_s, first.end_s, first.reason
         )
     };
-    format!("{found}: the ground forces are predicted from the motion. hint: {hint}")
+    format!("{found}: the ground forces are predicted from the motion")
 }
 
 fn counted(count: usize, one: &str) -> String {

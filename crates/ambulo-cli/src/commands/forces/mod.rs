@@ -185,9 +185,8 @@ impl Origin {
     fn known(&self, findings: &mut Findings) -> Window {
         let Origin::Markers(followed) = self else { return Window::default() };
         let Some([from, to]) = followed.body.longest_known_s() else { return Window::default() };
-        let message = format!(
-            "markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed. hint: --max-gap bridges longer gaps, --from and --to choose another time"
-        );
+        let message =
+            format!("markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed");
         findings.report(Code::MarkersWindow, message);
         Window { from_s: Some(from), to_s: Some(to) }
     }

@@ -64,7 +64,7 @@ pub(super) fn compute(
     }
     if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !*mass_is_stated {
         let message = format!(
-            "nobody states or weighs the body mass; the model has {:.1} kg, and without plates every force scales with it. hint: with markers, --mass KG or a standing trial on plates with --static; recorded coordinates have the mass of their model",
+            "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is proportional to it",
             model.mass()
         );
         findings.report(Code::MassUnverified, message);

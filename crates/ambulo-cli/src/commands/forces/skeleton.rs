@@ -28,7 +28,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded>
     let body = retarget(&build, &skeleton, &mut reading.findings).with_context(|| shown.clone())?;
     reading.clock.lap("markers");
     if !args.no_ground {
-        let message = "a BVH has no ground forces; they are predicted from the motion. hint: --no-ground computes a motion without contact";
+        let message = "a BVH has no ground forces; they are predicted from the motion";
         reading.findings.report(Code::GroundPredicted, message);
     }
     Ok(Recorded {

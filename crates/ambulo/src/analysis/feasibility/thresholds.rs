@@ -1,6 +1,6 @@
 //! What is allowed, by default or from a file.
 
-use super::strength::{Hill, StrengthCurve};
+use super::strength::StrengthCurve;
 use super::verdict::Check;
 use crate::toml_reader::{Source, Table, TomlError, Value};
 

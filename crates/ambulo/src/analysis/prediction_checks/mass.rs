@@ -87,7 +87,7 @@ pub(super) fn check(evidence: &CheckedPrediction<'_>, judgement: &mut Judgement<
     let found = Found { value: kg / model, time_s: [grid.start_s, grid.end_s()] };
     if !judgement.take(looked(share), found) {
         let message = format!(
-            "the plates {source} carry {kg:.1} kg, the model has {model:.1} kg: every predicted force is {:.0} % {}. hint: --mass KG, or a model scaled to this person",
+            "the plates {source} carry {kg:.1} kg, the model has {model:.1} kg: every predicted force is {:.0} % {}. hint: give the right mass, or scale the model to this person",
             100.0 * (model / kg - 1.0).abs(),
             if model > kg { "too large" } else { "too small" }
         );

@@ -127,14 +127,15 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
             ),
             (ContactQuality::TwoFeet, _) => findings.report(
                 Code::PlatesTwoFeet,
-                format!("{name}, {times}: two feet on one plate: {reason}; this load was given to neither foot. hint: name the foot of the plate (`--plate`) to give it all to one"),
+                format!(
+                    "{name}, {times}: two feet were on one plate: {reason}; this load was assigned to neither foot"
+                ),
             ),
-            (ContactQuality::Unassigned, _) => findings.report(
-                Code::PlatesUnassigned,
-                format!("{name}, {times}: its load was given to no foot: {reason}. hint: name the foot of the plate (`--plate`)"),
-            ),
+            (ContactQuality::Unassigned, _) => findings
+                .report(Code::PlatesUnassigned, format!("{name}, {times}: its load was assigned to no foot: {reason}")),
             (ContactQuality::Shared, Some(side)) => {
-                findings.report(Code::PlatesShared, format!("{name}, {times}, {side}: {reason}; both forces were added"));
+                findings
+                    .report(Code::PlatesShared, format!("{name}, {times}, {side}: {reason}; both forces were added"));
             }
             _ => {}
         }

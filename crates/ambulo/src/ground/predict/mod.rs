@@ -128,7 +128,7 @@ pub struct PredictSettings {
 pub enum PredictError {
     /// A model without feet.
     #[error(
-        "the model `{model}` has no two legs with hip, knee, ankle and foot; expected feet for the ground to act on. hint: --no-ground computes a motion without contact, --grf gives measured forces"
+        "the model `{model}` has no two legs with hip, knee, ankle and foot; expected feet for the ground to act on"
     )]
     NoFeet {
         /// Its name.
@@ -136,7 +136,7 @@ pub enum PredictError {
     },
     /// A foot without a sole.
     #[error(
-        "the {side} sole of the model `{model}` is not known; expected the soles of both feet. hint: --no-ground computes a motion without contact, --grf gives measured forces",
+        "the {side} sole of the model `{model}` is not known; expected the soles of both feet"
     )]
     NoSole {
         /// Its name.
@@ -155,9 +155,7 @@ pub enum PredictError {
         mass: f64,
     },
     /// A model that nothing presses to the ground.
-    #[error(
-        "the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1. hint: --no-ground computes a motion without contact"
-    )]
+    #[error("the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1")]
     NoGravity {
         /// Its name.
         model: String,
@@ -172,7 +170,7 @@ pub enum PredictError {
     },
     /// More than memory should hold.
     #[error(
-        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: cut the recording with --from and --to; feet that strike many times a second are a sign of noise"
+        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a shorter range; feet that strike many times per second are a sign of noise"
     )]
     TooLarge {
         /// What they would take.

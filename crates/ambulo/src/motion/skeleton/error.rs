@@ -25,7 +25,7 @@ pub enum SkeletonError {
     },
     /// No usual unit fits.
     #[error(
-        "thigh and shank are {length:.4} long together, which is no person's in any of {units}; expected the stature. hint: give it with --height"
+        "thigh and shank together are {length:.4} long, which is not a plausible human leg length in any of {units}; expected the stature of the person"
     )]
     Unit {
         /// Mean of both sides, in the file's unit.

@@ -1,16 +1,16 @@
 //! Rigid bodies: mass, place, first velocity, shapes.
 
 use super::SceneError;
-use super::material::Material;
+use super::material::MaterialEntry;
 use super::names::{Item, Names};
-use super::shape::Shape;
+use super::shape::ShapeEntry;
 use super::uniform::uniform;
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use crate::toml_reader::{Table, Value};
 
 /// A rigid body. Its frame has the origin at the mass centre.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Body {
+pub struct BodyEntry {
     /// Name, its own among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
@@ -25,7 +25,7 @@ pub struct Body {
     /// Angular velocity at the start, world axes [rad/s]. `None`: as for `velocity`.
     pub angular_velocity: Option<Vec3>,
     /// What it looks like where it touches; bodies without shapes touch nothing.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<ShapeEntry>,
 }
 
 const KEYS: &[&str] = &[
@@ -47,20 +47,20 @@ const SYMMETRY_SLACK: f64 = 1e-9;
 /// The smallest principal moment is at least this share of the largest; below, the body spins without limit.
 const THINNEST: f64 = 1e-9;
 
-impl Body {
+impl BodyEntry {
     pub(super) fn read_all(
         root: &Table<'_>,
         names: &mut Names,
-        materials: &[Material],
-    ) -> Result<Vec<Body>, SceneError> {
-        let read = |(i, table)| Body::read(table, names.declare_first(table, KEYS, Item::Body(i))?, materials);
+        materials: &[MaterialEntry],
+    ) -> Result<Vec<BodyEntry>, SceneError> {
+        let read = |(i, table)| BodyEntry::read(table, names.declare_first(table, KEYS, Item::Body(i))?, materials);
         root.tables("body")?.iter().enumerate().map(read).collect()
     }
 
-    fn read(table: &Table<'_>, name: String, materials: &[Material]) -> Result<Body, SceneError> {
+    fn read(table: &Table<'_>, name: String, materials: &[MaterialEntry]) -> Result<BodyEntry, SceneError> {
         let mass = mass(table)?;
-        let shapes = Shape::read_all(table, materials)?;
-        Ok(Body {
+        let shapes = ShapeEntry::read_all(table, materials)?;
+        Ok(BodyEntry {
             name,
             line: table.line,
             inertia: inertia(table, mass, &shapes)?,
@@ -82,7 +82,7 @@ fn angular_velocity(table: &Table<'_>) -> Result<Option<Vec3>, SceneError> {
     table.either_unit("angular_velocity")?.map(read).transpose()
 }
 
-fn inertia(table: &Table<'_>, mass: f64, shapes: &[Shape]) -> Result<Inertia, SceneError> {
+fn inertia(table: &Table<'_>, mass: f64, shapes: &[ShapeEntry]) -> Result<Inertia, SceneError> {
     let about_center = match table.get("inertia") {
         Some(value) => checked(&value)?,
         None => of_shapes(table, shapes)? * mass,
@@ -125,7 +125,7 @@ fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
 }
 
 /// Of the uniform solid that the shapes are, for 1 kg [m²].
-fn of_shapes(table: &Table<'_>, shapes: &[Shape]) -> Result<Mat3, SceneError> {
+fn of_shapes(table: &Table<'_>, shapes: &[ShapeEntry]) -> Result<Mat3, SceneError> {
     let meaning = "the moments about the mass centre [xx, yy, zz] [kg.m²]";
     if shapes.is_empty() {
         return Err(table

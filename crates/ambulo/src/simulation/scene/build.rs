@@ -1,29 +1,29 @@
 //! From a scene file to a world that runs.
 
 use super::closing::Closing;
-use super::closure::Closure as AskedClosure;
-use super::event::Event;
-use super::figure::Figure;
+use super::closure::ClosureEntry;
+use super::event::EventEntry;
+use super::figure::FigureEntry;
 use super::file::SceneFile;
-use super::names::{Carrier, Partner};
+use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
 use super::placement::{order, place};
 use super::solver::{Integrator as AskedIntegrator, Method as AskedMethod};
-use super::sources::{Load, Sources};
+use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
 use super::synthetic;
-use super::walk_keeper::WalkKeeper;
-use super::walker::{self, Walker};
-use super::{Coordinate, coordinate::CoordinateKind};
+use super::walk_keeper::FigureRecorder;
+use super::walker::{self, PlacedFigure};
+use super::{CoordinateEntry, coordinate::CoordinateKind};
 use super::{Place, SceneError};
 use crate::dynamics::{Method, SolverSettings};
 use crate::findings::{Code, Findings};
-use crate::simulation::state::State;
+use crate::simulation::state::WorldState;
 use crate::simulation::step::{Integrator, StepSettings, StepWorkspace};
 use crate::simulation::world::{
-    Body, Closure, ContactLaw, Drive, Joint, JointCoordinate, Motor, Obstacle, ObstaclePath, Owner, Spring, Surface,
-    World,
+    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Spring, Surface,
+    TreeJoint, World,
 };
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 
@@ -34,13 +34,13 @@ const LARGEST_GAP_M: f64 = 1e-3;
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(super) world: World,
-    pub(super) state: State,
+    pub(super) state: WorldState,
     pub(super) settings: StepSettings,
     pub(super) duration_s: f64,
     pub(super) output_rate_hz: f64,
     pub(super) outputs: Outputs,
     pub(super) title: String,
-    pub(super) events: Vec<Event>,
+    pub(super) events: Vec<EventEntry>,
     /// How many events have happened.
     pub(super) fired: usize,
     /// How many steps have been made.
@@ -50,9 +50,9 @@ pub struct Scene {
     pub(super) joint_numbers: Vec<Option<usize>>,
     /// Names of the file's joints and bodies, for what is drawn.
     pub(super) joint_names: Vec<String>,
-    pub(super) walkers: Vec<Walker>,
+    pub(super) walkers: Vec<PlacedFigure>,
     /// What is kept of figures that walk, every step.
-    pub(super) keepers: Vec<WalkKeeper>,
+    pub(super) keepers: Vec<FigureRecorder>,
     pub(super) workspace: StepWorkspace,
     /// Poses at the beginning of the last step, where its forces are taken; only where there are figures.
     pub(super) before: Vec<Pose>,
@@ -60,7 +60,7 @@ pub struct Scene {
 
 /// What differs from the file.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Changes {
+pub struct SceneSettings {
     /// Time step [s].
     pub step_s: Option<f64>,
     /// How long the scene lasts [s].
@@ -76,12 +76,12 @@ impl Scene {
     /// not know; each with line and key.
     pub fn build(
         file: &SceneFile,
-        changes: Changes,
-        load: &mut Load<'_>,
+        changes: SceneSettings,
+        load: &mut ReadFile<'_>,
         findings: &mut Findings,
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
-        let mut sources = Sources::new(load, findings, duration_s);
+        let mut sources = InputFiles::new(load, findings, duration_s);
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
         let (walkers, keepers) = add_bodies(&mut world, file, &mut sources)?;
@@ -96,7 +96,7 @@ impl Scene {
         let ignored = ignored(&world, file, &walkers)?;
         world.ignored.extend(ignored);
         report_untouchable(&world, findings);
-        let mut state = State::new(&world);
+        let mut state = WorldState::new(&world);
         for (number, start) in starts.iter().enumerate() {
             state.coordinates[number].copy_from_slice(start);
             state.measure(&world, number);
@@ -123,7 +123,7 @@ impl Scene {
     }
 }
 
-fn settings(file: &SceneFile, changes: Changes) -> StepSettings {
+fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
     StepSettings {
         step_s: changes.step_s.unwrap_or(file.step_s),
         integrator: match file.integrator {
@@ -146,10 +146,10 @@ fn settings(file: &SceneFile, changes: Changes) -> StepSettings {
 fn add_bodies(
     world: &mut World,
     file: &SceneFile,
-    sources: &mut Sources<'_, '_>,
-) -> Result<(Vec<Walker>, Vec<WalkKeeper>), SceneError> {
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<(Vec<PlacedFigure>, Vec<FigureRecorder>), SceneError> {
     for (i, body) in file.bodies.iter().enumerate() {
-        world.bodies.push(Body {
+        world.bodies.push(RigidBody {
             name: body.name.clone(),
             mass: body.inertia.mass(),
             inertia: body.inertia.about_center(),
@@ -187,11 +187,11 @@ fn add_bodies(
         });
         world.obstacles.push(Obstacle { name: asked.name.clone(), pose: asked.pose, path: path.transpose()? });
     }
-    let add = |(i, figure): (usize, &Figure)| match &figure.built {
+    let add = |(i, figure): (usize, &FigureEntry)| match &figure.built {
         Some(built) => synthetic::add(world, figure, built, i + 1, sources),
         None => walker::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
     };
-    let added: Vec<(Walker, Option<WalkKeeper>)> =
+    let added: Vec<(PlacedFigure, Option<FigureRecorder>)> =
         file.figures.iter().enumerate().map(add).collect::<Result<_, _>>()?;
     let (walkers, keepers): (Vec<_>, Vec<_>) = added.into_iter().unzip();
     Ok((walkers, keepers.into_iter().flatten().collect()))
@@ -200,22 +200,22 @@ fn add_bodies(
 /// Names of the file as bodies of the world.
 struct Bodies<'a> {
     file: &'a SceneFile,
-    walkers: &'a [Walker],
+    walkers: &'a [PlacedFigure],
     world: &'a World,
 }
 
 impl Bodies<'_> {
     /// The body that a joint or closure holds on to; `None` is the world.
-    fn of(&self, carrier: &Carrier, place: impl Fn() -> Place) -> Result<Option<usize>, SceneError> {
+    fn of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<Option<usize>, SceneError> {
         self.point_of(carrier, place).map(|(body, _)| body)
     }
 
     /// The same, and the point from which points on it are counted: the mass centre, or a marker of a figure.
-    fn point_of(&self, carrier: &Carrier, place: impl Fn() -> Place) -> Result<(Option<usize>, Vec3), SceneError> {
+    fn point_of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<(Option<usize>, Vec3), SceneError> {
         match carrier {
-            Carrier::World => Ok((None, Vec3::zeros())),
-            Carrier::Body(body) => Ok((Some(*body), Vec3::zeros())),
-            Carrier::FigureBody { figure, body } => {
+            Attachment::World => Ok((None, Vec3::zeros())),
+            Attachment::Body(body) => Ok((Some(*body), Vec3::zeros())),
+            Attachment::FigureBody { figure, body } => {
                 self.of_figure(*figure, body, place).map(|(body, point)| (Some(body), point))
             }
         }
@@ -239,9 +239,9 @@ impl Bodies<'_> {
 }
 
 /// Joints with what their coordinates are called, and their rates, in the simulator's order.
-type Started = (Vec<Joint>, Vec<Vec<f64>>, Vec<Vec<f64>>);
+type Started = (Vec<TreeJoint>, Vec<Vec<f64>>, Vec<Vec<f64>>);
 
-fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Started, SceneError> {
+fn make_joints(bodies: &Bodies<'_>, sources: &mut InputFiles<'_, '_>) -> Result<Started, SceneError> {
     let Bodies { file, world, .. } = bodies;
     let (mut joints, mut starts, mut rates) = (Vec::new(), Vec::new(), Vec::new());
     for (i, asked) in file.joints.iter().enumerate() {
@@ -252,7 +252,7 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
             let key = format!("joint[{}].coordinate[{}]", i + 1, k + 1);
             coordinates.push(acting(coordinate, &Place { line: coordinate.line, key }, sources)?);
         }
-        let start = |(asked, acting): (&Coordinate, &JointCoordinate)| match &acting.drive {
+        let start = |(asked, acting): (&CoordinateEntry, &JointCoordinate)| match &acting.drive {
             Some(drive) => {
                 let [value, rate, _] = drive.signal.at(0.0);
                 (value, rate)
@@ -264,7 +264,7 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
         let order = order(placed.kind);
         let on =
             |body: Option<usize>, frame: Pose| body.map_or(frame, |body| world.bodies[body].pose.inverse() * frame);
-        joints.push(Joint {
+        joints.push(TreeJoint {
             name: asked.name.clone(),
             child: asked.child,
             parent,
@@ -282,14 +282,14 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut Sources<'_, '_>) -> Result<Sta
 
 /// What acts on a coordinate.
 pub(super) fn acting(
-    asked: &Coordinate,
+    asked: &CoordinateEntry,
     place: &Place,
-    sources: &mut Sources<'_, '_>,
+    sources: &mut InputFiles<'_, '_>,
 ) -> Result<JointCoordinate, SceneError> {
     let turns = asked.kind == CoordinateKind::Rotation;
-    let drive = asked.drive.as_ref().map(|drive| -> Result<Drive, SceneError> {
+    let drive = asked.drive.as_ref().map(|drive| -> Result<JointDrive, SceneError> {
         let signal = sources.signal(place, &drive.function, turns)?;
-        Ok(Drive { signal, max: drive.max.is_finite().then_some(drive.max) })
+        Ok(JointDrive { signal, max: drive.max.is_finite().then_some(drive.max) })
     });
     let drive = drive.transpose()?;
     let motor = asked.motor.as_ref().map(|motor| -> Result<Motor, SceneError> {
@@ -308,14 +308,14 @@ pub(super) fn acting(
     })
 }
 
-fn add_closures(world: &mut World, file: &SceneFile, walkers: &[Walker]) -> Result<Vec<Closing>, SceneError> {
+fn add_closures(world: &mut World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<Closing>, SceneError> {
     let mut closings = Vec::new();
     for (i, asked) in file.closures.iter().enumerate() {
         let place = |key: &str| Place { line: asked.line, key: format!("closure[{}].{key}", i + 1) };
         let bodies = Bodies { file, walkers, world };
         let (first, on_first) = bodies.point_of(&asked.first, || place("first"))?;
         let (second, on_second) = bodies.point_of(&asked.second, || place("second"))?;
-        let asked = &AskedClosure { anchor: asked.anchor.shifted(on_first, on_second), ..asked.clone() };
+        let asked = &ClosureEntry { anchor: asked.anchor.shifted(on_first, on_second), ..asked.clone() };
         let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| world.bodies[body].pose);
         let Some(closing) = Closing::new(asked, [first, second], [pose(first), pose(second)]) else {
             return Err(place("second").error("found the world at both ends; expected a body at one of them"));
@@ -343,17 +343,19 @@ fn add_closures(world: &mut World, file: &SceneFile, walkers: &[Walker]) -> Resu
     Ok(closings)
 }
 
-fn ignored(world: &World, file: &SceneFile, walkers: &[Walker]) -> Result<Vec<(Owner, Owner)>, SceneError> {
+fn ignored(world: &World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<(Owner, Owner)>, SceneError> {
     let bodies = Bodies { file, walkers, world };
     let mut pairs = Vec::new();
     for (i, pair) in file.ignored.iter().enumerate() {
         let place = || Place { line: pair.line, key: format!("ignore[{}].pair", i + 1) };
-        let owners = |partner: &Partner| -> Result<Vec<Owner>, SceneError> {
+        let owners = |partner: &ContactPartner| -> Result<Vec<Owner>, SceneError> {
             Ok(match partner {
-                Partner::Body(body) => vec![Owner::Body(*body)],
-                Partner::Obstacle(obstacle) => vec![Owner::Obstacle(*obstacle)],
-                Partner::FigureBody { figure, body } => vec![Owner::Body(bodies.of_figure(*figure, body, place)?.0)],
-                Partner::Figure(figure) => {
+                ContactPartner::Body(body) => vec![Owner::Body(*body)],
+                ContactPartner::Obstacle(obstacle) => vec![Owner::Obstacle(*obstacle)],
+                ContactPartner::FigureBody { figure, body } => {
+                    vec![Owner::Body(bodies.of_figure(*figure, body, place)?.0)]
+                }
+                ContactPartner::Figure(figure) => {
                     let walker = &walkers[*figure];
                     let count = world.figures[walker.figure].model.bodies().len();
                     (walker.first_body..walker.first_body + count).map(Owner::Body).collect()

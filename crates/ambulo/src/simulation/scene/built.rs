@@ -1,8 +1,8 @@
 //! Figures that the program builds itself: size, walk, arms, and what acts on their joints.
 
 use super::SceneError;
-use super::coordinate::{Coordinate, CoordinateKind};
-use super::material::Material;
+use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::material::MaterialEntry;
 use crate::gait::Gait;
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
@@ -10,24 +10,24 @@ use crate::toml_reader::{Place, Table, Value};
 
 /// A figure of [`crate::model::anthropometry`], planar, on its own plane through `at`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Built {
+pub struct BuiltFigure {
     /// Where `build` stands.
     pub place: Place,
     /// Table, mass, height.
     pub build: Build,
     /// How it walks; `None` stands upright.
-    pub walk: Option<AskedWalk>,
+    pub walk: Option<WalkEntry>,
     /// How the right and the left arm are held sideways.
-    pub arms: [Arm; 2],
+    pub arms: [ArmEntry; 2],
     /// Material of the soles, an index in [`SceneFile::materials`](super::SceneFile::materials); `None`: soft shoes.
     pub shoes: Option<usize>,
     /// Coordinates that do not simply follow the walk.
-    pub coordinates: Vec<OwnCoordinate>,
+    pub coordinates: Vec<BuiltCoordinate>,
 }
 
 /// How an arm is held sideways.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Arm {
+pub struct ArmEntry {
     /// Angle away from the trunk [rad].
     pub abduction: f64,
     /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring that holds it there; `None`: it is fixed.
@@ -36,7 +36,7 @@ pub struct Arm {
 
 /// A walk as asked for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct AskedWalk {
+pub struct WalkEntry {
     /// Where it stands.
     pub place: Place,
     /// Name of a built-in gait, or the path of a gait file.
@@ -44,7 +44,7 @@ pub struct AskedWalk {
     /// Speed in place of the gait's own [m/s].
     pub speed: Option<f64>,
     /// What becomes of the curves.
-    pub mode: WalkMode,
+    pub mode: FigureWalkMode,
     /// Share of the cycle, from a strike of the right foot, at which the scene begins.
     pub phase: f64,
 }
@@ -60,8 +60,8 @@ pub enum GaitSource {
 
 /// What becomes of the curves of a gait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WalkMode {
-    /// Changed as little as the ground's forces demand ([`crate::simulation::consistent`]).
+pub enum FigureWalkMode {
+    /// Changed as little as the ground's forces demand ([`crate::simulation::consistent_walk`]).
     Corrected,
     /// Followed as they are.
     Curves,
@@ -69,22 +69,22 @@ pub enum WalkMode {
 
 /// A coordinate that does something of its own.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OwnCoordinate {
+pub struct BuiltCoordinate {
     /// Line of its header.
     pub line: usize,
     /// Which one of the figure's model.
     pub name: String,
     /// What acts on it.
-    pub acting: Coordinate,
+    pub acting: CoordinateEntry,
     /// Whether value and rate at the start are given; else they are the walk's.
     pub starts: [bool; 2],
     /// A motor whose target is the walk.
-    pub follow: Option<Follow>,
+    pub follow: Option<WalkTracking>,
 }
 
 /// Moment stiffness (walk - value) + damping (walk's rate - rate), cut at `max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Follow {
+pub struct WalkTracking {
     /// [N.m/rad], zero or more.
     pub stiffness: f64,
     /// [N.m.s/rad], zero or more.
@@ -98,25 +98,25 @@ pub(super) const KEYS: &[&str] = &["name", "build", "walk", "arms", "shoes", "co
 /// Arms farther from the trunk than this are slips [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
-impl Built {
+impl BuiltFigure {
     pub(super) fn read(
         table: &Table<'_>,
         value: &Value<'_>,
-        materials: &[Material],
+        materials: &[MaterialEntry],
         duration_s: f64,
-    ) -> Result<Built, SceneError> {
+    ) -> Result<BuiltFigure, SceneError> {
         let (build, human) = build(value)?;
         let shoes = table.get("shoes").map(|value| {
             let words: Vec<(&str, usize)> = materials.iter().enumerate().map(|(i, m)| (m.name.as_str(), i)).collect();
             value.choice(&words)
         });
-        let own = |entry: &Table<'_>| OwnCoordinate::read(entry, &human, table.get("walk").is_some(), duration_s);
+        let own = |entry: &Table<'_>| BuiltCoordinate::read(entry, &human, table.get("walk").is_some(), duration_s);
         let coordinates = table.tables("coordinate")?.iter().map(own).collect::<Result<Vec<_>, _>>()?;
         refuse_repeated(&coordinates, table)?;
-        Ok(Built {
+        Ok(BuiltFigure {
             place: value.place(),
             build,
-            walk: table.get("walk").map(|value| AskedWalk::read(&value)).transpose()?,
+            walk: table.get("walk").map(|value| WalkEntry::read(&value)).transpose()?,
             arms: arms(table)?,
             shoes: shoes.transpose()?,
             coordinates,
@@ -138,19 +138,19 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     Ok((build, human))
 }
 
-fn arms(table: &Table<'_>) -> Result<[Arm; 2], SceneError> {
-    let Some(value) = table.get("arms") else { return Ok([Arm::default(); 2]) };
+fn arms(table: &Table<'_>) -> Result<[ArmEntry; 2], SceneError> {
+    let Some(value) = table.get("arms") else { return Ok([ArmEntry::default(); 2]) };
     let table = value.table("{ right = { abduction_deg = … }, left = { abduction_deg = … } }")?;
     table.only(&[&["right", "left"]])?;
-    let [right, left] = Side::BOTH.map(|side| table.get(&side.to_string()).map(|value| Arm::read(&value)));
+    let [right, left] = Side::BOTH.map(|side| table.get(&side.to_string()).map(|value| ArmEntry::read(&value)));
     Ok([right.transpose()?.unwrap_or_default(), left.transpose()?.unwrap_or_default()])
 }
 
-impl Arm {
-    fn read(value: &Value<'_>) -> Result<Arm, SceneError> {
+impl ArmEntry {
+    fn read(value: &Value<'_>) -> Result<ArmEntry, SceneError> {
         let table = value.table("{ abduction_deg = … }")?;
         table.only(&[&["abduction_deg", "abduction", "stiffness", "damping"]])?;
-        let mut arm = Arm::default();
+        let mut arm = ArmEntry::default();
         if let Some((value, unit)) = table.either_unit("abduction")? {
             arm.abduction = value.number()? * unit;
             if !(0.0..=MOST_ABDUCTION).contains(&arm.abduction) {
@@ -166,20 +166,20 @@ impl Arm {
     }
 }
 
-impl AskedWalk {
-    fn read(value: &Value<'_>) -> Result<AskedWalk, SceneError> {
+impl WalkEntry {
+    fn read(value: &Value<'_>) -> Result<WalkEntry, SceneError> {
         let table = value.table("{ gait = \"free\", speed = … }")?;
         table.only(&[&["gait", "speed", "mode", "phase"]])?;
-        let modes = [("corrected", WalkMode::Corrected), ("curves", WalkMode::Curves)];
+        let modes = [("corrected", FigureWalkMode::Corrected), ("curves", FigureWalkMode::Curves)];
         let phase = table.number_or("phase", 0.0)?;
         if let Some(value) = table.get("phase").filter(|_| !(0.0..1.0).contains(&phase)) {
             return Err(value.wrong("a share of the cycle, from 0 up to but not including 1"));
         }
-        Ok(AskedWalk {
+        Ok(WalkEntry {
             place: value.place(),
             gait: table.get("gait").map_or_else(|| Ok(GaitSource::Named("free".to_owned())), |v| gait(&v))?,
             speed: table.get("speed").map(|value| value.above_zero()).transpose()?,
-            mode: table.get("mode").map_or(Ok(WalkMode::Corrected), |value| value.choice(&modes))?,
+            mode: table.get("mode").map_or(Ok(FigureWalkMode::Corrected), |value| value.choice(&modes))?,
             phase,
         })
     }
@@ -195,8 +195,8 @@ fn gait(value: &Value<'_>) -> Result<GaitSource, SceneError> {
     if known { Ok(GaitSource::Named(text)) } else { Err(value.wrong(&expected())) }
 }
 
-impl OwnCoordinate {
-    fn read(table: &Table<'_>, human: &Human, walks: bool, duration_s: f64) -> Result<OwnCoordinate, SceneError> {
+impl BuiltCoordinate {
+    fn read(table: &Table<'_>, human: &Human, walks: bool, duration_s: f64) -> Result<BuiltCoordinate, SceneError> {
         table.only(&[&["name", "follow"], super::coordinate::KEYS])?;
         let value = table.need("name", "a coordinate of the figure")?;
         let name = value.text()?;
@@ -209,23 +209,23 @@ impl OwnCoordinate {
         };
         let given = |keys: [&str; 2]| keys.iter().any(|key| table.get(key).is_some());
         let starts = [given(["start", "start_deg"]), given(["rate", "rate_deg"])];
-        let acting = Coordinate::read_acting(table, kind, starts[0], duration_s)?;
-        let follow = table.get("follow").map(|value| Follow::read(&value)).transpose()?;
+        let acting = CoordinateEntry::read_acting(table, kind, starts[0], duration_s)?;
+        let follow = table.get("follow").map(|value| WalkTracking::read(&value)).transpose()?;
         if let (Some(value), true) = (table.get("follow"), acting.drive.is_some() || acting.motor.is_some()) {
             return Err(value.wrong("no such key beside a drive or a motor"));
         }
         if let (Some(value), false) = (table.get("follow"), walks) {
             return Err(value.wrong("no such key without a `walk` to follow"));
         }
-        Ok(OwnCoordinate { line: table.line, name: name.to_owned(), acting, starts, follow })
+        Ok(BuiltCoordinate { line: table.line, name: name.to_owned(), acting, starts, follow })
     }
 }
 
-impl Follow {
-    fn read(value: &Value<'_>) -> Result<Follow, SceneError> {
+impl WalkTracking {
+    fn read(value: &Value<'_>) -> Result<WalkTracking, SceneError> {
         let table = value.table("{ stiffness = …, damping = 0 }")?;
         table.only(&[&["stiffness", "damping", "max"]])?;
-        Ok(Follow {
+        Ok(WalkTracking {
             stiffness: table.need("stiffness", "the moment for each radian [N.m/rad]")?.zero_or_more()?,
             damping: table.zero_or_more_or("damping", 0.0)?,
             max: table.above_zero_or("max", f64::INFINITY)?,
@@ -233,7 +233,7 @@ impl Follow {
     }
 }
 
-fn refuse_repeated(coordinates: &[OwnCoordinate], figure: &Table<'_>) -> Result<(), SceneError> {
+fn refuse_repeated(coordinates: &[BuiltCoordinate], figure: &Table<'_>) -> Result<(), SceneError> {
     for (i, own) in coordinates.iter().enumerate() {
         if let Some(earlier) = coordinates[..i].iter().find(|earlier| earlier.name == own.name) {
             let place = Place { line: own.line, key: format!("{}.coordinate[{}].name", figure.place().key, i + 1) };

@@ -1,7 +1,7 @@
 //! Frames of a closure at the moment it becomes active.
 
-use super::closure::{Anchor, Closure};
-use super::joint::JointKind as Asked;
+use super::closure::{Anchor, ClosureEntry};
+use super::joint::JointAxes as Asked;
 use super::placement::axes;
 use crate::spatial::{Pose, Vec3};
 
@@ -19,7 +19,7 @@ pub(super) struct Closing {
 
 impl Closing {
     /// `ends` are the bodies of the file's first and second; `poses` theirs at the start.
-    pub(super) fn new(closure: &Closure, ends: [Option<usize>; 2], poses: [Pose; 2]) -> Option<Closing> {
+    pub(super) fn new(closure: &ClosureEntry, ends: [Option<usize>; 2], poses: [Pose; 2]) -> Option<Closing> {
         let points = match closure.anchor {
             Anchor::Start { at } => poses.map(|pose| Some(pose.inverse().place(at))),
             Anchor::Points { on_first, on_second } => [Some(on_first), Some(on_second)],

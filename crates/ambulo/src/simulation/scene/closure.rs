@@ -1,25 +1,25 @@
 //! Closures: joints that close loops, there from the start or added by an event.
 
 use super::SceneError;
-use super::body::Body;
-use super::joint::JointKind;
-use super::names::{Carrier, Names};
+use super::body::BodyEntry;
+use super::joint::JointAxes;
+use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::{Table, Value};
 
 /// A joint that closes a loop. Orientations (of a weld, of axes) are kept as they are at the moment it becomes active.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Closure {
+pub struct ClosureEntry {
     /// Name, its own among joints and closures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// Which motions it leaves; never [`JointKind::Free`].
-    pub kind: JointKind,
+    /// Which motions it leaves; never [`JointAxes::Free`].
+    pub kind: JointAxes,
     /// One end.
-    pub first: Carrier,
+    pub first: Attachment,
     /// The other end.
-    pub second: Carrier,
+    pub second: Attachment,
     /// Which points it keeps together.
     pub anchor: Anchor,
     /// Whether it is there from the start; else an event adds it.
@@ -66,14 +66,19 @@ const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on
 /// rounding in a few lengths adds up to.
 const LARGEST_GAP: f64 = 1e-3;
 
-impl Closure {
-    pub(super) fn read(table: &Table<'_>, name: String, names: &Names, bodies: &[Body]) -> Result<Closure, SceneError> {
-        let kind = JointKind::read(table, KEYS)?;
-        if kind == JointKind::Free {
+impl ClosureEntry {
+    pub(super) fn read(
+        table: &Table<'_>,
+        name: String,
+        names: &Names,
+        bodies: &[BodyEntry],
+    ) -> Result<ClosureEntry, SceneError> {
+        let kind = JointAxes::read(table, KEYS)?;
+        if kind == JointAxes::Free {
             return Err(table.need("kind", "a kind")?.wrong("a kind that holds something; free holds nothing"));
         }
         let value = table.need("second", "the other end")?;
-        let closure = Closure {
+        let closure = ClosureEntry {
             name,
             line: table.line,
             kind,
@@ -90,17 +95,17 @@ impl Closure {
     }
 
     /// A closure that is active from the start must be closed then.
-    fn refuse_gap(&self, table: &Table<'_>, bodies: &[Body]) -> Result<(), SceneError> {
+    fn refuse_gap(&self, table: &Table<'_>, bodies: &[BodyEntry]) -> Result<(), SceneError> {
         let Anchor::Points { on_first, on_second } = self.anchor else { return Ok(()) };
-        let place = |carrier: &Carrier, point: Vec3| match carrier {
-            Carrier::World => Some(point),
-            Carrier::Body(body) => Some(bodies[*body].start.place(point)),
-            Carrier::FigureBody { .. } => None,
+        let place = |carrier: &Attachment, point: Vec3| match carrier {
+            Attachment::World => Some(point),
+            Attachment::Body(body) => Some(bodies[*body].start.place(point)),
+            Attachment::FigureBody { .. } => None,
         };
         let (Some(a), Some(b)) = (place(&self.first, on_first), place(&self.second, on_second)) else { return Ok(()) };
         let gap = match self.kind {
-            JointKind::Prismatic { axis } => (b - a).cross(&axis).norm(),
-            JointKind::Planar { normal, .. } => (b - a).dot(&normal).abs(),
+            JointAxes::Prismatic { axis } => (b - a).cross(&axis).norm(),
+            JointAxes::Planar { normal, .. } => (b - a).dot(&normal).abs(),
             _ => (b - a).norm(),
         };
         if !self.active || gap <= LARGEST_GAP {

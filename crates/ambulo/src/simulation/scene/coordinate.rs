@@ -1,14 +1,14 @@
 //! What acts along a motion that a joint leaves: springs, limits, motors, drives.
 
 use super::SceneError;
-use super::body::Body;
-use super::function::{self, Function, Purpose};
-use super::joint::JointKind;
+use super::body::BodyEntry;
+use super::function::{self, Purpose, TimeFunction};
+use super::joint::JointAxes;
 use crate::toml_reader::{Table, Value};
 
 /// One motion that a joint leaves. Angles [rad] and moments [N.m], or lengths [m] and forces [N].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Coordinate {
+pub struct CoordinateEntry {
     /// Line of its header; the joint's where it has none.
     pub line: usize,
     /// Turn or slide.
@@ -24,9 +24,9 @@ pub struct Coordinate {
     /// How far it goes.
     pub limits: Option<Limits>,
     /// A proportional and derivative controller; never beside `drive`.
-    pub motor: Option<Motor>,
+    pub motor: Option<MotorEntry>,
     /// A prescribed motion; its multiplier is the actuator's moment or force.
-    pub drive: Option<Drive>,
+    pub drive: Option<DriveEntry>,
     /// Largest moment or force of dry friction [N.m or N].
     pub friction: f64,
 }
@@ -62,9 +62,9 @@ pub struct Limits {
 
 /// Moment or force stiffness (target - value) + damping (target's rate - rate), cut at `max`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motor {
+pub struct MotorEntry {
     /// Where it wants to be.
-    pub target: Function,
+    pub target: TimeFunction,
     /// [N.m/rad or N/m], zero or more.
     pub stiffness: f64,
     /// [N.m.s/rad or N.s/m], zero or more.
@@ -75,9 +75,9 @@ pub struct Motor {
 
 /// A prescribed motion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drive {
+pub struct DriveEntry {
     /// Value over time.
-    pub function: Function,
+    pub function: TimeFunction,
     /// Largest moment or force [N.m or N]; infinity if not limited.
     pub max: f64,
 }
@@ -113,14 +113,14 @@ impl CoordinateKind {
     }
 }
 
-impl Coordinate {
+impl CoordinateEntry {
     /// All coordinates of a joint; those that the file leaves out are free.
     pub(super) fn read_all(
         joint: &Table<'_>,
-        kind: JointKind,
-        child: &Body,
+        kind: JointAxes,
+        child: &BodyEntry,
         duration_s: f64,
-    ) -> Result<Vec<Coordinate>, SceneError> {
+    ) -> Result<Vec<CoordinateEntry>, SceneError> {
         let kinds = kind.coordinates();
         let tables = joint.tables("coordinate")?;
         if let Some(table) = tables.get(kinds.len()) {
@@ -128,20 +128,25 @@ impl Coordinate {
             return Err(table.wrong(found).hint("docs/SCENES.md tells which motions each kind of joint leaves"));
         }
         let read = |(i, kind): (usize, &CoordinateKind)| match tables.get(i) {
-            Some(table) => Coordinate::read(table, *kind, child, duration_s),
-            None => Ok(Coordinate::free(joint.line, *kind)),
+            Some(table) => CoordinateEntry::read(table, *kind, child, duration_s),
+            None => Ok(CoordinateEntry::free(joint.line, *kind)),
         };
         kinds.iter().enumerate().map(read).collect()
     }
 
-    fn free(line: usize, kind: CoordinateKind) -> Coordinate {
+    fn free(line: usize, kind: CoordinateKind) -> CoordinateEntry {
         let (spring, limits, motor, drive) = (None, None, None, None);
-        Coordinate { line, kind, start: 0.0, rate: 0.0, spring, limits, motor, drive, friction: 0.0 }
+        CoordinateEntry { line, kind, start: 0.0, rate: 0.0, spring, limits, motor, drive, friction: 0.0 }
     }
 
-    fn read(table: &Table<'_>, kind: CoordinateKind, child: &Body, duration_s: f64) -> Result<Coordinate, SceneError> {
+    fn read(
+        table: &Table<'_>,
+        kind: CoordinateKind,
+        child: &BodyEntry,
+        duration_s: f64,
+    ) -> Result<CoordinateEntry, SceneError> {
         table.only(&[KEYS])?;
-        let coordinate = Coordinate::read_acting(table, kind, true, duration_s)?;
+        let coordinate = CoordinateEntry::read_acting(table, kind, true, duration_s)?;
         refuse_rates_twice(table, child)?;
         Ok(coordinate)
     }
@@ -152,12 +157,12 @@ impl Coordinate {
         kind: CoordinateKind,
         start_is_known: bool,
         duration_s: f64,
-    ) -> Result<Coordinate, SceneError> {
+    ) -> Result<CoordinateEntry, SceneError> {
         let drive = drive(table, kind, duration_s)?;
         refuse_beside_drive(table, drive.is_some())?;
         let start = kind.value(table, "start")?.unwrap_or(0.0);
         let unchecked = drive.is_some() || !start_is_known;
-        Ok(Coordinate {
+        Ok(CoordinateEntry {
             line: table.line,
             kind,
             start,
@@ -183,7 +188,7 @@ fn refuse_beside_drive(table: &Table<'_>, driven: bool) -> Result<(), SceneError
     }
 }
 
-fn refuse_rates_twice(table: &Table<'_>, child: &Body) -> Result<(), SceneError> {
+fn refuse_rates_twice(table: &Table<'_>, child: &BodyEntry) -> Result<(), SceneError> {
     let own = child.velocity.is_some() || child.angular_velocity.is_some();
     match ["rate_deg", "rate"].iter().find_map(|key| table.get(key)).filter(|_| own) {
         Some(value) => {
@@ -194,12 +199,12 @@ fn refuse_rates_twice(table: &Table<'_>, child: &Body) -> Result<(), SceneError>
     }
 }
 
-fn drive(table: &Table<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Option<Drive>, SceneError> {
+fn drive(table: &Table<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Option<DriveEntry>, SceneError> {
     let function = function::either_unit(table, "drive", kind.purpose(duration_s))?;
     let max = table.above_zero_or("drive_max", f64::INFINITY)?;
     match (function, table.get("drive_max")) {
         (None, Some(_)) => Err(table.missing("drive", "the motion that `drive_max` limits")),
-        (function, _) => Ok(function.map(|function| Drive { function, max })),
+        (function, _) => Ok(function.map(|function| DriveEntry { function, max })),
     }
 }
 
@@ -236,12 +241,12 @@ fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, unchecked: bool) 
     Ok(limits)
 }
 
-fn motor(value: &Value<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Motor, SceneError> {
+fn motor(value: &Value<'_>, kind: CoordinateKind, duration_s: f64) -> Result<MotorEntry, SceneError> {
     let table = value.table("{ target_deg = …, stiffness = …, damping = 0 }")?;
     table.only(&[&["target_deg", "target", "stiffness", "damping", "max"]])?;
     let target = function::either_unit(&table, "target", kind.purpose(duration_s))?;
     let key = if kind == CoordinateKind::Rotation { "target_deg" } else { "target" };
-    Ok(Motor {
+    Ok(MotorEntry {
         target: target.ok_or_else(|| table.missing(key, "where the motor wants to be"))?,
         stiffness: table
             .need("stiffness", "the moment for each radian, or the force for each metre")?

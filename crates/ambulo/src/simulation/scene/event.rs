@@ -1,25 +1,25 @@
 //! Events: closures that come and go, joints that let go.
 
 use super::SceneError;
-use super::closure::Closure;
-use super::joint::Joint;
+use super::closure::ClosureEntry;
+use super::joint::JointEntry;
 use super::names::{Item, Names};
 use crate::toml_reader::{Table, Value};
 
 /// Something that happens at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event {
+pub struct EventEntry {
     /// Line of its header.
     pub line: usize,
     /// When [s], from zero to the duration.
     pub time_s: f64,
     /// What.
-    pub change: Change,
+    pub change: EventAction,
 }
 
 /// What an event changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
+pub enum EventAction {
     /// A closure becomes active: index in [`SceneFile::closures`](super::SceneFile::closures).
     AddClosure(usize),
     /// A closure lets go: index in [`SceneFile::closures`](super::SceneFile::closures).
@@ -32,15 +32,15 @@ pub enum Change {
 pub(super) fn read_all(
     root: &Table<'_>,
     links: &Names,
-    (joints, closures): (&[Joint], &[Closure]),
+    (joints, closures): (&[JointEntry], &[ClosureEntry]),
     duration_s: f64,
-) -> Result<Vec<Event>, SceneError> {
+) -> Result<Vec<EventEntry>, SceneError> {
     let mut list = Vec::new();
     for table in root.tables("event")? {
         table.only(&[&["time", "add", "remove"]])?;
         let time_s = time(&table, duration_s)?;
         let (change, value) = change(&table, links)?;
-        list.push((Event { line: table.line, time_s, change }, value));
+        list.push((EventEntry { line: table.line, time_s, change }, value));
     }
     list.sort_by(|a, b| a.0.time_s.total_cmp(&b.0.time_s));
     refuse_idle(&list, joints, closures)?;
@@ -54,7 +54,7 @@ fn time(table: &Table<'_>, duration_s: f64) -> Result<f64, SceneError> {
     if inside { Ok(time_s) } else { Err(value.wrong(&format!("an instant from 0 to {duration_s} s, the duration"))) }
 }
 
-fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(Change, Value<'t>), SceneError> {
+fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(EventAction, Value<'t>), SceneError> {
     let (value, adds) = match (table.get("add"), table.get("remove")) {
         (Some(value), None) => (value, true),
         (None, Some(value)) => (value, false),
@@ -63,9 +63,9 @@ fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(Change, Value<'t>), S
     };
     let name = value.text()?;
     let change = match (links.find(name), adds) {
-        (Some(Item::Closure(closure)), true) => Change::AddClosure(closure),
-        (Some(Item::Closure(closure)), false) => Change::RemoveClosure(closure),
-        (Some(Item::Joint(joint)), false) => Change::RemoveJoint(joint),
+        (Some(Item::Closure(closure)), true) => EventAction::AddClosure(closure),
+        (Some(Item::Closure(closure)), false) => EventAction::RemoveClosure(closure),
+        (Some(Item::Joint(joint)), false) => EventAction::RemoveJoint(joint),
         (found, true) => return Err(links.unfit(&value, name, "a closure", found)),
         (found, false) => return Err(links.unfit(&value, name, "a closure or a joint", found)),
     };
@@ -73,14 +73,18 @@ fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(Change, Value<'t>), S
 }
 
 /// Refuses to add what is there and to remove what is not.
-fn refuse_idle(events: &[(Event, Value<'_>)], joints: &[Joint], closures: &[Closure]) -> Result<(), SceneError> {
+fn refuse_idle(
+    events: &[(EventEntry, Value<'_>)],
+    joints: &[JointEntry],
+    closures: &[ClosureEntry],
+) -> Result<(), SceneError> {
     let mut closed: Vec<bool> = closures.iter().map(|closure| closure.active).collect();
     let mut jointed = vec![true; joints.len()];
     for (event, value) in events {
         let (there, after) = match event.change {
-            Change::AddClosure(closure) => (&mut closed[closure], true),
-            Change::RemoveClosure(closure) => (&mut closed[closure], false),
-            Change::RemoveJoint(joint) => (&mut jointed[joint], false),
+            EventAction::AddClosure(closure) => (&mut closed[closure], true),
+            EventAction::RemoveClosure(closure) => (&mut closed[closure], false),
+            EventAction::RemoveJoint(joint) => (&mut jointed[joint], false),
         };
         if *there == after && after {
             let error = value.wrong(&format!("a closure that is not active at {} s already", event.time_s));

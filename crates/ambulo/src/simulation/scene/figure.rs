@@ -1,7 +1,7 @@
 //! Figures: bodies and joints of an OpenSim model, moved by a recording; or those that the program builds.
 
-use super::built::{self, Built};
-use super::material::{self, Material};
+use super::built::{self, BuiltFigure};
+use super::material::{self, MaterialEntry};
 use super::names::{Item, Names};
 use super::{Place, SceneError};
 use crate::spatial::{Pose, Vec3};
@@ -9,7 +9,7 @@ use crate::toml_reader::{Table, Value};
 
 /// A figure from an OpenSim model, or one that the program builds. Its files are not opened here.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Figure {
+pub struct FigureEntry {
     /// Name, its own among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
@@ -17,7 +17,7 @@ pub struct Figure {
     /// Where the path of the model stands.
     pub model_place: Place,
     /// Built by the program; then no model, motion, `driven` or `root` plays a part.
-    pub built: Option<Built>,
+    pub built: Option<BuiltFigure>,
     /// Path of the `.osim` file as it stands in the scene, relative to the scene; empty if the figure is built.
     pub model: String,
     /// Where the path of the motion stands; the model's place if there is none.
@@ -27,18 +27,18 @@ pub struct Figure {
     /// Time of the recording [s] at which the scene begins; `None` is its first instant.
     pub from_s: Option<f64>,
     /// Which coordinates follow the recording; never more than `Nothing` without one.
-    pub driven: Driven,
+    pub driven: DrivenCoordinates,
     /// What becomes of the coordinates that carry the whole figure.
-    pub root: Root,
+    pub root: RootMotion,
     /// `world_from_ground`, ground being that of the model.
     pub pose: Pose,
     /// Where it touches.
-    pub spheres: Vec<FigureSphere>,
+    pub spheres: Vec<SphereEntry>,
 }
 
 /// Which coordinates of a figure follow its recording; those of the root aside.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Driven {
+pub enum DrivenCoordinates {
     /// All.
     All,
     /// None: a rag doll that starts as the recording does.
@@ -49,7 +49,7 @@ pub enum Driven {
 
 /// What becomes of the coordinates that carry the whole figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Root {
+pub enum RootMotion {
     /// Forces move them.
     Free,
     /// They follow the recording.
@@ -58,7 +58,7 @@ pub enum Root {
 
 /// A sphere on a body of a figure, where it touches others.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FigureSphere {
+pub struct SphereEntry {
     /// Line of its header.
     pub line: usize,
     /// Name of the body in the model.
@@ -73,19 +73,19 @@ pub struct FigureSphere {
 
 const KEYS: &[&str] = &["name", "build", "model", "motion", "from", "drive", "root", "at", "rotation", "sphere"];
 
-impl Figure {
+impl FigureEntry {
     pub(super) fn read_all(
         root: &Table<'_>,
         names: &mut Names,
-        materials: &[Material],
+        materials: &[MaterialEntry],
         duration_s: f64,
-    ) -> Result<Vec<Figure>, SceneError> {
+    ) -> Result<Vec<FigureEntry>, SceneError> {
         let read = |(i, table): (usize, &Table<'_>)| {
             if let Some(value) = table.get("build") {
                 let name = names.declare_first(table, built::KEYS, Item::Figure(i))?;
-                return Figure::read_built(table, name, &value, materials, duration_s);
+                return FigureEntry::read_built(table, name, &value, materials, duration_s);
             }
-            Figure::read(table, names.declare_first(table, KEYS, Item::Figure(i))?, materials)
+            FigureEntry::read(table, names.declare_first(table, KEYS, Item::Figure(i))?, materials)
         };
         root.tables("figure")?.iter().enumerate().map(read).collect()
     }
@@ -94,32 +94,32 @@ impl Figure {
         table: &Table<'_>,
         name: String,
         value: &Value<'_>,
-        materials: &[Material],
+        materials: &[MaterialEntry],
         duration_s: f64,
-    ) -> Result<Figure, SceneError> {
-        let sphere = |sphere: &Table<'_>| FigureSphere::read(sphere, materials);
-        Ok(Figure {
+    ) -> Result<FigureEntry, SceneError> {
+        let sphere = |sphere: &Table<'_>| SphereEntry::read(sphere, materials);
+        Ok(FigureEntry {
             name,
             line: table.line,
             model_place: value.place(),
-            built: Some(Built::read(table, value, materials, duration_s)?),
+            built: Some(BuiltFigure::read(table, value, materials, duration_s)?),
             model: String::new(),
             motion_place: value.place(),
             motion: None,
             from_s: None,
-            driven: Driven::Nothing,
-            root: Root::Free,
+            driven: DrivenCoordinates::Nothing,
+            root: RootMotion::Free,
             pose: table.pose("at")?,
             spheres: table.tables("sphere")?.iter().map(sphere).collect::<Result<_, _>>()?,
         })
     }
 
-    fn read(table: &Table<'_>, name: String, materials: &[Material]) -> Result<Figure, SceneError> {
+    fn read(table: &Table<'_>, name: String, materials: &[MaterialEntry]) -> Result<FigureEntry, SceneError> {
         let model = table.need("model", "the path of an .osim file, or `build` with a table, a mass and a height")?;
         let motion_place = table.get("motion").map_or_else(|| model.place(), |value| value.place());
         let motion = table.get("motion").map(|value| value.filled_text()).transpose()?;
-        let sphere = |sphere: &Table<'_>| FigureSphere::read(sphere, materials);
-        let figure = Figure {
+        let sphere = |sphere: &Table<'_>| SphereEntry::read(sphere, materials);
+        let figure = FigureEntry {
             name,
             line: table.line,
             model_place: model.place(),
@@ -127,15 +127,18 @@ impl Figure {
             model: model.filled_text()?,
             motion_place,
             from_s: table.get("from").map(|value| value.number()).transpose()?,
-            driven: table.get("drive").map_or_else(|| Ok(Driven::of_file(motion.as_ref())), |value| driven(&value))?,
-            root: table
-                .get("root")
-                .map_or(Ok(Root::Free), |value| value.choice(&[("free", Root::Free), ("driven", Root::Driven)]))?,
+            driven: table
+                .get("drive")
+                .map_or_else(|| Ok(DrivenCoordinates::of_file(motion.as_ref())), |value| driven(&value))?,
+            root: table.get("root").map_or(Ok(RootMotion::Free), |value| {
+                value.choice(&[("free", RootMotion::Free), ("driven", RootMotion::Driven)])
+            })?,
             pose: table.pose("at")?,
             spheres: table.tables("sphere")?.iter().map(sphere).collect::<Result<_, _>>()?,
             motion,
         };
-        let follows = figure.driven != Driven::Nothing || figure.root == Root::Driven || figure.from_s.is_some();
+        let follows =
+            figure.driven != DrivenCoordinates::Nothing || figure.root == RootMotion::Driven || figure.from_s.is_some();
         if figure.motion.is_none() && follows {
             return Err(table.missing("motion", "the path of a .mot file that the figure follows"));
         }
@@ -143,29 +146,30 @@ impl Figure {
     }
 }
 
-impl Driven {
-    fn of_file(motion: Option<&String>) -> Driven {
-        if motion.is_some() { Driven::All } else { Driven::Nothing }
+impl DrivenCoordinates {
+    fn of_file(motion: Option<&String>) -> DrivenCoordinates {
+        if motion.is_some() { DrivenCoordinates::All } else { DrivenCoordinates::Nothing }
     }
 }
 
-fn driven(value: &Value<'_>) -> Result<Driven, SceneError> {
+fn driven(value: &Value<'_>) -> Result<DrivenCoordinates, SceneError> {
     const EXPECTED: &str = "\"all\", \"none\", or a list of coordinates";
     match value.text() {
-        Ok("all") => Ok(Driven::All),
-        Ok("none") => Ok(Driven::Nothing),
+        Ok("all") => Ok(DrivenCoordinates::All),
+        Ok("none") => Ok(DrivenCoordinates::Nothing),
         Ok(_) => Err(value.wrong(EXPECTED)),
         Err(_) => {
             let names: Result<Vec<String>, _> = value.list(EXPECTED)?.iter().map(Value::filled_text).collect();
-            names.map(|names| if names.is_empty() { Driven::Nothing } else { Driven::Only(names) })
+            names
+                .map(|names| if names.is_empty() { DrivenCoordinates::Nothing } else { DrivenCoordinates::Only(names) })
         }
     }
 }
 
-impl FigureSphere {
-    fn read(table: &Table<'_>, materials: &[Material]) -> Result<FigureSphere, SceneError> {
+impl SphereEntry {
+    fn read(table: &Table<'_>, materials: &[MaterialEntry]) -> Result<SphereEntry, SceneError> {
         table.only(&[&["body", "at", "radius", "material"]])?;
-        Ok(FigureSphere {
+        Ok(SphereEntry {
             line: table.line,
             body: table.need("body", "a body of the model")?.filled_text()?,
             at: table.vector_or_zero("at")?,

@@ -1,18 +1,18 @@
 //! The whole scene.
 
 use super::SceneError;
-use super::body::Body;
-use super::closure::Closure;
-use super::event::{self, Event};
-use super::figure::Figure;
-use super::joint::Joint;
-use super::material::{self, Material};
-use super::names::{Carrier, Item, Names, Partner};
-use super::obstacle::Obstacle;
+use super::body::BodyEntry;
+use super::closure::ClosureEntry;
+use super::event::{self, EventEntry};
+use super::figure::FigureEntry;
+use super::joint::JointEntry;
+use super::material::{self, MaterialEntry};
+use super::names::{Attachment, ContactPartner, Item, Names};
+use super::obstacle::ObstacleEntry;
 use super::output::{self, AllNames, Outputs};
 use super::solver::{Integrator, Solver, read_impact};
 use super::tree;
-use crate::simulation::Impact;
+use crate::simulation::ImpactLaw;
 use crate::spatial::Vec3;
 use crate::toml_reader::{Source, Table};
 
@@ -30,7 +30,7 @@ pub struct SceneFile {
     /// How time goes on.
     pub integrator: Integrator,
     /// What becomes of the velocity of a point that strikes.
-    pub impact: Impact,
+    pub impact: ImpactLaw,
     /// Whether positions are projected back onto the constraints after each step.
     pub projection: bool,
     /// Rows of output a second [Hz], at most one a step.
@@ -38,19 +38,19 @@ pub struct SceneFile {
     /// How loops and contacts are solved.
     pub solver: Solver,
     /// Surfaces; the first is `default`, then in the order of the file.
-    pub materials: Vec<Material>,
+    pub materials: Vec<MaterialEntry>,
     /// Rigid bodies, in the order of the file.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<BodyEntry>,
     /// What forces never move, in the order of the file.
-    pub obstacles: Vec<Obstacle>,
+    pub obstacles: Vec<ObstacleEntry>,
     /// Joints, in the order of the file; a parent's joint may stand after its child's.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<JointEntry>,
     /// Joints that close loops, in the order of the file.
-    pub closures: Vec<Closure>,
+    pub closures: Vec<ClosureEntry>,
     /// What happens when, in the order of time.
-    pub events: Vec<Event>,
+    pub events: Vec<EventEntry>,
     /// Figures from OpenSim models, in the order of the file.
-    pub figures: Vec<Figure>,
+    pub figures: Vec<FigureEntry>,
     /// Pairs that never touch each other, beside those that a joint or closure connects.
     pub ignored: Vec<IgnoredPair>,
     /// Which results are kept.
@@ -63,9 +63,9 @@ pub struct IgnoredPair {
     /// Line of its header.
     pub line: usize,
     /// One.
-    pub first: Partner,
+    pub first: ContactPartner,
     /// The other; the same figure as the first if its bodies ignore each other.
-    pub second: Partner,
+    pub second: ContactPartner,
 }
 
 const KEYS: &[&str] = &[
@@ -110,9 +110,9 @@ impl SceneFile {
         let (step_s, duration_s) = times(&root)?;
         let materials = material::read_all(&root)?;
         let (mut things, mut links) = (Names::default(), Names::default());
-        let bodies = Body::read_all(&root, &mut things, &materials)?;
-        let obstacles = Obstacle::read_all(&root, &mut things, &materials, duration_s)?;
-        let figures = Figure::read_all(&root, &mut things, &materials, duration_s)?;
+        let bodies = BodyEntry::read_all(&root, &mut things, &materials)?;
+        let obstacles = ObstacleEntry::read_all(&root, &mut things, &materials, duration_s)?;
+        let figures = FigureEntry::read_all(&root, &mut things, &materials, duration_s)?;
         if bodies.is_empty() && figures.is_empty() {
             return Err(root.missing("body", "at least one [[body]] or [[figure]]"));
         }
@@ -143,11 +143,11 @@ impl SceneFile {
 
     /// The name of what a joint or closure holds on to, as it stands in the scene.
     #[must_use]
-    pub fn carrier_name(&self, carrier: &Carrier) -> String {
+    pub fn carrier_name(&self, carrier: &Attachment) -> String {
         match carrier {
-            Carrier::World => "world".into(),
-            Carrier::Body(body) => self.bodies[*body].name.clone(),
-            Carrier::FigureBody { figure, body } => format!("{}/{body}", self.figures[*figure].name),
+            Attachment::World => "world".into(),
+            Attachment::Body(body) => self.bodies[*body].name.clone(),
+            Attachment::FigureBody { figure, body } => format!("{}/{body}", self.figures[*figure].name),
         }
     }
 }
@@ -178,23 +178,28 @@ fn joints(
     root: &Table<'_>,
     links: &mut Names,
     things: &Names,
-    bodies: &[Body],
+    bodies: &[BodyEntry],
     duration_s: f64,
-) -> Result<Vec<Joint>, SceneError> {
+) -> Result<Vec<JointEntry>, SceneError> {
     let tables = root.tables("joint")?;
     let mut joints = Vec::new();
     for (i, table) in tables.iter().enumerate() {
         let name = links.declare(table, Item::Joint(i))?;
-        joints.push(Joint::read(table, name, things, bodies, duration_s)?);
+        joints.push(JointEntry::read(table, name, things, bodies, duration_s)?);
     }
     tree::check(&joints, &tables, bodies)?;
     Ok(joints)
 }
 
-fn closures(root: &Table<'_>, links: &mut Names, things: &Names, bodies: &[Body]) -> Result<Vec<Closure>, SceneError> {
+fn closures(
+    root: &Table<'_>,
+    links: &mut Names,
+    things: &Names,
+    bodies: &[BodyEntry],
+) -> Result<Vec<ClosureEntry>, SceneError> {
     let read = |(i, table): (usize, &Table<'_>)| {
         let name = links.declare(table, Item::Closure(i))?;
-        Closure::read(table, name, things, bodies)
+        ClosureEntry::read(table, name, things, bodies)
     };
     root.tables("closure")?.iter().enumerate().map(read).collect()
 }
@@ -205,7 +210,7 @@ fn ignored(root: &Table<'_>, things: &Names) -> Result<Vec<IgnoredPair>, SceneEr
         let value = table.need("pair", "two names")?;
         let [first, second] = &value.list("two names")?[..] else { return Err(value.wrong("two names")) };
         let (first, second) = (things.partner(first)?, things.partner(second)?);
-        if first == second && !matches!(first, Partner::Figure(_)) {
+        if first == second && !matches!(first, ContactPartner::Figure(_)) {
             return Err(value.wrong("two different names"));
         }
         Ok(IgnoredPair { line: table.line, first, second })

@@ -5,7 +5,7 @@ use crate::toml_reader::{Table, Value};
 
 /// A function of the scene's time [s]; values in rad or m, as what it is for says.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Function {
+pub enum TimeFunction {
     /// Always the same.
     Constant(f64),
     /// offset + amplitude sin(2π frequency t + phase).
@@ -51,8 +51,8 @@ const KEYS: &[&str] = &["sine", "ramp", "stops", "points", "motion", "column", "
 const EXPECTED: &str = "a number, or one of { sine = … }, { ramp = … }, { stops = … }, { points = … }, { motion = … }";
 
 /// The function under `key` or `key_deg` of a table.
-pub(super) fn either_unit(table: &Table<'_>, key: &str, purpose: Purpose) -> Result<Option<Function>, SceneError> {
-    let read = |(value, unit): (Value<'_>, f64)| Function::read(&value, unit, purpose);
+pub(super) fn either_unit(table: &Table<'_>, key: &str, purpose: Purpose) -> Result<Option<TimeFunction>, SceneError> {
+    let read = |(value, unit): (Value<'_>, f64)| TimeFunction::read(&value, unit, purpose);
     if purpose.angle {
         return table.either_unit(key)?.map(read).transpose();
     }
@@ -62,11 +62,11 @@ pub(super) fn either_unit(table: &Table<'_>, key: &str, purpose: Purpose) -> Res
     table.get(key).map(|value| read((value, 1.0))).transpose()
 }
 
-impl Function {
+impl TimeFunction {
     /// Reads a function whose values stand in a unit of so many radians or metres.
-    pub(super) fn read(value: &Value<'_>, unit: f64, purpose: Purpose) -> Result<Function, SceneError> {
+    pub(super) fn read(value: &Value<'_>, unit: f64, purpose: Purpose) -> Result<TimeFunction, SceneError> {
         if !value.is_table() {
-            return value.finite(EXPECTED).map(|number| Function::Constant(number * unit));
+            return value.finite(EXPECTED).map(|number| TimeFunction::Constant(number * unit));
         }
         let table = value.table(EXPECTED)?;
         table.only(&[KEYS])?;
@@ -80,16 +80,16 @@ impl Function {
         match kind {
             "sine" => sine(&body, unit),
             "ramp" => ramp(&body, unit),
-            "stops" => pairs(&body, unit, 1).map(Function::Stops),
+            "stops" => pairs(&body, unit, 1).map(TimeFunction::Stops),
             _ => points(&body, unit, purpose.duration_s),
         }
     }
 }
 
-fn sine(value: &Value<'_>, unit: f64) -> Result<Function, SceneError> {
+fn sine(value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     let table = value.table("{ amplitude = …, frequency_hz = …, phase_deg = 0, offset = 0 }")?;
     table.only(&[&["amplitude", "frequency_hz", "phase_deg", "phase", "offset"]])?;
-    Ok(Function::Sine {
+    Ok(TimeFunction::Sine {
         amplitude: table.need("amplitude", "half the distance between the extremes")?.number()? * unit,
         frequency_hz: table.need("frequency_hz", "the cycles a second")?.above_zero()?,
         phase: table.angle("phase")?.unwrap_or(0.0),
@@ -97,7 +97,7 @@ fn sine(value: &Value<'_>, unit: f64) -> Result<Function, SceneError> {
     })
 }
 
-fn ramp(value: &Value<'_>, unit: f64) -> Result<Function, SceneError> {
+fn ramp(value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     let table = value.table("{ from = …, to = …, start = …, end = … }")?;
     table.only(&[&["from", "to", "start", "end"]])?;
     let from = table.need("from", "the value before")?.number()? * unit;
@@ -108,10 +108,10 @@ fn ramp(value: &Value<'_>, unit: f64) -> Result<Function, SceneError> {
     if end <= start {
         return Err(last.wrong(&format!("an instant after `start`, {start} s")));
     }
-    Ok(Function::Stops(vec![(start, from), (end, to)]))
+    Ok(TimeFunction::Stops(vec![(start, from), (end, to)]))
 }
 
-fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<Function, SceneError> {
+fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<TimeFunction, SceneError> {
     let points = pairs(value, unit, 2)?;
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     if first > 0.0 || last < duration_s {
@@ -119,7 +119,7 @@ fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<Function, Sce
         let error = value.wrong(&format!("{expected}; these go from {first} s to {last} s"));
         return Err(error.hint("`stops` rests before its first and after its last instant"));
     }
-    Ok(Function::Points(points))
+    Ok(TimeFunction::Points(points))
 }
 
 /// At least so many pairs [time, value], times rising.
@@ -136,13 +136,13 @@ fn pairs(value: &Value<'_>, unit: f64, least: usize) -> Result<Vec<(f64, f64)>, 
     if pairs.len() < least { Err(value.wrong(&expected)) } else { Ok(pairs) }
 }
 
-fn motion(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<Function, SceneError> {
+fn motion(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     table.only(&[&["motion", "column", "from"]])?;
     if unit < 1.0 {
         let error = value.wrong("a recording under the key without `_deg`");
         return Err(error.hint("the file itself says whether its angles are degrees"));
     }
-    Ok(Function::Motion {
+    Ok(TimeFunction::Motion {
         place: value.place(),
         file: value.filled_text()?,
         column: table.need("column", "the name of a column of that file")?.filled_text()?,

@@ -1,35 +1,35 @@
 //! Joints: how a body hangs on another or on the world.
 
 use super::SceneError;
-use super::body::Body;
-use super::coordinate::{Coordinate, CoordinateKind};
-use super::names::{Carrier, Names};
+use super::body::BodyEntry;
+use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::Table;
 
 /// A joint between a child and its parent. The joints form trees; loops are closed by closures.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Joint {
+pub struct JointEntry {
     /// Name, its own among joints and closures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
     /// Which motions it leaves.
-    pub kind: JointKind,
+    pub kind: JointAxes,
     /// What it hangs on.
-    pub parent: Carrier,
+    pub parent: Attachment,
     /// What hangs on it: index in [`SceneFile::bodies`](super::SceneFile::bodies). No body hangs on two joints.
     pub child: usize,
     /// The joint's centre at the start, in the world [m].
     pub at: Vec3,
-    /// One for each motion the joint leaves, in the order of [`JointKind::coordinates`].
-    pub coordinates: Vec<Coordinate>,
+    /// One for each motion the joint leaves, in the order of [`JointAxes::coordinates`].
+    pub coordinates: Vec<CoordinateEntry>,
 }
 
 /// Which motions a joint or closure leaves. Directions are unit vectors of the world at the start (a closure that is not
 /// active then: at the moment it becomes active).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum JointKind {
+pub enum JointAxes {
     /// None.
     Weld,
     /// A turn about an axis of both.
@@ -87,48 +87,48 @@ const KEYS: &[&str] = &["name", "kind", "parent", "child", "at", "coordinate"];
 /// Cosine of the angle between directions that should be at right angles.
 const SQUARE_SLACK: f64 = 1e-6;
 
-impl Joint {
+impl JointEntry {
     /// One joint; whether the joints together form trees is asked in `tree`.
     pub(super) fn read(
         table: &Table<'_>,
         name: String,
         names: &Names,
-        bodies: &[Body],
+        bodies: &[BodyEntry],
         duration_s: f64,
-    ) -> Result<Joint, SceneError> {
-        let kind = JointKind::read(table, KEYS)?;
+    ) -> Result<JointEntry, SceneError> {
+        let kind = JointAxes::read(table, KEYS)?;
         let parent = names.carrier(&table.need("parent", "\"world\" or a body")?)?;
         let child = names.body(&table.need("child", "the body that hangs on the joint")?)?;
         let at = match (table.get("at"), kind) {
             (Some(value), _) => value.vector()?,
-            (None, JointKind::Revolute { .. } | JointKind::Universal { .. } | JointKind::Ball) => {
+            (None, JointAxes::Revolute { .. } | JointAxes::Universal { .. } | JointAxes::Ball) => {
                 return Err(table.missing("at", "the joint's centre in the world at the start [m]"));
             }
             (None, _) => bodies[child].start.translation,
         };
-        let coordinates = Coordinate::read_all(table, kind, &bodies[child], duration_s)?;
-        Ok(Joint { name, line: table.line, kind, parent, child, at, coordinates })
+        let coordinates = CoordinateEntry::read_all(table, kind, &bodies[child], duration_s)?;
+        Ok(JointEntry { name, line: table.line, kind, parent, child, at, coordinates })
     }
 }
 
-impl JointKind {
+impl JointAxes {
     /// What the motions that the joint leaves are, in order.
     #[must_use]
     pub fn coordinates(&self) -> &'static [CoordinateKind] {
         use CoordinateKind::{Rotation, Translation};
         match self {
-            JointKind::Weld => &[],
-            JointKind::Revolute { .. } => &[Rotation],
-            JointKind::Universal { .. } => &[Rotation; 2],
-            JointKind::Ball => &[Rotation; 3],
-            JointKind::Prismatic { .. } => &[Translation],
-            JointKind::Planar { .. } => &[Rotation, Translation, Translation],
-            JointKind::Free => &[Rotation, Rotation, Rotation, Translation, Translation, Translation],
+            JointAxes::Weld => &[],
+            JointAxes::Revolute { .. } => &[Rotation],
+            JointAxes::Universal { .. } => &[Rotation; 2],
+            JointAxes::Ball => &[Rotation; 3],
+            JointAxes::Prismatic { .. } => &[Translation],
+            JointAxes::Planar { .. } => &[Rotation, Translation, Translation],
+            JointAxes::Free => &[Rotation, Rotation, Rotation, Translation, Translation, Translation],
         }
     }
 
     /// The `kind` of a table and the axes that belong to it; refuses keys that are not among `keys` or those.
-    pub(super) fn read(table: &Table<'_>, keys: &[&str]) -> Result<JointKind, SceneError> {
+    pub(super) fn read(table: &Table<'_>, keys: &[&str]) -> Result<JointAxes, SceneError> {
         let words = WORDS.map(|(text, _)| text).join(", ");
         let word = table.need("kind", &format!("the kind of joint: {words}"))?.choice(&WORDS)?;
         let axes: &[&str] = match word {
@@ -139,24 +139,24 @@ impl JointKind {
         table.only(&[keys, axes])?;
         let axis = || table.need("axis", "a direction of the world at the start")?.direction();
         Ok(match word {
-            Word::Weld => JointKind::Weld,
-            Word::Revolute => JointKind::Revolute { axis: axis()? },
+            Word::Weld => JointAxes::Weld,
+            Word::Revolute => JointAxes::Revolute { axis: axis()? },
             Word::Universal => {
                 let axis = axis()?;
                 let second = table.need("second_axis", "a direction at right angles to `axis`")?;
-                JointKind::Universal {
+                JointAxes::Universal {
                     axis,
                     second_axis: square(second.direction()?, axis)
                         .ok_or_else(|| second.wrong("a direction at right angles to `axis`"))?,
                 }
             }
-            Word::Ball => JointKind::Ball,
-            Word::Prismatic => JointKind::Prismatic { axis: axis()? },
+            Word::Ball => JointAxes::Ball,
+            Word::Prismatic => JointAxes::Prismatic { axis: axis()? },
             Word::Planar => {
                 let normal = axis()?;
-                JointKind::Planar { normal, along: along(table, normal)? }
+                JointAxes::Planar { normal, along: along(table, normal)? }
             }
-            Word::Free => JointKind::Free,
+            Word::Free => JointAxes::Free,
         })
     }
 }

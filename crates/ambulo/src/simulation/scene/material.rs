@@ -5,7 +5,7 @@ use crate::toml_reader::Table;
 
 /// A surface, named by the shapes that have it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Material {
+pub struct MaterialEntry {
     /// Name.
     pub name: String,
     /// Line of its header; 0 for the built-in `default`.
@@ -62,10 +62,10 @@ enum Word {
 }
 
 /// All materials of the file; the first is `default`, the file's own or the built-in one.
-pub(super) fn read_all(root: &Table<'_>) -> Result<Vec<Material>, SceneError> {
-    let mut materials = vec![Material { name: "default".into(), line: 0, law: DEFAULT }];
+pub(super) fn read_all(root: &Table<'_>) -> Result<Vec<MaterialEntry>, SceneError> {
+    let mut materials = vec![MaterialEntry { name: "default".into(), line: 0, law: DEFAULT }];
     for (name, table) in root.named_tables("material")? {
-        let material = Material { law: law(&table)?, line: table.line, name };
+        let material = MaterialEntry { law: law(&table)?, line: table.line, name };
         if material.name == "default" {
             materials[0] = material;
         } else {
@@ -122,7 +122,7 @@ fn hunt_crossley(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
 }
 
 /// Index of the material that a shape names.
-pub(super) fn of_shape(table: &Table<'_>, materials: &[Material]) -> Result<usize, SceneError> {
+pub(super) fn of_shape(table: &Table<'_>, materials: &[MaterialEntry]) -> Result<usize, SceneError> {
     let Some(value) = table.get("material") else { return Ok(0) };
     let words: Vec<(&str, usize)> = materials.iter().enumerate().map(|(i, m)| (m.name.as_str(), i)).collect();
     value.choice(&words)

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// What a joint or closure holds on to.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Carrier {
+pub enum Attachment {
     /// The world, which never moves.
     World,
     /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
@@ -22,7 +22,7 @@ pub enum Carrier {
 
 /// What can touch something.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Partner {
+pub enum ContactPartner {
     /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
     Body(usize),
     /// An obstacle: its index in [`SceneFile::obstacles`](super::SceneFile::obstacles).
@@ -83,16 +83,16 @@ impl Names {
     }
 
     /// What a joint or closure holds on to.
-    pub(super) fn carrier(&self, value: &Value<'_>) -> Result<Carrier, SceneError> {
+    pub(super) fn carrier(&self, value: &Value<'_>) -> Result<Attachment, SceneError> {
         let name = value.text()?;
         if name == "world" {
-            return Ok(Carrier::World);
+            return Ok(Attachment::World);
         }
         if let Some((figure, body)) = self.figure_body(name) {
-            return Ok(Carrier::FigureBody { figure, body });
+            return Ok(Attachment::FigureBody { figure, body });
         }
         match self.find(name) {
-            Some(Item::Body(body)) => Ok(Carrier::Body(body)),
+            Some(Item::Body(body)) => Ok(Attachment::Body(body)),
             found => Err(self.unfit(value, name, "\"world\", a body, or \"figure/body\"", found)),
         }
     }
@@ -107,15 +107,15 @@ impl Names {
     }
 
     /// What can touch something.
-    pub(super) fn partner(&self, value: &Value<'_>) -> Result<Partner, SceneError> {
+    pub(super) fn partner(&self, value: &Value<'_>) -> Result<ContactPartner, SceneError> {
         let name = value.text()?;
         if let Some((figure, body)) = self.figure_body(name) {
-            return Ok(Partner::FigureBody { figure, body });
+            return Ok(ContactPartner::FigureBody { figure, body });
         }
         match self.find(name) {
-            Some(Item::Body(body)) => Ok(Partner::Body(body)),
-            Some(Item::Obstacle(obstacle)) => Ok(Partner::Obstacle(obstacle)),
-            Some(Item::Figure(figure)) => Ok(Partner::Figure(figure)),
+            Some(Item::Body(body)) => Ok(ContactPartner::Body(body)),
+            Some(Item::Obstacle(obstacle)) => Ok(ContactPartner::Obstacle(obstacle)),
+            Some(Item::Figure(figure)) => Ok(ContactPartner::Figure(figure)),
             found => Err(self.unfit(value, name, "a body, an obstacle, a figure, or \"figure/body\"", found)),
         }
     }

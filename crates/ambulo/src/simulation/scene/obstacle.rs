@@ -1,8 +1,8 @@
 //! What forces never move: floors, walls, terrain, and things on rails.
 
 use super::SceneError;
-use super::function::{self, Function, Purpose};
-use super::material::{self, Material};
+use super::function::{self, Purpose, TimeFunction};
+use super::material::{self, MaterialEntry};
 use super::names::{Item, Names};
 use super::shape::{self, Solid};
 use crate::spatial::{Pose, Vec3};
@@ -10,7 +10,7 @@ use crate::toml_reader::{Table, Value};
 
 /// Something that forces never move.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Obstacle {
+pub struct ObstacleEntry {
     /// Name, its own among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
@@ -53,11 +53,11 @@ pub struct ObstacleMotion {
     /// Line of its header.
     pub line: usize,
     /// Along world x, y, z [m].
-    pub displacement: [Function; 3],
+    pub displacement: [TimeFunction; 3],
     /// Unit direction in the world.
     pub axis: Vec3,
     /// About `axis` [rad].
-    pub angle: Function,
+    pub angle: TimeFunction,
 }
 
 /// The kinds of obstacle, by their word.
@@ -70,22 +70,27 @@ enum Word {
 
 const KEYS: &[&str] = &["name", "kind", "at", "rotation", "material", "motion"];
 
-impl Obstacle {
+impl ObstacleEntry {
     pub(super) fn read_all(
         root: &Table<'_>,
         names: &mut Names,
-        materials: &[Material],
+        materials: &[MaterialEntry],
         duration_s: f64,
-    ) -> Result<Vec<Obstacle>, SceneError> {
+    ) -> Result<Vec<ObstacleEntry>, SceneError> {
         let read = |(i, table): (usize, &Table<'_>)| {
             let name = names.declare(table, Item::Obstacle(i))?;
-            Obstacle::read(table, name, materials, duration_s)
+            ObstacleEntry::read(table, name, materials, duration_s)
         };
         root.tables("obstacle")?.iter().enumerate().map(read).collect()
     }
 
-    fn read(table: &Table<'_>, name: String, materials: &[Material], duration_s: f64) -> Result<Obstacle, SceneError> {
-        Ok(Obstacle {
+    fn read(
+        table: &Table<'_>,
+        name: String,
+        materials: &[MaterialEntry],
+        duration_s: f64,
+    ) -> Result<ObstacleEntry, SceneError> {
+        Ok(ObstacleEntry {
             name,
             line: table.line,
             shape: shape(table)?,
@@ -146,16 +151,16 @@ fn motion(value: &Value<'_>, duration_s: f64) -> Result<ObstacleMotion, SceneErr
         line: table.line,
         displacement: displacement(&table, duration_s)?,
         axis,
-        angle: angle.unwrap_or(Function::Constant(0.0)),
+        angle: angle.unwrap_or(TimeFunction::Constant(0.0)),
     })
 }
 
-fn displacement(table: &Table<'_>, duration_s: f64) -> Result<[Function; 3], SceneError> {
-    let still = || Function::Constant(0.0);
+fn displacement(table: &Table<'_>, duration_s: f64) -> Result<[TimeFunction; 3], SceneError> {
+    let still = || TimeFunction::Constant(0.0);
     let Some(value) = table.get("displacement") else { return Ok([still(), still(), still()]) };
     let expected = "three functions [x, y, z] [m]; 0 where it does not move";
     let purpose = Purpose { duration_s, angle: false };
-    let read = |entry: &Value<'_>| Function::read(entry, 1.0, purpose);
-    let functions: Result<Vec<Function>, _> = value.list(expected)?.iter().map(read).collect();
+    let read = |entry: &Value<'_>| TimeFunction::read(entry, 1.0, purpose);
+    let functions: Result<Vec<TimeFunction>, _> = value.list(expected)?.iter().map(read).collect();
     functions?.try_into().map_err(|_| value.wrong(expected))
 }

@@ -6,7 +6,7 @@
 //! | planar    | z along the normal, x along `along`                                          |
 //! | others    | the world's                                                                  |
 
-use super::joint::JointKind as Asked;
+use super::joint::JointAxes as Asked;
 use crate::simulation::joint::{Coordinates, JointKind, MOST, orthonormal, rotation};
 use crate::spatial::{Mat3, Pose, Vec3};
 

@@ -1,17 +1,17 @@
 //! A scene stepped through time, its events, and what is seen of it.
 
 use super::build::Scene;
-use super::event::Change;
+use super::event::EventAction;
 use super::output::Outputs;
 use super::walk_keeper::FigureWalk;
-use super::walker::{Placed, Walker};
+use super::walker::{Placed, PlacedFigure};
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::projection::{closure_errors, largest_joint_error};
-use crate::simulation::state::{RowKey, State};
+use crate::simulation::state::{RowKey, WorldState};
 use crate::simulation::step::{StepSettings, step};
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Wrench};
@@ -38,7 +38,7 @@ pub enum RunError {
 
 /// What is seen of a scene at an instant of output.
 #[derive(Debug)]
-pub struct Frame<'a> {
+pub struct SceneFrame<'a> {
     /// The scene as it then stands.
     pub scene: &'a Scene,
     /// Forces of the step that ends here; none at the start.
@@ -86,7 +86,7 @@ impl Scene {
 
     /// Where everything is now.
     #[must_use]
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &WorldState {
         &self.state
     }
 
@@ -145,22 +145,22 @@ impl Scene {
     pub fn run(
         &mut self,
         findings: &mut Findings,
-        mut visit: impl FnMut(&Frame<'_>),
+        mut visit: impl FnMut(&SceneFrame<'_>),
     ) -> Result<RunStatistics, RunError> {
         let mut statistics = RunStatistics::default();
         let mut impacts = Vec::new();
         if self.steps == 0 {
             let energy = energy(&self.world, &self.state);
-            visit(&Frame { scene: self, forces: None, impacts: Vec::new(), energy });
+            visit(&SceneFrame { scene: self, forces: None, impacts: Vec::new(), energy });
         }
         while self.steps < self.steps_in_all() {
             statistics.add(&self.step(findings)?);
-            let blows = self.workspace.blows().iter();
-            impacts.extend(blows.flat_map(|blow| blow.contacts.iter().map(|contact| (blow.time_s, *contact))));
+            let of_step = self.workspace.impacts().iter();
+            impacts.extend(of_step.flat_map(|impact| impact.contacts.iter().map(|contact| (impact.time_s, *contact))));
             if self.is_seen() {
                 let forces = Some(self.workspace.forces(&self.world));
                 let energy = energy(&self.world, &self.state);
-                visit(&Frame { scene: self, forces, impacts: std::mem::take(&mut impacts), energy });
+                visit(&SceneFrame { scene: self, forces, impacts: std::mem::take(&mut impacts), energy });
             }
         }
         Ok(statistics)
@@ -240,12 +240,12 @@ impl Scene {
             let change = event.change;
             self.fired += 1;
             match change {
-                Change::AddClosure(closure) => self.close(closure),
-                Change::RemoveClosure(closure) => {
+                EventAction::AddClosure(closure) => self.close(closure),
+                EventAction::RemoveClosure(closure) => {
                     self.world.closures[closure].active = false;
                     self.state.guess.remove(&RowKey::Closure(closure));
                 }
-                Change::RemoveJoint(joint) => self.let_go(joint),
+                EventAction::RemoveJoint(joint) => self.let_go(joint),
             }
         }
     }
@@ -279,7 +279,7 @@ impl Scene {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
     }
 
-    fn of_walker(&self, walker: &Walker, forces: &StepForces) -> Vec<[f64; 3]> {
+    fn of_walker(&self, walker: &PlacedFigure, forces: &StepForces) -> Vec<[f64; 3]> {
         if let Some(placed) = &walker.placed {
             return self.of_joints(placed, forces);
         }

@@ -1,7 +1,7 @@
 //! The state of a scene as plain numbers: saved and resumed bit for bit.
 
 use super::build::Scene;
-use super::event::{Change, Event};
+use super::event::{EventAction, EventEntry};
 use crate::simulation::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
@@ -83,8 +83,8 @@ impl Scene {
         agree("the number of closures is", &saved.closures.len(), &self.world.closures.len())?;
         agree("the number of poses is", &saved.poses.len(), &names.len())?;
         agree("the number of twists is", &saved.twists.len(), &names.len())?;
-        let gone = |event: &Event| match event.change {
-            Change::RemoveJoint(joint) => Some(joint),
+        let gone = |event: &EventEntry| match event.change {
+            EventAction::RemoveJoint(joint) => Some(joint),
             _ => None,
         };
         let gone: Vec<usize> = self.events[..saved.events].iter().filter_map(gone).collect();

@@ -1,13 +1,13 @@
 //! What bodies and obstacles look like where they touch.
 
 use super::SceneError;
-use super::material::{self, Material};
+use super::material::{self, MaterialEntry};
 use crate::spatial::{Pose, Vec3};
 use crate::toml_reader::Table;
 
 /// A shape of a body.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub struct ShapeEntry {
     /// Line of its header.
     pub line: usize,
     /// What it is, in its own frame.
@@ -63,16 +63,16 @@ pub(super) const WORDS: [(&str, Word); 4] =
 /// Points lie in one plane if the solid around them is thinner than this share of its length.
 const THINNEST: f64 = 1e-6;
 
-impl Shape {
+impl ShapeEntry {
     /// The shapes of a body.
-    pub(super) fn read_all(body: &Table<'_>, materials: &[Material]) -> Result<Vec<Shape>, SceneError> {
-        body.tables("shape")?.iter().map(|table| Shape::read(table, materials)).collect()
+    pub(super) fn read_all(body: &Table<'_>, materials: &[MaterialEntry]) -> Result<Vec<ShapeEntry>, SceneError> {
+        body.tables("shape")?.iter().map(|table| ShapeEntry::read(table, materials)).collect()
     }
 
-    fn read(table: &Table<'_>, materials: &[Material]) -> Result<Shape, SceneError> {
+    fn read(table: &Table<'_>, materials: &[MaterialEntry]) -> Result<ShapeEntry, SceneError> {
         let word = table.need("kind", "the kind of shape: sphere, capsule, box or convex")?.choice(&WORDS)?;
         table.only(&[&["kind", "material"], word.keys(), word.place()])?;
-        Ok(Shape {
+        Ok(ShapeEntry {
             line: table.line,
             solid: Solid::read(word, table)?,
             pose: table.pose("at")?,

@@ -1,7 +1,7 @@
 //! How a scene is stepped and solved.
 
 use super::SceneError;
-use crate::simulation::Impact;
+use crate::simulation::ImpactLaw;
 use crate::toml_reader::Table;
 
 /// How time goes on.
@@ -47,11 +47,11 @@ impl Integrator {
 }
 
 /// What becomes of the velocity of a point that strikes; `sticking` goes with steps of impulses alone.
-pub(super) fn read_impact(root: &Table<'_>, integrator: Integrator) -> Result<Impact, SceneError> {
-    let words = [("coulomb", Impact::Coulomb), ("sticking", Impact::Sticking)];
-    let Some(value) = root.get("impact") else { return Ok(Impact::Coulomb) };
+pub(super) fn read_impact(root: &Table<'_>, integrator: Integrator) -> Result<ImpactLaw, SceneError> {
+    let words = [("coulomb", ImpactLaw::Coulomb), ("sticking", ImpactLaw::Sticking)];
+    let Some(value) = root.get("impact") else { return Ok(ImpactLaw::Coulomb) };
     let impact = value.choice(&words)?;
-    if impact == Impact::Sticking && integrator == Integrator::RungeKutta {
+    if impact == ImpactLaw::Sticking && integrator == Integrator::RungeKutta {
         return Err(value.wrong("\"coulomb\" with the integrator \"runge-kutta\""));
     }
     Ok(impact)

@@ -1,23 +1,23 @@
 //! Files that a scene names, read by the caller, and the functions of time in them.
 
 use super::built::GaitSource;
-use super::function::Function;
+use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::Build;
 use crate::model::{Model, from_osim_bytes};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::simulation::consistent::ConsistentWalk;
+use crate::simulation::consistent_walk::ConsistentWalk;
 use crate::simulation::signal::Signal;
 use std::collections::BTreeMap;
 
 /// Reads a file: from its path as it stands in the scene to its bytes, or a message.
-pub type Load<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
+pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// Files of a scene as they are asked for; each table is read once.
-pub(super) struct Sources<'a, 'f> {
-    load: &'a mut Load<'f>,
+pub(super) struct InputFiles<'a, 'f> {
+    load: &'a mut ReadFile<'f>,
     tables: BTreeMap<String, RecordedTable>,
     /// Walks that were corrected for figures of this scene, which others of the same build share.
     pub(super) corrected: Vec<(Build, GaitSource, Option<f64>, ConsistentWalk)>,
@@ -26,9 +26,9 @@ pub(super) struct Sources<'a, 'f> {
     pub(super) duration_s: f64,
 }
 
-impl<'a, 'f> Sources<'a, 'f> {
-    pub(super) fn new(load: &'a mut Load<'f>, findings: &'a mut Findings, duration_s: f64) -> Sources<'a, 'f> {
-        Sources { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s }
+impl<'a, 'f> InputFiles<'a, 'f> {
+    pub(super) fn new(load: &'a mut ReadFile<'f>, findings: &'a mut Findings, duration_s: f64) -> InputFiles<'a, 'f> {
+        InputFiles { load, tables: BTreeMap::new(), corrected: Vec::new(), findings, duration_s }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {
@@ -57,20 +57,20 @@ impl<'a, 'f> Sources<'a, 'f> {
     }
 
     /// A function of the scene, which belongs to `of`, as a signal; `turns` says that it is an angle.
-    pub(super) fn signal(&mut self, of: &Place, function: &Function, turns: bool) -> Result<Signal, SceneError> {
+    pub(super) fn signal(&mut self, of: &Place, function: &TimeFunction, turns: bool) -> Result<Signal, SceneError> {
         Ok(match function {
-            Function::Constant(value) => Signal::Constant(*value),
-            Function::Sine { amplitude, frequency_hz, phase, offset } => {
+            TimeFunction::Constant(value) => Signal::Constant(*value),
+            TimeFunction::Sine { amplitude, frequency_hz, phase, offset } => {
                 Signal::Sine { amplitude: *amplitude, frequency_hz: *frequency_hz, phase: *phase, offset: *offset }
             }
-            Function::Stops(stops) => Signal::Stops(stops.clone()),
-            Function::Points(points) => {
+            TimeFunction::Stops(stops) => Signal::Stops(stops.clone()),
+            TimeFunction::Points(points) => {
                 let (times, values): (Vec<f64>, Vec<f64>) = four_or_more(points).into_iter().unzip();
                 let fitter = SplineFitter::new(SplineDegree::Cubic, &times);
                 let spline = fitter.and_then(|fitter| fitter.fit(&values, Smoothing::Interpolate));
                 Signal::Spline(spline.map_err(|e| of.error(e.to_string()))?, 0.0)
             }
-            Function::Motion { place, file, column, from_s } => {
+            TimeFunction::Motion { place, file, column, from_s } => {
                 let table = self.table(place, file)?;
                 let (spline, span) = table
                     .column(column, turns, self.findings)

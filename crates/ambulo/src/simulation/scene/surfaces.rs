@@ -1,6 +1,6 @@
 //! Shapes and materials of a scene as the simulator has them.
 
-use super::material::{ContactLaw as Asked, Material as AskedMaterial};
+use super::material::{ContactLaw as Asked, MaterialEntry as AskedMaterial};
 use super::obstacle::ObstacleShape;
 use super::shape::Solid;
 use super::{Place, SceneError};

@@ -4,11 +4,11 @@
 //! in section 4.1 of Faure, Debunne, Cani, Multon 1997. What keeps the figure in its plane is the joint's reaction.
 
 use super::build::acting;
-use super::built::{AskedWalk, Built, Follow, GaitSource, OwnCoordinate, WalkMode};
-use super::figure::Figure as Asked;
-use super::sources::{Sources, chain};
-use super::walk_keeper::WalkKeeper;
-use super::walker::{Placed, Walker, add_spheres};
+use super::built::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+use super::figure::FigureEntry as Asked;
+use super::sources::{InputFiles, chain};
+use super::walk_keeper::FigureRecorder;
+use super::walker::{Placed, PlacedFigure, add_spheres};
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
@@ -18,12 +18,13 @@ use crate::model::{
     self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
     ModelError, Side,
 };
-use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, SOFT_SHOES, make_consistent};
+use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_consistent_walk};
 use crate::simulation::joint::{JointKind, rotation};
 use crate::simulation::samples::Samples;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{
-    Body, ContactLaw, Drive, Figure, Joint, JointCoordinate, Material, Motor, Owner, Spring, Surface, World,
+    ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
+    World,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 use std::sync::Arc;
@@ -44,10 +45,10 @@ struct Motion {
 pub(super) fn add(
     world: &mut World,
     asked: &Asked,
-    built: &Built,
+    built: &BuiltFigure,
     number: usize,
-    sources: &mut Sources<'_, '_>,
-) -> Result<(Walker, Option<WalkKeeper>), SceneError> {
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<(PlacedFigure, Option<FigureRecorder>), SceneError> {
     let wrong = |e: &dyn std::error::Error| built.place.error(chain(e));
     let mut human = built.build.human().map_err(|e| wrong(&e))?;
     let mut motion = match &built.walk {
@@ -80,8 +81,8 @@ pub(super) fn add(
     add_spheres(world, asked, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let keeper = built.walk.is_some().then(|| WalkKeeper::new(&asked.name, &human, placed.clone(), soles));
-    Ok((Walker { figure, first_body, name: asked.name.clone(), placed: Some(placed) }, keeper))
+    let keeper = built.walk.is_some().then(|| FigureRecorder::new(&asked.name, &human, placed.clone(), soles));
+    Ok((PlacedFigure { figure, first_body, name: asked.name.clone(), placed: Some(placed) }, keeper))
 }
 
 /// Upright, every coordinate at its default.
@@ -91,10 +92,10 @@ fn standing(model: &Model) -> Motion {
     Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest] }
 }
 
-fn walking(asked: &AskedWalk, human: &Human, sources: &mut Sources<'_, '_>) -> Result<Motion, SceneError> {
+fn walking(asked: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
     let same =
         |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &asked.gait, &asked.speed);
-    if let (WalkMode::Corrected, Some((_, _, _, walk))) = (asked.mode, sources.corrected.iter().find(same)) {
+    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (asked.mode, sources.corrected.iter().find(same)) {
         return Ok(corrected(walk, &human.model, asked.phase));
     }
     let place = &asked.place;
@@ -111,10 +112,10 @@ fn walking(asked: &AskedWalk, human: &Human, sources: &mut Sources<'_, '_>) -> R
     }
     let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
     match asked.mode {
-        WalkMode::Curves => Ok(along_curves(&walk, human, asked.phase)),
-        WalkMode::Corrected => {
-            let settings = ConsistencySettings::default();
-            let walk = make_consistent(human, &walk, &settings).map_err(|e| wrong(&e))?;
+        FigureWalkMode::Curves => Ok(along_curves(&walk, human, asked.phase)),
+        FigureWalkMode::Corrected => {
+            let settings = ConsistentWalkSettings::default();
+            let walk = make_consistent_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
             let motion = corrected(&walk, &human.model, asked.phase);
             sources.corrected.push((human.build, asked.gait.clone(), asked.speed, walk));
             Ok(motion)
@@ -176,7 +177,7 @@ fn sampled(
 }
 
 /// The model on its place of the scene, arms held away from the trunk, with markers where the hands grip.
-fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, ModelError> {
+fn placed_model(human: &Human, asked: &Asked, built: &BuiltFigure) -> Result<Model, ModelError> {
     let model = &human.model;
     let mut bodies = model.bodies().to_vec();
     let mut markers = model.markers().to_vec();
@@ -214,7 +215,7 @@ fn placed_model(human: &Human, asked: &Asked, built: &Built) -> Result<Model, Mo
 }
 
 /// Starts that the scene gives, or that drives of its own have.
-fn own_starts(built: &Built, model: &Model, motion: &mut Motion) {
+fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     for own in &built.coordinates {
         let Some(id) = model.coordinate(&own.name) else { continue };
         let [q, qd] = &mut motion.start;
@@ -232,7 +233,7 @@ fn adduction_name(side: Side) -> String {
     format!("arm_add_{}", side.letter())
 }
 
-fn own_of<'a>(built: &'a Built, model: &Model, id: CoordinateId) -> Option<(usize, &'a OwnCoordinate)> {
+fn own_of<'a>(built: &'a BuiltFigure, model: &Model, id: CoordinateId) -> Option<(usize, &'a BuiltCoordinate)> {
     let name = &model.coordinates()[id.index()].name;
     built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
 }
@@ -252,12 +253,12 @@ fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
 }
 
 fn acting_on(
-    built: &Built,
+    built: &BuiltFigure,
     number: usize,
     model: &Model,
     id: CoordinateId,
     signals: &[Signal],
-    sources: &mut Sources<'_, '_>,
+    sources: &mut InputFiles<'_, '_>,
 ) -> Result<JointCoordinate, SceneError> {
     let signal = || signals[id.index()].clone();
     let slides = matches!(model.coordinates()[id.index()].kind, CoordinateKind::Translation);
@@ -270,20 +271,20 @@ fn acting_on(
         }
     }
     let Some((k, own)) = own_of(built, model, id) else {
-        let drive = (!slides).then(|| Drive { signal: signal(), max: None });
+        let drive = (!slides).then(|| JointDrive { signal: signal(), max: None });
         return Ok(JointCoordinate { drive, ..JointCoordinate::default() });
     };
     let place = Place { line: own.line, key: format!("figure[{number}].coordinate[{}]", k + 1) };
     let mut acting = acting(&own.acting, &place, sources)?;
-    if let Some(Follow { stiffness, damping, max }) = own.follow {
+    if let Some(WalkTracking { stiffness, damping, max }) = own.follow {
         acting.motor = Some(Motor { target: signal(), kp: stiffness, kd: damping, max });
     }
     Ok(acting)
 }
 
-fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> Body {
+fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
     let about = &model.bodies()[id.index()];
-    Body {
+    RigidBody {
         name: format!("{}/{}", asked.name, about.name),
         mass: about.inertia.mass(),
         inertia: about.inertia.about_center(),
@@ -293,7 +294,7 @@ fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> Body {
     }
 }
 
-fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> Joint {
+fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> TreeJoint {
     let joint = &model.bodies()[id.index()].joint;
     let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
     let (kind, turn) = match (&joint.rotations[..], joint.parent) {
@@ -306,7 +307,7 @@ fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinate
         _ => (JointKind::Revolute, Mat3::identity()),
     };
     let turn = Pose { rotation: turn, translation: Vec3::zeros() };
-    Joint {
+    TreeJoint {
         name: format!("{}/{}", asked.name, joint.name),
         child: first_body + id.index(),
         parent: joint.parent.map(|p| first_body + p.index()),
@@ -321,7 +322,7 @@ fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinate
 /// The soles, which pass each other; numbers of their surfaces.
 fn add_soles(
     world: &mut World,
-    built: &Built,
+    built: &BuiltFigure,
     human: &Human,
     first_body: usize,
 ) -> Result<Vec<(usize, Side)>, SceneError> {

@@ -1,15 +1,15 @@
 //! Whether the joints form trees: no body on two joints, no parents that lead in a circle.
 
 use super::SceneError;
-use super::body::Body;
-use super::joint::Joint;
-use super::names::Carrier;
+use super::body::BodyEntry;
+use super::joint::JointEntry;
+use super::names::Attachment;
 use crate::toml_reader::Table;
 
 const ADVICE: &str = "close the loop with a [[closure]]";
 
 /// Refuses joints that do not form trees; `tables` are those of the joints, in the same order.
-pub(super) fn check(joints: &[Joint], tables: &[Table<'_>], bodies: &[Body]) -> Result<(), SceneError> {
+pub(super) fn check(joints: &[JointEntry], tables: &[Table<'_>], bodies: &[BodyEntry]) -> Result<(), SceneError> {
     let mut joint_of: Vec<Option<usize>> = vec![None; bodies.len()];
     for (i, (joint, table)) in joints.iter().zip(tables).enumerate() {
         if let Some(earlier) = joint_of[joint.child].map(|j| &joints[j]) {
@@ -20,8 +20,8 @@ pub(super) fn check(joints: &[Joint], tables: &[Table<'_>], bodies: &[Body]) -> 
         joint_of[joint.child] = Some(i);
     }
     let parent = |joint: usize| match joints[joint].parent {
-        Carrier::Body(body) => joint_of[body],
-        Carrier::World | Carrier::FigureBody { .. } => None,
+        Attachment::Body(body) => joint_of[body],
+        Attachment::World | Attachment::FigureBody { .. } => None,
     };
     let Some(circle) = circle(joints.len(), parent) else { return Ok(()) };
     let mut names: Vec<&str> = circle.iter().map(|joint| bodies[joints[*joint].child].name.as_str()).collect();

@@ -13,7 +13,7 @@
 //! Not handled: convex solids; the caller asks for `inertia`.
 //! Pinned by: tests/scene_file.rs (sums over grids of points)
 
-use super::shape::{Shape, Solid};
+use super::shape::{ShapeEntry, Solid};
 use crate::spatial::{Mat3, Vec3};
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ struct Part {
 }
 
 /// `None` if one of the shapes is convex, or there is none.
-pub(super) fn uniform(shapes: &[Shape]) -> Option<Uniform> {
+pub(super) fn uniform(shapes: &[ShapeEntry]) -> Option<Uniform> {
     let parts: Option<Vec<Part>> = shapes.iter().map(part).collect();
     let parts = parts.filter(|parts| !parts.is_empty())?;
     let total: f64 = parts.iter().map(|part| part.volume).sum();
@@ -45,7 +45,7 @@ pub(super) fn uniform(shapes: &[Shape]) -> Option<Uniform> {
     Some(Uniform { center, about_center })
 }
 
-fn part(shape: &Shape) -> Option<Part> {
+fn part(shape: &ShapeEntry) -> Option<Part> {
     let (volume, center, own) = match shape.solid {
         Solid::Sphere { radius } => (ball(radius), Vec3::zeros(), Mat3::identity() * (0.4 * radius * radius)),
         Solid::Box { size } => {

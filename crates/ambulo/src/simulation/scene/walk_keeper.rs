@@ -6,7 +6,7 @@ use crate::model::anthropometry::Human;
 use crate::model::{BodyId, Side};
 use crate::motion::TimeGrid;
 use crate::simulation::forces::ContactForce;
-use crate::simulation::state::State;
+use crate::simulation::state::WorldState;
 use crate::simulation::step::StepWorkspace;
 use crate::simulation::walking::{FootRecord, WalkRecording};
 use crate::simulation::world::{Owner, World};
@@ -29,7 +29,7 @@ pub struct FigureWalk {
 
 /// A recording under way.
 #[derive(Debug, Clone)]
-pub(super) struct WalkKeeper {
+pub(super) struct FigureRecorder {
     name: String,
     human: Human,
     placed: Vec<Placed>,
@@ -44,15 +44,15 @@ pub(super) struct WalkKeeper {
     unsolved: usize,
 }
 
-impl WalkKeeper {
-    pub(super) fn new(name: &str, human: &Human, placed: Vec<Placed>, soles: Vec<(usize, Side)>) -> WalkKeeper {
+impl FigureRecorder {
+    pub(super) fn new(name: &str, human: &Human, placed: Vec<Placed>, soles: Vec<(usize, Side)>) -> FigureRecorder {
         let count = placed.len();
         let foot = |side: Side| human.soles.iter().find(|sole| sole.side == side).map_or(BodyId(0), |sole| sole.body);
         let toes = |side: Side| {
             let mut bodies = human.soles.iter().filter(|sole| sole.side == side).map(|sole| sole.body);
             bodies.find(|body| *body != foot(side))
         };
-        WalkKeeper {
+        FigureRecorder {
             name: name.to_owned(),
             human: human.clone(),
             placed,
@@ -67,7 +67,7 @@ impl WalkKeeper {
     }
 
     /// Coordinates and rates of all coordinates.
-    fn read(&self, world: &World, state: &State) -> Vec<[f64; 2]> {
+    fn read(&self, world: &World, state: &WorldState) -> Vec<[f64; 2]> {
         let joint_of = world.joint_of_body();
         let mut rates: Vec<Vec<f64>> = vec![Vec::new(); world.joints.len()];
         let mut value = |placed: &Placed| {
@@ -80,7 +80,7 @@ impl WalkKeeper {
         self.placed.iter().map(&mut value).collect()
     }
 
-    pub(super) fn before_step(&mut self, world: &World, state: &State) {
+    pub(super) fn before_step(&mut self, world: &World, state: &WorldState) {
         if self.feet[0].force.is_empty() {
             self.start_s = state.time_s;
         }
@@ -89,7 +89,14 @@ impl WalkKeeper {
 
     /// Keeps a step; wrenches of the workspace have been read. The posture is that at its start: velocities stand in the middle of
     /// steps.
-    pub(super) fn after_step(&mut self, world: &World, state: &State, w: &StepWorkspace, step_s: f64, solved: bool) {
+    pub(super) fn after_step(
+        &mut self,
+        world: &World,
+        state: &WorldState,
+        w: &StepWorkspace,
+        step_s: f64,
+        solved: bool,
+    ) {
         if self.feet[0].force.len() >= MOST_ROWS {
             return;
         }
@@ -141,7 +148,7 @@ impl WalkKeeper {
             trajectory,
             efforts: self.efforts.clone(),
             feet: self.feet.clone(),
-            blows: Vec::new(),
+            impacts: Vec::new(),
             unsolved_steps: self.unsolved,
         };
         Ok(FigureWalk { name: self.name.clone(), human: self.human.clone(), recording })

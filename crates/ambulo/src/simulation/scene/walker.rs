@@ -4,18 +4,18 @@
 //! Others must be of a kind that the simulator has: turns about one fixed axis, two square ones or three, slides along one, the
 //! plane, or everything.
 
-use super::figure::{Driven, Figure as Asked, Root};
-use super::joint::JointKind as AskedJoint;
+use super::figure::{DrivenCoordinates, FigureEntry as Asked, RootMotion};
+use super::joint::JointAxes as AskedJoint;
 use super::placement::place;
-use super::sources::Sources;
+use super::sources::InputFiles;
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::findings::Code;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
-use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
+use crate::model::{Body, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
 use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
-use crate::simulation::world::{Body, Figure, Follows, Joint, JointCoordinate, Owner, Surface, World};
+use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
 /// Cosine of the angle between axes that should be square.
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Where a figure's bodies stand in the world.
 #[derive(Debug, Clone)]
-pub(super) struct Walker {
+pub(super) struct PlacedFigure {
     /// Its number among the figures.
     pub(super) figure: usize,
     /// Its first body; the others follow in the model's order.
@@ -46,7 +46,7 @@ pub(super) struct Placed {
 }
 
 /// A figure under construction.
-struct Making<'a> {
+struct FigureAssembly<'a> {
     asked: &'a Asked,
     /// Number in the file, from 1.
     number: usize,
@@ -62,8 +62,8 @@ pub(super) fn add(
     world: &mut World,
     asked: &Asked,
     number: usize,
-    sources: &mut Sources<'_, '_>,
-) -> Result<Walker, SceneError> {
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<PlacedFigure, SceneError> {
     let model = sources.model(&asked.model_place, &asked.model)?;
     let model =
         standing_at(&model, &asked.pose).map_err(|e| asked.model_place.error(format!("{}: {e}", asked.model)))?;
@@ -73,16 +73,16 @@ pub(super) fn add(
     let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
     let motions = body_motion(&model, Posture { q: &q, qd: &qd, qdd: &qdd });
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
-    let making = Making { asked, number, model, signals, motions, first_body, figure };
+    let making = FigureAssembly { asked, number, model, signals, motions, first_body, figure };
     for id in making.model.body_ids() {
         world.bodies.push(making.body(id));
         world.joints.extend(making.joint(id)?);
     }
     making.refuse_massless(world)?;
     add_spheres(world, asked, number, &making.model, first_body)?;
-    let Making { model, signals, .. } = making;
+    let FigureAssembly { model, signals, .. } = making;
     world.figures.push(Figure { model, coordinates: signals });
-    Ok(Walker { figure, first_body, name: asked.name.clone(), placed: None })
+    Ok(PlacedFigure { figure, first_body, name: asked.name.clone(), placed: None })
 }
 
 /// The model with its ground moved.
@@ -95,7 +95,7 @@ fn standing_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::
 }
 
 fn refuse_unknown(asked: &Asked, number: usize, model: &Model) -> Result<(), SceneError> {
-    let Driven::Only(names) = &asked.driven else { return Ok(()) };
+    let DrivenCoordinates::Only(names) = &asked.driven else { return Ok(()) };
     let place = Place { line: asked.line, key: format!("figure[{number}].drive") };
     for name in names {
         let Some(id) = model.coordinate(name) else {
@@ -116,7 +116,7 @@ fn is_of_root(model: &Model, id: CoordinateId) -> bool {
 }
 
 /// One signal a coordinate: recorded, or as the model has it.
-fn signals(asked: &Asked, model: &Model, sources: &mut Sources<'_, '_>) -> Result<Vec<Signal>, SceneError> {
+fn signals(asked: &Asked, model: &Model, sources: &mut InputFiles<'_, '_>) -> Result<Vec<Signal>, SceneError> {
     let free = |id: CoordinateId| matches!(model.coordinates()[id.index()].drive, Drive::Free);
     let (mut columns, mut start) = (vec![None; model.coordinates().len()], 0.0);
     if let Some(file) = &asked.motion {
@@ -143,7 +143,7 @@ fn signals(asked: &Asked, model: &Model, sources: &mut Sources<'_, '_>) -> Resul
     Ok(signals)
 }
 
-fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: &mut Sources<'_, '_>) {
+fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: &mut InputFiles<'_, '_>) {
     let missing = model.coordinates().iter().zip(columns);
     let missing = missing.filter(|(c, column)| matches!(c.drive, Drive::Free) && column.is_none());
     let names: Vec<String> = missing.map(|(c, _)| format!("`{}` ({})", c.name, c.default_value)).collect();
@@ -154,10 +154,10 @@ fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: 
     }
 }
 
-impl Making<'_> {
-    fn body(&self, id: BodyId) -> Body {
+impl FigureAssembly<'_> {
+    fn body(&self, id: BodyId) -> RigidBody {
         let (about, motion) = (&self.model.bodies()[id.index()], &self.motions[id.index()]);
-        Body {
+        RigidBody {
             name: format!("{}/{}", self.asked.name, about.name),
             mass: about.inertia.mass(),
             inertia: about.inertia.about_center(),
@@ -173,17 +173,17 @@ impl Making<'_> {
         match &coordinate.drive {
             Drive::Locked | Drive::Prescribed(_) => true,
             Drive::Coupled(leader, _) => self.follows(*leader),
-            Drive::Free if is_of_root(&self.model, id) => self.asked.root == Root::Driven,
+            Drive::Free if is_of_root(&self.model, id) => self.asked.root == RootMotion::Driven,
             Drive::Free => match &self.asked.driven {
-                Driven::All => true,
-                Driven::Nothing => false,
-                Driven::Only(names) => names.contains(&coordinate.name),
+                DrivenCoordinates::All => true,
+                DrivenCoordinates::Nothing => false,
+                DrivenCoordinates::Only(names) => names.contains(&coordinate.name),
             },
         }
     }
 
     /// The joint of a body; none where nothing holds it.
-    fn joint(&self, id: BodyId) -> Result<Option<Joint>, SceneError> {
+    fn joint(&self, id: BodyId) -> Result<Option<TreeJoint>, SceneError> {
         let body = &self.model.bodies()[id.index()];
         let followed: Vec<bool> = body.joint.coordinates().into_iter().map(|c| self.follows(c)).collect();
         if followed.iter().all(|follows| *follows) {
@@ -199,7 +199,7 @@ impl Making<'_> {
         let center = self.frame_on_child(id).translation;
         let placed = place(&asked.kind, center, &asked.values);
         let on = |body: Option<BodyId>, frame: Pose| body.map_or(frame, |b| self.pose(b).inverse() * frame);
-        Ok(Some(Joint {
+        Ok(Some(TreeJoint {
             name: self.joint_name(body),
             child: self.first_body + id.index(),
             parent: body.joint.parent.map(|p| self.first_body + p.index()),
@@ -211,7 +211,7 @@ impl Making<'_> {
         }))
     }
 
-    fn joint_name(&self, body: &ModelBody) -> String {
+    fn joint_name(&self, body: &Body) -> String {
         format!("{}/{}", self.asked.name, body.joint.name)
     }
 
@@ -226,11 +226,11 @@ impl Making<'_> {
         self.motions[id.index()].pose * self.model.bodies()[id.index()].joint.child_from_joint
     }
 
-    fn following(&self, id: BodyId) -> Joint {
+    fn following(&self, id: BodyId) -> TreeJoint {
         let joint = &self.model.bodies()[id.index()].joint;
         let parent = joint.parent;
         let center = |body: BodyId| Pose::at(-self.model.bodies()[body.index()].inertia.center());
-        Joint {
+        TreeJoint {
             name: self.joint_name(&self.model.bodies()[id.index()]),
             child: self.first_body + id.index(),
             parent: parent.map(|p| self.first_body + p.index()),
@@ -277,7 +277,7 @@ impl Making<'_> {
     }
 
     /// An axis that a coordinate of its own moves, in the world; none if it stays.
-    fn moving(&self, body: &ModelBody, axis: &JointAxis, frame: &Mat3) -> Result<Option<Axis>, SceneError> {
+    fn moving(&self, body: &Body, axis: &JointAxis, frame: &Mat3) -> Result<Option<Axis>, SceneError> {
         let Displacement::Follows(id, function) = &axis.displacement else { return Ok(None) };
         if function.as_constant().is_some() {
             return Ok(None);
@@ -301,7 +301,7 @@ impl Making<'_> {
         }
     }
 
-    fn unfit(&self, body: &ModelBody, why: &str) -> SceneError {
+    fn unfit(&self, body: &Body, why: &str) -> SceneError {
         let place = Place { line: self.asked.line, key: format!("figure[{}]", self.number) };
         let of_root = body.joint.parent.is_none();
         let advice = if of_root { "root = \"driven\"" } else { "drive all coordinates of the joint, or none" };

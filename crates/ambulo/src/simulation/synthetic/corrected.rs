@@ -1,13 +1,13 @@
 //! The corrected mode: the gait made consistent, then stepped on soft shoes.
 
-use super::order::WalkOrder;
+use super::order::SyntheticWalkSettings;
 use super::report::CorrectionReport;
 use super::steady::{simulated_cycles, steady};
 use super::{SyntheticError, SyntheticWalk};
 use crate::findings::{Code, Findings};
 use crate::gait::Walk;
 use crate::model::anthropometry::Human;
-use crate::simulation::consistent::{ConsistencySettings, ConsistentWalk, make_consistent};
+use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 
 /// Cycles until the simulated walk is steady: it starts on the planned motion.
 const LEFT_OUT: usize = 1;
@@ -15,13 +15,13 @@ const LEFT_OUT: usize = 1;
 const LACKING: [f64; 2] = [0.01, 0.005];
 
 pub(super) fn walk(
-    order: &WalkOrder<'_>,
+    order: &SyntheticWalkSettings<'_>,
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let walk = Walk::new(order.gait, human.dimensions.leg_length, findings)?;
-    let settings = ConsistencySettings::default();
-    let consistent = make_consistent(&human, &walk, &settings)?;
+    let settings = ConsistentWalkSettings::default();
+    let consistent = make_consistent_walk(&human, &walk, &settings)?;
     let correction = report(&consistent, &human, &settings, findings)?;
     let recording =
         consistent.simulate(&human, &settings, order.step_s(), simulated_cycles(order, LEFT_OUT), findings)?;
@@ -31,7 +31,7 @@ pub(super) fn walk(
 fn report(
     consistent: &ConsistentWalk,
     human: &Human,
-    settings: &ConsistencySettings,
+    settings: &ConsistentWalkSettings,
     findings: &mut Findings,
 ) -> Result<CorrectionReport, SyntheticError> {
     let lacking = consistent.lacking(human, &settings.shoes)?;
@@ -39,7 +39,7 @@ fn report(
     let allowed = [LACKING[0] * weight, LACKING[1] * weight * human.dimensions.leg_length];
     if lacking[0].rms > allowed[0] || lacking[1].rms > allowed[1] {
         let message = format!(
-            "no small change makes this gait one that the ground carries: {:.1} N and {:.1} N.m rms are missing at the root (at most {:.1} N and {:.1} N.m are taken as none); what is missing is given from outside, and the verdict judges it. hint: another speed, step length or style, or --mode paper",
+            "no small change makes this gait one that the ground carries: {:.1} N and {:.1} N.m rms are missing at the root (at most {:.1} N and {:.1} N.m are taken as none); what is missing is given from outside, and the verdict judges it. hint: choose another speed, step length or style",
             lacking[0].rms, lacking[1].rms, allowed[0], allowed[1]
         );
         findings.report(Code::WalkNotConsistent, message);

@@ -4,7 +4,7 @@ use super::order::{MOST_CYCLES, RATES_HZ};
 use crate::gait::GaitError;
 use crate::kinematics::TrajectoryError;
 use crate::model::anthropometry::BuildError;
-use crate::simulation::consistent::ConsistencyError;
+use crate::simulation::consistent_walk::ConsistentWalkError;
 use crate::simulation::walking::WalkingError;
 
 /// Why no walk can be made.
@@ -31,7 +31,7 @@ pub enum SyntheticError {
     Gait(#[from] GaitError),
     /// Making it consistent.
     #[error(transparent)]
-    Consistency(#[from] ConsistencyError),
+    Consistency(#[from] ConsistentWalkError),
     /// Stepping it through time.
     #[error(transparent)]
     Walking(#[from] WalkingError),

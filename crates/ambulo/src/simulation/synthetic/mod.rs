@@ -1,7 +1,7 @@
 //! Synthetic walks, from a gait and a build to motion and ground forces that an analysis takes as it takes a recording.
 //!
-//! Two modes: [`Mode::Corrected`] changes the gait until its forces come from the ground alone
-//! ([`super::consistent`]) and steps it on soft shoes; [`Mode::Paper`] drives the joints as the gait has them, holds the trunk
+//! Two modes: [`SyntheticMode::Corrected`] changes the gait until its forces come from the ground alone
+//! ([`super::consistent_walk`]) and steps it on soft shoes; [`SyntheticMode::Paper`] drives the joints as the gait has them, holds the trunk
 //! upright, and lets rigid soles strike (Faure, Debunne, Cani, Multon 1997). In both, cycles before the walk is steady are
 //! left out, and what is kept begins a little before a strike of the right foot, so that every cycle is whole.
 
@@ -14,7 +14,7 @@ mod steady;
 
 pub use crate::numerics::Progress;
 pub use error::SyntheticError;
-pub use order::{MOST_CYCLES, Mode, RATES_HZ, WalkOrder};
+pub use order::{MOST_CYCLES, RATES_HZ, SyntheticMode, SyntheticWalkSettings};
 pub use report::{CorrectionReport, WalkReport};
 
 use crate::findings::Findings;
@@ -44,11 +44,11 @@ pub struct SyntheticWalk {
 ///
 /// # Errors
 /// A figure or a gait that cannot be; see [`SyntheticError`].
-pub fn synthesise(order: &WalkOrder<'_>, findings: &mut Findings) -> Result<SyntheticWalk, SyntheticError> {
+pub fn synthesise(order: &SyntheticWalkSettings<'_>, findings: &mut Findings) -> Result<SyntheticWalk, SyntheticError> {
     order.check()?;
     let human = order.build.human()?;
     match order.mode {
-        Mode::Corrected => corrected::walk(order, human, findings),
-        Mode::Paper => paper::walk(order, human, findings),
+        SyntheticMode::Corrected => corrected::walk(order, human, findings),
+        SyntheticMode::Paper => paper::walk(order, human, findings),
     }
 }

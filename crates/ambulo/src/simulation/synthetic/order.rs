@@ -7,25 +7,25 @@ use std::fmt;
 
 /// How a walk is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
+pub enum SyntheticMode {
     /// Changed until its forces come from the ground alone, on soft shoes.
     Corrected,
     /// As the paper of 1997 has it: rigid soles, the trunk held.
     Paper,
 }
 
-impl Mode {
+impl SyntheticMode {
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Mode::Corrected => "corrected",
-            Mode::Paper => "paper",
+            SyntheticMode::Corrected => "corrected",
+            SyntheticMode::Paper => "paper",
         }
     }
 }
 
-impl fmt::Display for Mode {
+impl fmt::Display for SyntheticMode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -33,13 +33,13 @@ impl fmt::Display for Mode {
 
 /// What walk is asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct WalkOrder<'a> {
+pub struct SyntheticWalkSettings<'a> {
     /// The gait.
     pub gait: &'a Gait,
     /// Who walks.
     pub build: Build,
     /// How it is made.
-    pub mode: Mode,
+    pub mode: SyntheticMode,
     /// Whole cycles of each foot.
     pub cycles: usize,
     /// Frames a second of the motion [Hz].
@@ -53,7 +53,7 @@ pub const RATES_HZ: [f64; 2] = [20.0, 5000.0];
 /// The simulator steps no more slowly than this [Hz].
 const SLOWEST_STEPS_HZ: f64 = 1000.0;
 
-impl WalkOrder<'_> {
+impl SyntheticWalkSettings<'_> {
     pub(super) fn check(&self) -> Result<(), SyntheticError> {
         if !(1..=MOST_CYCLES).contains(&self.cycles) {
             return Err(SyntheticError::Cycles { found: self.cycles });

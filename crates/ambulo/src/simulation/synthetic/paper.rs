@@ -1,13 +1,13 @@
-//! The paper's mode: joints as the gait has them, the trunk held upright, rigid soles whose blows cancel the whole velocity.
+//! The paper's mode: joints as the gait has them, the trunk held upright, rigid soles whose impacts cancel the whole velocity.
 
-use super::order::WalkOrder;
+use super::order::SyntheticWalkSettings;
 use super::steady::{simulated_cycles, steady};
 use super::{SyntheticError, SyntheticWalk};
 use crate::findings::Findings;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
 use crate::simulation::walking::{Ground, Shoes, Walker, gait_signals};
-use crate::simulation::{Impact, StepSettings};
+use crate::simulation::{ImpactLaw, StepSettings};
 
 /// Cycles until the walk repeats.
 const LEFT_OUT: usize = 2;
@@ -15,13 +15,13 @@ const LEFT_OUT: usize = 2;
 const FRICTION: f64 = 1.0;
 
 pub(super) fn walk(
-    order: &WalkOrder<'_>,
+    order: &SyntheticWalkSettings<'_>,
     human: Human,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let gait = Gait { pelvis: Pelvis::Vertical, ..order.gait.clone() };
     let walk = Walk::new(&gait, human.dimensions.leg_length, findings)?;
-    let ground = Ground { friction: FRICTION, shoes: Shoes::Rigid, impact: Impact::Sticking };
+    let ground = Ground { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
     let walker = Walker::new(&human, gait_signals(&walk, &human.model), &ground, walk.speed())?;
     let step = StepSettings { step_s: order.step_s(), ..StepSettings::default() };
     let recording = walker.walk(&step, simulated_cycles(order, LEFT_OUT) * walk.cycle_s(), findings)?;

@@ -1,10 +1,10 @@
 //! How a walk came about, in numbers.
 
-use super::order::Mode;
+use super::order::SyntheticMode;
 use crate::gait::Style;
 use crate::model::anthropometry::SegmentTable;
 use crate::numerics::Progress;
-use crate::simulation::consistent::{Adjustment, Change};
+use crate::simulation::consistent_walk::{Adjustment, Magnitude};
 use crate::simulation::walking::StanceSlip;
 
 /// How a walk came about.
@@ -15,7 +15,7 @@ pub struct WalkReport {
     /// How its curves run.
     pub style: Style,
     /// How the walk was made.
-    pub mode: Mode,
+    pub mode: SyntheticMode,
     /// Whose segments.
     pub figure: SegmentTable,
     /// Speed that the gait asks for [m/s].
@@ -31,13 +31,13 @@ pub struct WalkReport {
     /// What was changed; `None` in paper mode.
     pub correction: Option<CorrectionReport>,
     /// Torque that holds the trunk from outside [N.m].
-    pub trunk_torque: Change,
+    pub trunk_torque: Magnitude,
     /// How far a loaded sole gets from where it stood, in the worst whole stance.
     pub slip: Option<StanceSlip>,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,
-    /// Blows of rigid soles, and the largest impulse on a foot [N.s]; none on soft shoes.
-    pub blows: (usize, f64),
+    /// Impacts of rigid soles, and the largest impulse on a foot [N.s]; none on soft shoes.
+    pub impacts: (usize, f64),
     /// Largest difference of the mid-hip's speed from one cycle to the next [m/s]; the angles are given and repeat exactly.
     pub speed_drift: f64,
     /// Steps of the simulator a second [Hz].
@@ -54,7 +54,7 @@ pub struct CorrectionReport {
     /// How much the motion changed.
     pub adjustment: Adjustment,
     /// What the plan's root still lacks: force [N] and moment [N.m].
-    pub lacking: [Change; 2],
+    pub lacking: [Magnitude; 2],
     /// How the solver got there.
     pub progress: Vec<Progress>,
 }

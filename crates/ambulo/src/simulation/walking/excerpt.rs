@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Which rows of a walk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rows {
+pub struct ExcerptRows {
     /// The first; the clock is zero there.
     pub first: usize,
     /// How far from one to the next in the motion; forces are kept at all rows.
@@ -19,7 +19,7 @@ pub struct Rows {
     pub frames: usize,
 }
 
-impl Rows {
+impl ExcerptRows {
     /// The n-th of them.
     #[must_use]
     pub fn row(&self, n: usize) -> usize {
@@ -49,11 +49,11 @@ impl WalkRecording {
     ///
     /// # Errors
     /// None that a recording can give: its numbers are finite.
-    pub fn excerpt(&self, rows: Rows) -> Result<Excerpt, TrajectoryError> {
+    pub fn excerpt(&self, rows: ExcerptRows) -> Result<Excerpt, TrajectoryError> {
         let grid = self.grid();
         let every = rows.every.max(1);
         let there = grid.frames.saturating_sub(rows.first).div_ceil(every);
-        let rows = Rows { every, frames: rows.frames.min(there), ..rows };
+        let rows = ExcerptRows { every, frames: rows.frames.min(there), ..rows };
         let taken = |series: &[f64]| (0..rows.frames).map(|n| series[rows.row(n)]).collect::<Vec<f64>>();
         let t = &self.trajectory;
         let column = |id| [t.values(id), t.rates(id), t.accelerations(id)].map(taken);
@@ -70,7 +70,7 @@ impl WalkRecording {
 }
 
 /// What the heel's body and the toes of a foot feel.
-fn loads(side: &str, foot: &FootRecord, rows: &Rows, times: &[f64]) -> Vec<ForceRecording> {
+fn loads(side: &str, foot: &FootRecord, rows: &ExcerptRows, times: &[f64]) -> Vec<ForceRecording> {
     let of_toes = |row: usize| {
         foot.toes.as_ref().map_or((Vec3::zeros(), Vec3::zeros()), |toes| (toes.force[row], toes.moment[row]))
     };

@@ -4,10 +4,10 @@ use super::error::WalkingError;
 use crate::contact::{HuntCrossley, Shape};
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
-use crate::model::{Body as ModelBody, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
+use crate::model::{Body, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
 use crate::simulation::{
-    Body, ContactLaw, Drive, Impact, Joint, JointCoordinate, JointKind, Material, Obstacle, Owner, Signal, Surface,
-    World,
+    ContactLaw, ImpactLaw, JointCoordinate, JointDrive, JointKind, Material, Obstacle, Owner, RigidBody, Signal,
+    Surface, TreeJoint, World,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
@@ -38,7 +38,7 @@ pub struct Ground {
     /// What the soles are made of.
     pub shoes: Shoes,
     /// What becomes of the velocity of a sole that strikes.
-    pub impact: Impact,
+    pub impact: ImpactLaw,
 }
 
 /// A coordinate of the model in the world.
@@ -120,7 +120,7 @@ impl Walker {
     }
 
     /// Slides along x and y, which are free, and the turn about z, which is driven.
-    fn root(&self, id: BodyId, body: &ModelBody) -> Result<JointInModel, WalkingError> {
+    fn root(&self, id: BodyId, body: &Body) -> Result<JointInModel, WalkingError> {
         let [turn] = moving(body, &body.joint.rotations, [Vec3::z()])?;
         let [x, y] = moving(body, &body.joint.translations, [Vec3::x(), Vec3::y()])?;
         let free = JointCoordinate::default;
@@ -128,16 +128,16 @@ impl Walker {
         Ok((self.joint(id, body, JointKind::Planar, coordinates), vec![x, y, turn]))
     }
 
-    fn hinge(&self, id: BodyId, body: &ModelBody) -> Result<JointInModel, WalkingError> {
+    fn hinge(&self, id: BodyId, body: &Body) -> Result<JointInModel, WalkingError> {
         let [turn] = moving(body, &body.joint.rotations, [Vec3::z()])?;
         let [] = moving(body, &body.joint.translations, [])?;
         Ok((self.joint(id, body, JointKind::Revolute, vec![self.driven(turn)]), vec![turn]))
     }
 
-    fn joint(&self, id: BodyId, body: &ModelBody, kind: JointKind, coordinates: Vec<JointCoordinate>) -> Joint {
+    fn joint(&self, id: BodyId, body: &Body, kind: JointKind, coordinates: Vec<JointCoordinate>) -> TreeJoint {
         let from_center = |body: BodyId| Pose::at(-self.model.bodies()[body.index()].inertia.center());
         let parent = body.joint.parent;
-        Joint {
+        TreeJoint {
             name: body.joint.name.clone(),
             child: id.index(),
             parent: parent.map(BodyId::index),
@@ -153,7 +153,7 @@ impl Walker {
         let own = &self.signals[id.index()];
         let turned = Function::Linear { slope: sense, intercept: 0.0 };
         let signal = if sense > 0.0 { own.clone() } else { Signal::Of(turned, Box::new(own.clone())) };
-        JointCoordinate { drive: Some(Drive { signal, max: None }), ..JointCoordinate::default() }
+        JointCoordinate { drive: Some(JointDrive { signal, max: None }), ..JointCoordinate::default() }
     }
 
     fn add_soles(&mut self, human: &Human, ground: &Ground) -> Result<(), WalkingError> {
@@ -222,7 +222,7 @@ impl Walker {
 
     fn add_bodies(&mut self, motions: &[BodyMotion]) {
         for (body, motion) in self.model.bodies().iter().zip(motions) {
-            self.world.bodies.push(Body {
+            self.world.bodies.push(RigidBody {
                 name: body.name.clone(),
                 mass: body.inertia.mass(),
                 inertia: body.inertia.about_center(),
@@ -235,11 +235,11 @@ impl Walker {
 }
 
 /// A joint, and the coordinates of the model that its own are, with their sense.
-type JointInModel = (Joint, Vec<(CoordinateId, f64)>);
+type JointInModel = (TreeJoint, Vec<(CoordinateId, f64)>);
 
 /// The coordinates that move the expected axes, in their order; nothing else may move.
 fn moving<const N: usize>(
-    body: &ModelBody,
+    body: &Body,
     axes: &[JointAxis],
     expected: [Vec3; N],
 ) -> Result<[(CoordinateId, f64); N], WalkingError> {

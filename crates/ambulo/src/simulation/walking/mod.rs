@@ -5,8 +5,8 @@
 //! and keeps what happened as a [`WalkRecording`], from which tables, figures and `analysis` can work.
 //!
 //! Times: a step of impulses from t to t + h has velocities in the middle of the step, so its forces are those of the posture at
-//! t (leapfrog): row n of a recording is the posture at t_n and the forces of the step that begins there. Impulses of blows
-//! ([`Impact::Sticking`](super::Impact::Sticking)) are apart from forces.
+//! t (leapfrog): row n of a recording is the posture at t_n and the forces of the step that begins there. Impulses of impacts
+//! ([`ImpactLaw::Sticking`](super::ImpactLaw::Sticking)) are apart from forces.
 
 mod error;
 mod excerpt;
@@ -19,9 +19,9 @@ mod slip;
 mod start;
 
 pub use error::WalkingError;
-pub use excerpt::{Excerpt, Rows};
+pub use excerpt::{Excerpt, ExcerptRows};
 pub use feet::{FootRecord, ToeRecord};
 pub use figure::{Ground, Shoes, Walker};
-pub use recording::{FootBlow, WalkRecording};
+pub use recording::{FootImpact, WalkRecording};
 pub use signals::gait_signals;
 pub use slip::StanceSlip;

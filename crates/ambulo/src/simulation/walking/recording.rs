@@ -18,18 +18,18 @@ pub struct WalkRecording {
     pub efforts: Vec<Vec<f64>>,
     /// Right and left.
     pub feet: [FootRecord; 2],
-    /// Blows, in order of time.
-    pub blows: Vec<FootBlow>,
+    /// Impacts, in order of time.
+    pub impacts: Vec<FootImpact>,
     /// Steps whose contacts the solver did not solve to its tolerance.
     pub unsolved_steps: usize,
 }
 
 /// A foot strikes the ground.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FootBlow {
+pub struct FootImpact {
     /// When [s].
     pub time_s: f64,
-    /// Whose points struck or were pressed by the blow, with the impulse on each foot [N.s].
+    /// Whose points struck or were pressed by the impact, with the impulse on each foot [N.s].
     pub impulses: [Vec3; 2],
     /// Impulse along each coordinate of the model [N.m.s].
     pub efforts: Vec<f64>,

@@ -3,12 +3,12 @@
 use super::error::WalkingError;
 use super::feet::FootRecord;
 use super::figure::{Placed, Walker};
-use super::recording::{FootBlow, WalkRecording};
+use super::recording::{FootImpact, WalkRecording};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, Side};
 use crate::motion::TimeGrid;
-use crate::simulation::{Blow, Integrator, Owner, State, StepSettings, StepWorkspace, World, step};
+use crate::simulation::{Impact, Integrator, Owner, StepSettings, StepWorkspace, World, WorldState, step};
 use crate::spatial::{Pose, Twist, Vec3};
 
 /// A recording under way.
@@ -17,7 +17,7 @@ struct Keeping<'a> {
     columns: Vec<[Vec<f64>; 3]>,
     efforts: Vec<Vec<f64>>,
     feet: [FootRecord; 2],
-    blows: Vec<FootBlow>,
+    impacts: Vec<FootImpact>,
     unsolved: usize,
 }
 
@@ -38,10 +38,10 @@ impl Walker {
             return Err(WalkingError::Duration { duration_s, step_s });
         }
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
-        let (mut state, mut w) = (State::new(&self.world), StepWorkspace::default());
+        let (mut state, mut w) = (WorldState::new(&self.world), StepWorkspace::default());
         let mut keeping = Keeping::new(self, rows as usize);
         for row in 0..rows as usize {
-            // Rows count time afresh, so that many steps do not add up roundings.
+            // ExcerptRows count time afresh, so that many steps do not add up roundings.
             state.time_s = step_s * row as f64;
             let before = RootBefore::of(&self.world, &state);
             let convergence = step(&self.world, &mut state, &settings, &mut w, findings)?;
@@ -65,23 +65,23 @@ struct RootBefore {
 }
 
 impl RootBefore {
-    fn of(world: &World, state: &State) -> RootBefore {
+    fn of(world: &World, state: &WorldState) -> RootBefore {
         let body = world.joints[0].child;
         let slides = [state.coordinates[0][0], state.coordinates[0][1]];
         RootBefore { time_s: state.time_s, pose: state.poses[body], twist: state.twists[body], slides }
     }
 }
 
-/// A blow in the coordinates of the model.
-fn foot_blow(walker: &Walker, blow: &Blow) -> FootBlow {
+/// A impact in the coordinates of the model.
+fn foot_impact(walker: &Walker, impact: &Impact) -> FootImpact {
     let mut impulses = [Vec3::zeros(); 2];
-    for contact in &blow.contacts {
+    for contact in &impact.contacts {
         if let Some(side) = walker.sides[contact.surfaces.0] {
             impulses[usize::from(side == Side::Left)] += contact.force;
         }
     }
-    let effort = |placed: &Placed| placed.sense * blow.efforts[placed.joint][placed.coordinate];
-    FootBlow { time_s: blow.time_s, impulses, efforts: walker.placed.iter().map(effort).collect() }
+    let effort = |placed: &Placed| placed.sense * impact.efforts[placed.joint][placed.coordinate];
+    FootImpact { time_s: impact.time_s, impulses, efforts: walker.placed.iter().map(effort).collect() }
 }
 
 impl<'a> Keeping<'a> {
@@ -93,14 +93,14 @@ impl<'a> Keeping<'a> {
             columns: (0..count).map(|_| [column(), column(), column()]).collect(),
             efforts: (0..count).map(|_| column()).collect(),
             feet: std::array::from_fn(|k| FootRecord::new(walker.feet[k], walker.toes[k], rows)),
-            blows: Vec::new(),
+            impacts: Vec::new(),
             unsolved: 0,
         }
     }
 
-    fn keep(&mut self, before: &RootBefore, after: &State, w: &StepWorkspace) {
-        for blow in w.blows() {
-            self.blows.push(foot_blow(self.walker, blow));
+    fn keep(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
+        for impact in w.impacts() {
+            self.impacts.push(foot_impact(self.walker, impact));
         }
         self.keep_root(before, after, w);
         for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.walker.placed).enumerate() {
@@ -116,9 +116,9 @@ impl<'a> Keeping<'a> {
     }
 
     /// The slides of the root: velocities stand in the middle of steps.
-    fn keep_root(&mut self, before: &RootBefore, after: &State, w: &StepWorkspace) {
+    fn keep_root(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
         let root = &self.walker.world.joints[0];
-        let struck = (!w.blows().is_empty()).then_some(&w.after_blows);
+        let struck = (!w.impacts().is_empty()).then_some(&w.after_impacts);
         let h = after.time_s - before.time_s;
         let to_joint = before.pose.rotation * root.child_from_joint.translation;
         let old = struck.map_or(before.twist, |twists| twists[root.child]).velocity_at(to_joint);
@@ -153,7 +153,7 @@ impl<'a> Keeping<'a> {
             trajectory,
             efforts: self.efforts,
             feet: self.feet,
-            blows: self.blows,
+            impacts: self.impacts,
             unsolved_steps: self.unsolved,
         })
     }

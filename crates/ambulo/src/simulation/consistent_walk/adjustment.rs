@@ -1,7 +1,7 @@
 //! How much a walk was changed to be consistent, and what it still lacks.
 
 use super::unknowns::reference;
-use super::{ConsistencyError, ConsistentWalk};
+use super::{ConsistentWalk, ConsistentWalkError};
 use crate::contact::HuntCrossley;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
@@ -11,24 +11,24 @@ const INSTANTS: usize = 200;
 
 /// Root mean square and largest size of something over a cycle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Change {
+pub struct Magnitude {
     /// Root mean square.
     pub rms: f64,
     /// Largest.
     pub largest: f64,
 }
 
-impl Change {
+impl Magnitude {
     /// Of some values, about zero.
     #[must_use]
-    pub fn of(values: impl IntoIterator<Item = f64>) -> Change {
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Magnitude {
         let (mut sum, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
         for value in values {
             sum += value * value;
             count += 1.0;
             largest = largest.max(value.abs());
         }
-        Change { rms: if count > 0.0 { (sum / count).sqrt() } else { 0.0 }, largest }
+        Magnitude { rms: if count > 0.0 { (sum / count).sqrt() } else { 0.0 }, largest }
     }
 }
 
@@ -37,9 +37,9 @@ impl Change {
 pub struct Adjustment {
     /// Name of each changed coordinate (those of the right side: the left one's are the same half a cycle later) with the change
     /// of its angle [rad].
-    pub angles: Vec<(String, Change)>,
+    pub angles: Vec<(String, Magnitude)>,
     /// The pelvis' path against even forward motion at its mean height: forwards and up [m].
-    pub pelvis: [Change; 2],
+    pub pelvis: [Magnitude; 2],
 }
 
 impl ConsistentWalk {
@@ -52,14 +52,14 @@ impl ConsistentWalk {
             let Some(id) = curve.coordinates[0] else { continue };
             let name = &model.coordinates()[id.index()].name;
             if !name.starts_with("pelvis_t") || name == "pelvis_tilt" {
-                angles.push((name.clone(), Change::of(differences[id.index()].iter().copied())));
+                angles.push((name.clone(), Magnitude::of(differences[id.index()].iter().copied())));
             }
         }
         let path = |name: &str| {
-            let Some(id) = model.coordinate(name) else { return Change::default() };
+            let Some(id) = model.coordinate(name) else { return Magnitude::default() };
             let column = &differences[id.index()];
             let mean = column.iter().sum::<f64>() / column.len() as f64;
-            Change::of(column.iter().map(|x| x - mean))
+            Magnitude::of(column.iter().map(|x| x - mean))
         };
         Adjustment { angles, pelvis: ["pelvis_tx", "pelvis_ty"].map(path) }
     }
@@ -84,7 +84,7 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// A figure that lacks a coordinate.
-    pub fn lacking(&self, human: &Human, shoes: &HuntCrossley) -> Result<[Change; 2], ConsistencyError> {
+    pub fn lacking(&self, human: &Human, shoes: &HuntCrossley) -> Result<[Magnitude; 2], ConsistentWalkError> {
         let (mut forces, mut moments) = (Vec::new(), Vec::new());
         for instant in 0..INSTANTS {
             let time_s = self.walk.cycle_s() * instant as f64 / INSTANTS as f64;
@@ -92,6 +92,6 @@ impl ConsistentWalk {
             forces.push(x.hypot(y));
             moments.push(pitch);
         }
-        Ok([Change::of(forces), Change::of(moments)])
+        Ok([Magnitude::of(forces), Magnitude::of(moments)])
     }
 }

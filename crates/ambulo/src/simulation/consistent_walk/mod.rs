@@ -1,7 +1,7 @@
 //! Walks that need no hand to hold them: the smallest change of a synthetic walk that obeys dynamics on soft shoes.
 //!
 //! A walk put together from joint curves asks for forces that no ground can give: averages of many people do not belong to one body.
-//! [`make_consistent`] adds a smooth periodic change to the pelvis' path, to pelvis and trunk, to hip, knee, ankle and
+//! [`make_consistent_walk`] adds a smooth periodic change to the pelvis' path, to pelvis and trunk, to hip, knee, ankle and
 //! toes, such that the forces that the soles' compression and creep give on flat ground are those that the motion needs:
 //!
 //!   find c:   M q̈ + h = Σ Jᵀ f(q, q̇)   in the three coordinates of the root (x, y, pitch), which no muscle drives
@@ -26,8 +26,8 @@ mod targets;
 mod unknowns;
 mod walk;
 
-pub use adjustment::{Adjustment, Change};
-pub use settings::{ConsistencySettings, Deviations, SOFT_SHOES};
+pub use adjustment::{Adjustment, Magnitude};
+pub use settings::{ConsistentWalkSettings, Deviations, SOFT_SHOES};
 
 use crate::contact::HuntCrossley;
 use crate::gait::Walk;
@@ -50,7 +50,7 @@ pub struct ConsistentWalk {
 /// Why no walk can be made consistent.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum ConsistencyError {
+pub enum ConsistentWalkError {
     /// A coordinate that the model lacks.
     #[error("the model has no coordinate `{name}`; expected a figure of `model::anthropometry`")]
     Coordinate {
@@ -79,11 +79,11 @@ const STAGES: [Stage; 9] = [
 ///
 /// # Errors
 /// What the gait's data cannot give.
-pub fn make_consistent(
+pub fn make_consistent_walk(
     human: &Human,
     walk: &Walk,
-    settings: &ConsistencySettings,
-) -> Result<ConsistentWalk, ConsistencyError> {
+    settings: &ConsistentWalkSettings,
+) -> Result<ConsistentWalk, ConsistentWalkError> {
     let layout = Layout::new(&human.model, settings.splines);
     let mut problem = Problem::new(human, walk, settings, &layout)?;
     let mut coefficients = problem.first_guess();
@@ -131,7 +131,12 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// A figure that lacks a coordinate.
-    pub fn planned(&self, human: &Human, shoes: &HuntCrossley, time_s: f64) -> Result<PlannedForces, ConsistencyError> {
+    pub fn planned(
+        &self,
+        human: &Human,
+        shoes: &HuntCrossley,
+        time_s: f64,
+    ) -> Result<PlannedForces, ConsistentWalkError> {
         let count = human.model.coordinates().len();
         let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
         let [q, qd, qdd] = &mut posture;

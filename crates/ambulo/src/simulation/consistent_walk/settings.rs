@@ -35,7 +35,7 @@ pub struct Deviations {
 
 /// How a walk is made consistent.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConsistencySettings {
+pub struct ConsistentWalkSettings {
     /// The soles.
     pub shoes: HuntCrossley,
     /// Deviations that count one each.
@@ -50,9 +50,9 @@ pub struct ConsistencySettings {
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-impl Default for ConsistencySettings {
+impl Default for ConsistentWalkSettings {
     fn default() -> Self {
-        ConsistencySettings {
+        ConsistentWalkSettings {
             shoes: SOFT_SHOES,
             deviations: Deviations {
                 joints: [2.0 * DEGREE, 3.0 * DEGREE, 2.0 * DEGREE],

@@ -3,9 +3,9 @@
 //! Drives hold the rates that they have, whatever impulse it takes; those with a limit give way.
 
 use super::assemble::{Prescribed, Span, twist};
-use super::forces::{Blow, StepForces};
+use super::forces::{Impact, StepForces};
 use super::impulse::obstacle_motion;
-use super::state::State;
+use super::state::WorldState;
 use super::step::{StepSettings, StepWorkspace};
 use super::touch::Touch;
 use super::world::World;
@@ -18,7 +18,7 @@ const IMPACT_S: f64 = 1e-9;
 /// What happens at an instant where surfaces meet: velocities change, positions do not.
 pub(super) fn impact(
     world: &World,
-    state: &mut State,
+    state: &mut WorldState,
     settings: &StepSettings,
     w: &mut StepWorkspace,
     findings: &mut Findings,
@@ -28,17 +28,17 @@ pub(super) fn impact(
     obstacle_motion(world, state.time_s, IMPACT_S, &mut w.obstacles);
     w.touch.detect(world, state, &w.obstacles, IMPACT_S);
     w.touch.close_gaps();
-    w.solve_blow(world, state, settings, &prescribed, findings)?;
-    w.take_blow(world, state);
+    w.solve_impact(world, state, settings, &prescribed, findings)?;
+    w.take_impact(world, state);
     state.guess.clear();
     Ok(())
 }
 
 impl StepWorkspace {
-    fn solve_blow(
+    fn solve_impact(
         &mut self,
         world: &World,
-        state: &State,
+        state: &WorldState,
         settings: &StepSettings,
         prescribed: &Prescribed,
         findings: &mut Findings,
@@ -48,7 +48,7 @@ impl StepWorkspace {
     }
 
     /// Velocities change, positions do not. The impulses join those of the step.
-    fn take_blow(&mut self, world: &World, state: &mut State) {
+    fn take_impact(&mut self, world: &World, state: &mut WorldState) {
         for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
             *twist_now = twist(motion);
         }
@@ -58,8 +58,8 @@ impl StepWorkspace {
             contact.normal_force *= IMPACT_S;
         }
         efforts.iter_mut().flatten().for_each(|effort| *effort *= IMPACT_S);
-        self.blows.push(Blow { time_s: state.time_s, contacts, efforts });
-        self.after_blows.clone_from(&state.twists);
+        self.impacts.push(Impact { time_s: state.time_s, contacts, efforts });
+        self.after_impacts.clone_from(&state.twists);
     }
 
     /// Every point that has come into touch since the last step strikes, the one that did so first before the others, and
@@ -67,7 +67,7 @@ impl StepWorkspace {
     pub(super) fn strike(
         &mut self,
         world: &World,
-        state: &mut State,
+        state: &mut WorldState,
         settings: &StepSettings,
         prescribed: &Prescribed,
         findings: &mut Findings,
@@ -75,13 +75,13 @@ impl StepWorkspace {
         while let Some(number) = self.touch.next_striker(world, state, &self.obstacles) {
             let touches = self.touch.touches.clone();
             self.touch.touches[number].sticks = true;
-            self.solve_blow(world, state, settings, prescribed, findings)?;
+            self.solve_impact(world, state, settings, prescribed, findings)?;
             if self.pulls() {
-                // Another point carries the blow: this one is not held.
+                // Another point carries the impact: this one is not held.
                 self.touch.touches.clone_from(&touches);
-                self.solve_blow(world, state, settings, prescribed, findings)?;
+                self.solve_impact(world, state, settings, prescribed, findings)?;
             }
-            self.take_blow(world, state);
+            self.take_impact(world, state);
             self.touch.touches = touches;
             self.touch.touches[number].known = true;
         }

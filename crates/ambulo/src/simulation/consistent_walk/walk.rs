@@ -1,11 +1,11 @@
 //! A consistent walk as motion: signals for the simulator, and the walk stepped through time on its soft shoes.
 
-use super::{ConsistencySettings, ConsistentWalk};
+use super::{ConsistentWalk, ConsistentWalkSettings};
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
 use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError};
-use crate::simulation::{Impact, Integrator, Samples, Signal, StepSettings};
+use crate::simulation::{ImpactLaw, Integrator, Samples, Signal, StepSettings};
 use crate::spatial::Vec3;
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl ConsistentWalk {
     pub fn simulate(
         &self,
         human: &Human,
-        settings: &ConsistencySettings,
+        settings: &ConsistentWalkSettings,
         step_s: f64,
         cycles: f64,
         findings: &mut Findings,
@@ -59,7 +59,7 @@ impl ConsistentWalk {
         let ground = Ground {
             friction: settings.shoes.dynamic_friction,
             shoes: Shoes::HuntCrossley(settings.shoes),
-            impact: Impact::Coulomb,
+            impact: ImpactLaw::Coulomb,
         };
         let step = StepSettings { step_s, integrator: Integrator::Impulse, ..StepSettings::default() };
         self.walker(human, &ground)?.walk(&step, cycles * self.walk().cycle_s(), findings)

@@ -4,10 +4,10 @@
 //! dynamics under these forces gives what the root lacks and the moments of the joints. Derivatives by the 36 numbers of an instant
 //! (value, rate and acceleration of each curve) are differences; the splines carry them to the coefficients exactly.
 
-use super::response::{Body, FORE_AFT, HEIGHTS, MOMENTS, OUTPUTS, SIDE, SLIPS, TOE, VERTICAL};
+use super::response::{FORE_AFT, GroundedFigure, HEIGHTS, MOMENTS, OUTPUTS, SIDE, SLIPS, TOE, VERTICAL};
 use super::targets::Instant;
 use super::unknowns::{Input, Kind, Layout};
-use super::{ConsistencyError, ConsistencySettings};
+use super::{ConsistentWalkError, ConsistentWalkSettings};
 use crate::contact::HuntCrossley;
 use crate::dynamics::Workspace;
 use crate::gait::{GroundForceLaws, Walk};
@@ -34,13 +34,13 @@ pub(super) struct Stage {
 }
 
 pub(super) struct Problem<'a> {
-    settings: &'a ConsistencySettings,
+    settings: &'a ConsistentWalkSettings,
     layout: &'a Layout,
     workspace: Workspace,
     shoes: HuntCrossley,
     root_slack: f64,
     instants: Vec<Instant>,
-    body: Body<'a>,
+    body: GroundedFigure<'a>,
     outputs: Vec<Outputs>,
 }
 
@@ -55,10 +55,10 @@ impl<'a> Problem<'a> {
     pub(super) fn new(
         human: &'a Human,
         walk: &Walk,
-        settings: &'a ConsistencySettings,
+        settings: &'a ConsistentWalkSettings,
         layout: &'a Layout,
-    ) -> Result<Problem<'a>, ConsistencyError> {
-        let body = Body::of(human)?;
+    ) -> Result<Problem<'a>, ConsistentWalkError> {
+        let body = GroundedFigure::of(human)?;
         let forces = GroundForceLaws::built_in()?;
         let count = settings.instants;
         let instants: Vec<Instant> =

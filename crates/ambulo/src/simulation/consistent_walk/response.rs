@@ -1,6 +1,6 @@
 //! What a posture asks for and gets: forces of the soles by the law of soft contact, then inverse dynamics under them.
 
-use super::{ConsistencyError, PlannedForces};
+use super::{ConsistentWalkError, PlannedForces};
 use crate::contact::HuntCrossley;
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
 use crate::kinematics::Posture;
@@ -22,7 +22,7 @@ pub(super) const SLIPS: usize = 9;
 const LIGHT: f64 = 0.05;
 
 /// What of the figure plays a part.
-pub(super) struct Body<'a> {
+pub(super) struct GroundedFigure<'a> {
     soles: [Vec<&'a ContactSphere>; 2],
     root: [CoordinateId; 3],
     moments: [[CoordinateId; 3]; 2],
@@ -31,13 +31,13 @@ pub(super) struct Body<'a> {
     pub(super) leg_length: f64,
 }
 
-impl<'a> Body<'a> {
-    pub(super) fn of(human: &'a Human) -> Result<Body<'a>, ConsistencyError> {
+impl<'a> GroundedFigure<'a> {
+    pub(super) fn of(human: &'a Human) -> Result<GroundedFigure<'a>, ConsistentWalkError> {
         let id = |name: &str| {
-            let missing = || ConsistencyError::Coordinate { name: name.to_owned() };
+            let missing = || ConsistentWalkError::Coordinate { name: name.to_owned() };
             human.model.coordinate(name).ok_or_else(missing)
         };
-        let leg = |letter: &str| -> Result<[CoordinateId; 3], ConsistencyError> {
+        let leg = |letter: &str| -> Result<[CoordinateId; 3], ConsistentWalkError> {
             Ok([
                 id(&format!("hip_flexion_{letter}"))?,
                 id(&format!("knee_angle_{letter}"))?,
@@ -45,7 +45,7 @@ impl<'a> Body<'a> {
             ])
         };
         let mass = human.model.mass();
-        Ok(Body {
+        Ok(GroundedFigure {
             soles: Side::BOTH.map(|side| human.soles.iter().filter(|s| s.side == side).collect()),
             root: [id("pelvis_tx")?, id("pelvis_ty")?, id("pelvis_tilt")?],
             moments: [leg("r")?, leg("l")?],
@@ -111,8 +111,8 @@ pub(super) fn planned(
     human: &Human,
     shoes: &HuntCrossley,
     posture: &[Vec<f64>; 3],
-) -> Result<PlannedForces, ConsistencyError> {
-    let body = Body::of(human)?;
+) -> Result<PlannedForces, ConsistentWalkError> {
+    let body = GroundedFigure::of(human)?;
     let out = body.outputs(&mut Workspace::new(&human.model), shoes, posture);
     let scales = [body.weight, body.weight, body.weight * body.leg_length];
     let side = |side: usize| 3 + SIDE * side;
