@@ -9,7 +9,7 @@ mod svg_reader;
 mod workbench;
 
 use ambulo::model::Side;
-use ambulo_report::clinical::{ClinicalQuantity, ClinicalNames, clinical_quantities};
+use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
 use std::collections::BTreeMap;
 use svg_reader::{Figure, Panel};
@@ -91,7 +91,10 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
                 let factor = quantity.factor(mass_kg, line.side);
                 let expected = match line.role.as_str() {
                     "mean" => cycles.mean(quantity, line.side, mass_kg).unwrap(),
-                    _ => cycles.0[&(quantity.columns[line.side].clone(), letter, line.number)].iter().map(|x| factor * x).collect(),
+                    _ => cycles.0[&(quantity.columns[line.side].clone(), letter, line.number)]
+                        .iter()
+                        .map(|x| factor * x)
+                        .collect(),
                 };
                 assert_eq!(line.points.len(), 101, "{name}, {}", panel.id);
                 for (percent, ([_, y], wanted)) in line.points.iter().zip(&expected).enumerate() {

@@ -97,6 +97,12 @@ impl ClinicalNames {
         names
     }
 
+    /// The coordinate of the pelvis or of the trunk that measures a movement.
+    #[must_use]
+    pub fn central(&self, movement: Movement) -> Option<&str> {
+        self.find(movement, Side::Right).filter(|entry| entry.side.is_none()).map(|entry| entry.coordinate.as_str())
+    }
+
     fn find(&self, movement: Movement, side: Side) -> Option<&Entry> {
         let side = (!is_central(movement)).then_some(side);
         self.entries.iter().find(|entry| entry.movement == movement && entry.side == side)
@@ -104,7 +110,10 @@ impl ClinicalNames {
 }
 
 /// Coordinates and signs of the built-in figures.
-const USUAL: [(Movement, &str, f64); 14] = [
+const USUAL: [(Movement, &str, f64); 17] = [
+    (Movement::PelvisForward, "pelvis_tx", 1.0),
+    (Movement::PelvisUp, "pelvis_ty", 1.0),
+    (Movement::PelvisRight, "pelvis_tz", 1.0),
     (Movement::PelvicTilt, "pelvis_tilt", -1.0),
     (Movement::PelvicObliquity, "pelvis_list", -1.0),
     (Movement::PelvicRotation, "pelvis_rotation", 1.0),
@@ -214,16 +223,15 @@ impl Row {
             Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
         };
         // A leg that is not there has the names of the other one.
-        let entries = BySide::from_fn(|side| {
-            names.find(movement, side).or_else(|| names.find(movement, side.other()))
-        });
+        let entries = BySide::from_fn(|side| names.find(movement, side).or_else(|| names.find(movement, side.other())));
         let entries = entries.both()?;
         let columns = entries.map(|entry| format!("{}{}", entry.stem, self.group.suffix()));
-        columns.values().any(|column| has(column)).then(|| {
-            let of_file = |side: Side| if self.group == ClinicalGroup::Powers { 1.0 } else { entries[side].sign };
-            let signs = BySide::from_fn(|side| signs[side] * of_file(side));
-            self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs)
-        })
+        if !columns.values().any(|column| has(column)) {
+            return None;
+        }
+        let of_file = |side: Side| if self.group == ClinicalGroup::Powers { 1.0 } else { entries[side].sign };
+        let signs = BySide::from_fn(|side| signs[side] * of_file(side));
+        Some(self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs))
     }
 
     fn quantity(&self, columns: BySide<String>, coordinates: BySide<String>, signs: BySide<f64>) -> ClinicalQuantity {

@@ -2,7 +2,7 @@
 
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side, from_osim_bytes};
-use ambulo_report::clinical::{ClinicalGroup, ClinicalQuantity, ClinicalNames, clinical_quantities};
+use ambulo_report::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use std::collections::BTreeSet;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
@@ -114,7 +114,8 @@ fn quantities_that_a_model_lacks_are_not_there_and_other_names_are_known() {
     let model = demo();
     let mut coordinates = model.coordinates().to_vec();
     for coordinate in &mut coordinates {
-        coordinate.name = coordinate.name.replace("ankle_angle", "ankle_flex").replace("hip_adduction", "Hueftadduktion");
+        coordinate.name =
+            coordinate.name.replace("ankle_angle", "ankle_flex").replace("hip_adduction", "Hueftadduktion");
     }
     let other = Model::new("other", model.gravity(), model.bodies().to_vec(), coordinates, Vec::new()).unwrap();
     let of = |id: &str| {
@@ -123,5 +124,9 @@ fn quantities_that_a_model_lacks_are_not_there_and_other_names_are_known() {
     assert_eq!(of("ankle_dorsiflexion_power").columns.left, "ankle_flex_power");
     assert_eq!(of("hip_adduction_angle").coordinates.left, "Hueftadduktion_l");
     // Without a body nothing says which way the knee counts.
-    assert!(!clinical_quantities(&ClinicalNames::without_model(), |_| true).iter().any(|q| q.id.starts_with("knee_flexion")));
+    assert!(
+        !clinical_quantities(&ClinicalNames::without_model(), |_| true)
+            .iter()
+            .any(|q| q.id.starts_with("knee_flexion"))
+    );
 }

@@ -77,9 +77,9 @@ fn table(text: &[u8]) -> Table {
 
 /// A storage file with these columns.
 fn storage(names: &[String], rows: impl Iterator<Item = Vec<f64>>) -> Vec<u8> {
-    let rows: Vec<String> =
-        rows.map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join("\t")).collect();
-    let head = format!("Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\nendheader", rows.len(), names.len());
+    let rows: Vec<String> = rows.map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join("\t")).collect();
+    let head =
+        format!("Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\nendheader", rows.len(), names.len());
     format!("{head}\n{}\n{}\n", names.join("\t"), rows.join("\n")).into_bytes()
 }
 
@@ -122,7 +122,12 @@ fn swing(case: &Case) -> Files {
     });
     let nothing = ExternalLoads { name: "none".into(), datafile: None, forces: Vec::new() };
     let bytes = to_osim(&case.model).unwrap().write().unwrap();
-    analysed(&bytes, &storage(&names, rows), b"none\nversion=1\nnRows=2\nnColumns=1\ninDegrees=no\nendheader\ntime\n0\n1\n", &nothing)
+    analysed(
+        &bytes,
+        &storage(&names, rows),
+        b"none\nversion=1\nnRows=2\nnColumns=1\ninDegrees=no\nendheader\ntime\n0\n1\n",
+        &nothing,
+    )
 }
 
 /// What a panel shows of the right side over time.

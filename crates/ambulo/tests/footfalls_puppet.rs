@@ -9,8 +9,8 @@
 
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
-use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
+use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::model::{BySide, Model, Side, from_osim_bytes};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;

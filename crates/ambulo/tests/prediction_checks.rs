@@ -16,12 +16,12 @@ use ambulo::analysis::{
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictSettings, Prediction, predict};
-use ambulo::model::anatomy::Sole;
 use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::{BySide, Model};
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
+use ambulo::model::{BySide, Model};
 use ambulo::motion::TimeGrid;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3};

@@ -2,6 +2,7 @@
 
 use super::part::Part;
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
+use ambulo::model::anatomy::Leg;
 use ambulo::model::{BodyId, Model, Side};
 use ambulo::spatial::Vec3;
 
@@ -18,8 +19,24 @@ impl<'a> JointPlaces<'a> {
         JointPlaces { model, rest: body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest }) }
     }
 
+    /// What a body is: by the anatomy of pelvis, trunk and legs, else by its name.
     pub(super) fn part(&self, body: BodyId) -> Part {
-        Part::of(&self.model.bodies()[body.index()].name)
+        let anatomy = self.model.anatomy();
+        // A trunk that is not divided is pelvis and trunk in one.
+        let central =
+            [(anatomy.trunk(), Part::Trunk), (anatomy.pelvis().filter(|_| anatomy.trunk().is_some()), Part::Pelvis)];
+        let of_leg = |leg: &Leg| {
+            [
+                (Some(leg.thigh), Part::Thigh),
+                (Some(leg.shank), Part::Shank),
+                (Some(leg.foot), Part::Foot),
+                (leg.toes, Part::Toes),
+                (Some(leg.ankle), Part::Small),
+            ]
+        };
+        let legs = anatomy.legs().values().flatten().flat_map(of_leg);
+        let found = central.into_iter().chain(legs).find(|(id, _)| *id == Some(body));
+        found.map_or_else(|| Part::of(&self.model.bodies()[body.index()].name), |(_, part)| part)
     }
 
     pub(super) fn side(&self, body: BodyId) -> Option<Side> {

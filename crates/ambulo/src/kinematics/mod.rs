@@ -6,6 +6,7 @@
 
 mod body_motion;
 pub mod calibration;
+mod clinical_angles;
 pub(crate) mod lanes;
 pub mod marker_fit;
 pub(crate) mod plan;
@@ -16,4 +17,5 @@ pub(crate) mod sweep;
 mod trajectory;
 
 pub use body_motion::{BodyMotion, Posture, body_motion, each_body_motion};
+pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
 pub use trajectory::{Trajectory, TrajectoryError};

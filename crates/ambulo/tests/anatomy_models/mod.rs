@@ -89,12 +89,7 @@ pub(crate) fn turned(model: &Model, other_from_world: &Mat3) -> Model {
             body.joint.parent_from_joint = turn * body.joint.parent_from_joint;
         }
     });
-    rebuilt(
-        model,
-        other_from_world * model.gravity(),
-        changed.bodies().to_vec(),
-        model.coordinates().to_vec(),
-    )
+    rebuilt(model, other_from_world * model.gravity(), changed.bodies().to_vec(), model.coordinates().to_vec())
 }
 
 /// The same with other frames for its bodies.

@@ -11,8 +11,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
 
 use ambulo::findings::Findings;
-use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
+use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::model::{BySide, Model, Side, from_osim_bytes};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;

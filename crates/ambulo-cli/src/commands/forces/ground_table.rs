@@ -81,7 +81,8 @@ fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> 
     let has = |prefix: &str| table.column(&format!("{prefix}vx")).is_some();
     let columns = USUAL_PREFIXES.iter().find(|(right, left)| has(right) && has(left));
     let feet = model.anatomy().feet().map(|feet| feet.map(|body| model.bodies()[body.index()].name.as_str()));
-    let (Some((right_prefix, left_prefix)), Some(BySide { right: right_foot, left: left_foot })) = (columns, feet) else {
+    let (Some((right_prefix, left_prefix)), Some(BySide { right: right_foot, left: left_foot })) = (columns, feet)
+    else {
         bail!(
             "{}: the columns of the two feet were not recognised among {}. hint: name them with --right BODY:PREFIX and --left BODY:PREFIX, or give --loads XML",
             path.display(),

@@ -3,7 +3,7 @@
 use super::results::Results;
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anatomy::Sole;
-use ambulo::model::{CoordinateKind, Model, Side};
+use ambulo::model::{CoordinateKind, Model, Movement, Side};
 use ambulo::motion::interpolate;
 use ambulo::spatial::Vec3;
 
@@ -65,12 +65,12 @@ pub(super) fn floor_velocity(results: &Results) -> Vec3 {
     }
 }
 
-/// Mean velocity of the pelvis along the floor [m/s], by the coordinates that OpenSim's models have.
+/// Mean velocity of the pelvis along the floor [m/s].
 pub(super) fn pelvis_velocity(results: &Results) -> Option<Vec3> {
     let duration = results.grid.end_s() - results.grid.start_s;
-    let way = |name: &str| {
-        let column = results.kinematics.column(name)?;
+    let way = |movement: Movement| {
+        let column = results.kinematics.column(results.clinical_names().central(movement)?)?;
         Some((column.last()? - column.first()?) / duration)
     };
-    Some(Vec3::new(way("pelvis_tx")?, 0.0, way("pelvis_tz").unwrap_or(0.0)))
+    Some(Vec3::new(way(Movement::PelvisForward)?, 0.0, way(Movement::PelvisRight).unwrap_or(0.0)))
 }

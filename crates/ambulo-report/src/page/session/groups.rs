@@ -87,7 +87,7 @@ fn lacking(results: &Results, grid: &Grid) -> &'static str {
         "ground" if results.source == PageSource::None => "the run was made without ground forces",
         "ground" => "the folder has no grf.mot",
         "kinetics" if results.moments.is_none() => "the folder has no moments.sto",
-        _ => "the model has none of the joints' usual names",
+        _ => "the model has no joints of legs and trunk",
     }
 }
 

@@ -194,10 +194,7 @@ fn not_judged(evidence: &Evidence<'_>, judge: &Judge) -> Vec<NotJudged> {
     let unknown = |side: &Side| judge.person.soles[*side].is_none();
     for side in Side::BOTH.into_iter().filter(unknown) {
         for check in [Check::CenterOfPressure, Check::Sliding] {
-            add(
-                check,
-                format!("the {side} sole is not known: the model has no {side} foot"),
-            );
+            add(check, format!("the {side} sole is not known: the model has no {side} foot"));
         }
     }
     list

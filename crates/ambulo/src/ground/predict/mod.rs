@@ -135,9 +135,7 @@ pub enum PredictError {
         model: String,
     },
     /// A foot without a sole.
-    #[error(
-        "the {side} sole of the model `{model}` is not known; expected the soles of both feet"
-    )]
+    #[error("the {side} sole of the model `{model}` is not known; expected the soles of both feet")]
     NoSole {
         /// Its name.
         model: String,

@@ -134,8 +134,7 @@ impl Tree<'_> {
     pub(super) fn lower(&self) -> Option<Lower> {
         let first = self.ids().min_by(|a, b| self.low(*a).total_cmp(&self.low(*b)))?;
         let lower = self.two_legs(first).or_else(|| self.one_leg(first))?;
-        let of_legs: Vec<BodyId> =
-            lower.legs.iter().flat_map(|leg| self.beyond(lower.pelvis, leg.bodies[1])).collect();
+        let of_legs: Vec<BodyId> = lower.legs.iter().flat_map(|leg| self.beyond(lower.pelvis, leg.bodies[1])).collect();
         let (floor, length) = (self.low(first), lower.legs[0].length);
         let others = self.lowest(self.ids().filter(|body| !of_legs.contains(body)));
         (others > floor + LEVEL * length).then_some(lower)
@@ -166,8 +165,7 @@ impl Tree<'_> {
         let height = |i: usize| self.joint_height(joints[i - 1]).min(self.joint_height(joints[i]));
         let best = (1..joints.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
         let apart = |i: usize| {
-            let distance =
-                (self.posture.joint_center(joints[i - 1]) - self.posture.joint_center(joints[i])).norm();
+            let distance = (self.posture.joint_center(joints[i - 1]) - self.posture.joint_center(joints[i])).norm();
             [distance, self.bodies[path[i].index()].inertia.mass()]
         };
         let high = (1..joints.len()).filter(|i| height(*i) > best - AS_HIGH * (best - floor));

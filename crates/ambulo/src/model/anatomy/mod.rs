@@ -11,9 +11,11 @@
 mod axes;
 mod legs;
 mod movement;
+mod pelvic_frame;
 mod sole;
 
 pub use movement::{Meaning, Movement};
+pub use pelvic_frame::{PelvicFrame, PelvicFrameError};
 pub use sole::{Sole, SolePoint, Stature};
 
 use super::posture::PostureOf;
@@ -90,9 +92,7 @@ impl Anatomy {
         let body_sides = tree.sides(pelvis, &oriented);
         let trunk = trunk(&tree, pelvis, &oriented, &body_sides);
         let meanings = Meanings::find(&tree, &model.coordinates, &oriented, [Some(pelvis), trunk]);
-        let legs = BySide::from_fn(|side| {
-            oriented.legs[side].as_ref().map(|chain| leg(&tree, chain, &oriented.axes))
-        });
+        let legs = BySide::from_fn(|side| oriented.legs[side].as_ref().map(|chain| leg(&tree, chain, &oriented.axes)));
         Some(Anatomy {
             pelvis: Some(pelvis),
             trunk,
@@ -100,7 +100,7 @@ impl Anatomy {
             coordinate_sides: coordinate_sides(model, &body_sides),
             body_sides,
             meanings,
-            neutral: Some(Neutral { axes: oriented.axes, poses: posture.poses.clone() }),
+            neutral: Some(Neutral { axes: nearest_axes(&oriented.axes), poses: posture.poses.clone() }),
         })
     }
 
@@ -190,6 +190,14 @@ impl Model {
     pub fn stature(&self) -> Stature {
         Stature::estimated(self.anatomy.thigh_and_shank_m(), self.mass())
     }
+}
+
+/// The axes of the world where those of the body are near to them, else the axes themselves: hips are rarely drawn exactly level.
+fn nearest_axes(axes: &Mat3) -> Mat3 {
+    /// Cosine of 25 degrees.
+    const NEAR: f64 = 0.9;
+    let nearest = axes.map(|x| if x.abs() > NEAR { x.signum() } else { 0.0 });
+    if (nearest.abs().sum() - 3.0).abs() < 0.5 { nearest } else { *axes }
 }
 
 /// Zero where the range has it, else the default.

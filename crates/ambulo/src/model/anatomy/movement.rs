@@ -87,11 +87,8 @@ const PELVIS: Planes = [
     Some((Movement::PelvicRotation, 1.0)),
     Some((Movement::PelvicTilt, -1.0)),
 ];
-const TRUNK: Planes = [
-    Some((Movement::TrunkObliquity, -1.0)),
-    Some((Movement::TrunkRotation, 1.0)),
-    Some((Movement::TrunkLean, -1.0)),
-];
+const TRUNK: Planes =
+    [Some((Movement::TrunkObliquity, -1.0)), Some((Movement::TrunkRotation, 1.0)), Some((Movement::TrunkLean, -1.0))];
 // Right leg.
 const HIP: Planes =
     [Some((Movement::HipAdduction, 1.0)), Some((Movement::HipRotation, 1.0)), Some((Movement::HipFlexion, 1.0))];
@@ -205,7 +202,8 @@ impl<'a> Meanings<'a> {
     fn assign(&mut self, mut axes: Vec<Axis>, mut planes: Planes, side: Option<Side>, least: f64) {
         loop {
             let free = planes.iter().enumerate().filter(|(_, plane)| plane.is_some()).map(|(k, _)| k);
-            let pairs = free.flat_map(|k| axes.iter().enumerate().map(move |(i, axis)| (i, k, axis.direction[k].abs())));
+            let pairs =
+                free.flat_map(|k| axes.iter().enumerate().map(move |(i, axis)| (i, k, axis.direction[k].abs())));
             // The first of equals.
             let best = pairs.reduce(|best, pair| if pair.2 > best.2 { pair } else { best });
             let Some((i, k, _)) = best.filter(|(_, _, share)| *share >= least) else { return };

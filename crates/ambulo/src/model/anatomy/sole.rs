@@ -77,8 +77,7 @@ impl Sole {
         let [ahead, up] = leg.foot_axes;
         let point = |from_heel: f64| SolePoint {
             body: leg.foot,
-            place: leg.ankle_in_foot
-                + (ahead * (from_heel - HEEL_TO_ANKLE * length) + up * (-ANKLE_HEIGHT * height_m)),
+            place: leg.ankle_in_foot + (ahead * (from_heel - HEEL_TO_ANKLE * length) + up * (-ANKLE_HEIGHT * height_m)),
         };
         let points = [point(half_width), point(HEEL_TO_BALL * length), point(length - half_width)];
         Sole { points, half_width }

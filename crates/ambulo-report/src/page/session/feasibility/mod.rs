@@ -8,7 +8,6 @@ use super::cells::{Form, column, listed, table};
 use super::{sides, words};
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Feasibility, Group, RedSpan, Table};
-use ambulo::model::Side;
 use serde_json::Value;
 
 /// Panels that show what is no coordinate's, by check.
