@@ -6,7 +6,7 @@ usage: simulate_mujoco.py human  SETTING --model human_contact.xml
        simulate_mujoco.py golden --model human.xml --output FILE
 SETTING is one of SETTINGS; all take --duration SECONDS (simulated) and --budget SECONDS (processor time).
 
-The first three print one line of JSON; its keys are listed in xtask/src/simulators.rs. `golden` writes
+The first three print one line of JSON; its keys are listed in xtask/measure/src/simulators.rs. `golden` writes
 accelerations and trajectories without contact to a file, for another program to be compared with.
 """
 import argparse

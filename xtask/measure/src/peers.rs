@@ -40,7 +40,7 @@ pub(crate) struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let env = std::env::var_os(ENV_VARIABLE).map(PathBuf::from);
         Settings { env, scripts: root.join(SCRIPTS), build: root.join("target/peers") }
     }

@@ -45,7 +45,7 @@ use std::process::Command;
 /// Folder of the peers' virtual environments, when `--env` is not given.
 const ENV_VARIABLE: &str = "AMBULO_PEERS_ENV";
 /// Our programs that run the peers, relative to the workspace root.
-const PROGRAMS: &str = "xtask/peers";
+const PROGRAMS: &str = "xtask/measure/peers";
 /// The human of the scene, and the one without springs and contact, in the data folder.
 const HUMAN: &str = "human_contact.xml";
 const GOLDEN_HUMAN: [&str; 2] = ["human.xml", "human.urdf"];

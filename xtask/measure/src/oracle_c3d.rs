@@ -17,7 +17,7 @@ use std::{fs, iter};
 /// Folder of the peers' virtual environments, when `--env` is not given.
 const ENV_VARIABLE: &str = "AMBULO_PEERS_ENV";
 /// What runs in Python, relative to the workspace root.
-const SCRIPT: &str = "xtask/peers/c3d_ezc3d.py";
+const SCRIPT: &str = "xtask/measure/peers/c3d_ezc3d.py";
 /// Allowed difference, as part of the largest number beside it: ezc3d multiplies some numbers as 32-bit reals.
 const TOLERANCE: f64 = 1e-6;
 
