@@ -30,6 +30,7 @@ pub use side::Side;
 pub use simm_spline::SimmSpline;
 
 use crate::spatial::{Inertia, InertiaError, Vec3};
+use std::sync::Arc;
 
 /// Names a body of one model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -137,7 +138,7 @@ pub struct Model {
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
-    anatomy: Anatomy,
+    anatomy: Arc<Anatomy>,
 }
 
 /// Why parts make no model.
@@ -207,10 +208,10 @@ impl Model {
         coordinates: Vec<Coordinate>,
         markers: Vec<Marker>,
     ) -> Result<Model, ModelError> {
-        let anatomy = Anatomy::default();
+        let anatomy = Arc::default();
         let mut model = Model { name: name.into(), gravity, bodies, coordinates, markers, anatomy };
         model.check()?;
-        model.anatomy = Anatomy::find(&model);
+        model.anatomy = Arc::new(Anatomy::find(&model));
         Ok(model)
     }
 
