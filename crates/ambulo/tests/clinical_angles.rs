@@ -9,7 +9,10 @@
 mod anatomy_models;
 mod common;
 mod gait_files;
-mod shared_data;
+/// Where the recordings are.
+mod shared_data {
+    pub(crate) use crate::gait_files::folder as data;
+}
 
 use ambulo::findings::Findings;
 use ambulo::kinematics::calibration::{Trial, calibrate};
