@@ -6,7 +6,7 @@
 //!
 //! Source: as [`super::PeriodicSplines`], of degree three.
 //! Cost: constant.
-//! Pinned by: the tests below; tests/consistency.rs
+//! Pinned by: the tests below; tests/residual_reduction.rs
 
 use super::periodic_spline::cardinal;
 

@@ -12,7 +12,7 @@ use crate::args::{Consistency, Filter, ForcesArgs, MarkerFitting};
 use crate::{Verdict, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
-use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
+use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window};
@@ -181,7 +181,7 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
             longest_gap_s: args.subject.max_gap,
             smoothing: match args.subject.fit {
                 MarkerFitting::Frames => None,
-                MarkerFitting::Trajectory => Some(Smoothing::default()),
+                MarkerFitting::Trajectory => Some(SmoothnessPrior::default()),
             },
             ..defaults.marker_fit
         },
