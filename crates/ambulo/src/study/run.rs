@@ -168,8 +168,8 @@ fn forces(
 
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
-        (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule: rule.clone() },
-        (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule.to_owned() },
+        (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
+        (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,
     }
