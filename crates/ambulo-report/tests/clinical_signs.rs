@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
 
 use ambulo::findings::Findings;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{Model, Side};
 use ambulo_report::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use std::collections::BTreeSet;
 
@@ -84,7 +84,7 @@ fn flexion_positive() -> Model {
 
 fn demo() -> Model {
     let bytes = include_bytes!("../../ambulo-cli/tests/recording/figure.osim");
-    from_osim_bytes(bytes, &mut Findings::default()).unwrap()
+    Model::from_osim(bytes, &mut Findings::default()).unwrap()
 }
 
 #[test]

@@ -10,7 +10,7 @@ mod report_pages;
 mod svg_reader;
 
 use ambulo::findings::Findings;
-use ambulo::model::{Body, CoordinateKind, Model, from_osim_bytes, to_osim};
+use ambulo::model::{Body, CoordinateKind, Model, to_osim};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use report_pages::{Files, Shown, analysed};
@@ -28,7 +28,7 @@ struct Case {
 }
 
 fn model(bytes: &[u8]) -> Model {
-    from_osim_bytes(bytes, &mut Findings::default()).unwrap()
+    Model::from_osim(bytes, &mut Findings::default()).unwrap()
 }
 
 /// The demo's body, whose knees count extension, and the same with knees that count flexion.

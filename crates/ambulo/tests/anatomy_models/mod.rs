@@ -5,9 +5,7 @@
 
 use crate::shared_data;
 use ambulo::findings::Findings;
-use ambulo::model::{
-    Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, JointAxis, Marker, Model, from_osim_bytes,
-};
+use ambulo::model::{Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, JointAxis, Marker, Model};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 
 /// Files below `shared/data`.
@@ -40,7 +38,7 @@ pub(crate) fn published() -> Vec<Model> {
 }
 
 fn osim(bytes: &[u8]) -> Model {
-    from_osim_bytes(bytes, &mut Findings::default()).unwrap()
+    Model::from_osim(bytes, &mut Findings::default()).unwrap()
 }
 
 fn rebuilt(model: &Model, gravity: Vec3, bodies: Vec<Body>, coordinates: Vec<Coordinate>) -> Model {
