@@ -172,7 +172,7 @@ fn plates_are_named_as_the_file_has_them() {
     forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with plates"]);
     predicted(forces(&bench, "walk.trc", &trc[..2]), &["the file has no force plates", "hint: `--grf`"]);
     // A person who stands with both feet on one plate.
-    let words = ["plate 1, 0.000-0.499 s: the right foot stood on it", "`--static` is for"];
+    let words = ["plate 1, 0.000-0.499 s: the right foot stood on it", "is for `--static`"];
     predicted(forces(&bench, "standing.c3d", &[]), &words);
     // A trial whose plates nobody hits.
     edit_c3d(&bench, "walk.c3d", "missed.c3d", |c3d| {
@@ -217,7 +217,7 @@ fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() 
     ]);
     for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
         let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
-        run.refused(&[&format!("{option} has no use with --model"), "hint: --static FILE"]);
+        run.refused(&[&format!("{option} has no use beside --model"), "hint: --static FILE"]);
     }
     for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());
