@@ -1,7 +1,7 @@
-// Bundles the viewer into crates/ambulo/data/report/viewer.js and viewer.css; with `--check` compares instead of writing.
+// Bundles the viewer into crates/ambulo-report/data/report/viewer.js and viewer.css; with `--check` compares instead of writing.
 //
 // The first line of the script carries a hash of all that it is made from, so that a Rust test can tell without npm whether the
-// committed bundle belongs to the sources (crates/ambulo/tests/viewer_bundle.rs computes the same hash).
+// committed bundle belongs to the sources (crates/ambulo-report/tests/viewer_bundle.rs computes the same hash).
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative, sep } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -9,7 +9,7 @@ import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
-const target = join(repository, "crates/ambulo/data/report");
+const target = join(repository, "crates/ambulo-report/data/report");
 
 /** Files that the bundle is made from, as paths from the repository's root with `/`, sorted. */
 function sources() {
@@ -21,7 +21,7 @@ function sources() {
         .join("/"),
     );
   const others = ["viewer/build.mjs", "viewer/package-lock.json", "viewer/tsconfig.json"];
-  return [...files, ...others, "crates/ambulo/data/report/style.json"].sort();
+  return [...files, ...others, "crates/ambulo-report/data/report/style.json"].sort();
 }
 
 /** FNV-1a of 64 bits over path, zero byte, contents, zero byte of every source. */

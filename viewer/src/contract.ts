@@ -1,4 +1,4 @@
-// Made from crates/ambulo/src/report/page/contract.rs by its test; do not edit.
+// Made from crates/ambulo-report/src/page/contract.rs by its test; do not edit.
 
 /** Version of the contract. */
 export const FORMAT = 1;

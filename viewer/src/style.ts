@@ -1,4 +1,4 @@
-import style from "../../crates/ambulo/data/report/style.json";
+import style from "../../crates/ambulo-report/data/report/style.json";
 import type { PageSide } from "./contract";
 
 /** Dark or light ground. */

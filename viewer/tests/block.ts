@@ -4,7 +4,7 @@ import type { Series } from "../src/contract";
 const HIGHEST = 65534;
 const NONE = 65535;
 
-/** Writes numbers as the program does (crates/ambulo/src/report/page/block.rs). */
+/** Writes numbers as the program does (crates/ambulo-report/src/page/block.rs). */
 export class Block {
   readonly #codes: number[] = [];
 

@@ -6,7 +6,7 @@ import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = join(here, "../out");
-const report = join(here, "../../crates/ambulo/data/report");
+const report = join(here, "../../crates/ambulo-report/data/report");
 mkdirSync(out, { recursive: true });
 await build({
   stdin: {

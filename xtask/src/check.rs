@@ -17,6 +17,8 @@ enum Tool {
     CargoForWasm,
     /// In `viewer/`.
     Npm,
+    /// This program.
+    Xtask,
 }
 
 /// One command.
@@ -33,7 +35,7 @@ struct Step {
 /// The 32-bit target that the library is built for, so that it can run in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -47,6 +49,13 @@ const STEPS: [Step; 8] = [
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
+    },
+    Step {
+        name: "house",
+        tool: Tool::Xtask,
+        arguments: &["house"],
+        variable: None,
+        hint: "`cargo xtask house` repeats this step",
     },
     Step {
         name: "tests",
@@ -128,7 +137,7 @@ impl Tool {
         let starts =
             |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
         match self {
-            Tool::Cargo => None,
+            Tool::Cargo | Tool::Xtask => None,
             Tool::CargoForWasm => {
                 (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
             }
@@ -140,12 +149,14 @@ impl Tool {
         match self {
             Tool::Cargo | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
+            Tool::Xtask => "cargo xtask",
         }
     }
 
     fn command(self) -> Command {
         match self {
             Tool::Cargo | Tool::CargoForWasm => workspace::cargo(),
+            Tool::Xtask => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());

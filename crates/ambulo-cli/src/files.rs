@@ -1,9 +1,9 @@
 //! Files in and out, with errors that name them.
 
 use ambulo::findings::{Code, Findings};
-use ambulo::report::OutputFile;
 use ambulo_formats::Remark;
 use ambulo_formats::table::Table;
+use ambulo_results::OutputFile;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::io::{ErrorKind, Read};

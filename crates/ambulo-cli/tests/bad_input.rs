@@ -10,10 +10,11 @@ use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
-use ambulo::report::output_files;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
+use ambulo_report::figure_files;
+use ambulo_results::output_files;
 use std::time::Duration;
 use workbench::{FORCES, INPUT, RAW, Workbench, demo_input};
 
@@ -319,7 +320,7 @@ fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
         instrumented: None,
     };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).ok()?;
-    Some(output_files(&model, &analysis, None).ok()?.len())
+    Some(output_files(&model, &analysis, None).ok()?.len() + figure_files(&model, &analysis).ok()?.len())
 }
 
 #[test]

@@ -4,13 +4,13 @@
 
 #[path = "../../ambulo/tests/shared_data/mod.rs"]
 mod shared_data;
-#[path = "../../ambulo/tests/svg_reader/mod.rs"]
+#[path = "../../ambulo-report/tests/svg_reader/mod.rs"]
 mod svg_reader;
 mod workbench;
 
 use ambulo::model::Side;
-use ambulo::report::clinical::{ClinicalQuantity, clinical_quantities, knee_flexion_sign};
-use ambulo::report::normative::band;
+use ambulo_report::clinical::{ClinicalQuantity, clinical_quantities, knee_flexion_sign};
+use ambulo_report::normative::band;
 use std::collections::BTreeMap;
 use svg_reader::{Figure, Panel};
 use workbench::Workbench;

@@ -2,7 +2,7 @@
 //!
 //! The science of the project: a body ([`model`]), what was observed of it ([`motion`]), its poses, twists and
 //! accelerations ([`kinematics`]), the forces behind them ([`dynamics`], [`ground`]), and what a reader wants to know
-//! ([`analysis`], [`report`]). This crate opens no file, reads no clock, starts no thread and prints nothing.
+//! ([`analysis`]). This crate opens no file, reads no clock, starts no thread and prints nothing.
 //!
 //! Conventions (docs/CONVENTIONS.md): SI units and radians; world x forward, y up, z right; body quantities at the
 //! centre of mass in world axes, angular part before linear; joint moments are those of the parent on the child with
@@ -31,8 +31,6 @@ pub mod ground;
 pub mod analysis;
 
 pub mod reproduction;
-
-pub mod report;
 
 /// The code in README.md is compiled as a test.
 #[cfg(doctest)]

@@ -4,16 +4,13 @@
 
 mod free_bodies;
 
-use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, measured};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::{BodyId, Model};
 use ambulo::motion::filter::{LowPass, low_pass};
-use ambulo::motion::{ForceRecording, Motion, MotionError, Smoother, TimeGrid, Window};
-use ambulo::report::output_files;
+use ambulo::motion::{ForceRecording, MotionError, TimeGrid};
 use ambulo::spatial::Vec3;
-use ambulo_formats::table::Table;
 use free_bodies::{DOWN_Y, free_bodies};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -156,41 +153,6 @@ fn a_foot_below_twenty_newtons_has_no_center_of_pressure() {
 }
 
 #[test]
-fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
-    let model = feet(DOWN_Y);
-    let on = |t: f64| t > 0.2;
-    let push = plate(right(&model), |t| {
-        let force = Vec3::new(1.0, if on(t) { 600.0 } else { 15.0 }, 2.0);
-        (force, Vec3::new(0.3, 0.05, 0.1), Vec3::new(0.0, 4.0, 0.0))
-    });
-    let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings {
-        smoother: Smoother::Off,
-        force_filter: None,
-        window: Window::default(),
-        rate_hz: None,
-        instrumented: None,
-    };
-    let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default(), &mut |_| {}).unwrap();
-    let files = output_files(&model, &analysis, None).unwrap();
-    let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
-    let table = Table::read_storage(&file.bytes).unwrap().0;
-    let expected = [("ground_force_r_v", [1.0, 600.0, 2.0]), ("ground_force_r_p", [0.3, 0.05, 0.1])];
-    let torque = [("ground_torque_r_", [0.0, 4.0, 0.0])];
-    for (stem, values) in expected.into_iter().chain(torque) {
-        for (axis, value) in ["x", "y", "z"].into_iter().zip(values) {
-            let column = table.column(&format!("{stem}{axis}")).unwrap();
-            for (t, x) in table.times().unwrap().iter().zip(column) {
-                let expected = if on(*t) { value } else { 0.0 };
-                assert!((x - expected).abs() < ROUNDING, "{stem}{axis} at {t}: {x} instead of {expected}");
-            }
-        }
-    }
-    let left = table.columns().filter(|(name, _)| name.contains("_l_"));
-    assert!(left.flat_map(|(_, values)| values).all(|x| x.abs() < f64::MIN_POSITIVE), "the left foot was not loaded");
-}
-
-#[test]
 fn a_force_in_the_axes_of_a_body_is_turned_with_it() {
     let model = feet(DOWN_Y);
     // The foot stands on its heel: its x points up (a quarter turn about z).
@@ -324,32 +286,4 @@ fn a_plate_that_names_no_point_is_unloaded_below_twenty_newtons_and_an_error_abo
     assert_near(foot.center_of_pressure[20], Vec3::new(0.3, 0.0, 0.1), ROUNDING, "loaded");
     let (ground, _) = with(300.0);
     assert!(matches!(ground, Err(MotionError::Gap { ref column, .. }) if column == "plate"), "{ground:?}");
-}
-
-#[test]
-fn the_written_ground_forces_hold_everything_that_pushed_a_side() {
-    // Heel and toes of one foot on a plate each, applied to two bodies: the file has room for one load a side, and must
-    // hold their sum, since the dynamics felt both.
-    let model = free_bodies(DOWN_Y, &[("calcn_r", 35.0), ("toes_r", 35.0)]);
-    let push = |body: &str, load: f64| {
-        plate(model.body(body).unwrap(), move |_| {
-            (Vec3::new(0.0, load, 0.0), Vec3::new(load / 1e3, 0.0, 0.1), Vec3::zeros())
-        })
-    };
-    let plates = [push("calcn_r", 400.0), push("toes_r", 300.0)];
-    let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings {
-        smoother: Smoother::Off,
-        force_filter: None,
-        window: Window::default(),
-        rate_hz: None,
-        instrumented: None,
-    };
-    let mut findings = Findings::default();
-    let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).unwrap();
-    let files = output_files(&model, &analysis, None).unwrap();
-    let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
-    let table = Table::read_storage(&file.bytes).unwrap().0;
-    let vertical = table.column("ground_force_r_vy").unwrap();
-    assert!(vertical.iter().all(|y| (y - 700.0).abs() < ROUNDING), "{} N of 700 N were written", vertical[0]);
 }

@@ -4,10 +4,10 @@
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 use ambulo::analysis::feasibility::{Check, Thresholds};
+use ambulo::analysis::{SceneVerdict, scene_verdict};
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Pace, Speed, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::report::{SceneVerdict, scene_verdict};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;

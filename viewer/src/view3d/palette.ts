@@ -1,5 +1,5 @@
 import { Color } from "three";
-import looks from "../../../crates/ambulo/data/report/style.json";
+import looks from "../../../crates/ambulo-report/data/report/style.json";
 import type { PageSide } from "../contract";
 
 /** Colours of the view, of one theme. */

@@ -7,9 +7,9 @@ use crate::{Verdict, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
 use anyhow::Result;
 use std::path::Path;
 

@@ -8,7 +8,8 @@ use ambulo::analysis::feasibility::{self, Evidence, Person, Thresholds};
 use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, Settings};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
-use ambulo::report::{
+use ambulo_report::figure_files;
+use ambulo_results::{
     ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files, summary,
 };
 use anyhow::{Context, Result};
@@ -60,6 +61,7 @@ impl Outcome<'_> {
         let feasible = self.judge(&mut analysis, &mut findings);
         clock.lap("feasibility");
         let mut written = output_files(self.model, &analysis, self.device)?;
+        written.extend(figure_files(self.model, &analysis)?);
         written.extend(self.files);
         files::replace_results(output, &written, self.read)?;
         clock.lap("write");

@@ -4,8 +4,8 @@ use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
 use crate::{Verdict, files, printer};
 use ambulo::findings::{Code, Finding};
-use ambulo::report::OutputFile;
-use ambulo::report::page::{Folder, report_page};
+use ambulo_report::page::{Folder, report_page};
+use ambulo_results::OutputFile;
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 

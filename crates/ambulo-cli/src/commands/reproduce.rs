@@ -2,10 +2,10 @@
 
 use crate::args::ReproduceArgs;
 use crate::{Verdict, files, printer};
-use ambulo::report::{reproduction_files, reproduction_page};
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
+use ambulo_report::{reproduction_files, reproduction_page};
 use anyhow::Result;
 use std::time::Instant;
 

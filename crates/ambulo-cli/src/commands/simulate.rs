@@ -5,9 +5,11 @@ use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
+use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
-use ambulo::report::{SceneCurves, SceneExtremes, SceneInput, SceneTables, scene_shapes, scene_verdict};
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
+use ambulo_report::{SceneCurves, scene_shapes};
+use ambulo_results::{SceneExtremes, SceneInput, SceneTables};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 

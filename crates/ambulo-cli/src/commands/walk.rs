@@ -12,8 +12,9 @@ use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::to_osim;
 use ambulo::motion::{Smoother, Window};
-use ambulo::report::{GroundSource, Input, OutputFile, WalkSummary, gait_figure};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo_report::gait_figure;
+use ambulo_results::{GroundSource, Input, OutputFile, WalkSummary};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 

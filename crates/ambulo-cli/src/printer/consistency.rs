@@ -1,7 +1,7 @@
 //! How a motion was changed to obey the forces.
 
 use super::say;
-use ambulo::report::{ConsistencySummary, CoordinateSize, ResidualSize};
+use ambulo_results::{ConsistencySummary, CoordinateSize, ResidualSize};
 use anyhow::Result;
 
 /// Coordinates shown of each unit, those that changed most.

@@ -3,7 +3,7 @@
 use super::{comparison, consistency, print_findings, print_verdict, say, subject};
 use crate::args::Voice;
 use ambulo::analysis::PredictionCheck;
-use ambulo::report::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
+use ambulo_results::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::{print_findings, print_verdict, say};
 use crate::args::Voice;
-use ambulo::report::SceneSummary;
+use ambulo_results::SceneSummary;
 use anyhow::Result;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! How markers became a body in motion.
 
 use super::say;
-use ambulo::report::{EventAgreementSummary, MarkerErrorSummary, PlateContactSummary, SubjectSummary};
+use ambulo_results::{EventAgreementSummary, MarkerErrorSummary, PlateContactSummary, SubjectSummary};
 use anyhow::Result;
 
 /// Markers that stay furthest from the body are named.

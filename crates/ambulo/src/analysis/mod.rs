@@ -16,6 +16,7 @@ mod predicted;
 mod prediction_checks;
 mod recording;
 mod residual;
+mod scene_verdict;
 mod walking_direction;
 
 pub use agreed_motion::{Adjustable, agree};
@@ -38,3 +39,4 @@ pub use prediction_checks::{
 };
 pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
+pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};

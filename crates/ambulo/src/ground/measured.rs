@@ -177,7 +177,8 @@ fn usable(recording: &ForceRecording, grid: TimeGrid) -> ForceRecording {
 }
 
 /// The direction against gravity; world y without gravity.
-pub(crate) fn upward(model: &Model) -> Vec3 {
+#[must_use]
+pub fn upward(model: &Model) -> Vec3 {
     model.gravity().try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down)
 }
 

@@ -9,5 +9,5 @@ pub mod predict;
 pub mod sole;
 pub mod stream;
 
-pub(crate) use measured::upward;
+pub use measured::upward;
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};

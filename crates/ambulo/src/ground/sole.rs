@@ -14,11 +14,11 @@ const REFERENCE: (f64, f64) = (72.6, 1.80);
 
 /// How tall a person is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stature {
+pub struct Stature {
     /// From head to heel [m].
-    pub(crate) height_m: f64,
+    pub height_m: f64,
     /// Hip to ground, standing [m].
-    pub(crate) leg_length_m: f64,
+    pub leg_length_m: f64,
 }
 
 /// The sole of one foot: three points along its middle. What lies within `half_width` of the line through them, seen from above,
@@ -42,7 +42,8 @@ pub struct SolePoint {
 
 impl Sole {
     /// Heel and toe spheres; the ends of the sole are those of the outermost spheres.
-    pub(crate) fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
+    #[must_use]
+    pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
         let of_side = || spheres.iter().filter(|s| s.side == side);
         let named = |stem: &str| of_side().find(|s| s.name.starts_with(stem));
         let (heel, ball, toe) = (named("heel")?, named("ball")?, named("toe")?);
@@ -55,7 +56,8 @@ impl Sole {
     }
 
     /// A foot of usual proportions under the ankle, along x of the body `calcn_s`.
-    pub(crate) fn estimated(model: &Model, bodies: &[BodyMotion], side: Side, height: f64) -> Option<Sole> {
+    #[must_use]
+    pub fn estimated(model: &Model, bodies: &[BodyMotion], side: Side, height: f64) -> Option<Sole> {
         let body = model.body(&format!("calcn_{}", side.letter()))?;
         let shank_end = moved_by(model, &format!("ankle_angle_{}", side.letter()))?;
         let ankle = joint_center(model, bodies, shank_end);
@@ -86,7 +88,8 @@ pub(crate) fn nearest_on_sole(points: &[Vec3; 3], half_width: f64, place: Vec3, 
 
 impl Stature {
     /// From thigh and shank of a model whose legs have coordinates of the usual names, else from its mass.
-    pub(crate) fn of_model(model: &Model, bodies: &[BodyMotion]) -> Stature {
+    #[must_use]
+    pub fn of_model(model: &Model, bodies: &[BodyMotion]) -> Stature {
         let thigh_and_shank = |side: Side| {
             let [hip, knee, ankle] = ["hip_flexion", "knee_angle", "ankle_angle"].map(|stem| {
                 moved_by(model, &format!("{stem}_{}", side.letter())).map(|b| joint_center(model, bodies, b))
@@ -106,7 +109,8 @@ impl Stature {
 }
 
 /// Bodies with every coordinate at its default.
-pub(crate) fn at_rest(model: &Model) -> Vec<BodyMotion> {
+#[must_use]
+pub fn at_rest(model: &Model) -> Vec<BodyMotion> {
     let q: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let rest = vec![0.0; q.len()];
     body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest })

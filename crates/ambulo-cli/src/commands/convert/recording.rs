@@ -11,10 +11,10 @@ use ambulo::ground::plates::feet_on_plates;
 use ambulo::motion::{
     MarkerRecording, PlateRecording, PlateSettings, laboratory, markers_from_c3d, markers_from_trc, plates_from_c3d,
 };
-use ambulo::report::{GroundReactions, c3d_of_markers, ground_reactions, table_of_markers, trc_of_markers};
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
+use ambulo_report::{GroundReactions, c3d_of_markers, ground_reactions, table_of_markers, trc_of_markers};
 use anyhow::{Context, Result, bail};
 
 pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], from: &str, to: &str) -> Result<Converted> {

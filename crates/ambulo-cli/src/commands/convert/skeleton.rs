@@ -8,10 +8,10 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::from_osim;
 use ambulo::motion::skeleton::{joint_paths, skeleton_from_bvh};
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, coordinates_from_table, smooth};
-use ambulo::report::{glb_of_motion, skeleton_of, trc_of_markers};
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
+use ambulo_report::{glb_of_motion, skeleton_of, trc_of_markers};
 use anyhow::{Context, Result};
 
 pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {

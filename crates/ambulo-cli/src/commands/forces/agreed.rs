@@ -4,7 +4,7 @@ use crate::args::{Consistency, ForcesArgs};
 use ambulo::analysis::{Adjustable, Analysis, Settings};
 use ambulo::findings::Findings;
 use ambulo::model::Model;
-use ambulo::report::{ConsistencySummary, GroundSource, Input};
+use ambulo_results::{ConsistencySummary, GroundSource, Input};
 use anyhow::{Context, Result};
 
 /// Changes motion and body; says how. Predicted forces grow with the mass, so they tell nothing of it.

@@ -8,7 +8,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::motion::{ForceRecording, Motion, coordinates_from_table, force_recordings};
-use ambulo::report::{GroundSource, Input};
+use ambulo_results::{GroundSource, Input};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 

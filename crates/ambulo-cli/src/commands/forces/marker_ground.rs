@@ -6,8 +6,8 @@ use ambulo::analysis::BodyInMotion;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::plates::foot_bodies;
 use ambulo::motion::ForceRecording;
-use ambulo::report::Input;
 use ambulo::spatial::{Mat3, Vec3};
+use ambulo_results::Input;
 use anyhow::Result;
 
 /// The forces under the feet: from a table if one was given, else from the plates of the file.

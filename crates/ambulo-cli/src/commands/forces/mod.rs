@@ -21,8 +21,8 @@ use ambulo::findings::{Code, Findings};
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{DeviceRecording, ForceRecording, Motion, Smoother, Window, device_from_table};
-use ambulo::report::{Input, OutputFile, SubjectSummary};
 use ambulo_formats::osim::OsimModel;
+use ambulo_results::{Input, OutputFile, SubjectSummary};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 

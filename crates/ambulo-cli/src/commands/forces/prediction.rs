@@ -11,7 +11,8 @@ use ambulo::analysis::{
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::predict::PredictSettings;
 use ambulo::motion::filter::LowPass;
-use ambulo::report::{GroundSource, prediction_files};
+use ambulo_report::prediction_figure_file;
+use ambulo_results::{GroundSource, OutputFile, prediction_files};
 use anyhow::Result;
 
 /// A shorter motion shows no whole cycle [s].
@@ -81,12 +82,19 @@ pub(super) fn compute(
             "the recording holds less than a gait cycle: forces near its ends are guesses, see grf_sd.mot",
         );
     }
-    let files = prediction_files(model, &predicted).unwrap_or_else(|error| {
+    let files = files_of_prediction(model, &predicted).unwrap_or_else(|error| {
         findings
             .report(Code::PredictionNotWritten, format!("grf_sd.mot and grf_measured.mot were not written: {error}"));
         Vec::new()
     });
     Ok(Computed { analysis: predicted.analysis, subject, checks: Some(checks), comparison, files })
+}
+
+/// The tables and the figure that only a prediction has.
+fn files_of_prediction(model: &ambulo::model::Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>> {
+    let mut files = prediction_files(model, predicted)?;
+    files.extend(prediction_figure_file(model, predicted)?);
+    Ok(files)
 }
 
 /// What plates saw in full; `None` without plates.

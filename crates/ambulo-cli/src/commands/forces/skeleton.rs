@@ -8,8 +8,8 @@ use ambulo::findings::Code;
 use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anthropometry::Build;
 use ambulo::motion::skeleton::skeleton_from_bvh;
-use ambulo::report::SubjectSummary;
 use ambulo_formats::bvh::Bvh;
+use ambulo_results::SubjectSummary;
 use anyhow::{Context, Result, bail};
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Recorded> {

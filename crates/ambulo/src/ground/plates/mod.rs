@@ -11,6 +11,7 @@
 //! The **instrumented windows** are the times during which no foot stands on the floor unmeasured.
 //! Pinned by: tests/feet_on_plates.rs, tests/laboratory_files.rs
 
+mod by_foot;
 mod contact;
 mod events;
 mod feet;

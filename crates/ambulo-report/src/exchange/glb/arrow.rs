@@ -1,0 +1,77 @@
+//! Forces as arrows: a mesh one metre long upwards, whose node is moved to the point, turned to the force and stretched to its size.
+
+use super::material::Paint;
+use super::mesh::{Triangles, frame};
+use super::{METRES_PER_NEWTON, Making};
+use crate::stage::{BodyPath, Stage, StageForce};
+use ambulo::spatial::Vec3;
+use nalgebra::UnitQuaternion;
+use serde_json::json;
+use std::f64::consts::PI;
+
+/// Radius of the shaft and of the head, and where the head begins [m].
+const SHAFT: f64 = 0.009;
+const HEAD: f64 = 0.024;
+const NECK: f64 = 0.88;
+
+/// Adds all forces of a stage.
+pub(super) fn add(stage: &Stage, making: &mut Making) {
+    for force in &stage.forces {
+        let paint = if force.beside { Paint::Measured } else { Paint::of_side(force.side) };
+        let Some(mesh) = making.mesh(&format!("force {}", force.name), &arrow(), paint) else { continue };
+        let mut node = json!({ "name": format!("force {}", force.name), "mesh": mesh });
+        let Moving { place, turn, scale } = moving(force);
+        let number = making.nodes.len();
+        making.animation.place(number, &mut node, &place, &turn, &mut making.buffer);
+        making.animation.channel(number, &mut node, "scale", &scale, &mut making.buffer);
+        making.add_root(node);
+    }
+}
+
+/// A row an instant.
+struct Moving {
+    place: Vec<[f64; 3]>,
+    turn: Vec<[f64; 4]>,
+    scale: Vec<[f64; 3]>,
+}
+
+/// While a force does not act its arrow stays where it last was, without size.
+fn moving(force: &StageForce) -> Moving {
+    let acts = |(point, force): &(&Vec3, &Vec3)| point.iter().chain(force.iter()).all(|x| x.is_finite());
+    let rows = || force.point.iter().zip(&force.force);
+    let (mut place, mut direction) = rows().find(acts).map_or((Vec3::zeros(), Vec3::y()), |(p, f)| (*p, *f));
+    let (mut path, mut scale) = (BodyPath::default(), Vec::new());
+    for row in rows() {
+        let length = if acts(&row) { row.1.norm() * METRES_PER_NEWTON } else { 0.0 };
+        if length > 0.0 {
+            (place, direction) = (*row.0, *row.1);
+        }
+        let turn = UnitQuaternion::rotation_between(&Vec3::y(), &direction)
+            .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), PI));
+        path.push_turned(place, turn);
+        let width = if length > 0.0 { 1.0 } else { 0.0 };
+        scale.push([width, length, width]);
+    }
+    Moving {
+        place: path.position.iter().map(|place| (*place).into()).collect(),
+        turn: path.rotation.iter().map(|turn| turn.coords.into()).collect(),
+        scale,
+    }
+}
+
+/// From the origin to one metre above it.
+fn arrow() -> Triangles {
+    let axes = frame(Vec3::y());
+    let at = |height: f64| Vec3::y() * height;
+    let mut all = Triangles::default();
+    all.ring(at(0.0), axes, SHAFT, 0.0);
+    all.ring(at(NECK), axes, SHAFT, 0.0);
+    all.band();
+    all.ring(at(NECK), axes, SHAFT, -1.0);
+    all.ring(at(NECK), axes, HEAD, -1.0);
+    all.band();
+    all.ring(at(NECK), axes, HEAD, 0.2);
+    all.ring(at(1.0), axes, 0.0, 0.2);
+    all.band();
+    all
+}

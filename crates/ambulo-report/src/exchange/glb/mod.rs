@@ -1,0 +1,167 @@
+//! A stage as an animated glTF 2.0 file in its binary form (`.glb`): bodies as nodes with meshes, their paths as an animation, ground
+//! forces as arrows that move, turn and grow.
+//!
+//! Metres, seconds, newtons; x forward, y up, z right, as in all files of this program (glTF itself wants y up and nothing more of a scene
+//! that is no asset to be placed). Times begin at zero. Nodes of bodies hang on each other as in the model; their translation and rotation
+//! are those in the parent. An arrow is a metre long for 1000 N and has the scale zero while its force does not act.
+//!
+//! Source: Khronos glTF 2.0 specification (sections 3.6 data, 3.11 animations, 4 GLB container; unverified).
+
+mod animation;
+mod arrow;
+mod buffer;
+mod container;
+mod material;
+mod mesh;
+#[cfg(test)]
+mod tests;
+
+use crate::stage::{BodyPath, Stage, StageBody, StagePlate};
+use animation::Animation;
+use buffer::Buffer;
+use material::Paint;
+use mesh::Triangles;
+use serde_json::{Value, json};
+
+/// Length of an arrow for its force [m/N].
+pub(super) const METRES_PER_NEWTON: f64 = 1e-3;
+
+/// A file under construction.
+#[derive(Default)]
+struct Making {
+    buffer: Buffer,
+    nodes: Vec<Value>,
+    meshes: Vec<Value>,
+    animation: Animation,
+    /// Nodes that hang on none.
+    roots: Vec<usize>,
+}
+
+/// The stage as bytes of a `.glb` file.
+///
+/// # Errors
+/// Data that JSON cannot hold.
+pub(super) fn glb(stage: &Stage, name: &str) -> Result<Vec<u8>, serde_json::Error> {
+    let mut making = Making::default();
+    let times: Vec<f64> = (0..stage.grid.frames).map(|frame| stage.grid.step_s * frame as f64).collect();
+    making.animation.time(&times, &mut making.buffer);
+    making.add_bodies(stage);
+    arrow::add(stage, &mut making);
+    making.add_still(stage);
+    container::file(&making.document(stage, name), making.buffer.bytes())
+}
+
+impl Making {
+    /// Nodes of all bodies, in their order, so that a body's place on the stage is the number of its node.
+    fn add_bodies(&mut self, stage: &Stage) {
+        for (number, body) in stage.bodies.iter().enumerate() {
+            let mut node = json!({ "name": body.name });
+            let triangles = body.shapes.iter().map(Triangles::of_shape).fold(Triangles::default(), Triangles::with);
+            if let Some(mesh) = self.mesh(&body.name, &triangles, Paint::of_side(body.side)) {
+                node["mesh"] = json!(mesh);
+            }
+            let parent = body.parent.and_then(|parent| stage.bodies.get(parent));
+            let (translation, rotation) = path_in(parent, body);
+            self.animation.place(number, &mut node, &translation, &rotation, &mut self.buffer);
+            let carried: Vec<usize> =
+                stage.bodies.iter().enumerate().filter(|(_, b)| b.parent == Some(number)).map(|(i, _)| i).collect();
+            if !carried.is_empty() {
+                node["children"] = json!(carried);
+            }
+            if body.parent.is_none() {
+                self.roots.push(number);
+            }
+            self.nodes.push(node);
+        }
+    }
+
+    /// Plates and what stands still.
+    fn add_still(&mut self, stage: &Stage) {
+        let plates = stage.plates.iter().map(plate);
+        let fixed = stage.fixed.iter().map(Triangles::of_shape).enumerate();
+        let fixed = fixed.map(|(i, triangles)| (format!("obstacle {}", i + 1), triangles, Paint::Still));
+        for (name, triangles, paint) in plates.chain(fixed).collect::<Vec<_>>() {
+            if let Some(mesh) = self.mesh(&name, &triangles, paint) {
+                self.add_root(json!({ "name": name, "mesh": mesh }));
+            }
+        }
+    }
+
+    /// Adds a node that hangs on none.
+    fn add_root(&mut self, node: Value) -> usize {
+        self.roots.push(self.nodes.len());
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    /// Adds a mesh; none for no triangles.
+    fn mesh(&mut self, name: &str, triangles: &Triangles, paint: Paint) -> Option<usize> {
+        if triangles.corners.is_empty() {
+            return None;
+        }
+        let position = self.buffer.points(&triangles.points);
+        let normal = self.buffer.directions(&triangles.normals);
+        let indices = self.buffer.indices(&triangles.corners);
+        let primitive = json!({
+            "attributes": { "POSITION": position, "NORMAL": normal },
+            "indices": indices,
+            "material": paint as usize,
+        });
+        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
+        Some(self.meshes.len() - 1)
+    }
+
+    fn document(&self, stage: &Stage, name: &str) -> Value {
+        let mut document = json!({
+            "asset": { "version": "2.0", "generator": concat!("ambulo ", env!("CARGO_PKG_VERSION")) },
+            "scene": 0,
+            "scenes": [{
+                "name": name,
+                "nodes": self.roots,
+                "extras": {
+                    "axes": "x forward, y up, z right",
+                    "units": "m, s, N",
+                    "start_s": stage.grid.start_s,
+                    "rate_hz": if stage.grid.step_s > 0.0 { json!(1.0 / stage.grid.step_s) } else { Value::Null },
+                    "metres_per_newton": METRES_PER_NEWTON,
+                    "weight_n": stage.weight_n,
+                    "floor_m": stage.floor_m,
+                },
+            }],
+            "nodes": self.nodes,
+            "materials": material::all(),
+            "accessors": self.buffer.accessors,
+            "bufferViews": self.buffer.views,
+            "buffers": [{ "byteLength": self.buffer.length() }],
+        });
+        if let Some(animation) = self.animation.described() {
+            document["animations"] = json!([animation]);
+        }
+        if !self.meshes.is_empty() {
+            document["meshes"] = json!(self.meshes);
+        }
+        document
+    }
+}
+
+/// The path of a body in its parent, or in the world.
+fn path_in(parent: Option<&StageBody>, body: &StageBody) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
+    let mut local = BodyPath::default();
+    for (instant, (place, turn)) in body.path.position.iter().zip(&body.path.rotation).enumerate() {
+        match parent {
+            Some(parent) => {
+                let (outer, origin) = (parent.path.rotation[instant].inverse(), parent.path.position[instant]);
+                local.push_turned(outer * (place - origin), outer * turn);
+            }
+            None => local.push_turned(*place, *turn),
+        }
+    }
+    (
+        local.position.iter().map(|place| (*place).into()).collect(),
+        local.rotation.iter().map(|turn| turn.coords.into()).collect(),
+    )
+}
+
+fn plate(plate: &StagePlate) -> (String, Triangles, Paint) {
+    (plate.name.clone(), Triangles::sheet(&plate.corners), Paint::Plate)
+}

@@ -1,0 +1,81 @@
+//! The figures of a run, as names and bytes.
+
+use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
+use crate::normative::dimensionless_speed;
+use ambulo::analysis::feasibility::{Check, Person, Reason};
+use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
+use ambulo::model::{Model, Side};
+use ambulo_results::{OutputFile, cycle_rows};
+
+/// `figures/quality.svg` and the figures of gait cycles.
+///
+/// # Errors
+/// A figure that could not be drawn.
+pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile>, FigureError> {
+    let mut files = Vec::new();
+    let caption = caption(model, analysis);
+    if let Some(svg) = residual_figure(model, analysis, &caption)? {
+        files.push(OutputFile { name: "figures/quality.svg".to_owned(), bytes: svg.into_bytes() });
+    }
+    let rows = cycle_rows(model, analysis);
+    if !rows.is_empty() {
+        let figures = CycleFigures {
+            rows: &rows,
+            mass_kg: analysis.mass.kg,
+            caption: &caption,
+            marks: &marks(analysis),
+            speed_dimensionless: speed_dimensionless(model, analysis),
+        };
+        files.extend(figures.files()?);
+    }
+    Ok(files)
+}
+
+/// `figures/prediction.svg`; `None` where nothing was predicted that could be drawn.
+///
+/// # Errors
+/// A figure that could not be drawn.
+pub fn prediction_figure_file(model: &Model, predicted: &PredictedAnalysis) -> Result<Option<OutputFile>, FigureError> {
+    let svg = prediction_figure(model, predicted, &caption(model, &predicted.analysis))?;
+    Ok(svg.map(|svg| OutputFile { name: "figures/prediction.svg".to_owned(), bytes: svg.into_bytes() }))
+}
+
+/// V / sqrt(g L), where the speed is known and the model has legs.
+fn speed_dimensionless(model: &Model, analysis: &Analysis) -> Option<f64> {
+    dimensionless_speed(analysis.speed_m_s?, model.gravity().norm(), Person::of_model(model).leg_length_m)
+}
+
+/// Whose walk a figure shows: `subject01, 72.8 kg, 1.12 m/s (V* 0.37)`.
+fn caption(model: &Model, analysis: &Analysis) -> String {
+    let speed = analysis.speed_m_s.map(|v| format!(", {v:.2} m/s")).unwrap_or_default();
+    let scaled = speed_dimensionless(model, analysis).map(|v| format!(" (V* = {v:.2})")).unwrap_or_default();
+    format!("{}, {:.1} kg{speed}{scaled}", model.name(), analysis.mass.kg)
+}
+
+/// What stands against the motion, by gait cycle. What has no side stands in the cycles of both feet.
+fn marks(analysis: &Analysis) -> Vec<Mark> {
+    let reasons = analysis.verdict.iter().flat_map(|verdict| &verdict.reasons);
+    let pairs = reasons.flat_map(|reason| analysis.cycles.iter().map(move |cycle| (reason, cycle)));
+    let of_side = pairs.filter(|(reason, cycle)| reason.side.is_none_or(|side| side == cycle.side));
+    let mark = |(reason, cycle): (&Reason, &Cycle)| {
+        let [from, to] = reason.time_s.map(|t| (t - cycle.start_s) / (cycle.end_s - cycle.start_s));
+        (to >= 0.0 && from <= 1.0).then(|| Mark {
+            quantity: quantity(reason),
+            side: cycle.side,
+            cycle: cycle.number,
+            percent: [from, to].map(|share| 100.0 * share.clamp(0.0, 1.0)),
+        })
+    };
+    of_side.filter_map(mark).collect()
+}
+
+/// The quantity of `cycles.csv` that a reason is about; `None` for those of feet and body.
+fn quantity(reason: &Reason) -> Option<String> {
+    let suffix = match reason.check {
+        Check::Strength | Check::Power => "",
+        Check::Range => "_angle",
+        _ => return None,
+    };
+    let stem = Side::split_name(&reason.quantity).map_or_else(|| reason.quantity.clone(), |(_, stem)| stem);
+    Some(stem + suffix)
+}

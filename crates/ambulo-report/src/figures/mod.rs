@@ -1,0 +1,44 @@
+//! Figures as SVG for papers and reports, made without a browser.
+
+mod axes;
+mod chart;
+mod cycle_figures;
+mod cycle_panel;
+mod gait_figure;
+mod paper_figure;
+mod scene_figures;
+mod sheet;
+mod svg;
+mod time_figures;
+
+pub use chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, PALE};
+pub use cycle_figures::CycleFigures;
+pub use gait_figure::gait_figure;
+pub use paper_figure::paper_figure;
+pub use scene_figures::SceneCurves;
+pub use time_figures::{prediction_figure, residual_figure};
+
+use ambulo::model::Side;
+
+/// A figure could not be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the figure `{name}` could not be drawn: {reason}")]
+pub struct FigureError {
+    /// Name of the figure.
+    pub name: &'static str,
+    /// The cause.
+    pub reason: String,
+}
+
+/// A part of a cycle in which a motion is not feasible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// What is not: a quantity of `cycles.csv`, or `None` for what concerns feet and body as a whole.
+    pub quantity: Option<String>,
+    /// The foot whose cycle it is.
+    pub side: Side,
+    /// Number of the cycle of this foot, from 1.
+    pub cycle: usize,
+    /// From where to where [% of the cycle].
+    pub percent: [f64; 2],
+}

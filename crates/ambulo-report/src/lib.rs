@@ -1,0 +1,25 @@
+//! Pictures and pages from results: clinical curves and norms, figures, the report page, exchange formats.
+
+pub mod clinical;
+mod exchange;
+mod figure_files;
+pub mod figures;
+mod html;
+pub mod normative;
+pub mod page;
+mod reproduction;
+mod reproduction_page;
+mod scene_shapes;
+mod stage;
+pub mod style;
+
+pub use exchange::{
+    ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
+    glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,
+    table_of_markers, trc_of_markers,
+};
+pub use figure_files::{figure_files, prediction_figure_file};
+pub use figures::{CycleFigures, FigureError, Mark, SceneCurves, gait_figure, paper_figure};
+pub use reproduction::reproduction_files;
+pub use reproduction_page::reproduction_page;
+pub use scene_shapes::scene_shapes;

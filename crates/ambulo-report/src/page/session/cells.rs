@@ -1,0 +1,136 @@
+//! Cells of tables, and tables from lists in the summary.
+
+use crate::page::contract::{Cell, Table};
+use serde_json::Value;
+
+/// A cell of words.
+pub(super) fn text(words: &str) -> Cell {
+    Cell { text: words.to_owned(), value: None, outside: false }
+}
+
+/// A number, or a dash where there is none; marked where it is outside of a range.
+pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>) -> Cell {
+    let value = value.filter(|x| x.is_finite());
+    Cell {
+        text: value.map_or_else(|| "-".to_owned(), |x| rounded(x, digits)),
+        value,
+        outside: value.zip(range).is_some_and(|(x, [low, high])| is_outside(x, [low, high], digits)),
+    }
+}
+
+/// As a reader compares them: with the digits that are shown.
+fn is_outside(x: f64, range: [f64; 2], digits: usize) -> bool {
+    let scale = 10_f64.powi(i32::try_from(digits).unwrap_or(0));
+    let [x, low, high] = [x, range[0], range[1]].map(|x| (x * scale).round());
+    x < low || x > high
+}
+
+/// So many digits; nothing is less than nothing.
+fn rounded(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.chars().all(|letter| matches!(letter, '0' | '.')) => size.to_owned(),
+        _ => text,
+    }
+}
+
+/// The mean of several numbers, with their deviation from two on.
+pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) -> Cell {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let mut cell = number(Some(mean), digits, range);
+    if values.len() > 1 {
+        let sd = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+        cell.text += &format!(" ± {sd:.digits$}");
+    }
+    cell
+}
+
+/// A column of a table that shows a list of the summary.
+pub(super) struct Column {
+    pub(super) head: &'static str,
+    /// Path in an entry of the list: `/vertical/rmse_bw`.
+    pub(super) path: &'static str,
+    pub(super) form: Form,
+}
+
+/// How an entry is shown.
+pub(super) enum Form {
+    /// As it stands.
+    Words,
+    /// A name in words: `center_of_pressure`.
+    Check,
+    /// A unit; none of what is a ratio.
+    Unit,
+    /// A side by its letter.
+    Side,
+    /// This factor times a number, with so many digits.
+    Number(f64, usize),
+    /// The same, and what is more stands out.
+    AtMost(f64, usize, f64),
+    /// Yes or no.
+    Answer,
+}
+
+pub(super) const fn column(head: &'static str, path: &'static str, form: Form) -> Column {
+    Column { head, path, form }
+}
+
+/// A table of a list; `None` where the list is empty.
+pub(super) fn listed<'a>(
+    [id, title, note]: [&str; 3],
+    rows: impl IntoIterator<Item = &'a Value>,
+    columns: &[Column],
+) -> Option<Table> {
+    let cells = |row: &Value| columns.iter().map(|column| cell(row.pointer(column.path), &column.form)).collect();
+    let rows: Vec<Vec<Cell>> = rows.into_iter().map(cells).collect();
+    let columns = columns.iter().map(|column| column.head.to_owned()).collect();
+    (!rows.is_empty()).then(|| table([id, title, note], columns, rows))
+}
+
+/// A table that has rows; without a note if that is empty.
+pub(super) fn table([id, title, note]: [&str; 3], columns: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
+    let note = (!note.is_empty()).then(|| note.to_owned());
+    Table { id: id.to_owned(), title: title.to_owned(), note, columns, rows, empty: None }
+}
+
+fn cell(value: Option<&Value>, form: &Form) -> Cell {
+    let words = value.and_then(Value::as_str);
+    let scaled = |factor: f64| value.and_then(Value::as_f64).map(|x| factor * x);
+    match form {
+        Form::Words => text(words.unwrap_or("-")),
+        Form::Check => text(&words.unwrap_or("-").replace('_', " ")),
+        Form::Unit => text(words.filter(|unit| *unit != "1").unwrap_or("")),
+        Form::Side => text(side_word(words)),
+        Form::Number(factor, digits) => number(scaled(*factor), *digits, None),
+        Form::AtMost(factor, digits, most) => number(scaled(*factor), *digits, Some([f64::NEG_INFINITY, *most])),
+        Form::Answer => text(match value.and_then(Value::as_bool) {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "-",
+        }),
+    }
+}
+
+/// `right`, `left` or a dash.
+pub(super) fn side_word(letter: Option<&str>) -> &'static str {
+    match letter {
+        Some("r") => "right",
+        Some("l") => "left",
+        _ => "-",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_shown_is_what_is_compared() {
+        let outside = |x: f64| number(Some(x), 4, Some([0.0052, 0.0064])).outside;
+        assert!(!outside(0.005_16) && !outside(0.006_44), "shown as 0.0052 and 0.0064");
+        assert!(outside(0.005_14) && outside(0.006_46));
+        let at_most = |x: f64| number(Some(x), 1, Some([f64::NEG_INFINITY, 40.0])).outside;
+        assert!(!at_most(40.04) && at_most(40.06) && !at_most(-1e6));
+    }
+}

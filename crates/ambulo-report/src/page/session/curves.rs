@@ -1,0 +1,184 @@
+//! One clinical quantity as a panel: its cycles, their mean, and the same over time.
+
+use super::cycles_file::{self, CycleValues};
+use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
+use super::sides;
+use super::size::BodySize;
+use crate::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::normative;
+use crate::page::block::Block;
+use crate::page::contract::{Band, CycleCurve, MeanCurve, Origin, Panel, Role, Series, Trace};
+use ambulo::model::Side;
+use ambulo_formats::table::Table;
+
+/// Columns of `grf.mot` by the names of `cycles.csv`.
+pub(super) const GROUND_AXES: [(&str, &str); 3] =
+    [("ground_force_fore_aft", "x"), ("ground_force_vertical", "y"), ("ground_force_lateral", "z")];
+
+/// The panel of a quantity; `empty` is what it says where no file has it.
+pub(super) fn panel(
+    results: &Results,
+    size: &BodySize,
+    quantity: &ClinicalQuantity,
+    empty: &str,
+    block: &mut Block,
+) -> Panel {
+    let (mut cycles, mut means) = (Vec::new(), Vec::new());
+    for side in Side::BOTH {
+        let shown = shown_cycles(results, quantity, side);
+        means.extend(mean_curve(results, side, &shown, block));
+        cycles.extend(shown.into_iter().map(|curve| curve.added(block)));
+    }
+    let traces = traces(results, quantity, block);
+    let nothing = cycles.is_empty() && traces.is_empty();
+    Panel {
+        id: quantity.id.to_owned(),
+        title: quantity.title.to_owned(),
+        unit: quantity.unit.to_owned(),
+        positive: quantity.positive.to_owned(),
+        negative: quantity.negative.to_owned(),
+        cycles,
+        means,
+        band: band(size, quantity, block),
+        traces,
+        red: Vec::new(),
+        empty: nothing.then(|| empty.to_owned()),
+    }
+}
+
+/// What healthy people do at this speed, where it and the size of the body are known.
+fn band(size: &BodySize, quantity: &ClinicalQuantity, block: &mut Block) -> Option<Band> {
+    let normal = normative::band(quantity.id, size.walking_speed()?)?;
+    Some(Band { mean: block.add(&normal.mean), sd: block.add(&normal.sd), citation: normal.citation })
+}
+
+/// A curve in clinical signs.
+pub(super) struct ShownCurve {
+    pub(super) side: Side,
+    pub(super) number: usize,
+    pub(super) values: Vec<f64>,
+    origin: Origin,
+}
+
+impl ShownCurve {
+    fn added(self, block: &mut Block) -> CycleCurve {
+        let values = block.add(&self.values);
+        CycleCurve { side: sides::page(self.side), number: self.number, values, origin: self.origin }
+    }
+}
+
+/// The cycles of a foot, in the file's order.
+pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
+    let factor = quantity.factor(results.mass_kg, side, results.knee_flexion);
+    let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.column);
+    let shown = |curve: &CycleValues| {
+        let factor = factor * if curve.unit == "rad" { 1.0_f64.to_degrees() } else { 1.0 };
+        ShownCurve {
+            side,
+            number: curve.number,
+            values: curve.values.iter().map(|x| factor * x).collect(),
+            origin: Origin { file: cycles_file::FILE.to_owned(), column: curve.quantity.clone(), factor },
+        }
+    };
+    rows.map(shown).collect()
+}
+
+fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
+    let (mean, sd) = mean_and_deviation(curves)?;
+    let toe_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.toe_off_percent).collect();
+    Some(MeanCurve {
+        side: sides::page(side),
+        cycles: curves.len(),
+        values: block.add(&mean),
+        sd: sd.map(|sd| block.add(&sd)),
+        toe_off_percent: (!toe_offs.is_empty()).then(|| toe_offs.iter().sum::<f64>() / toe_offs.len() as f64),
+    })
+}
+
+/// Point by point; the deviation of a sample, from two curves on.
+pub(super) fn mean_and_deviation(curves: &[ShownCurve]) -> Option<(Vec<f64>, Option<Vec<f64>>)> {
+    let count = curves.len() as f64;
+    let length = curves.first()?.values.len();
+    let at = |k: usize| curves.iter().map(move |curve| curve.values[k]);
+    let mean: Vec<f64> = (0..length).map(|k| at(k).sum::<f64>() / count).collect();
+    let squares = |k: usize| at(k).map(|x| (x - mean[k]).powi(2)).sum::<f64>();
+    let sd = (curves.len() > 1).then(|| (0..length).map(|k| (squares(k) / (count - 1.0)).sqrt()).collect());
+    Some((mean, sd))
+}
+
+/// Both sides over time; a coordinate of pelvis or trunk that means the same on both is one trace.
+fn traces(results: &Results, quantity: &ClinicalQuantity, block: &mut Block) -> Vec<Trace> {
+    let factors = Side::BOTH.map(|side| quantity.factor(results.mass_kg, side, results.knee_flexion));
+    if quantity.central && factors[0].total_cmp(&factors[1]).is_eq() {
+        return trace(results, quantity, None, factors[0], block).into_iter().collect();
+    }
+    let pairs = Side::BOTH.into_iter().zip(factors);
+    pairs.filter_map(|(side, factor)| trace(results, quantity, Some(side), factor, block)).collect()
+}
+
+fn trace(
+    results: &Results,
+    quantity: &ClinicalQuantity,
+    side: Option<Side>,
+    factor: f64,
+    block: &mut Block,
+) -> Option<Trace> {
+    let Place { table, file, column, divisor } = Place::of(results, quantity, side)?;
+    let factor = factor / divisor;
+    let values = scaled(table.column(&column)?, factor, block);
+    let deviation = results.deviations.as_ref().filter(|_| file == GROUND);
+    let sd = deviation.and_then(|table| table.column(&format!("{column}_sd")));
+    Some(Trace {
+        name: side.map_or_else(|| "both sides".to_owned(), |side| side.to_string()),
+        side: side.map(sides::page),
+        role: Role::Main,
+        values,
+        sd: sd.map(|sd| scaled(sd, factor.abs(), block)),
+        origin: Some(Origin { file: file.to_owned(), column, factor }),
+    })
+}
+
+/// Where a quantity stands over time: file, column, and its numbers where the column is there. `None` without the file.
+pub(super) fn over_time<'a>(
+    results: &'a Results,
+    quantity: &ClinicalQuantity,
+    side: Side,
+) -> Option<(&'static str, String, Option<&'a [f64]>)> {
+    let Place { table, file, column, .. } = Place::of(results, quantity, Some(side))?;
+    let values = table.column(&column);
+    Some((file, column, values))
+}
+
+fn scaled(values: &[f64], factor: f64, block: &mut Block) -> Series {
+    block.add(&values.iter().map(|x| factor * x).collect::<Vec<_>>())
+}
+
+/// A column of a table over time.
+struct Place<'a> {
+    table: &'a Table,
+    file: &'static str,
+    column: String,
+    /// What the file's number is divided by, beside the quantity's own factor.
+    divisor: f64,
+}
+
+impl Place<'_> {
+    fn of<'a>(results: &'a Results, quantity: &ClinicalQuantity, side: Option<Side>) -> Option<Place<'a>> {
+        let letter = side.map(Side::letter).unwrap_or_default();
+        let coordinate = match quantity.central {
+            true => quantity.coordinate.to_owned(),
+            false => format!("{}_{letter}", quantity.coordinate),
+        };
+        let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
+        match quantity.group {
+            ClinicalGroup::Kinematics => Some(place(&results.kinematics, KINEMATICS, coordinate)),
+            ClinicalGroup::Moments => Some(place(results.moments.as_ref()?, MOMENTS, format!("{coordinate}_moment"))),
+            ClinicalGroup::Powers => Some(place(results.powers.as_ref()?, POWERS, format!("{coordinate}_power"))),
+            ClinicalGroup::Ground => {
+                let (_, axis) = GROUND_AXES.iter().find(|(name, _)| *name == quantity.coordinate)?;
+                let column = format!("ground_force_{letter}_v{axis}");
+                Some(Place { divisor: results.weight_n, ..place(results.ground.as_ref()?, GROUND, column) })
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! When the cycles of `cycles.csv` were.
+//!
+//! The file counts cycles and has no times; they lie between strikes of one foot in `events.csv`, but not every pair of strikes is a
+//! cycle of the file (those that no plate saw are left out). A cycle's own angles and positions say which pair it is: read off
+//! `kinematics.mot` between the right pair of strikes, they are the file's.
+
+use super::cycles_file::CycleValues;
+use super::sides;
+use crate::page::contract::{PageCycle, PageEvent};
+use ambulo::model::Side;
+use ambulo::motion::interpolate;
+use ambulo_formats::table::Table;
+
+/// Events are written to 0.01 ms, in which joints turn by less than this [deg]; other cycles differ by more somewhere [deg or m].
+const SAME: f64 = 0.02;
+
+/// The cycles that the curves were cut into, right foot first; without a curve, none.
+pub(super) fn cycles(
+    events: &[PageEvent],
+    curves: &[CycleValues],
+    kinematics: &Table,
+    times: &[f64],
+) -> Vec<PageCycle> {
+    let mut list = Vec::new();
+    for side in Side::BOTH {
+        let of_side = || events.iter().filter(|event| event.side == sides::page(side));
+        let strikes: Vec<f64> = of_side().filter(|event| event.strike).map(|event| event.time_s).collect();
+        let mut pairs: Vec<[f64; 2]> = strikes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        for number in numbers(curves, side) {
+            let of_cycle: Vec<&CycleValues> =
+                curves.iter().filter(|curve| curve.side == side && curve.number == number).collect();
+            let Some(place) = nearest(&pairs, &of_cycle, side, kinematics, times) else { continue };
+            let [start_s, end_s] = pairs[place];
+            pairs.drain(..=place);
+            let off = of_side().find(|event| !event.strike && event.time_s > start_s && event.time_s < end_s);
+            let toe_off_percent = off.map(|off| 100.0 * (off.time_s - start_s) / (end_s - start_s));
+            list.push(PageCycle { side: sides::page(side), number, start_s, end_s, toe_off_percent });
+        }
+    }
+    list
+}
+
+/// Numbers of a foot's cycles, rising.
+fn numbers(curves: &[CycleValues], side: Side) -> Vec<usize> {
+    let mut numbers: Vec<usize> = curves.iter().filter(|curve| curve.side == side).map(|curve| curve.number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}
+
+/// The first pair of strikes between which the motion is that of the curves, else the nearest.
+fn nearest(
+    pairs: &[[f64; 2]],
+    curves: &[&CycleValues],
+    side: Side,
+    kinematics: &Table,
+    times: &[f64],
+) -> Option<usize> {
+    let mut best: Option<(usize, f64)> = None;
+    for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair[1] > pair[0]) {
+        let least = best.map_or(f64::INFINITY, |(_, least)| least);
+        let mut distances = curves.iter().filter_map(|curve| distance(curve, *pair, side, kinematics, times));
+        // Ends at the first curve that is farther away than the best pair's.
+        let Some(largest) = distances.try_fold(0.0_f64, |largest, x| (x < least).then(|| largest.max(x))) else {
+            continue;
+        };
+        best = Some((place, largest));
+        if largest < SAME {
+            break;
+        }
+    }
+    best.map(|(place, _)| place)
+}
+
+/// How far a curve is from the motion between two strikes; `None` for what is no column of the motion.
+fn distance(
+    curve: &CycleValues,
+    [start_s, end_s]: [f64; 2],
+    side: Side,
+    kinematics: &Table,
+    times: &[f64],
+) -> Option<f64> {
+    let stem = ["_angle", "_position"].iter().find_map(|suffix| curve.quantity.strip_suffix(suffix))?;
+    let column = kinematics.column(&format!("{stem}_{}", side.letter())).or_else(|| kinematics.column(stem))?;
+    let last = (curve.values.len() - 1) as f64;
+    let at = |k: usize| interpolate(times, column, start_s + (end_s - start_s) * k as f64 / last);
+    let largest = curve.values.iter().enumerate().map(|(k, value)| (value - at(k)).abs());
+    Some(largest.fold(0.0, f64::max))
+}

@@ -1,0 +1,233 @@
+//! Peaks and ranges of motion, and how the sides compare.
+//!
+//! Each value is read off every single cycle; the tables show mean and standard deviation over the cycles of a side. Symmetry is 100 (R -
+//! L) / ((R + L) / 2) of the means, marked above 10 % (Robinson, Herzog, Nigg 1987, unverified).
+
+use super::cells::{mean_cell, number, text};
+use super::curves::{ShownCurve, shown_cycles};
+use super::results::Results;
+use super::strides::Stride;
+use super::time_distance;
+use crate::clinical::ClinicalQuantity;
+use crate::page::contract::{Cell, Table};
+use ambulo::model::Side;
+
+/// More than this stands out [%].
+const ASYMMETRIC: f64 = 10.0;
+
+/// What is read off a cycle.
+#[derive(Clone, Copy)]
+enum Read {
+    Largest(Part),
+    Smallest(Part),
+    /// Largest less smallest of the whole cycle.
+    Range,
+    /// At foot strike.
+    AtStrike,
+}
+
+/// A part of the cycle.
+#[derive(Clone, Copy)]
+enum Part {
+    Whole,
+    Stance,
+    EarlyStance,
+    LateStance,
+    MiddleOfStance,
+    Swing,
+}
+
+use Part::{EarlyStance, LateStance, MiddleOfStance, Stance, Swing, Whole};
+use Read::{AtStrike, Largest, Range, Smallest};
+
+/// Quantity, name of the value, how it is read, digits, and whether its sides are compared in per cent.
+type Row = (&'static str, &'static str, Read, usize, bool);
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    ("pelvis_tilt_angle", "Pelvic tilt, range", Range, 1, false),
+    ("pelvis_obliquity_angle", "Pelvic obliquity, range", Range, 1, false),
+    ("pelvis_rotation_angle", "Pelvic rotation, range", Range, 1, false),
+    ("hip_flexion_angle", "Hip flexion, at strike", AtStrike, 1, false),
+    ("hip_flexion_angle", "Hip flexion, largest", Largest(Whole), 1, false),
+    ("hip_flexion_angle", "Hip flexion, least (extension is negative)", Smallest(Whole), 1, false),
+    ("hip_flexion_angle", "Hip flexion, range", Range, 1, true),
+    ("hip_adduction_angle", "Hip adduction, largest in stance", Largest(Stance), 1, false),
+    ("hip_adduction_angle", "Hip adduction, range", Range, 1, true),
+    ("hip_rotation_angle", "Hip rotation, range", Range, 1, true),
+    ("knee_flexion_angle", "Knee flexion, at strike", AtStrike, 1, false),
+    ("knee_flexion_angle", "Knee flexion, largest in early stance", Largest(EarlyStance), 1, false),
+    ("knee_flexion_angle", "Knee flexion, least in late stance", Smallest(LateStance), 1, false),
+    ("knee_flexion_angle", "Knee flexion, largest in swing", Largest(Swing), 1, true),
+    ("knee_flexion_angle", "Knee flexion, range", Range, 1, true),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, at strike", AtStrike, 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, largest in stance", Largest(Stance), 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, least (plantarflexion is negative)", Smallest(Whole), 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, range", Range, 1, true),
+    ("hip_flexion_moment", "Hip extensor moment, largest", Largest(Whole), 2, true),
+    ("hip_flexion_moment", "Hip flexor moment, largest (negative)", Smallest(Whole), 2, true),
+    ("hip_adduction_moment", "Hip abductor moment, largest", Largest(Stance), 2, true),
+    ("knee_flexion_moment", "Knee extensor moment, largest in stance", Largest(Stance), 2, true),
+    ("knee_flexion_moment", "Knee flexor moment, largest in stance (negative)", Smallest(Stance), 2, true),
+    ("ankle_dorsiflexion_moment", "Ankle plantarflexor moment, largest", Largest(Stance), 2, true),
+    ("hip_flexion_power", "Hip power, most generated", Largest(Whole), 2, true),
+    ("knee_flexion_power", "Knee power, most absorbed (negative)", Smallest(Whole), 2, true),
+    ("ankle_dorsiflexion_power", "Ankle power, most generated", Largest(Whole), 2, true),
+    ("ankle_dorsiflexion_power", "Ankle power, most absorbed in stance (negative)", Smallest(Stance), 2, true),
+    ("ground_force_vertical", "Vertical force, first peak", Largest(EarlyStance), 2, true),
+    ("ground_force_vertical", "Vertical force, least between", Smallest(MiddleOfStance), 2, true),
+    ("ground_force_vertical", "Vertical force, second peak", Largest(LateStance), 2, true),
+    ("ground_force_fore_aft", "Braking force, largest (negative)", Smallest(Stance), 2, true),
+    ("ground_force_fore_aft", "Driving force, largest", Largest(Stance), 2, true),
+    ("ground_force_lateral", "Force towards the middle, largest", Largest(Stance), 2, true),
+];
+
+/// A value of both sides, a number a cycle.
+pub(super) struct Extracted {
+    label: &'static str,
+    unit: &'static str,
+    digits: usize,
+    compared: bool,
+    sides: [Vec<f64>; 2],
+}
+
+/// Every value that the cycles have.
+pub(super) fn extracted(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Extracted> {
+    let value = |&(id, label, read, digits, compared): &Row| {
+        let quantity = quantities.iter().find(|quantity| quantity.id == id)?;
+        let of = |side| {
+            let curves = shown_cycles(results, quantity, side);
+            curves.iter().filter_map(|curve| read.off(&curve.values, toe_off(results, curve))).collect::<Vec<f64>>()
+        };
+        let sides = Side::BOTH.map(of);
+        let some = sides.iter().any(|values| !values.is_empty());
+        some.then_some(Extracted { label, unit: quantity.unit, digits, compared, sides })
+    };
+    ROWS.iter().filter_map(value).collect()
+}
+
+/// The table of peaks and ranges.
+pub(super) fn table(values: &[Extracted]) -> Table {
+    let row = |value: &Extracted| {
+        let [right, left] = [0, 1].map(|side| mean_cell(&value.sides[side], value.digits, None));
+        let difference = number(right.value.zip(left.value).map(|(r, l)| r - l), value.digits, None);
+        vec![text(value.label), text(value.unit), right, left, difference]
+    };
+    Table {
+        id: "extracted".to_owned(),
+        title: "Peaks and ranges of motion".to_owned(),
+        note: Some("Mean ± standard deviation over the cycles of each side, read off every single cycle.".to_owned()),
+        columns: ["", "Unit", "Right", "Left", "Right less left"].map(str::to_owned).to_vec(),
+        rows: values.iter().map(row).collect(),
+        empty: values.is_empty().then(|| "There is no whole gait cycle to read them off.".to_owned()),
+    }
+}
+
+/// The table of differences between the sides.
+pub(super) fn symmetry(values: &[Extracted], strides: &[Stride]) -> Table {
+    let times = time_distance::sides(strides).into_iter();
+    let extracted = values
+        .iter()
+        .filter(|value| value.compared)
+        .map(|value| (value.label, value.unit, value.digits, value.sides.each_ref().map(|side| mean(side))));
+    let rows: Vec<Vec<Cell>> = times
+        .chain(extracted)
+        .filter_map(|(label, unit, digits, means)| {
+            let [Some(right), Some(left)] = means else { return None };
+            let index = number(symmetry_index(right, left), 0, Some([-ASYMMETRIC, ASYMMETRIC]));
+            Some(vec![
+                text(label),
+                text(unit),
+                number(Some(right), digits, None),
+                number(Some(left), digits, None),
+                index,
+            ])
+        })
+        .collect();
+    let note = format!(
+        "100 (right - left) over the mean of both, of the means over the cycles; 0 is symmetric, positive: the right one is larger. Marked above {ASYMMETRIC:.0} %."
+    );
+    Table {
+        id: "symmetry".to_owned(),
+        title: "Right and left".to_owned(),
+        note: Some(note),
+        columns: ["", "Unit", "Right", "Left", "Difference [%]"].map(str::to_owned).to_vec(),
+        empty: rows.is_empty().then(|| "There are no whole cycles of both sides to compare.".to_owned()),
+        rows,
+    }
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// `None` of values with different signs or near zero, whose ratio means nothing.
+fn symmetry_index(right: f64, left: f64) -> Option<f64> {
+    let sum = right.abs() + left.abs();
+    (right * left > 0.0).then(|| 200.0 * (right.abs() - left.abs()) / sum)
+}
+
+fn toe_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
+    results.cycles_of(curve.side).find(|cycle| cycle.number == curve.number)?.toe_off_percent
+}
+
+impl Read {
+    /// The value of a cycle; `None` where it needs a toe-off that was not seen.
+    fn off(self, values: &[f64], toe_off: Option<f64>) -> Option<f64> {
+        let of = |part: Part| Some(values.get(part.samples(values.len(), toe_off)?)?.iter().copied());
+        let largest = |part| Some(of(part)?.fold(f64::NEG_INFINITY, f64::max));
+        let smallest = |part| Some(of(part)?.fold(f64::INFINITY, f64::min));
+        let value = match self {
+            Largest(part) => largest(part)?,
+            Smallest(part) => smallest(part)?,
+            Range => largest(Whole)? - smallest(Whole)?,
+            AtStrike => *values.first()?,
+        };
+        value.is_finite().then_some(value)
+    }
+}
+
+impl Part {
+    /// Samples of a cycle that has `count` of them; shares of the stance where it is divided.
+    fn samples(self, count: usize, toe_off: Option<f64>) -> Option<std::ops::Range<usize>> {
+        let at = |share: f64| ((count - 1) as f64 * share / 100.0).round() as usize;
+        let stance = |from: f64, to: f64| {
+            let off = toe_off?;
+            Some(at(from * off)..at(to * off) + 1)
+        };
+        match self {
+            Whole => Some(0..count),
+            Stance => stance(0.0, 1.0),
+            EarlyStance => stance(0.0, 0.5),
+            MiddleOfStance => stance(0.25, 0.75),
+            LateStance => stance(0.5, 1.0),
+            Swing => Some(at(toe_off?)..count),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_read_off_their_part_of_the_cycle() {
+        let curve: Vec<f64> = (0..101).map(f64::from).collect();
+        let parts =
+            [Largest(Stance), Smallest(Swing), Largest(EarlyStance), Smallest(LateStance), Smallest(MiddleOfStance)];
+        let read = |read: Read| read.off(&curve, Some(60.0)).unwrap();
+        for (part, expected) in
+            parts.into_iter().chain([Range, AtStrike]).zip([60.0, 60.0, 30.0, 30.0, 15.0, 100.0, 0.0])
+        {
+            assert!((read(part) - expected).abs() < 1e-12, "{} instead of {expected}", read(part));
+        }
+        assert_eq!(Largest(Stance).off(&curve, None), None, "no toe-off, no stance");
+    }
+
+    #[test]
+    fn symmetry_has_the_sign_of_the_larger_side() {
+        assert!((symmetry_index(1.1, 0.9).unwrap() - 20.0).abs() < 1e-12);
+        assert!((symmetry_index(-0.9, -1.1).unwrap() + 20.0).abs() < 1e-12, "sizes of negative peaks");
+        assert_eq!(symmetry_index(0.1, -0.1), None);
+    }
+}

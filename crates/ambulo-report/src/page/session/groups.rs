@@ -1,0 +1,103 @@
+//! The grids of a report: kinematics, kinetics, ground forces.
+
+use super::curves;
+use super::results::Results;
+use super::size::BodySize;
+use crate::clinical::{ClinicalGroup, ClinicalQuantity, clinical_quantities};
+use crate::page::block::Block;
+use crate::page::contract::{Group, PageSource, Panel};
+use ambulo::model::Side;
+use std::collections::BTreeSet;
+
+/// A grid: its word, its heading, the kinds of quantities in it.
+struct Grid {
+    id: &'static str,
+    title: &'static str,
+    kinds: &'static [ClinicalGroup],
+    note: &'static str,
+}
+
+const GRIDS: [Grid; 3] = [
+    Grid {
+        id: "kinematics",
+        title: "Joint angles",
+        kinds: &[ClinicalGroup::Kinematics],
+        note: "Angles in degrees. A gait cycle goes from foot strike to the next strike of the same foot.",
+    },
+    Grid {
+        id: "kinetics",
+        title: "Joint moments and powers",
+        kinds: &[ClinicalGroup::Moments, ClinicalGroup::Powers],
+        note: "Internal moments (of muscles, ligaments and bones on the joint) and powers, per kilogram of body mass.",
+    },
+    Grid {
+        id: "ground",
+        title: "Ground forces",
+        kinds: &[ClinicalGroup::Ground],
+        note: "Forces of the ground on the foot, in body weights.",
+    },
+];
+
+/// Moments that have a power below them.
+const SAGITTAL: [&str; 3] = ["hip_flexion_moment", "knee_flexion_moment", "ankle_dorsiflexion_moment"];
+/// Panels abreast.
+const COLUMNS: usize = 3;
+
+/// All grids that the files have something for.
+pub(super) fn groups(
+    results: &Results,
+    size: &BodySize,
+    quantities: &[ClinicalQuantity],
+    block: &mut Block,
+) -> Vec<Group> {
+    GRIDS.iter().map(|grid| group(results, size, grid, quantities, block)).collect()
+}
+
+/// The quantities that the files have, over cycles or over time.
+pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
+    let names = names(results);
+    clinical_quantities(|name| names.contains(name))
+}
+
+fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {
+    let mut of_grid: Vec<_> = quantities.iter().filter(|quantity| grid.kinds.contains(&quantity.group)).collect();
+    of_grid.sort_by_key(|quantity| place(quantity));
+    let empty = format!("The files have no numbers of this: {}.", lacking(results, grid));
+    let panels: Vec<Panel> =
+        of_grid.into_iter().map(|quantity| curves::panel(results, size, quantity, &empty, block)).collect();
+    let note = match panels.is_empty() {
+        true => format!("Nothing to show: {}.", lacking(results, grid)),
+        false => grid.note.to_owned(),
+    };
+    Group { id: grid.id.to_owned(), title: grid.title.to_owned(), note: Some(note), columns: COLUMNS, panels }
+}
+
+/// Moments of the sagittal plane stand over the powers of the same joints, the other planes follow.
+fn place(quantity: &ClinicalQuantity) -> usize {
+    match quantity.group {
+        ClinicalGroup::Moments => usize::from(!SAGITTAL.contains(&quantity.id)) * 2,
+        ClinicalGroup::Powers => 1,
+        ClinicalGroup::Kinematics | ClinicalGroup::Ground => 0,
+    }
+}
+
+/// Why a grid has nothing.
+fn lacking(results: &Results, grid: &Grid) -> &'static str {
+    match grid.id {
+        "ground" if results.source == PageSource::None => "the run was made without ground forces",
+        "ground" => "the folder has no grf.mot",
+        "kinetics" if results.moments.is_none() => "the folder has no moments.sto",
+        _ => "the model has none of the joints' usual names",
+    }
+}
+
+/// Names as `cycles.csv` has them, of that file and of all tables over time.
+fn names(results: &Results) -> BTreeSet<String> {
+    let stem = |column: &str| Side::split_name(column).map_or_else(|| column.to_owned(), |(_, stem)| stem);
+    let over_time = results.kinematics.names().iter().map(|column| format!("{}_angle", stem(column)));
+    let tables = [&results.moments, &results.powers].into_iter().flatten();
+    let forces = tables.flat_map(|table| table.names().iter().map(|column| stem(column)));
+    let ground = results.ground.iter().flat_map(|_| curves::GROUND_AXES.iter().map(|(name, _)| (*name).to_owned()));
+    let over_cycles = results.curves.iter().map(|curve| curve.quantity.clone());
+    over_time.chain(forces).chain(ground).chain(over_cycles).collect()
+}

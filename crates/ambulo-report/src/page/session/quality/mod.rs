@@ -1,0 +1,76 @@
+//! How far the numbers can be trusted.
+
+mod facts;
+mod friction;
+mod ground_points;
+mod residual;
+mod tables;
+
+pub(super) use facts::plain;
+
+use super::results::Results;
+use crate::clinical::ClinicalQuantity;
+use crate::page::block::Block;
+use crate::page::contract::{Group, PageFinding, Panel, Quality, Trace};
+
+/// Panels that parts of a verdict point at.
+pub(super) const RESIDUAL_FORCE: &str = "residual_force";
+pub(super) const RESIDUAL_MOMENT: &str = "residual_moment";
+pub(super) const FRICTION: &str = "friction_use";
+pub(super) const CENTER_FORWARD: &str = "center_of_pressure_x";
+
+/// All that the files say about it.
+pub(super) fn quality(results: &Results, quantities: &[ClinicalQuantity], block: &mut Block) -> Quality {
+    let groups = [
+        residual::residual(results, block),
+        friction::friction(results, block),
+        ground_points::ground_points(results, block),
+    ];
+    Quality {
+        facts: facts::facts(results),
+        groups: groups.into_iter().flatten().collect(),
+        tables: tables::tables(results, quantities),
+        findings: findings(&results.summary),
+        assumptions: assumptions(results),
+    }
+}
+
+/// Remarks of the program.
+pub(super) fn findings(summary: &serde_json::Value) -> Vec<PageFinding> {
+    let list = summary["findings"].as_array().map_or(&[][..], Vec::as_slice);
+    let words = |finding: &serde_json::Value, key: &str| finding[key].as_str().unwrap_or_default().to_owned();
+    let one = |finding: &serde_json::Value| PageFinding {
+        code: words(finding, "code"),
+        severity: words(finding, "severity"),
+        message: words(finding, "message"),
+        count: finding["count"].as_u64().map_or(1, |count| count as usize),
+    };
+    list.iter().map(one).collect()
+}
+
+fn assumptions(results: &Results) -> Vec<String> {
+    let listed = results.list("/subject/assumptions").iter().filter_map(|sentence| sentence.as_str());
+    listed.map(str::to_owned).collect()
+}
+
+/// A group of panels over time.
+fn group(id: &str, title: &str, note: String, columns: usize, panels: Vec<Panel>) -> Group {
+    Group { id: id.to_owned(), title: title.to_owned(), note: Some(note), columns, panels }
+}
+
+/// A panel over time alone.
+pub(super) fn over_time([id, title, unit]: [&str; 3], directions: [&str; 2], traces: Vec<Trace>) -> Panel {
+    Panel {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        unit: unit.to_owned(),
+        positive: directions[0].to_owned(),
+        negative: directions[1].to_owned(),
+        cycles: Vec::new(),
+        means: Vec::new(),
+        band: None,
+        empty: traces.is_empty().then(|| "The files have no numbers of this.".to_owned()),
+        traces,
+        red: Vec::new(),
+    }
+}

@@ -1,0 +1,86 @@
+//! What motion and forces disagree by, at the root, over time.
+
+use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
+use crate::page::block::Block;
+use crate::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
+use crate::page::session::results::{MOMENTS, Results};
+
+/// A column of the root in `moments.sto`, as OpenSim's models and the built-in bodies call it, and its panel: word, heading, unit,
+/// directions.
+type Component = (&'static str, [&'static str; 3], [&'static str; 2]);
+
+const FORCES: [Component; 3] = [
+    ("pelvis_tx_force", ["residual_force_x", "Residual force, fore-aft", "N"], ["forward", "backward"]),
+    ("pelvis_ty_force", ["residual_force_y", "Residual force, vertical", "N"], ["up", "down"]),
+    ("pelvis_tz_force", ["residual_force_z", "Residual force, sideways", "N"], ["right", "left"]),
+];
+const MOMENTS_OF_ROOT: [Component; 3] = [
+    ("pelvis_tilt_moment", [RESIDUAL_MOMENT, "Residual moment, tilt", "N.m"], ["", ""]),
+    ("pelvis_list_moment", ["residual_moment_list", "Residual moment, list", "N.m"], ["", ""]),
+    ("pelvis_rotation_moment", ["residual_moment_rotation", "Residual moment, rotation", "N.m"], ["", ""]),
+];
+
+/// Components of force and moment, and the size of the force in per cent of body weight; `None` without moments of a root.
+pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
+    let mut panels: Vec<Panel> =
+        FORCES.iter().chain(&MOMENTS_OF_ROOT).filter_map(|component| panel(results, component, block)).collect();
+    if panels.is_empty() {
+        return None;
+    }
+    panels.extend(size(results, block));
+    Some(group("residual", "Residual at the pelvis", note(results), 3, panels))
+}
+
+fn trace(name: &str, role: Role, values: &[f64], origin: Option<Origin>, block: &mut Block) -> Trace {
+    Trace { name: name.to_owned(), side: None, role, values: block.add(values), sd: None, origin }
+}
+
+fn panel(results: &Results, (column, head, directions): &Component, block: &mut Block) -> Option<Panel> {
+    let values = results.moments.as_ref()?.column(column)?;
+    let origin = Origin { file: MOMENTS.to_owned(), column: (*column).to_owned(), factor: 1.0 };
+    Some(over_time(*head, *directions, vec![trace("residual", Role::Main, values, Some(origin), block)]))
+}
+
+/// Length of the force, with the limit that it was judged by.
+fn size(results: &Results, block: &mut Block) -> Option<Panel> {
+    let table = results.moments.as_ref()?;
+    let axes: Vec<&[f64]> = FORCES.iter().filter_map(|(column, ..)| table.column(column)).collect();
+    let percent = 100.0 / results.weight_n;
+    let length = |frame: usize| percent * axes.iter().map(|axis| axis[frame].powi(2)).sum::<f64>().sqrt();
+    if axes.is_empty() {
+        return None;
+    }
+    let lengths: Vec<f64> = (0..results.grid.frames).map(length).collect();
+    let mut traces = vec![trace("residual", Role::Main, &lengths, None, block)];
+    if let Some(limit) = results.limit("support").filter(|_| results.source != PageSource::None) {
+        traces.push(trace("limit", Role::Limit, &vec![100.0 * limit; lengths.len()], None, block));
+    }
+    Some(over_time([RESIDUAL_FORCE, "Residual force, size", "%BW"], ["", ""], traces))
+}
+
+fn note(results: &Results) -> String {
+    let about =
+        "Force and moment that the motion needs and nothing supplies: 0 if motion, forces and body belonged together.";
+    match results.source {
+        PageSource::None => {
+            format!("{about} Here nothing holds the body, so that this is what the ground would have to do.")
+        }
+        _ => format!("{about}{}", windows(results)),
+    }
+}
+
+/// In which times the residual means something.
+fn windows(results: &Results) -> String {
+    let spans: Vec<String> = results
+        .list("/subject/instrumented_windows_s")
+        .iter()
+        .filter_map(|span| Some(format!("{:.2} to {:.2} s", span[0].as_f64()?, span[1].as_f64()?)))
+        .collect();
+    match spans.is_empty() || results.source != PageSource::Measured {
+        true => String::new(),
+        false => format!(
+            " It means something only while every foot on the ground stands on a plate that sees all of it: {}.",
+            spans.join(", ")
+        ),
+    }
+}

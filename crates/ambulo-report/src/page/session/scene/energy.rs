@@ -1,0 +1,52 @@
+//! Energies of a scene and the work of its solver, over time.
+
+use super::instants::Instants;
+use crate::page::block::Block;
+use crate::page::contract::{Group, Origin, Role, Trace};
+use crate::page::folder::{Folder, PageError};
+use crate::page::session::quality::over_time;
+use crate::stage::csv_rows::Row;
+
+const FILE: &str = "energy.csv";
+const HEAD: &str = "time,kinetic,gravity,springs,total,iterations,factorizations,residual";
+
+/// Columns: place in the file, name, heading, unit.
+const COLUMNS: [(usize, &str, &str, &str); 7] = [
+    (4, "total", "Total energy", "J"),
+    (1, "kinetic", "Kinetic energy", "J"),
+    (2, "gravity", "Energy in gravity", "J"),
+    (3, "springs", "Energy in springs", "J"),
+    (5, "iterations", "Tree solves a step", ""),
+    (6, "factorizations", "Factorisations a step", ""),
+    (7, "residual", "Residual of the solver, relative", ""),
+];
+
+/// The grid; none without the file.
+pub(super) fn groups(folder: &Folder<'_>, instants: &Instants, block: &mut Block) -> Result<Option<Group>, PageError> {
+    let Some(text) = folder.text(FILE)? else { return Ok(None) };
+    let mut columns: [Vec<(f64, f64)>; 8] = Default::default();
+    for row in Row::all(folder, FILE, &text, HEAD)? {
+        let [time] = row.numbers(0)?;
+        for (column, values) in columns.iter_mut().enumerate().skip(1) {
+            values.push((time, row.number_or_gap(column)?));
+        }
+    }
+    let panels = COLUMNS.iter().map(|&(column, name, title, unit)| {
+        let trace = Trace {
+            name: name.to_owned(),
+            side: None,
+            role: Role::Main,
+            values: block.add(&instants.nearest(&columns[column])),
+            sd: None,
+            origin: Some(Origin { file: FILE.to_owned(), column: name.to_owned(), factor: 1.0 }),
+        };
+        over_time([&format!("energy_{name}"), title, unit], ["", ""], vec![trace])
+    });
+    Ok(Some(Group {
+        id: "energy".to_owned(),
+        title: "Energy and solver".to_owned(),
+        note: Some("Energies of all bodies; gravity counts from height 0.".to_owned()),
+        columns: 3,
+        panels: panels.collect(),
+    }))
+}

@@ -1,0 +1,76 @@
+//! The instants of a scene's page, and the rows of tables that belong to them.
+
+use crate::page::contract::TimeAxis;
+use crate::page::folder::{Folder, PageError};
+use crate::stage::csv_rows::Row;
+use ambulo::motion::TimeGrid;
+
+/// Files that have a row at every instant, and how they begin.
+const FILES: [(&str, &str); 3] = [("energy.csv", "time,"), ("joints.csv", "time,"), ("poses.csv", "time,")];
+/// More instants than this are thinned, as in the 3-D view.
+const MOST_INSTANTS: usize = 2000;
+
+/// Evenly spaced instants.
+pub(super) struct Instants {
+    grid: TimeGrid,
+}
+
+impl Instants {
+    /// Those of the 3-D view, else of the first table that there is; none without tables.
+    pub(super) fn of(folder: &Folder<'_>, viewed: Option<TimeAxis>) -> Result<Instants, PageError> {
+        if let Some(TimeAxis { start_s, step_s, frames }) = viewed {
+            return Ok(Instants { grid: TimeGrid { start_s, step_s, frames } });
+        }
+        for (file, head) in FILES {
+            let Some(text) = folder.text(file)? else { continue };
+            let mut times: Vec<f64> = Vec::new();
+            for row in Row::all(folder, file, &text, head)? {
+                let [time] = row.numbers(0)?;
+                if times.last().is_none_or(|last| time > *last) {
+                    times.push(time);
+                }
+            }
+            let every = times.len().div_ceil(MOST_INSTANTS).max(1);
+            let kept: Vec<f64> = times.into_iter().step_by(every).collect();
+            if let Some(&start_s) = kept.first() {
+                let one = TimeGrid { start_s, step_s: 0.0, frames: 1 };
+                return Ok(Instants { grid: TimeGrid::spanning(&kept).unwrap_or(one) });
+            }
+        }
+        Ok(Instants { grid: TimeGrid { start_s: 0.0, step_s: 0.0, frames: 0 } })
+    }
+
+    /// As the page has them.
+    pub(super) fn axis(&self) -> TimeAxis {
+        TimeAxis { start_s: self.grid.start_s, step_s: self.grid.step_s, frames: self.grid.frames }
+    }
+
+    /// How many.
+    pub(super) fn count(&self) -> usize {
+        self.grid.frames
+    }
+
+    /// The instant that a row stands at, if it is one of these.
+    pub(super) fn place(&self, time_s: f64) -> Option<usize> {
+        if self.grid.frames < 2 {
+            return (self.grid.frames == 1).then_some(0);
+        }
+        let place = ((time_s - self.grid.start_s) / self.grid.step_s).round();
+        let inside = place >= 0.0 && place < self.grid.frames as f64;
+        inside.then_some(place as usize)
+    }
+
+    /// Values at the instants: that of the row nearest to each; not a number where there is none.
+    pub(super) fn nearest(&self, rows: &[(f64, f64)]) -> Vec<f64> {
+        let mut values = vec![f64::NAN; self.grid.frames];
+        let mut distances = vec![f64::INFINITY; self.grid.frames];
+        for (time, value) in rows {
+            let Some(place) = self.place(*time) else { continue };
+            let distance = (time - self.grid.time(place)).abs();
+            if distance < distances[place] {
+                (values[place], distances[place]) = (*value, distance);
+            }
+        }
+        values
+    }
+}

@@ -1,0 +1,92 @@
+//! Moments of figures that walk, in clinical signs, from `moments.sto`.
+
+use super::instants::Instants;
+use crate::clinical::{ClinicalQuantity, clinical_quantities};
+use crate::page::block::Block;
+use crate::page::contract::{Group, Origin, Panel, Role, Trace};
+use crate::page::folder::{Folder, PageError};
+use crate::page::session::quality::over_time;
+use crate::page::session::sides;
+use ambulo::model::Side;
+use ambulo_formats::table::Table;
+use serde_json::Value;
+
+const FILE: &str = "moments.sto";
+
+/// A figure that was judged.
+pub(super) struct Figure {
+    pub(super) name: String,
+    pub(super) verdict: Value,
+    pub(super) quantities: Vec<ClinicalQuantity>,
+    /// Before the names of its columns and panels; empty where it is the only figure.
+    prefix: String,
+    mass_kg: f64,
+    table: Option<Table>,
+}
+
+/// All figures of a verdict.
+pub(super) fn figures(folder: &Folder<'_>, summary: &Value) -> Result<Vec<Figure>, PageError> {
+    let list = summary["verdict"]["figures"].as_array().map_or(&[][..], Vec::as_slice);
+    let table = folder.table(FILE)?;
+    let several = summary["world"]["figures"].as_u64().unwrap_or_default() > 1;
+    let figure = |verdict: &Value| {
+        let name = verdict["figure"].as_str().unwrap_or("figure").to_owned();
+        let prefix = if several { format!("{name}/") } else { String::new() };
+        let mass_kg = verdict["mass_kg"].as_f64().filter(|mass| *mass > 0.0).unwrap_or(f64::NAN);
+        let quantities = table.as_ref().map_or_else(Vec::new, |table| quantities(table, &prefix));
+        Figure { name, verdict: verdict.clone(), quantities, prefix, mass_kg, table: table.clone() }
+    };
+    Ok(list.iter().map(figure).collect())
+}
+
+fn quantities(table: &Table, prefix: &str) -> Vec<ClinicalQuantity> {
+    let stems: Vec<String> = table
+        .names()
+        .iter()
+        .filter_map(|column| column.strip_prefix(prefix))
+        .map(|column| Side::split_name(column).map_or_else(|| column.to_owned(), |(_, stem)| stem))
+        .collect();
+    clinical_quantities(|name| stems.iter().any(|stem| stem == name))
+}
+
+/// A grid a figure; none where the files have no moments of it.
+pub(super) fn groups(figures: &[Figure], instants: &Instants, block: &mut Block) -> Vec<Group> {
+    let grid = |figure: &Figure, block: &mut Block| Group {
+        id: figure.panel("kinetics"),
+        title: format!("Joint moments of {}", figure.name),
+        note: Some("Internal moments per kilogram of body mass, over time.".to_owned()),
+        columns: 3,
+        panels: figure.quantities.iter().map(|quantity| figure.panel_of(quantity, instants, block)).collect(),
+    };
+    figures.iter().filter(|figure| !figure.quantities.is_empty()).map(|figure| grid(figure, block)).collect()
+}
+
+impl Figure {
+    /// The word of one of its panels.
+    pub(super) fn panel(&self, id: &str) -> String {
+        format!("{}{id}", self.prefix.replace(|letter: char| !letter.is_ascii_alphanumeric(), "_"))
+    }
+
+    fn panel_of(&self, quantity: &ClinicalQuantity, instants: &Instants, block: &mut Block) -> Panel {
+        let traces = Side::BOTH.into_iter().filter_map(|side| self.trace(quantity, side, instants, block)).collect();
+        let id = self.panel(quantity.id);
+        over_time([&id, quantity.title, quantity.unit], [quantity.positive, quantity.negative], traces)
+    }
+
+    fn trace(&self, quantity: &ClinicalQuantity, side: Side, instants: &Instants, block: &mut Block) -> Option<Trace> {
+        let table = self.table.as_ref()?;
+        let column = format!("{}{}_{}_moment", self.prefix, quantity.coordinate, side.letter());
+        let values = table.column(&column)?;
+        // Built figures bend their knees backwards, as those of the Gait2392 family.
+        let factor = quantity.factor(self.mass_kg, side, -1.0);
+        let rows: Vec<(f64, f64)> = table.times()?.iter().zip(values).map(|(t, x)| (*t, factor * x)).collect();
+        Some(Trace {
+            name: side.to_string(),
+            side: Some(sides::page(side)),
+            role: Role::Main,
+            values: block.add(&instants.nearest(&rows)),
+            sd: None,
+            origin: Some(Origin { file: FILE.to_owned(), column, factor }),
+        })
+    }
+}

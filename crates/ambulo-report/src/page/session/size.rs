@@ -1,0 +1,76 @@
+//! How large the person is, and how fast for that size.
+
+use super::results::Results;
+use super::strides::Stride;
+use super::way::{self, Turn};
+use crate::normative::dimensionless_speed;
+use ambulo::analysis::feasibility::Person;
+use ambulo::model::Side;
+
+/// A length with where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Known {
+    /// [m].
+    pub(super) metres: f64,
+    pub(super) source: String,
+}
+
+/// Stature and length of the legs, as far as the files tell.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct BodySize {
+    pub(super) stature: Option<Known>,
+    /// Hip to floor, standing.
+    pub(super) leg: Option<Known>,
+    /// V / sqrt(g L).
+    pub(super) speed_dimensionless: Option<f64>,
+    /// Whether the feet never stand together; norms are those of walking.
+    pub(super) runs: bool,
+    /// A path that is not straight; norms are those of straight walking.
+    pub(super) turn: Option<Turn>,
+}
+
+/// A foot that stands for a smaller share of its cycle leaves the ground before the other one strikes [%].
+const RUNNING_STANCE: f64 = 50.0;
+
+impl BodySize {
+    pub(super) fn of(results: &Results, strides: &[Stride]) -> BodySize {
+        let leg = leg_length(results);
+        let speed = results.number("/speed_m_s").zip(leg.as_ref());
+        let stance = strides.iter().map(|stride| stride.stance).sum::<f64>() / strides.len() as f64;
+        BodySize {
+            runs: stance < RUNNING_STANCE,
+            turn: way::turn(results),
+            stature: stature(results),
+            speed_dimensionless: speed
+                .and_then(|(speed, leg)| dimensionless_speed(speed, results.gravity(), leg.metres)),
+            leg,
+        }
+    }
+
+    /// The speed at which healthy people walk likewise; none for running and for paths that turn.
+    pub(super) fn walking_speed(&self) -> Option<f64> {
+        self.speed_dimensionless.filter(|_| !self.runs && self.turn.is_none())
+    }
+}
+
+fn stature(results: &Results) -> Option<Known> {
+    let given = results.number("/height_m").map(|metres| (metres, "given"));
+    let estimated = || Some((results.number("/verdict/height_m")?, "estimated from the model's thigh and shank"));
+    let (metres, source) = given.or_else(estimated)?;
+    Some(Known { metres, source: source.to_owned() })
+}
+
+/// Of the figure that walks, else of the model's joints.
+fn leg_length(results: &Results) -> Option<Known> {
+    if let Some(metres) = results.number("/walk/leg_length_m") {
+        return Some(Known { metres, source: "hip to floor of the figure".to_owned() });
+    }
+    let (file, model) = results.body.as_ref()?;
+    let has_legs = ["hip_flexion", "knee_angle", "ankle_angle"]
+        .iter()
+        .all(|stem| Side::BOTH.iter().any(|side| model.coordinate(&format!("{stem}_{}", side.letter())).is_some()));
+    has_legs.then(|| Known {
+        metres: Person::of_model(model).leg_length_m,
+        source: format!("hip to ankle in {file}, and the height of the ankle"),
+    })
+}

@@ -1,0 +1,65 @@
+//! Quantities that the files have and that are the same all the time: no panels are made of them.
+
+use super::curves::over_time;
+use super::results::Results;
+use crate::clinical::{ClinicalGroup, ClinicalQuantity, moves};
+use ambulo::model::{Drive, Side};
+
+/// Those that change, and those that do not. Of a kind of which nothing changes, all are shown.
+pub(super) fn divided(
+    results: &Results,
+    quantities: &[ClinicalQuantity],
+) -> (Vec<ClinicalQuantity>, Vec<ClinicalQuantity>) {
+    let moving: Vec<bool> = quantities.iter().map(|quantity| is_moving(results, quantity)).collect();
+    let moves = |group: ClinicalGroup| quantities.iter().zip(&moving).any(|(q, moving)| q.group == group && *moving);
+    let (mut shown, mut still) = (Vec::new(), Vec::new());
+    for (quantity, moving) in quantities.iter().zip(&moving) {
+        let list = if *moving || !moves(quantity.group) { &mut shown } else { &mut still };
+        list.push(quantity.clone());
+    }
+    (shown, still)
+}
+
+fn is_moving(results: &Results, quantity: &ClinicalQuantity) -> bool {
+    let of_quantity = |name: &str| name == quantity.column;
+    let mut cycles = results.curves.iter().filter(|curve| of_quantity(&curve.quantity));
+    let in_cycles = cycles.any(|curve| moves(&curve.unit, &curve.values));
+    in_cycles || Side::BOTH.into_iter().any(|side| moves_over_time(results, quantity, side))
+}
+
+fn moves_over_time(results: &Results, quantity: &ClinicalQuantity, side: Side) -> bool {
+    let Some((_, _, Some(values))) = over_time(results, quantity, side) else { return false };
+    match quantity.group {
+        ClinicalGroup::Ground => {
+            let weights: Vec<f64> = values.iter().map(|force| force / results.weight_n).collect();
+            moves(quantity.unit, &weights)
+        }
+        _ => moves(quantity.unit, values),
+    }
+}
+
+/// `subtalar inversion (locked in the model)`; moments and powers of a joint that is named already are not.
+pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String> {
+    let is_angle = |quantity: &ClinicalQuantity| quantity.group == ClinicalGroup::Kinematics;
+    let is_named = |quantity: &&ClinicalQuantity| {
+        is_angle(quantity) || !still.iter().any(|other| is_angle(other) && other.coordinate == quantity.coordinate)
+    };
+    let words = |quantity: &ClinicalQuantity| {
+        let why = match quantity.group {
+            ClinicalGroup::Kinematics if is_locked(results, quantity) => "locked in the model",
+            ClinicalGroup::Kinematics => "does not move",
+            ClinicalGroup::Ground => "the body moves in a plane",
+            ClinicalGroup::Moments | ClinicalGroup::Powers => "does not change",
+        };
+        format!("{} ({why})", quantity.title.to_lowercase())
+    };
+    still.iter().filter(is_named).map(words).collect()
+}
+
+fn is_locked(results: &Results, quantity: &ClinicalQuantity) -> bool {
+    let Some((_, model)) = &results.body else { return false };
+    let names =
+        [quantity.coordinate.to_owned(), format!("{}_r", quantity.coordinate), format!("{}_l", quantity.coordinate)];
+    let mut coordinates = model.coordinates().iter().filter(|coordinate| names.contains(&coordinate.name));
+    coordinates.any(|coordinate| matches!(coordinate.drive, Drive::Locked))
+}

@@ -1,0 +1,28 @@
+//! The HTML file around data and viewer.
+//!
+//! Only inline script and style may run (Content-Security-Policy), so the page loads nothing from any network. The data are in a
+//! script element of type `application/json`, in which every `<` is written as `\\u003c`: no text can end the element.
+
+use super::block::Block;
+use super::contract::Page;
+use super::folder::PageError;
+use crate::html::Document;
+
+const SCRIPT: &str = include_str!("../../data/report/viewer.js");
+const STYLE: &str = include_str!("../../data/report/viewer.css");
+const POLICY: &str =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:";
+
+/// The page as one HTML file.
+pub(super) fn html(page: &Page, block: &Block) -> Result<String, PageError> {
+    let data = serde_json::to_string(page)?.replace('<', "\\u003c");
+    let numbers = block.encode();
+    let body = format!(
+        r#"<div id="ambulo"></div>
+<noscript>This report is drawn by a script within this file; nothing is loaded from elsewhere. Please allow scripts.</noscript>
+<script type="application/json" id="ambulo-page">{data}</script>
+<script type="application/octet-stream" id="ambulo-numbers">{numbers}</script>
+<script>{SCRIPT}</script>"#
+    );
+    Ok(Document { title: &page.title, policy: POLICY, style: STYLE, body: &body }.html())
+}

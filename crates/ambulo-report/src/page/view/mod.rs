@@ -1,0 +1,99 @@
+//! What the 3-D view of a session draws: a [`Stage`] with its numbers in the page's block.
+
+use super::block::Block;
+use super::contract::{
+    PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewPlate, ViewTorque,
+};
+use super::folder::{Folder, PageError};
+use crate::stage::{BodyPath, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
+use ambulo::model::Side;
+use ambulo::spatial::Vec3;
+
+/// The view of a folder.
+pub(super) struct Viewed {
+    /// What is drawn, if there is a body.
+    pub(super) view: Option<View>,
+    /// The instants of its series.
+    pub(super) time: Option<TimeAxis>,
+    /// What is not shown and why, in sentences.
+    pub(super) missing: Vec<String>,
+}
+
+/// The view of a folder; its numbers go into `block`.
+///
+/// # Errors
+/// A file that is not what its name says.
+pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, PageError> {
+    match Stage::of_folder(folder)? {
+        Ok(stage) => Ok(drawn(&stage, block)),
+        Err(reason) => Ok(Viewed { view: None, time: None, missing: vec![reason] }),
+    }
+}
+
+fn drawn(stage: &Stage, block: &mut Block) -> Viewed {
+    let view = View {
+        bodies: stage.bodies.iter().map(|body| of_body(body, block)).collect(),
+        fixed: stage.fixed.clone(),
+        plates: stage.plates.iter().map(of_plate).collect(),
+        forces: stage.forces.iter().map(|force| of_force(force, block)).collect(),
+        torques: stage.torques.iter().map(|torque| of_torque(torque, block)).collect(),
+        contacts: stage.contacts.iter().map(of_contact).collect(),
+        floor_m: stage.floor_m,
+        weight_n: stage.weight_n,
+    };
+    let time = TimeAxis { start_s: stage.grid.start_s, step_s: stage.grid.step_s, frames: stage.grid.frames };
+    Viewed { view: Some(view), time: Some(time), missing: stage.missing.clone() }
+}
+
+fn of_body(body: &StageBody, block: &mut Block) -> ViewBody {
+    let BodyPath { position, rotation } = &body.path;
+    ViewBody {
+        name: body.name.clone(),
+        side: page_side(body.side),
+        shapes: body.shapes.clone(),
+        position: vectors(position, block),
+        // x, y, z, w is nalgebra's own order.
+        rotation: [0, 1, 2, 3].map(|i| block.add(&rotation.iter().map(|q| q.coords[i]).collect::<Vec<f64>>())),
+    }
+}
+
+fn of_plate(plate: &StagePlate) -> ViewPlate {
+    ViewPlate { name: plate.name.clone(), corners: plate.corners }
+}
+
+fn of_force(force: &StageForce, block: &mut Block) -> ViewForce {
+    ViewForce {
+        name: force.name.clone(),
+        side: page_side(force.side),
+        role: if force.beside { Role::Measured } else { Role::Main },
+        point: vectors(&force.point, block),
+        force: vectors(&force.force, block),
+    }
+}
+
+fn of_torque(torque: &StageTorque, block: &mut Block) -> ViewTorque {
+    ViewTorque {
+        name: torque.name.clone(),
+        side: page_side(torque.side),
+        body: torque.body,
+        center: torque.center.into(),
+        axis: torque.axis.into(),
+        values: block.add(&torque.values),
+        panel: Some(torque.panel.clone()),
+    }
+}
+
+fn of_contact(contact: &StageContact) -> ViewContact {
+    ViewContact { body: contact.body, place: contact.place.into(), side: page_side(contact.side) }
+}
+
+fn vectors(values: &[Vec3], block: &mut Block) -> [Series; 3] {
+    [0, 1, 2].map(|axis| block.add(&values.iter().map(|v| v[axis]).collect::<Vec<f64>>()))
+}
+
+fn page_side(side: Option<Side>) -> Option<PageSide> {
+    side.map(|side| match side {
+        Side::Right => PageSide::R,
+        Side::Left => PageSide::L,
+    })
+}

@@ -1,0 +1,162 @@
+//! The files of `ambulo reproduce`, but for its JSON: figures with their numbers, and tables.
+
+use super::figures::{FigureError, gait_figure, paper_figure};
+use ambulo::findings::Findings;
+use ambulo::gait::{Gait, Walk};
+use ambulo::reproduction::{
+    Claim, Evidence, GAITS, PaperFigure, Sensitivity, angular_laws, assumptions, muscle_table, paper_figures,
+    paper_human, torque_series,
+};
+use ambulo_results::OutputFile;
+use std::fmt::Write;
+
+/// Everything that is drawn or tabulated.
+///
+/// # Errors
+/// A figure that could not be drawn.
+pub fn reproduction_files(
+    claims: &[Claim],
+    paper: &Evidence,
+    corrected: Option<&Evidence>,
+    sensitivities: &[Sensitivity],
+) -> Result<Vec<OutputFile>, FigureError> {
+    let file = |name: String, text: String| OutputFile { name, bytes: text.into_bytes() };
+    let mut files = Vec::new();
+    if let Some(svg) = first_figure()? {
+        files.push(file("figures/figure1.svg".into(), svg));
+    }
+    let figures = paper_figures(paper, corrected);
+    for figure in &figures {
+        files.push(file(format!("figures/{}.svg", figure.name), paper_figure(figure)?));
+    }
+    for figure in angular_laws().iter().chain(&figures) {
+        files.push(file(format!("figures/{}.csv", figure.name), figure_csv(figure)));
+    }
+    let modes = || std::iter::once(("paper", paper)).chain(corrected.map(|evidence| ("corrected", evidence)));
+    files.push(file("muscles.csv".into(), muscles_csv(modes())));
+    files.push(file("torques.csv".into(), torques_csv(modes())));
+    files.push(file("torques.toml".into(), torques_toml(modes())));
+    files.push(file("assumptions.csv".into(), assumptions_csv(claims, sensitivities)));
+    Ok(files)
+}
+
+/// Figure 1: the angular laws of the standard gait with their sub-cycles.
+fn first_figure() -> Result<Option<String>, FigureError> {
+    let Ok(human) = paper_human() else { return Ok(None) };
+    let walk = Gait::named("standard")
+        .and_then(|gait| Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()));
+    walk.ok().map(|walk| gait_figure(&walk)).transpose()
+}
+
+/// Text as a CSV cell.
+fn cell(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn figure_csv(figure: &PaperFigure) -> String {
+    let mut text = String::from("panel,series,x_quantity,x,y_quantity,y\n");
+    for panel in &figure.panels {
+        for (number, series) in panel.series.iter().enumerate() {
+            let name = if series.name.is_empty() { format!("{}", number + 1) } else { series.name.clone() };
+            for [x, y] in &series.points {
+                let labels = [&panel.title, &name].map(|label| cell(label)).join(",");
+                let _ = writeln!(text, "{labels},{},{x:.6},{},{y:.6}", cell(panel.x_label), cell(panel.y_label));
+            }
+        }
+    }
+    text
+}
+
+fn muscles_csv<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -> String {
+    let mut text = String::from("mode,gait,joint,phase,group,action,share,moment_nm_kg,power_w_kg,work_j_kg\n");
+    for (mode, evidence) in modes {
+        for (gait, run) in GAITS.iter().zip(&evidence.gaits) {
+            for row in muscle_table(run) {
+                let _ = writeln!(
+                    text,
+                    "{mode},{gait},{},{},{},{},{:.3},{:.4},{:.4},{:.4}",
+                    row.joint,
+                    row.phase,
+                    row.group,
+                    row.action,
+                    row.share,
+                    row.moment_nm_kg,
+                    row.power_w_kg,
+                    row.work_j_kg
+                );
+            }
+        }
+    }
+    text
+}
+
+fn torques_csv<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -> String {
+    let mut text = String::from("mode,gait,coordinate,cycle_s,harmonic,cosine_nm,sine_nm,r_squared\n");
+    for (mode, evidence) in modes {
+        for (gait, run) in GAITS.iter().zip(&evidence.gaits) {
+            for series in torque_series(run) {
+                let start = format!("{mode},{gait},{},{}", series.coordinate, series.cycle_s);
+                let _ = writeln!(text, "{start},0,{:.6},0,{:.6}", series.mean, series.r_squared);
+                for (k, (cosine, sine)) in series.cosine.iter().zip(&series.sine).enumerate() {
+                    let _ = writeln!(text, "{start},{},{cosine:.6},{sine:.6},{:.6}", k + 1, series.r_squared);
+                }
+            }
+        }
+    }
+    text
+}
+
+fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -> String {
+    let mut text = String::from(
+        "# Torques as harmonics of the cycle, N.m, with the sign of the model's coordinate:\n\
+         # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
+         # t from the right foot's nominal contact. Impacts are not included.\n",
+    );
+    for (mode, evidence) in modes {
+        for (gait, run) in GAITS.iter().zip(&evidence.gaits) {
+            for series in torque_series(run) {
+                let list = |values: &[f64]| values.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
+                let _ = write!(
+                    text,
+                    "\n[[torque]]\nmode = \"{mode}\"\ngait = \"{gait}\"\ncoordinate = \"{}\"\ncycle_s = {:?}\nmean = {:.6}\n\
+                     cosine = [{}]\nsine = [{}]\nr_squared = {:.6}\n",
+                    series.coordinate,
+                    series.cycle_s,
+                    series.mean,
+                    list(&series.cosine),
+                    list(&series.sine),
+                    series.r_squared
+                );
+            }
+        }
+    }
+    text
+}
+
+/// One row a claim and other value; rows without a claim tell that nothing else was tried, or that it could not be walked.
+fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
+    let mut text = String::from("what,value,why,other,claim,headline,with_value,with_other,turns\n");
+    for assumption in assumptions() {
+        let start = [assumption.what, assumption.value, assumption.why].map(cell).join(",");
+        let of_it: Vec<&Sensitivity> = sensitivities.iter().filter(|s| s.what == assumption.what).collect();
+        if of_it.is_empty() {
+            let _ = writeln!(text, "{start},,,,,,");
+        }
+        for sensitivity in of_it {
+            let start = format!("{start},{}", cell(sensitivity.other));
+            let turned = sensitivity.turned(claims);
+            match &sensitivity.outcome {
+                Err(reason) => {
+                    let _ = writeln!(text, "{start},,{},,,", cell(reason));
+                }
+                Ok(judgements) => judgements.iter().for_each(|judgement| {
+                    let own = claims.iter().find(|claim| claim.id == judgement.id).map_or(f64::NAN, Claim::value);
+                    let turns = turned.contains(&judgement.id);
+                    let (id, headline, value) = (judgement.id, judgement.headline, judgement.value);
+                    let _ = writeln!(text, "{start},{id},{headline},{own:.6},{value:.6},{turns}");
+                }),
+            }
+        }
+    }
+    text
+}

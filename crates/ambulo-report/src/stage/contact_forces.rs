@@ -1,0 +1,69 @@
+//! Forces between the bodies of a scene, from `contacts.csv`: what two of them do to each other is one arrow, the sum of its points, at
+//! their mean weighed by the normal forces.
+
+use super::StageForce;
+use super::csv_rows::Row;
+use crate::page::{Folder, PageError};
+use ambulo::model::Side;
+use ambulo::spatial::Vec3;
+use std::collections::BTreeMap;
+
+pub(super) const FILE: &str = "contacts.csv";
+const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force";
+/// More pairs than this are not drawn; those with the largest forces are.
+const MOST_PAIRS: usize = 32;
+
+/// What the points of a pair do at one instant.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    force: Vec3,
+    /// Points times normal forces.
+    moment: Vec3,
+    normal: f64,
+}
+
+/// The forces at these instants, as the file writes them, and what is left out.
+pub(super) fn read(
+    folder: &Folder<'_>,
+    text: &str,
+    times: &[String],
+) -> Result<(Vec<StageForce>, Option<String>), PageError> {
+    let instants: BTreeMap<&str, usize> = times.iter().enumerate().map(|(i, time)| (time.as_str(), i)).collect();
+    let mut pairs: BTreeMap<(String, String), BTreeMap<usize, Sum>> = BTreeMap::new();
+    for row in Row::all(folder, FILE, text, HEAD)? {
+        let Some(&instant) = instants.get(row.word(0)?).filter(|_| row.word(1).is_ok_and(|kind| kind == "contact"))
+        else {
+            continue;
+        };
+        let [px, py, pz, _, _, _, fx, fy, fz, normal] = row.numbers(4)?;
+        let pair = (row.word(2)?.to_owned(), row.word(3)?.to_owned());
+        let sum = pairs.entry(pair).or_default().entry(instant).or_default();
+        sum.force += Vec3::new(fx, fy, fz);
+        sum.moment += Vec3::new(px, py, pz) * normal;
+        sum.normal += normal;
+    }
+    let mut forces: Vec<StageForce> = pairs.iter().map(|(pair, sums)| arrow(pair, sums, times.len())).collect();
+    let left = forces.len().saturating_sub(MOST_PAIRS);
+    if left > 0 {
+        forces.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
+        forces.truncate(MOST_PAIRS);
+    }
+    let said = format!(
+        "Of {} pairs of bodies that touch, the {MOST_PAIRS} with the largest forces have arrows.",
+        left + MOST_PAIRS
+    );
+    Ok((forces, (left > 0).then_some(said)))
+}
+
+fn arrow((first, second): &(String, String), sums: &BTreeMap<usize, Sum>, instants: usize) -> StageForce {
+    let mut arrow = StageForce::nowhere(format!("{second} on {first}"), Side::of_name(first), instants);
+    for (&instant, sum) in sums.iter().filter(|(_, sum)| sum.normal > 0.0) {
+        arrow.force[instant] = sum.force;
+        arrow.point[instant] = sum.moment / sum.normal;
+    }
+    arrow
+}
+
+fn largest(force: &StageForce) -> f64 {
+    force.force.iter().map(|f| f.norm()).fold(0.0, f64::max)
+}

@@ -1,0 +1,80 @@
+//! Rows of the tables of a scene, which hold names beside numbers.
+
+use crate::page::{EXPECTED, Folder, PageError, is_sound};
+
+/// A row with its number in the file.
+pub(crate) struct Row<'a> {
+    pub(crate) line: usize,
+    cells: Vec<String>,
+    file: &'static str,
+    folder: &'a Folder<'a>,
+}
+
+impl<'a> Row<'a> {
+    /// The rows below the head of a file, which must begin with these names.
+    pub(crate) fn all<'t>(
+        folder: &'a Folder<'a>,
+        file: &'static str,
+        text: &'t str,
+        head: &str,
+    ) -> Result<impl Iterator<Item = Row<'a>> + use<'a, 't>, PageError> {
+        let found = text.lines().next().unwrap_or_default();
+        if !found.starts_with(head) {
+            let found: String = found.chars().take(80).collect();
+            return Err(folder.unreadable(file, format!("line 1: found `{found}`; expected `{head}`")));
+        }
+        let row = move |(number, line): (usize, &str)| Row { line: number + 1, cells: cells(line), file, folder };
+        Ok(text.lines().enumerate().skip(1).map(row))
+    }
+
+    /// A word.
+    pub(crate) fn word(&self, column: usize) -> Result<&str, PageError> {
+        self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
+    }
+
+    /// Numbers from a column on that results can be.
+    pub(crate) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], PageError> {
+        let mut numbers = [0.0; N];
+        for (column, number) in (from..).zip(&mut numbers) {
+            let cell = self.cells.get(column).map_or("the end of the line", String::as_str);
+            let read = cell.parse().ok().filter(|x: &f64| is_sound(*x));
+            *number = read.ok_or_else(|| self.refused(column, cell, EXPECTED))?;
+        }
+        Ok(numbers)
+    }
+
+    /// Such a number, or not a number where the cell is empty.
+    pub(crate) fn number_or_gap(&self, column: usize) -> Result<f64, PageError> {
+        match self.cells.get(column).map(String::as_str) {
+            Some("") => Ok(f64::NAN),
+            _ => Ok(self.numbers::<1>(column)?[0]),
+        }
+    }
+
+    fn refused(&self, column: usize, found: &str, expected: &str) -> PageError {
+        let found: String = found.chars().take(40).collect();
+        self.folder.unreadable(
+            self.file,
+            format!("line {}, column {}: found `{found}`; expected {expected}", self.line, column + 1),
+        )
+    }
+}
+
+/// Cells between commas; names with commas stand in quotes, and a quote in them twice.
+fn cells(line: &str) -> Vec<String> {
+    let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                cell.push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(std::mem::take(&mut cell)),
+            other => cell.push(other),
+        }
+    }
+    cells.push(cell);
+    cells
+}

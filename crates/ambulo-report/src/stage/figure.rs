@@ -1,0 +1,201 @@
+//! The stage of a figure: a model file with its coordinates over time, and forces beside it.
+
+use super::joint_places::JointPlaces;
+use super::limb::{dot, limb};
+use super::part::Part;
+use super::path::BodyPath;
+use super::{Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
+use crate::page::{Folder, PageError, ViewShape, chain};
+use ambulo::findings::Findings;
+use ambulo::kinematics::{Trajectory, each_body_motion};
+use ambulo::model::anthropometry::Dimensions;
+use ambulo::model::{BodyId, Model, from_osim};
+use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
+use ambulo_formats::osim::OsimModel;
+use ambulo_formats::table::Table;
+use serde_json::Value;
+
+/// Names that the body of a folder may have: a recording's, a synthetic walk's.
+const MODELS: [&str; 2] = ["subject.osim", "figure.osim"];
+const MOTION: &str = "kinematics.mot";
+
+/// A body and its motion as a folder has them.
+pub(crate) struct FolderMotion {
+    /// The body.
+    pub(crate) model: Model,
+    /// `kinematics.mot`.
+    pub(crate) angles: Table,
+    /// The same for the model; rates are zero.
+    pub(crate) trajectory: Trajectory,
+}
+
+/// Body and motion of a folder; else why there is none.
+pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, PageError> {
+    let Some(angles) = folder.table(MOTION)? else {
+        return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
+    };
+    let Some(model) = model(folder)? else {
+        return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", MODELS.join(" or "))));
+    };
+    let trajectory = trajectory(&model, &angles).map_err(|reason| folder.unreadable(MOTION, reason))?;
+    Ok(Ok(FolderMotion { model, angles, trajectory }))
+}
+
+impl Stage {
+    /// Of the figure of a result folder; else why there is none.
+    ///
+    /// # Errors
+    /// A file that is not what its name says.
+    pub(crate) fn of_figure(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+        let FolderMotion { model, angles, trajectory } = match folder_motion(folder)? {
+            Ok(motion) => motion,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let summary = folder.summary()?;
+        let mut stage = Stage::of_motion(&model, &trajectory, summary["height_m"].as_f64());
+        stage.plates = plates(&summary);
+        for (file, beside) in [("grf.mot", false), ("grf_measured.mot", true)] {
+            if let Some(table) = same_rows(folder, file, &angles)? {
+                stage.forces.extend(arrow::forces(&table, beside));
+            }
+        }
+        if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
+            let mass_kg = summary["mass_kg"].as_f64().filter(|mass| *mass > 0.0).unwrap_or_else(|| model.mass());
+            stage.torques = torque::torques(&model, &moments, &angles, mass_kg);
+        }
+        stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
+        stage.put_soles_on_the_floor(&model, summary["height_m"].as_f64());
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(MOTION, reason)))
+    }
+
+    fn put_soles_on_the_floor(&mut self, model: &Model, stature_m: Option<f64>) {
+        let places = JointPlaces::new(model);
+        let stature = person::stature(&places, stature_m);
+        let Some(size) = person::lengths(stature) else { return };
+        let (shapes, contacts) = shapes(&places, stature, &size, foot::sunk(self));
+        for (body, shapes) in self.bodies.iter_mut().zip(shapes) {
+            body.shapes = shapes;
+        }
+        self.contacts = contacts;
+    }
+
+    /// Of a model's motion alone; the stature [m] where it is known.
+    pub(crate) fn of_motion(model: &Model, trajectory: &Trajectory, stature_m: Option<f64>) -> Stage {
+        let places = JointPlaces::new(model);
+        let stature = person::stature(&places, stature_m);
+        let shapes = person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]));
+        let (shapes, contacts) = shapes.unwrap_or_default();
+        let paths = paths(model, trajectory);
+        let body = |((body, shapes), path): ((BodyId, Vec<ViewShape>), BodyPath)| {
+            let described = &model.bodies()[body.index()];
+            StageBody {
+                name: described.name.clone(),
+                parent: described.joint.parent.map(BodyId::index),
+                side: places.side(body),
+                shapes,
+                path,
+            }
+        };
+        let bodies: Vec<StageBody> = model.body_ids().zip(shapes).zip(paths).map(body).collect();
+        let floor_m = floor::height(&[], &[], &bodies, &contacts);
+        Stage {
+            grid: trajectory.grid(),
+            bodies,
+            fixed: Vec::new(),
+            plates: Vec::new(),
+            forces: Vec::new(),
+            torques: Vec::new(),
+            contacts,
+            floor_m,
+            weight_n: model.mass() * model.gravity().norm(),
+            missing: Vec::new(),
+        }
+    }
+}
+
+/// What the bodies of a model look like, in their own axes.
+pub(crate) fn figure_shapes(model: &Model) -> Vec<Vec<ViewShape>> {
+    let places = JointPlaces::new(model);
+    let stature = person::stature(&places, None);
+    person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]).0).unwrap_or_default()
+}
+
+fn shapes(
+    places: &JointPlaces<'_>,
+    stature: f64,
+    size: &Dimensions,
+    sunk: [f64; 2],
+) -> (Vec<Vec<ViewShape>>, Vec<super::StageContact>) {
+    let feet = foot::feet(places, stature, size, sunk);
+    let of = |body: BodyId| match places.part(body) {
+        _ if let Some(foot) = feet.iter().find(|foot| foot.rear == body) => foot.rear_shapes(places, size),
+        _ if let Some(foot) = feet.iter().find(|foot| foot.toes == Some(body)) => foot.toe_shapes(places, size),
+        Part::Pelvis => trunk::pelvis(places, body, size),
+        Part::Trunk => trunk::trunk(places, body, size),
+        Part::Head => trunk::head(places, body, size),
+        Part::Small => vec![dot(places.mass_center(body), stature)],
+        _ => limb(places, body, stature),
+    };
+    let shapes = places.model.body_ids().map(of).collect();
+    (shapes, feet.iter().flat_map(foot::Foot::contacts).collect())
+}
+
+fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
+    let mut paths = vec![BodyPath::default(); model.bodies().len()];
+    each_body_motion(model, trajectory, |_, bodies| {
+        for (path, motion) in paths.iter_mut().zip(bodies) {
+            path.push(&motion.pose);
+        }
+    });
+    paths
+}
+
+fn model(folder: &Folder<'_>) -> Result<Option<Model>, PageError> {
+    let found = MODELS.into_iter().find_map(|file| Some((file, (folder.file)(file)?)));
+    let Some((file, bytes)) = found else { return Ok(None) };
+    let document = OsimModel::read(&bytes).map_err(|error| folder.refused(file, &error))?;
+    from_osim(&document, &mut Findings::default()).map(Some).map_err(|error| folder.refused(file, &error))
+}
+
+/// The coordinates exactly as the file has them; what it lacks is at its default. Rates do not matter here.
+fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
+    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| chain(&e))?;
+    let Motion { times, columns, .. } = motion;
+    let grid = grid(&times).ok_or("the times do not rise evenly; expected the even steps that this program writes")?;
+    let still = |values: Vec<f64>| {
+        let zeros = vec![0.0; values.len()];
+        [values, zeros.clone(), zeros]
+    };
+    let noise = vec![None; columns.len()];
+    let motion = SmoothMotion { grid, columns: columns.into_iter().map(|c| c.map(still)).collect(), noise };
+    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| chain(&error))
+}
+
+fn grid(times: &[f64]) -> Option<TimeGrid> {
+    match times[..] {
+        [start_s] => Some(TimeGrid { start_s, step_s: 0.0, frames: 1 }),
+        _ => TimeGrid::through(times),
+    }
+}
+
+/// A table that has a row for every row of the motion.
+fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<Table>, PageError> {
+    let Some(table) = folder.table(file)? else { return Ok(None) };
+    if table.rows() == angles.rows() {
+        return Ok(Some(table));
+    }
+    let found = format!("{} rows; expected {}, one for each of {MOTION}", table.rows(), angles.rows());
+    Err(folder.unreadable(file, found))
+}
+
+/// `subject.plate_corners_m` of the summary.
+fn plates(summary: &Value) -> Vec<StagePlate> {
+    let plates = summary["subject"]["plate_corners_m"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let plate = |plate: &Value| {
+        Some(StagePlate {
+            name: plate["plate"].as_str()?.to_owned(),
+            corners: serde_json::from_value(plate["corners_m"].clone()).ok()?,
+        })
+    };
+    plates.iter().filter_map(plate).collect()
+}

@@ -1,0 +1,163 @@
+//! Feet: soles, and shapes on them.
+//!
+//! A foot is a triangle of capsules from heel, ankle and ball, as thick as the heel's and the ball's spheres of published foot models,
+//! and the toes before it. Soles of the built figures stand where their markers `heel_s`, `ball_s`, `toe_s` say, those of other models
+//! where a person of this stature has them ([`Sole`]), moved up or down so that they meet the floor while plates or a prediction carry
+//! the foot: models differ by a few centimetres in how high an ankle stands.
+
+use super::capsule;
+use super::joint_places::JointPlaces;
+use super::part::Part;
+use super::{Stage, StageContact};
+use crate::page::ViewShape;
+use ambulo::ground::sole::{Sole, SolePoint};
+use ambulo::model::anthropometry::{ContactSphere, Dimensions};
+use ambulo::model::{BodyId, Side};
+use ambulo::spatial::Vec3;
+
+/// Share of the weight that a foot carries when it surely stands.
+const ENOUGH: f64 = 0.2;
+/// Soles are not moved further than this [m]: more is another error, which the picture shows.
+const MOST_SUNK: f64 = 0.04;
+
+/// A foot on its sole.
+pub(super) struct Foot {
+    side: Side,
+    sole: Sole,
+    /// The body that heel and ball belong to.
+    pub(super) rear: BodyId,
+    /// The body before the ball, where the toes turn.
+    pub(super) toes: Option<BodyId>,
+}
+
+/// Both feet, where a model has them by the usual names; estimated soles lower by `sunk` [m] on the right and the left.
+pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, sunk: [f64; 2]) -> Vec<Foot> {
+    let sides = Side::BOTH.into_iter().zip(sunk);
+    sides.filter_map(|(side, sunk)| Foot::new(places, side, stature, size, sunk)).collect()
+}
+
+/// How far the estimated soles of both feet have to go down to meet the floor: the median over all instants in which a fifth of the
+/// weight is on the foot, at most [`MOST_SUNK`].
+pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
+    Side::BOTH.map(|side| {
+        let force = stage.forces.iter().find(|force| force.side == Some(side) && !force.beside);
+        let carries = |instant: &usize| force.is_some_and(|f| f.force[*instant].y > ENOUGH * stage.weight_n);
+        let lowest = |instant: usize| {
+            let soles = stage.contacts.iter().filter(|contact| contact.side == Some(side));
+            let heights = soles.map(|contact| stage.bodies[contact.body].path.place(instant, contact.place).y);
+            heights.min_by(f64::total_cmp)
+        };
+        let mut gaps: Vec<f64> = (0..stage.grid.frames).filter(carries).filter_map(lowest).collect();
+        gaps.sort_by(f64::total_cmp);
+        let median = gaps.get(gaps.len() / 2).map_or(0.0, |height| height - stage.floor_m);
+        median.clamp(-MOST_SUNK, MOST_SUNK)
+    })
+}
+
+impl Foot {
+    fn new(places: &JointPlaces<'_>, side: Side, stature: f64, size: &Dimensions, sunk: f64) -> Option<Foot> {
+        let half_width = 0.5 * size.foot_width;
+        let sole = Sole::of_spheres(&spheres(places, side, size), side, half_width)
+            .or_else(|| Some(lowered(places, Sole::estimated(places.model, &places.rest, side, stature)?, sunk)))?;
+        let rear = sole.points[0].body;
+        let toes = places.children(rear).find(|id| places.part(*id) == Part::Toes);
+        let points = sole.points.map(|point| match toes {
+            Some(toes) if point.body == rear => before_the_ball(places, point, rear, toes),
+            _ => point,
+        });
+        Some(Foot { side, sole: Sole { points, ..sole }, rear, toes })
+    }
+
+    /// Points of the sole; `number` is the place of a body on the stage.
+    pub(super) fn contacts(&self) -> impl Iterator<Item = StageContact> {
+        let of =
+            |point: SolePoint| StageContact { body: point.body.index(), place: point.place, side: Some(self.side) };
+        self.sole.points.into_iter().map(of)
+    }
+
+    /// Shapes of the rear foot: from heel, ankle and ball.
+    pub(super) fn rear_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<ViewShape> {
+        let up = places.up(self.rear);
+        let [heel, ball, _] = self.sole.points.map(|point| self.in_rear(places, point));
+        let (heel, ball) = (heel + up * size.heel_radius, ball + up * size.ball_radius);
+        let ankle = self.ankle(places).unwrap_or(heel);
+        let mut shapes = vec![
+            capsule(heel, ball, size.ball_radius),
+            capsule(heel, ankle, size.heel_radius),
+            capsule(ankle, ball, size.ball_radius),
+        ];
+        if let Some(across) = up.cross(&(heel - ball)).try_normalize(1e-6) {
+            let aside = across * (0.5 * size.foot_width - size.ball_radius).max(0.0);
+            shapes.push(capsule(ball - aside, ball + aside, size.ball_radius));
+        }
+        if self.toes.is_none() {
+            shapes.extend(self.front(places, self.rear, size));
+        }
+        shapes
+    }
+
+    /// Shapes of the toes.
+    pub(super) fn toe_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<ViewShape> {
+        self.toes.map(|toes| self.front(places, toes, size)).unwrap_or_default()
+    }
+
+    /// From the ball to the tip, three abreast, in the frame of a body.
+    fn front(&self, places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
+        let up = places.up(body);
+        let [_, ball, tip] = self.sole.points.map(|point| places.seen_from(body, world(places, point)));
+        // The sole ends half a width before the tip.
+        let ahead = (tip - ball).try_normalize(1e-6).unwrap_or_else(Vec3::x);
+        let tip = tip + ahead * (0.5 * size.foot_width - size.toe_radius).max(0.0);
+        let (ball, tip) = (ball + up * size.toe_radius, tip + up * size.toe_radius);
+        let aside = up.cross(&ahead) * (0.5 * size.foot_width - size.ball_radius).max(0.0);
+        let shorter = tip - (tip - ball) * 0.12;
+        let beside = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
+        vec![capsule(ball, tip, size.toe_radius), beside(1.0), beside(-1.0)]
+    }
+
+    fn in_rear(&self, places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {
+        places.seen_from(self.rear, world(places, point))
+    }
+
+    /// Where the shank ends: above a talus that may be between.
+    fn ankle(&self, places: &JointPlaces<'_>) -> Option<Vec3> {
+        let shank = places.find(Part::Shank, Some(self.side))?;
+        let below =
+            places.children(shank).find(|id| *id == self.rear || places.children(*id).any(|c| c == self.rear))?;
+        Some(places.joint_of(below, self.rear))
+    }
+}
+
+/// The sole further down along the foot.
+fn lowered(places: &JointPlaces<'_>, sole: Sole, by: f64) -> Sole {
+    let lower = |point: SolePoint| SolePoint { place: point.place - places.up(point.body) * by, ..point };
+    Sole { points: sole.points.map(lower), ..sole }
+}
+
+fn world(places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {
+    places.rest[point.body.index()].pose.place(point.place)
+}
+
+/// What lies before the joint of the toes belongs to them.
+fn before_the_ball(places: &JointPlaces<'_>, point: SolePoint, rear: BodyId, toes: BodyId) -> SolePoint {
+    let joint = places.joint_of(toes, rear);
+    let forward = (joint - places.own(rear)).try_normalize(1e-6).unwrap_or_else(Vec3::x);
+    const SLACK_M: f64 = 0.02;
+    if (point.place - joint).dot(&forward) <= SLACK_M {
+        return point;
+    }
+    SolePoint { body: toes, place: places.seen_from(toes, world(places, point)) }
+}
+
+/// The contact spheres of a built figure, by its markers: that of the heel stands at its rear end, the others in the centres.
+fn spheres(places: &JointPlaces<'_>, side: Side, size: &Dimensions) -> Vec<ContactSphere> {
+    let radii = [("heel", size.heel_radius), ("ball", size.ball_radius), ("toe", size.toe_radius)];
+    let sphere = |(stem, radius): (&str, f64)| {
+        let name = format!("{stem}_{}", side.letter());
+        let marker = places.model.markers().iter().find(|marker| marker.name == name)?;
+        let forward = if stem == "heel" { radius } else { 0.0 };
+        let center = marker.location + Vec3::new(forward, 0.0, 0.0);
+        Some(ContactSphere { name, side, body: marker.body?, center, radius })
+    };
+    radii.into_iter().filter_map(sphere).collect()
+}

@@ -1,0 +1,52 @@
+//! Ground without end as it is drawn: a level one is the floor, a tilted one a slab under what moves.
+
+use super::Stage;
+use crate::page::ViewShape;
+use crate::scene_shapes::{GroundPlane, SceneShapes};
+use ambulo::spatial::Vec3;
+use nalgebra::UnitQuaternion;
+
+/// Cosine of the tilt below which ground is level: 0.5 degrees.
+const LEVEL: f64 = 0.999_96;
+/// How far a slab goes beyond what moves, and half its thickness [m].
+const MARGIN: f64 = 2.0;
+const HALF_THICKNESS: f64 = 0.01;
+
+/// Sets the floor of a stage and adds its slabs.
+pub(super) fn lay(stage: &mut Stage, shapes: &SceneShapes) {
+    let up = (-Vec3::from(shapes.gravity_m_s2)).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec3::y);
+    let planes: Vec<GroundPlane> =
+        shapes.obstacles.iter().filter(|obstacle| !obstacle.moves).flat_map(|o| o.planes.clone()).collect();
+    let is_level = |plane: &&GroundPlane| Vec3::from(plane.normal).dot(&up) > LEVEL && up.y > LEVEL;
+    let floor = planes.iter().filter(is_level).map(|plane| plane.point[1]).max_by(f64::total_cmp);
+    let (low, high) = around(stage);
+    stage.floor_m = floor.unwrap_or(low.y);
+    let tilted = planes.iter().filter(|plane| !is_level(plane)).map(|plane| slab(plane, low, high));
+    stage.fixed.extend(tilted);
+}
+
+/// The box around all that moves and stands; around the origin where there is nothing.
+fn around(stage: &Stage) -> (Vec3, Vec3) {
+    let moving = stage.bodies.iter().flat_map(|body| body.path.position.iter().copied());
+    let standing = stage.fixed.iter().flat_map(|shape| match shape {
+        ViewShape::Capsule { from, to, .. } => vec![Vec3::from(*from), Vec3::from(*to)],
+        ViewShape::Box { center, half, .. } => {
+            let reach = Vec3::repeat(Vec3::from(*half).norm());
+            vec![Vec3::from(*center) - reach, Vec3::from(*center) + reach]
+        }
+        ViewShape::Mesh { points, .. } => points.iter().map(|point| Vec3::from(*point)).collect(),
+    });
+    let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    let (low, high) = moving.chain(standing).fold(nothing, |(low, high), p| (low.inf(&p), high.sup(&p)));
+    if low.x.is_finite() { (low, high) } else { (Vec3::zeros(), Vec3::zeros()) }
+}
+
+fn slab(plane: &GroundPlane, low: Vec3, high: Vec3) -> ViewShape {
+    let (point, normal) = (Vec3::from(plane.point), Vec3::from(plane.normal));
+    let middle = (low + high) * 0.5;
+    let below = middle - normal * (middle - point).dot(&normal) - normal * HALF_THICKNESS;
+    let reach = 0.5 * (high - low).norm() + MARGIN;
+    let turn = UnitQuaternion::rotation_between(&Vec3::y(), &normal)
+        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI));
+    ViewShape::Box { center: below.into(), half: [reach, HALF_THICKNESS, reach], turn: turn.coords.into() }
+}

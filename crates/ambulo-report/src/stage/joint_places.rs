@@ -1,0 +1,72 @@
+//! Where joints stand in the bodies that they join.
+
+use super::part::Part;
+use ambulo::ground::sole::at_rest;
+use ambulo::kinematics::BodyMotion;
+use ambulo::model::{BodyId, Model, Side};
+use ambulo::spatial::Vec3;
+
+/// A model with every coordinate at its default.
+pub(super) struct JointPlaces<'a> {
+    pub(super) model: &'a Model,
+    pub(super) rest: Vec<BodyMotion>,
+}
+
+impl<'a> JointPlaces<'a> {
+    pub(super) fn new(model: &'a Model) -> JointPlaces<'a> {
+        JointPlaces { model, rest: at_rest(model) }
+    }
+
+    pub(super) fn part(&self, body: BodyId) -> Part {
+        Part::of(&self.model.bodies()[body.index()].name)
+    }
+
+    pub(super) fn side(&self, body: BodyId) -> Option<Side> {
+        Side::of_name(&self.model.bodies()[body.index()].name)
+    }
+
+    /// Centre of the joint that carries a body, in its own frame [m].
+    pub(super) fn own(&self, body: BodyId) -> Vec3 {
+        self.model.bodies()[body.index()].joint.child_from_joint.translation
+    }
+
+    /// Mass centre of a body in its own frame [m].
+    pub(super) fn mass_center(&self, body: BodyId) -> Vec3 {
+        self.model.bodies()[body.index()].inertia.center()
+    }
+
+    pub(super) fn mass(&self, body: BodyId) -> f64 {
+        self.model.bodies()[body.index()].inertia.mass()
+    }
+
+    /// The bodies that a body carries.
+    pub(super) fn children(&self, body: BodyId) -> impl Iterator<Item = BodyId> {
+        self.model.body_ids().filter(move |id| self.model.bodies()[id.index()].joint.parent == Some(body))
+    }
+
+    /// Centre of the joint that carries `other`, in the frame of `body` at rest [m].
+    pub(super) fn joint_of(&self, other: BodyId, body: BodyId) -> Vec3 {
+        self.seen_from(body, self.rest[other.index()].pose.place(self.own(other)))
+    }
+
+    /// A place of the world in the frame of `body` at rest [m].
+    pub(super) fn seen_from(&self, body: BodyId, place: Vec3) -> Vec3 {
+        self.rest[body.index()].pose.inverse().place(place)
+    }
+
+    /// Joints of the children of a body that are such a part, in its frame [m].
+    pub(super) fn joints_to(&self, body: BodyId, part: Part) -> Vec<Vec3> {
+        self.children(body).filter(|id| self.part(*id) == part).map(|id| self.joint_of(id, body)).collect()
+    }
+
+    /// The body of this side and part, if there is one.
+    pub(super) fn find(&self, part: Part, side: Option<Side>) -> Option<BodyId> {
+        self.model.body_ids().find(|id| self.part(*id) == part && self.side(*id) == side)
+    }
+
+    /// Upwards in the frame of a body at rest, a unit vector.
+    pub(super) fn up(&self, body: BodyId) -> Vec3 {
+        let up = (-self.model.gravity()).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec3::y);
+        self.rest[body.index()].pose.rotation.transpose() * up
+    }
+}

@@ -1,0 +1,140 @@
+//! What a picture of a motion shows: bodies with shapes and paths, ground forces, joint moments, plates, obstacles.
+//!
+//! One description for the 3-D view of the page (which quantises it) and for animation files. World axes: x forward, y up, z right, m.
+
+mod arrow;
+mod contact_forces;
+pub(crate) mod csv_rows;
+mod figure;
+mod floor;
+mod foot;
+mod ground_plane;
+mod joint_places;
+mod limb;
+mod part;
+mod path;
+mod person;
+mod scene;
+mod sound;
+#[cfg(test)]
+mod tests;
+mod torque;
+mod trunk;
+
+pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
+pub(crate) use path::BodyPath;
+
+use super::page::{Folder, PageError, ViewShape};
+use ambulo::model::Side;
+use ambulo::motion::TimeGrid;
+use ambulo::spatial::Vec3;
+
+/// A motion as it is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Stage {
+    /// The instants of all paths.
+    pub(crate) grid: TimeGrid,
+    /// The bodies that move, parents first.
+    pub(crate) bodies: Vec<StageBody>,
+    /// What stands still, in world axes.
+    pub(crate) fixed: Vec<ViewShape>,
+    /// Force plates.
+    pub(crate) plates: Vec<StagePlate>,
+    /// Forces of the ground.
+    pub(crate) forces: Vec<StageForce>,
+    /// Joint moments.
+    pub(crate) torques: Vec<StageTorque>,
+    /// Points of the soles.
+    pub(crate) contacts: Vec<StageContact>,
+    /// Height of the floor [m].
+    pub(crate) floor_m: f64,
+    /// Weight of all bodies [N].
+    pub(crate) weight_n: f64,
+    /// What is not shown and why, in sentences.
+    pub(crate) missing: Vec<String>,
+}
+
+impl Stage {
+    /// Of a result folder; else why there is none.
+    ///
+    /// # Errors
+    /// A file that is not what its name says.
+    pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+        let is_scene = (folder.file)("kinematics.mot").is_none() && (folder.file)("poses.csv").is_some();
+        if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
+    }
+}
+
+/// A body with its shapes and its path.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StageBody {
+    /// Name.
+    pub(crate) name: String,
+    /// Place in `bodies` of the body that carries it.
+    pub(crate) parent: Option<usize>,
+    /// Whose side.
+    pub(crate) side: Option<Side>,
+    /// Shapes in its axes.
+    pub(crate) shapes: Vec<ViewShape>,
+    /// Where it is.
+    pub(crate) path: BodyPath,
+}
+
+/// A force plate.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StagePlate {
+    /// Name.
+    pub(crate) name: String,
+    /// Corners in turn [m].
+    pub(crate) corners: [[f64; 3]; 4],
+}
+
+/// A force with its point, one entry an instant; both are not numbers where it does not act.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StageForce {
+    /// `right`, `left, plates`.
+    pub(crate) name: String,
+    /// Whose side.
+    pub(crate) side: Option<Side>,
+    /// Whether it was measured beside a prediction.
+    pub(crate) beside: bool,
+    /// Where it acts [m].
+    pub(crate) point: Vec<Vec3>,
+    /// The force on the body [N].
+    pub(crate) force: Vec<Vec3>,
+}
+
+/// A joint moment about an axis of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StageTorque {
+    /// `right knee flexion`.
+    pub(crate) name: String,
+    /// Whose side.
+    pub(crate) side: Option<Side>,
+    /// Place in `bodies` of the body that it turns.
+    pub(crate) body: usize,
+    /// Centre of the joint in this body's axes [m].
+    pub(crate) center: Vec3,
+    /// Unit axis in this body's axes about which a positive moment turns the body.
+    pub(crate) axis: Vec3,
+    /// Moment [N.m/kg] in clinical sign, one entry an instant.
+    pub(crate) values: Vec<f64>,
+    /// The panel that shows it.
+    pub(crate) panel: String,
+}
+
+/// A point of a sole.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StageContact {
+    /// Place in `bodies`.
+    pub(crate) body: usize,
+    /// In this body's axes [m].
+    pub(crate) place: Vec3,
+    /// Whose side.
+    pub(crate) side: Option<Side>,
+}
+
+/// A cylinder with round ends.
+fn capsule(from: Vec3, to: Vec3, radius: f64) -> ViewShape {
+    ViewShape::Capsule { from: from.into(), to: to.into(), radius }
+}

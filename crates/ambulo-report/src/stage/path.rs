@@ -1,0 +1,37 @@
+//! Where a body is over time.
+
+use ambulo::spatial::{Pose, Vec3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+
+/// Places and orientations, one entry an instant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct BodyPath {
+    /// Origin of the body in the world [m].
+    pub(crate) position: Vec<Vec3>,
+    /// World from body; neighbours never differ by sign alone.
+    pub(crate) rotation: Vec<UnitQuaternion<f64>>,
+}
+
+impl BodyPath {
+    /// Adds the next instant.
+    pub(crate) fn push(&mut self, pose: &Pose) {
+        let matrix: Matrix3<f64> = pose.rotation;
+        self.push_turned(
+            pose.translation,
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)),
+        );
+    }
+
+    /// Adds the next instant. q and -q are one orientation: the one nearer to the last is taken, so that a straight line between
+    /// neighbours is the short way.
+    pub(crate) fn push_turned(&mut self, position: Vec3, rotation: UnitQuaternion<f64>) {
+        let flips = self.rotation.last().is_some_and(|last| last.coords.dot(&rotation.coords) < 0.0);
+        self.position.push(position);
+        self.rotation.push(if flips { UnitQuaternion::new_unchecked(-rotation.into_inner()) } else { rotation });
+    }
+
+    /// A point of the body in the world [m].
+    pub(crate) fn place(&self, instant: usize, point: Vec3) -> Vec3 {
+        self.position[instant] + self.rotation[instant] * point
+    }
+}

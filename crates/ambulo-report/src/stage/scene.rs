@@ -1,0 +1,183 @@
+//! The stage of a simulated scene, from `poses.csv`, `shapes.json` and `contacts.csv`.
+
+use super::csv_rows::Row;
+use super::path::BodyPath;
+use super::{Stage, StageBody, StageForce, contact_forces, ground_plane};
+use crate::page::{Folder, PageError, ViewShape};
+use crate::scene_shapes::{FILE, FORMAT, ObstacleShapes, SceneShapes};
+use ambulo::model::Side;
+use ambulo::motion::TimeGrid;
+use ambulo::spatial::Vec3;
+use nalgebra::{Quaternion, UnitQuaternion};
+use std::collections::BTreeMap;
+
+const POSES: &str = "poses.csv";
+const HEAD: &str = "time,body,px,py,pz,qw,qx,qy,qz";
+/// More instants than this are thinned, so that a page keeps its size.
+const MOST_INSTANTS: usize = 2000;
+
+impl Stage {
+    /// Of a simulated scene; else why there is none.
+    ///
+    /// # Errors
+    /// A file that is not what its name says.
+    pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+        let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(FILE)?) else {
+            return Ok(Err(format!("There is no {POSES} with {FILE}, so nothing can be drawn in space.")));
+        };
+        let shapes = read_shapes(folder, &shapes)?;
+        let Instants { times, paths } = paths(folder, &poses)?;
+        let Some(kept) = Kept::of(&times) else {
+            return Ok(Err(format!("{POSES} has no rows, so nothing can be drawn in space.")));
+        };
+        let bodies = bodies(folder, &shapes, paths, &kept)?;
+        let mut stage = Stage {
+            grid: kept.grid,
+            weight_n: shapes.bodies.iter().map(|body| body.mass_kg).sum::<f64>()
+                * Vec3::from(shapes.gravity_m_s2).norm(),
+            fixed: fixed(&shapes.obstacles),
+            bodies,
+            plates: Vec::new(),
+            forces: Vec::new(),
+            torques: Vec::new(),
+            contacts: Vec::new(),
+            floor_m: 0.0,
+            missing: kept.missing,
+        };
+        ground_plane::lay(&mut stage, &shapes);
+        if let Some(contacts) = folder.text(contact_forces::FILE)? {
+            let (forces, left) = contact_forces::read(folder, &contacts, &kept.times)?;
+            stage.forces = forces;
+            stage.missing.extend(left);
+        }
+        stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(FILE, reason)))
+    }
+}
+
+fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, PageError> {
+    let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.refused(FILE, &error))?;
+    if shapes.format != FORMAT {
+        return Err(folder.unreadable(FILE, format!("format is {}; expected {FORMAT}", shapes.format)));
+    }
+    let named = shapes.bodies.iter().map(|body| (&body.name, &body.shapes));
+    let obstacles = shapes.obstacles.iter().map(|obstacle| (&obstacle.name, &obstacle.shapes));
+    for (name, shape) in named.chain(obstacles).flat_map(|(name, list)| list.iter().map(move |shape| (name, shape))) {
+        if let Some(reason) = defect(shape) {
+            return Err(folder.unreadable(FILE, format!("`{name}`: {reason}")));
+        }
+    }
+    Ok(shapes)
+}
+
+/// What is wrong with a shape.
+fn defect(shape: &ViewShape) -> Option<String> {
+    match shape {
+        ViewShape::Capsule { radius, .. } if *radius <= 0.0 => {
+            Some(format!("found a capsule of radius {radius} m; expected more than zero"))
+        }
+        ViewShape::Mesh { points, triangles } => {
+            let beyond = triangles.iter().flatten().find(|corner| **corner as usize >= points.len())?;
+            Some(format!("found a triangle with the corner {beyond}; the mesh has {} points, from 0 on", points.len()))
+        }
+        _ => None,
+    }
+}
+
+/// All rows of `poses.csv`.
+struct Instants {
+    /// Instants as the file writes them.
+    times: Vec<String>,
+    /// By name, a row an instant: place, quaternion w, x, y, z.
+    paths: BTreeMap<String, Vec<[f64; 7]>>,
+}
+
+fn paths(folder: &Folder<'_>, text: &str) -> Result<Instants, PageError> {
+    let mut instants = Instants { times: Vec::new(), paths: BTreeMap::new() };
+    for row in Row::all(folder, POSES, text, HEAD)? {
+        let time = row.word(0)?;
+        if instants.times.last().is_none_or(|last| last != time) {
+            row.numbers::<1>(0)?;
+            instants.times.push(time.to_owned());
+        }
+        let path = instants.paths.entry(row.word(1)?.to_owned()).or_default();
+        path.push(row.numbers(2)?);
+        if path.len() != instants.times.len() {
+            let reason = format!(
+                "line {}: `{}` has {} rows at {} instants; expected one each",
+                row.line,
+                row.word(1)?,
+                path.len(),
+                instants.times.len()
+            );
+            return Err(folder.unreadable(POSES, reason));
+        }
+    }
+    Ok(instants)
+}
+
+/// The instants that are drawn.
+struct Kept {
+    every: usize,
+    times: Vec<String>,
+    grid: TimeGrid,
+    missing: Vec<String>,
+}
+
+impl Kept {
+    fn of(times: &[String]) -> Option<Kept> {
+        let every = times.len().div_ceil(MOST_INSTANTS).max(1);
+        let kept: Vec<String> = times.iter().step_by(every).cloned().collect();
+        let numbers: Vec<f64> = kept.iter().filter_map(|time| time.parse().ok()).collect();
+        let start_s = *numbers.first()?;
+        let one = TimeGrid { start_s, step_s: 0.0, frames: kept.len() };
+        let grid = TimeGrid::spanning(&numbers).unwrap_or(one);
+        let thinned = format!("Of {} instants only every {every}th is drawn in space.", times.len());
+        Some(Kept { every, times: kept, grid, missing: if every > 1 { vec![thinned] } else { Vec::new() } })
+    }
+}
+
+/// Bodies, and obstacles that move.
+fn bodies(
+    folder: &Folder<'_>,
+    shapes: &SceneShapes,
+    mut paths: BTreeMap<String, Vec<[f64; 7]>>,
+    kept: &Kept,
+) -> Result<Vec<StageBody>, PageError> {
+    let side = |letter: Option<char>| match letter {
+        Some('r') => Some(Side::Right),
+        Some('l') => Some(Side::Left),
+        _ => None,
+    };
+    let bodies = shapes.bodies.iter().map(|body| (&body.name, side(body.side), &body.shapes));
+    let moving = shapes.obstacles.iter().filter(|o| o.moves).map(|o| (&o.name, None, &o.shapes));
+    bodies
+        .chain(moving)
+        .map(|(name, side, shapes)| {
+            let rows = paths.remove(name);
+            let missing = || folder.unreadable(POSES, format!("`{name}` of {FILE} has no rows"));
+            let path = path(&rows.ok_or_else(missing)?, kept);
+            Ok(StageBody { name: name.clone(), parent: None, side, shapes: shapes.clone(), path })
+        })
+        .collect()
+}
+
+fn path(rows: &[[f64; 7]], kept: &Kept) -> BodyPath {
+    let mut path = BodyPath::default();
+    for [x, y, z, w, i, j, k] in rows.iter().step_by(kept.every) {
+        let turn = UnitQuaternion::from_quaternion(Quaternion::new(*w, *i, *j, *k));
+        path.push_turned(Vec3::new(*x, *y, *z), turn);
+    }
+    path
+}
+
+fn fixed(obstacles: &[ObstacleShapes]) -> Vec<ViewShape> {
+    obstacles.iter().filter(|obstacle| !obstacle.moves).flat_map(|obstacle| obstacle.shapes.clone()).collect()
+}
+
+impl StageForce {
+    /// Without a force at any instant.
+    pub(super) fn nowhere(name: String, side: Option<Side>, instants: usize) -> StageForce {
+        let gap = vec![Vec3::repeat(f64::NAN); instants];
+        StageForce { name, side, beside: false, point: gap.clone(), force: gap }
+    }
+}

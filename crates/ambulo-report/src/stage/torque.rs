@@ -1,0 +1,63 @@
+//! Joint moments as they are drawn: a centre and an axis in the body that they turn.
+//!
+//! The axis is that of the coordinate while all angles of the joint are zero; where other rotations follow it, it turns with them by a
+//! few degrees that a picture does not show.
+
+use super::StageTorque;
+use crate::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign};
+use ambulo::model::{BodyId, CoordinateId, Displacement, JointAxis, Model, Side};
+use ambulo::spatial::Vec3;
+use ambulo_formats::table::Table;
+
+/// The moments of legs that panels show, in a table with the columns of `moments.sto`; `angles` are the coordinates of the same motion.
+pub(super) fn torques(model: &Model, moments: &Table, angles: &Table, mass_kg: f64) -> Vec<StageTorque> {
+    let has = |stem: &str| {
+        moments.column(&of_side(stem, Side::Right)).or(moments.column(&of_side(stem, Side::Left))).is_some()
+    };
+    let quantities = clinical_quantities(has);
+    let of_legs = quantities.iter().filter(|q| q.group == ClinicalGroup::Moments && !q.central);
+    let flexion = flexion(angles);
+    let torque = |(quantity, side): (&ClinicalQuantity, Side)| {
+        let values = moments.column(&of_side(&quantity.column, side))?;
+        let (body, axis) = axis(model, model.coordinate(&format!("{}_{}", quantity.coordinate, side.letter()))?)?;
+        let factor = quantity.factor(mass_kg, side, flexion);
+        let title = quantity.title.trim_end_matches(" moment").to_lowercase();
+        Some(StageTorque {
+            name: format!("{side} {title}"),
+            side: Some(side),
+            body: body.index(),
+            center: model.bodies()[body.index()].joint.child_from_joint.translation,
+            axis: axis * factor.signum(),
+            values: values.iter().map(|moment| factor * moment).collect(),
+            panel: quantity.id.to_owned(),
+        })
+    };
+    of_legs.flat_map(|quantity| Side::BOTH.map(|side| (quantity, side))).filter_map(torque).collect()
+}
+
+/// `hip_flexion_moment` of the right side is `hip_flexion_r_moment`.
+fn of_side(column: &str, side: Side) -> String {
+    let (coordinate, kind) = column.rsplit_once('_').unwrap_or((column, ""));
+    format!("{coordinate}_{}_{kind}", side.letter())
+}
+
+/// The direction in which the knees' coordinate counts flexion.
+fn flexion(angles: &Table) -> f64 {
+    let names = KNEE.iter().flat_map(|knee| Side::BOTH.map(|side| format!("{knee}_{}", side.letter())));
+    let columns: Vec<&[f64]> = names.filter_map(|name| angles.column(&name)).collect();
+    knee_flexion_sign(columns.into_iter().flatten())
+}
+
+/// The body that a coordinate turns and the axis, in its frame, about which it turns when the coordinate grows.
+fn axis(model: &Model, id: CoordinateId) -> Option<(BodyId, Vec3)> {
+    let body = model.body_ids().find(|body| model.bodies()[body.index()].joint.coordinates().contains(&id))?;
+    let joint = &model.bodies()[body.index()].joint;
+    let at = model.coordinates()[id.index()].default_value;
+    let slope = |axis: &JointAxis| match &axis.displacement {
+        Displacement::Follows(leader, function) if *leader == id => function.at(at)[1],
+        _ => 0.0,
+    };
+    let main = joint.rotations.iter().max_by(|a, b| slope(a).abs().total_cmp(&slope(b).abs()))?;
+    let turned = joint.child_from_joint.rotation * main.direction * slope(main).signum();
+    (slope(main).abs() > 0.0).then_some((body, turned))
+}

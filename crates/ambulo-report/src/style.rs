@@ -1,0 +1,145 @@
+//! How page and figures look: `data/report/style.json`, which the viewer reads as well.
+
+use ambulo::model::Side;
+use serde::Deserialize;
+use std::sync::LazyLock;
+
+const STYLE: &str = include_str!("../data/report/style.json");
+
+/// A colour on light and on dark ground, as `#RRGGBB`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Color {
+    /// On white.
+    pub color: String,
+    /// On dark ground.
+    pub dark: String,
+}
+
+/// A line: colour and dashes.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// On white.
+    pub color: String,
+    /// On dark ground.
+    pub dark: String,
+    /// Lengths of dashes and gaps, in widths of the mean's line; none if the line is solid.
+    pub dash: Vec<f64>,
+}
+
+/// The grey of healthy people.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// On white.
+    pub color: String,
+    /// On dark ground.
+    pub dark: String,
+    /// 0 to 1.
+    pub opacity: f64,
+}
+
+/// Widths of lines [pt].
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct LineWidths {
+    pub mean: f64,
+    pub cycle: f64,
+    pub zero: f64,
+    pub grid: f64,
+    pub axis: f64,
+    pub tick: f64,
+    pub infeasible: f64,
+}
+
+/// Letters: family and sizes [pt].
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Font {
+    pub family: String,
+    pub title_pt: f64,
+    pub panel_pt: f64,
+    pub label_pt: f64,
+    pub tick_pt: f64,
+    pub note_pt: f64,
+}
+
+/// Widths of figures [mm].
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Widths {
+    /// Of one column of a journal.
+    pub one_column: f64,
+    /// Of two columns.
+    pub two_columns: f64,
+}
+
+/// The file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Style {
+    /// What the file is, for those who open it.
+    pub note: String,
+    pub right: Line,
+    pub left: Line,
+    /// Of healthy people.
+    pub band: Fill,
+    /// Of a band of uncertainty in its line's colour.
+    pub uncertainty_opacity: f64,
+    pub infeasible: Color,
+    /// What plates measured, beside a prediction.
+    pub measured: Color,
+    pub text: Color,
+    /// Axes, notes, zero lines.
+    pub quiet: Color,
+    pub grid: Color,
+    /// The ground.
+    pub paper: Color,
+    /// One a session where several are compared.
+    pub sessions: Vec<Line>,
+    pub lines_pt: LineWidths,
+    /// Of a single cycle's line.
+    pub cycle_opacity: f64,
+    pub font: Font,
+    pub widths_mm: Widths,
+}
+
+impl Style {
+    /// The line of a side.
+    #[must_use]
+    pub fn side(&self, side: Side) -> &Line {
+        match side {
+            Side::Right => &self.right,
+            Side::Left => &self.left,
+        }
+    }
+}
+
+/// The style of the crate.
+///
+/// # Errors
+/// None; a test reads the file.
+pub fn style() -> Result<&'static Style, &'static serde_json::Error> {
+    static READ: LazyLock<Result<Style, serde_json::Error>> = LazyLock::new(|| serde_json::from_str(STYLE));
+    READ.as_ref()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_style_is_read_and_tells_the_sides_apart_without_colour() {
+        let style = style().unwrap();
+        assert!(style.right.dash.is_empty() && !style.left.dash.is_empty());
+        assert!(style.widths_mm.one_column < style.widths_mm.two_columns);
+        let colors = [&style.right.color, &style.left.color, &style.infeasible.color, &style.band.color];
+        for color in colors {
+            assert!(color.len() == 7 && color.starts_with('#'), "{color}");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Files that are not what their names say: refused with the file, the place, what was found and what was expected, by the page and by the
+//! exports.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod report_pages;
+
+use ambulo_formats::table::Table;
+use ambulo_report::page::Folder;
+use ambulo_report::{csv_of_folder, glb_of_folder};
+use report_pages::{Files, page_of, predicted, recorded, with_summary};
+use serde_json::{Value, json};
+
+#[track_caller]
+fn refused_by_page(files: &Files, expected: &str) {
+    let error = page_of("folder", files).unwrap_err().to_string();
+    assert!(error.contains(expected), "{error}\nexpected {expected}");
+}
+
+#[track_caller]
+fn refused_by_exports(files: &Files, expected: &str) {
+    let file = |name: &str| files.get(name).cloned();
+    let folder = Folder { name: "folder".to_owned(), file: &file };
+    for error in [glb_of_folder(&folder).unwrap_err(), csv_of_folder(&folder).unwrap_err()] {
+        assert!(error.to_string().contains(expected), "{error}\nexpected {expected}");
+    }
+}
+
+/// With this number in row 101 of the second column.
+fn with_number(files: &Files, name: &str, number: f64) -> (Files, String) {
+    let table = Table::read_storage(&files[name]).unwrap().0;
+    let spoilt = table.names()[1].clone();
+    let columns = table.columns().map(|(column, values)| {
+        let mut values = values.to_vec();
+        if column == spoilt {
+            values[100] = number;
+        }
+        (column.to_owned(), values)
+    });
+    let mut changed = Table::new("changed", columns.collect()).unwrap();
+    changed.in_degrees = table.in_degrees;
+    let mut files = files.clone();
+    files.insert(name.to_owned(), changed.write_storage());
+    (files, spoilt)
+}
+
+#[test]
+fn numbers_that_no_result_can_be_are_refused() {
+    let files = predicted();
+    for number in [1e300, -1e300, f64::INFINITY, f64::NAN] {
+        for name in ["kinematics.mot", "grf.mot", "grf_sd.mot", "grf_measured.mot", "moments.sto", "powers.sto"] {
+            let (broken, column) = with_number(&files, name, number);
+            let expected =
+                format!(", column `{column}`: found {number:?}; expected a finite number, at most 1e12 in size");
+            refused_by_page(&broken, &format!("folder/{name}: line "));
+            refused_by_page(&broken, &expected);
+            if ["kinematics.mot", "grf.mot", "grf_measured.mot", "moments.sto"].contains(&name) {
+                refused_by_exports(&broken, &expected);
+            }
+        }
+    }
+    let (fine, _) = with_number(&files, "powers.sto", 1e11);
+    page_of("folder", &fine).unwrap();
+}
+
+#[test]
+fn a_body_light_years_long_is_not_drawn() {
+    let files = recorded();
+    let text = String::from_utf8(files["subject.osim"].clone()).unwrap();
+    let (before, after) = text.split_once("<translation>").unwrap();
+    let (_, after) = after.split_once("</translation>").unwrap();
+    let text = format!("{before}<translation>1e300 0 0</translation>{after}");
+    let mut broken = files.clone();
+    broken.insert("subject.osim".to_owned(), text.into_bytes());
+    let file = |name: &str| broken.get(name).cloned();
+    let error = glb_of_folder(&Folder { name: "folder".to_owned(), file: &file }).unwrap_err().to_string();
+    assert!(error.contains("expected a finite number, at most 1e12"), "{error}");
+    refused_by_page(&broken, "expected a finite number, at most 1e12");
+}
+
+#[test]
+fn a_summary_of_other_types_is_refused_with_its_key() {
+    type Change = fn(&mut Value);
+    let cases: [(Change, &str); 14] = [
+        (|s| s["ground"]["source"] = json!("guessed"), "`ground.source` is \"guessed\"; expected one of measured, "),
+        (|s| s["ground"] = json!("none"), "`ground` is \"none\"; expected an object"),
+        (|s| s["verdict"] = json!(5), "`verdict` is 5; expected an object"),
+        (|s| s["verdict"]["feasible"] = json!("yes"), "`verdict.feasible` is \"yes\"; expected true or false"),
+        (|s| s["verdict"]["reasons"] = json!({}), "`verdict.reasons` is {}; expected a list"),
+        (
+            |s| s["verdict"]["reasons"] = json!([{"time_s": 3}]),
+            "`verdict.reasons[0].time_s` is 3; expected two instants",
+        ),
+        (|s| s["verdict"]["closest"] = json!([7]), "`verdict.closest[0]` is 7; expected an object"),
+        (|s| s["findings"] = json!([{"code": 1}]), "`findings[0].code` is 1; expected a text"),
+        (|s| s["residual"]["force_rms_n"] = json!("small"), "`residual.force_rms_n` is \"small\"; expected a number"),
+        (|s| s["residual"]["force_rms_n"] = json!(1e300), "`residual.force_rms_n` is 1e300; expected a finite number"),
+        (|s| s["height_m"] = json!(true), "`height_m` is true; expected a number"),
+        (|s| s["subject"] = json!({"plates": 2}), "`subject.plates` is 2; expected a list"),
+        (|s| s["verdict"] = json!({"figures": [{"closest": 1}]}), "`verdict.figures[0].closest` is 1; expected a list"),
+        (|s| *s = json!([1]), "summary.json: found [1]; expected an object"),
+    ];
+    for (change, expected) in cases {
+        let mut files = recorded();
+        with_summary(&mut files, change);
+        refused_by_page(&files, expected);
+        refused_by_page(&files, "folder/summary.json: ");
+    }
+}
+
+#[test]
+fn a_cut_summary_says_what_to_do() {
+    let mut files = recorded();
+    let whole = files["summary.json"].clone();
+    files.insert("summary.json".to_owned(), whole[..whole.len() / 2].to_vec());
+    refused_by_page(&files, "hint: the file is cut or not JSON; run the command that wrote it again");
+}
+
+#[test]
+fn causes_of_errors_are_not_lost() {
+    let mut files = recorded();
+    let text = String::from_utf8(files["subject.osim"].clone()).unwrap();
+    let (before, after) = text.split_once("<mass>").unwrap();
+    files.insert("subject.osim".to_owned(), format!("{before}<mass>-{after}").into_bytes());
+    refused_by_page(&files, "folder/subject.osim: ");
+    refused_by_page(&files, "mass");
+    refused_by_page(&files, "expected");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_text_and_zero_bytes_are_said() {
+    let files = recorded();
+    for name in ["summary.json", "cycles.csv", "events.csv", "kinematics.mot", "subject.osim"] {
+        let mut marked = files.clone();
+        marked.insert(name.to_owned(), [b"\xef\xbb\xbf", files[name].as_slice()].concat());
+        assert_eq!(page_of("folder", &marked).unwrap(), page_of("folder", &files).unwrap(), "{name}");
+    }
+    for name in ["summary.json", "cycles.csv", "events.csv", "kinematics.mot", "grf.mot"] {
+        let mut binary = files.clone();
+        binary.insert(name.to_owned(), b"PK\x03\x04\x00\x00\xffdata".to_vec());
+        refused_by_page(&binary, &format!("folder/{name}: byte 4 is zero, so this is not text"));
+    }
+}
+
+#[test]
+fn a_scene_with_such_numbers_is_not_drawn() {
+    let poses = |x: &str| format!("time,body,px,py,pz,qw,qx,qy,qz\n0,ball,0,1,0,1,0,0,0\n0.1,ball,{x},1,0,1,0,0,0\n");
+    let shapes = |radius: f64| {
+        let ball = json!({"kind": "capsule", "from": [0.0, 0.0, 0.0], "to": [0.0, 0.1, 0.0], "radius": radius});
+        let body = json!({"name": "ball", "mass_kg": 1.0, "side": null, "shapes": [ball]});
+        json!({"format": 1, "gravity_m_s2": [0.0, -9.81, 0.0], "bodies": [body], "obstacles": []}).to_string()
+    };
+    let glb = |poses: String, shapes: String| {
+        let file = |name: &str| match name {
+            "poses.csv" => Some(poses.clone().into_bytes()),
+            "shapes.json" => Some(shapes.clone().into_bytes()),
+            _ => None,
+        };
+        glb_of_folder(&Folder { name: "folder".to_owned(), file: &file }).map_err(|error| error.to_string())
+    };
+    glb(poses("0.5"), shapes(0.2)).unwrap();
+    for (poses, shapes, expected) in [
+        (poses("1e300"), shapes(0.2), "folder/poses.csv: line 3, column 3: found `1e300`; expected a finite number"),
+        (poses("inf"), shapes(0.2), "folder/poses.csv: line 3, column 3: found `inf`"),
+        (poses("0.5"), shapes(1e300), "folder/shapes.json: a shape of `ball`: found 1e300; expected a finite number"),
+        (poses("0.5"), shapes(0.2)[..80].to_owned(), "folder/shapes.json: EOF while parsing"),
+    ] {
+        let error = glb(poses, shapes).unwrap_err();
+        assert!(error.contains(expected), "{error}\nexpected {expected}");
+    }
+}

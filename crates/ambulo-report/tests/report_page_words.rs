@@ -1,0 +1,245 @@
+//! What the page says of a recording that is not the usual one: turns, two masses, no ground forces, single strides, files left out.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod report_pages;
+#[path = "../../ambulo/tests/shared_data/mod.rs"]
+mod shared_data;
+
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::table::Table;
+use report_pages::{Files, Shown, analysed, keep_lines, predicted, recorded, with_summary};
+use serde_json::{Value, json};
+
+/// The table of a motion with columns changed: name, values, all columns by name.
+fn with_motion(files: &mut Files, change: impl Fn(&str, &[f64], &Table) -> Vec<f64>) {
+    let table = Table::read_storage(&files["kinematics.mot"]).unwrap().0;
+    let columns = table.columns().map(|(name, values)| (name.to_owned(), change(name, values, &table)));
+    let mut changed = Table::new("Coordinates", columns.collect()).unwrap();
+    changed.in_degrees = Some(true);
+    files.insert("kinematics.mot".to_owned(), changed.write_storage());
+}
+
+/// Bends the line along which the body walks to a circle of this radius, to the right.
+fn bent(files: &mut Files, radius_m: f64) {
+    with_motion(files, |name, values, table| {
+        let (along, across) = (table.column("pelvis_tx").unwrap(), table.column("pelvis_tz").unwrap());
+        let at = |i: usize| {
+            let (angle, radius) = ((along[i] - along[0]) / radius_m, radius_m - across[i]);
+            match name {
+                "pelvis_tx" => radius * angle.sin(),
+                "pelvis_tz" => radius_m - radius * angle.cos(),
+                "pelvis_rotation" => values[i] - angle.to_degrees(),
+                _ => values[i],
+            }
+        };
+        (0..values.len()).map(at).collect()
+    });
+}
+
+fn note(shown: &Shown, table: &str) -> Value {
+    let tables = shown.session()["tables"].as_array().unwrap();
+    tables.iter().find(|known| known["id"] == table).unwrap()["note"].clone()
+}
+
+fn header_note(shown: &Shown, label: &str) -> String {
+    let lines = shown.session()["header"].as_array().unwrap();
+    let line = lines.iter().find(|line| line["label"] == label).unwrap();
+    line["note"].as_str().unwrap_or_default().to_owned()
+}
+
+fn header_has(shown: &Shown, label: &str) -> bool {
+    shown.session()["header"].as_array().unwrap().iter().any(|line| line["label"] == label)
+}
+
+// ---- paths ----
+
+#[test]
+fn a_turn_keeps_the_steps_and_has_no_norms() {
+    let mut files = recorded();
+    let straight = Shown::of(&files);
+    bent(&mut files, 2.5);
+    let turning = Shown::of(&files);
+    // The inner foot goes less far than the outer one, and a stride is the chord of its arc.
+    for (row, slack) in [("Step length", 0.05), ("Stride length", 0.09), ("Step width", 0.02)] {
+        for side in [2, 3] {
+            let [on, off] = [&turning, &straight].map(|shown| shown.value("time_distance", row, side));
+            assert!((on - off).abs() < slack, "{row}: {on} m in the turn, {off} m on the straight way");
+        }
+    }
+    assert!(turning.misses("The path turns by") && !straight.misses("The path turns"));
+    assert!(
+        turning.panel("knee_flexion_angle")["band"].is_null()
+            && straight.panel("knee_flexion_angle")["band"].is_object()
+    );
+    assert_eq!(turning.row("time_distance", "Stance")[5], "");
+    assert!(turning.header("Speed").contains("along the path"), "{}", turning.header("Speed"));
+    assert!(!straight.header("Speed").contains("along the path"));
+    let motion = Table::read_storage(&recorded()["kinematics.mot"]).unwrap().0;
+    let (way, times) = (motion.column("pelvis_tx").unwrap(), motion.times().unwrap());
+    let pelvis = (way[way.len() - 1] - way[0]) / (times[times.len() - 1] - times[0]);
+    let along = turning.value("time_distance", "Speed along the path", 4);
+    assert!((along / pelvis - 1.0).abs() < 0.03, "{along} m/s along the arc, {pelvis} m/s before it was bent");
+}
+
+#[test]
+fn a_turn_that_the_laboratory_saw_counts() {
+    let mut files = recorded();
+    with_summary(&mut files, |summary| {
+        summary["findings"] =
+            json!([{"code": "laboratory.turning", "severity": "warning", "message": "turns", "count": 1}]);
+    });
+    let shown = Shown::of(&files);
+    assert!(shown.misses("The path turns: normal ranges") && shown.panel("knee_flexion_angle")["band"].is_null());
+}
+
+// ---- header ----
+
+#[test]
+fn both_masses_are_said_where_they_differ() {
+    let mut files = recorded();
+    let mass = |files: &Files| Shown::of(files).header("Body mass");
+    with_summary(&mut files, |summary| summary["mass_model_kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
+    assert!(!mass(&files).contains("dynamics"), "{}", mass(&files));
+    with_summary(&mut files, |summary| (summary["mass_kg"], summary["mass_model_kg"]) = (json!(70.0), json!(72.84)));
+    assert_eq!(mass(&files), "70.0 kg (divides moments and powers); 72.8 kg (of the model, used by dynamics)");
+}
+
+#[test]
+fn the_header_says_what_was_done_to_the_motion() {
+    let mut files = recorded();
+    assert!(!header_has(&Shown::of(&files), "Motion"));
+    with_summary(&mut files, |summary| {
+        summary["consistency"] = json!({"changes": {"knee_angle_r": {"rms": 0.5, "max": 1.25, "unit": "deg"},
+            "pelvis_tilt": {"rms": 1.0, "max": 3.21, "unit": "deg"}, "pelvis_ty": {"rms": 2.0, "max": 7.0, "unit": "mm"}}});
+        summary["subject"] = json!({"axes": "lab z up, mm -> world y up, m"});
+        summary["window_asked_s"] = json!([0.1, 0.9]);
+        summary["findings"] = json!([{"code": "markers.window", "severity": "warning", "message": "cut", "count": 1}]);
+    });
+    let shown = Shown::of(&files);
+    assert!(shown.header("Motion").contains("changed"));
+    assert_eq!(header_note(&shown, "Motion"), "at most pelvis tilt by 3.2 deg and pelvis ty by 7.0 mm");
+    assert_eq!(shown.header("Axes"), "lab z up, mm → world y up, m");
+    let cut = header_note(&shown, "Time");
+    assert!(cut.contains("markers") && !cut.contains("as asked"), "{cut}");
+}
+
+// ---- strides ----
+
+#[test]
+fn one_stride_is_one_stride() {
+    let mut files = recorded();
+    let text = String::from_utf8(files["events.csv"].clone()).unwrap();
+    let time = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+    let strikes: Vec<f64> = text.lines().filter(|line| line.starts_with("r,strike")).map(time).collect();
+    keep_lines(&mut files, "events.csv", |line| line.starts_with("r,") && time(line) <= strikes[1]);
+    let shown = Shown::of(&files);
+    let note = note(&shown, "time_distance");
+    assert!(note.as_str().unwrap().starts_with("Of 1 right stride, between"), "{note}");
+    assert_eq!(header_note(&shown, "Cadence"), "of one stride");
+}
+
+#[test]
+fn times_add_up_to_the_cycle() {
+    let shown = Shown::of(&recorded());
+    let value = |row: &str| shown.value("time_distance", row, 4);
+    assert!((value("Stance time") + value("Swing time") - value("Cycle time")).abs() < 1e-9);
+    let double = value("Initial double support") + value("Terminal double support");
+    assert!((double - value("Double support")).abs() < 0.2 && value("Initial double support") > 5.0, "{double} %");
+    assert!((value("Step time") - 0.5 * value("Cycle time")).abs() < 0.05);
+}
+
+// ---- files left out ----
+
+#[test]
+fn a_motion_without_ground_forces_keeps_its_cycles() {
+    let mut files = recorded();
+    for file in ["grf.mot", "events.csv"] {
+        files.remove(file);
+    }
+    with_summary(&mut files, |summary| {
+        summary["ground"]["source"] = json!("none");
+        summary["speed_m_s"] = Value::Null;
+        summary["filter"]["force"] = json!({"kind": "butterworth", "cutoff_hz": 6.0, "order": 3});
+    });
+    let shown = Shown::of(&files);
+    assert!(!shown.panel("hip_flexion_angle")["means"].as_array().unwrap().is_empty());
+    assert!(!shown.header("Filter").contains("forces"), "{}", shown.header("Filter"));
+    assert!(header_note(&shown, "Ground forces").contains("as asked") && shown.misses("without them, as asked"));
+    assert!(header_note(&shown, "Speed").contains("without ground forces"));
+    let tables = shown.session()["tables"].as_array().unwrap();
+    let times = tables.iter().find(|table| table["id"] == "time_distance").unwrap();
+    assert!(times["note"].is_null() && times["empty"].as_str().unwrap().contains("without ground forces"), "{times}");
+}
+
+#[test]
+fn each_file_left_out_is_named() {
+    let whole = Shown::of(&recorded());
+    for (file, words) in [
+        ("moments.sto", "No joint moments over time: the folder has no moments.sto"),
+        ("powers.sto", "No joint powers over time: the folder has no powers.sto"),
+        ("grf_sd.mot", "No uncertainty of the predicted forces"),
+        ("events.csv", "No foot strikes and toe-offs"),
+    ] {
+        let mut files = if file == "grf_sd.mot" { predicted() } else { recorded() };
+        assert!(!Shown::of(&files).misses(words) && !whole.misses(words), "{file} is there");
+        files.remove(file);
+        assert!(Shown::of(&files).misses(words), "{file}");
+    }
+    let mut files = recorded();
+    keep_lines(&mut files, "events.csv", |_| false);
+    assert!(Shown::of(&files).misses("No foot strikes and toe-offs"));
+}
+
+#[test]
+fn a_column_of_one_side_left_out_is_named() {
+    let mut files = recorded();
+    assert!(!Shown::of(&files).misses("lacks the columns"));
+    let table = Table::read_storage(&files["kinematics.mot"]).unwrap().0;
+    let kept = table.columns().filter(|(name, _)| *name != "knee_angle_r");
+    let mut kept =
+        Table::new("Coordinates", kept.map(|(name, values)| (name.to_owned(), values.to_vec())).collect()).unwrap();
+    kept.in_degrees = Some(true);
+    files.insert("kinematics.mot".to_owned(), kept.write_storage());
+    let shown = Shown::of(&files);
+    assert!(shown.misses("since kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
+    let traces = shown.panel("knee_flexion_angle")["traces"].as_array().unwrap().clone();
+    assert_eq!(traces.iter().map(|trace| &trace["side"]).collect::<Vec<_>>(), ["l"]);
+}
+
+#[test]
+fn what_never_changes_has_no_panel() {
+    // The invented walk keeps pelvis and trunk upright.
+    let mut files = recorded();
+    let shown = Shown::of(&files);
+    let has = |shown: &Shown, id: &str| shown.panels().iter().any(|panel| panel["id"] == id);
+    assert!(
+        !has(&shown, "pelvis_tilt_angle") && !has(&shown, "trunk_lean_angle") && has(&shown, "trunk_rotation_angle")
+    );
+    assert!(shown.misses("pelvic tilt (does not move), ") && !shown.misses("pelvic rotation (does not move)"));
+    with_motion(&mut files, |name, values, _| match name {
+        "pelvis_tilt" => (0..values.len()).map(|i| 0.01 * i as f64).collect(),
+        _ => values.to_vec(),
+    });
+    let tilted = Shown::of(&files);
+    assert!(has(&tilted, "pelvis_tilt_angle") && !tilted.misses("pelvic tilt (does not move)"));
+}
+
+#[test]
+fn a_locked_joint_is_said_to_be_locked() {
+    let Some(data) = shared_data::data() else { return };
+    let folder = data.join("opensim-gait2392-subject01");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let loads = ExternalLoads::read(&read("subject01_walk1_grf.xml")).unwrap().0;
+    let mut body = String::from_utf8(read("subject01_simbody.osim")).unwrap();
+    for name in ["subtalar_angle_r", "subtalar_angle_l"] {
+        let (before, after) = body.split_once(&format!("<Coordinate name=\"{name}\">")).unwrap();
+        let after = after.replacen("<locked>false</locked>", "<locked>true</locked>", 1);
+        body = format!("{before}<Coordinate name=\"{name}\">{after}");
+    }
+    let motion = read("subject01_walk1_ik.mot");
+    let files = analysed(body.as_bytes(), &motion, &read("subject01_walk1_grf.mot"), &loads);
+    let shown = Shown::of(&files);
+    assert!(shown.misses("subtalar inversion (locked in the model)"), "{}", shown.session()["missing"]);
+    assert!(shown.panels().iter().all(|panel| panel["id"] != "subtalar_angle"));
+}

@@ -1,0 +1,95 @@
+//! The part of `summary.json` that motions made to agree with the forces have.
+
+use ambulo::dynamics::consistency::{Consistent, RootResidual};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// How a motion was changed to obey the forces.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConsistencySummary {
+    /// First and last instant at which the laws were enforced [s].
+    pub window_s: [f64; 2],
+    /// What was left at the root before, in that time.
+    pub residual_before: ResidualSize,
+    /// What is left now.
+    pub residual_after: ResidualSize,
+    /// How each coordinate was changed.
+    pub changes: BTreeMap<String, CoordinateSize>,
+    /// How far each body that carries a load was moved [mm].
+    pub feet_mm: BTreeMap<String, FootSize>,
+    /// By how much the body's mass was changed [%].
+    pub mass_percent: f64,
+    /// The segment whose mass centre was moved.
+    pub trunk: String,
+    /// By how much, in its own axes [mm].
+    pub trunk_center_mm: [f64; 3],
+    /// Iterations taken.
+    pub iterations: usize,
+    /// Whether the last one changed nothing that counts.
+    pub converged: bool,
+}
+
+/// Size of what nothing supplies at the root.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualSize {
+    /// Root mean square of the force in body weights.
+    pub force_rms_bw: f64,
+    /// Largest force in body weights.
+    pub force_peak_bw: f64,
+    /// Root mean square of the moment about the root joint [N.m].
+    pub moment_rms_nm: f64,
+    /// Largest moment [N.m].
+    pub moment_peak_nm: f64,
+}
+
+/// Size of a coordinate's change.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateSize {
+    /// Root mean square in the window.
+    pub rms: f64,
+    /// Largest anywhere.
+    pub max: f64,
+    /// `deg` or `mm`.
+    pub unit: &'static str,
+}
+
+/// How far a foot was moved [mm].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FootSize {
+    /// Root mean square in the window.
+    pub rms: f64,
+    /// Largest anywhere.
+    pub max: f64,
+}
+
+impl ConsistencySummary {
+    /// Of a motion that was changed.
+    #[must_use]
+    pub fn of(consistent: &Consistent) -> ConsistencySummary {
+        let changes = consistent.changes.iter().map(|change| {
+            let (scale, unit) = if change.unit == "rad" { (1.0_f64.to_degrees(), "deg") } else { (1e3, "mm") };
+            (change.name.clone(), CoordinateSize { rms: scale * change.rms, max: scale * change.max, unit })
+        });
+        let feet = consistent.feet.iter();
+        let feet_mm = feet.map(|f| (f.body.clone(), FootSize { rms: 1e3 * f.rms_m, max: 1e3 * f.max_m }));
+        ConsistencySummary {
+            window_s: consistent.window_s,
+            residual_before: ResidualSize::of(consistent.residual_before),
+            residual_after: ResidualSize::of(consistent.residual_after),
+            changes: changes.collect(),
+            feet_mm: feet_mm.collect(),
+            mass_percent: 100.0 * consistent.body.mass_share,
+            trunk: consistent.body.trunk.clone(),
+            trunk_center_mm: consistent.body.trunk_center_m.map(|x| 1e3 * x).into(),
+            iterations: consistent.iterations,
+            converged: consistent.converged,
+        }
+    }
+}
+
+impl ResidualSize {
+    fn of(residual: RootResidual) -> ResidualSize {
+        let RootResidual { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm } = residual;
+        ResidualSize { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm }
+    }
+}

@@ -1,0 +1,45 @@
+//! Files of a run with predicted ground forces: their standard deviations, and what plates measured.
+
+use crate::files::OutputFile;
+use crate::tables::{self, Column};
+use ambulo::analysis::PredictedAnalysis;
+use ambulo::ground::predict::FootDeviation;
+use ambulo::model::{Model, Side};
+use ambulo::spatial::Vec3;
+use ambulo_formats::Error;
+
+/// `grf_sd.mot` and, where plates measured, `grf_measured.mot`, on the instants of `kinematics.mot`.
+///
+/// # Errors
+/// Column names that no table can hold.
+pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, Error> {
+    let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
+    let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
+    let mut files = vec![OutputFile { name: "grf_sd.mot".to_owned(), bytes: deviations.write_storage() }];
+    if let Some(measured) = &predicted.measured {
+        let bytes = tables::ground(model, measured)?.write_storage();
+        files.push(OutputFile { name: "grf_measured.mot".to_owned(), bytes });
+    }
+    Ok(files)
+}
+
+/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot does not stand.
+fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<Column> {
+    let mut columns = Vec::new();
+    for side in Side::BOTH {
+        let letter = side.letter();
+        let foot = deviations.iter().find(|deviation| deviation.side == side);
+        let vectors = |pick: &dyn Fn(&FootDeviation) -> &Vec<Vec3>, axis: usize| {
+            foot.map_or_else(|| vec![0.0; frames], |foot| pick(foot).iter().map(|v| v[axis]).collect())
+        };
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            columns.push((format!("ground_force_{letter}_v{axis}_sd"), vectors(&|foot| &foot.force, k)));
+        }
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            columns.push((format!("ground_force_{letter}_p{axis}_sd"), vectors(&|foot| &foot.center, k)));
+        }
+        let free = foot.map_or_else(|| vec![0.0; frames], |foot| foot.free_moment.clone());
+        columns.push((format!("ground_torque_{letter}_y_sd"), free));
+    }
+    columns
+}

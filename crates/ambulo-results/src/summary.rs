@@ -1,0 +1,274 @@
+//! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
+
+use crate::consistency_summary::ConsistencySummary;
+use crate::subject_summary::SubjectSummary;
+use crate::tables::UNLOADED_N;
+use crate::walk_summary::WalkSummary;
+use ambulo::analysis::feasibility::Verdict;
+use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PredictionChecks, Settings, peak};
+use ambulo::findings::{Finding, Findings};
+use ambulo::model::Model;
+use ambulo::motion::Smoother;
+use ambulo::motion::filter::LowPass;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The summary of one run. Keys that a run cannot fill are `null`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Version of the program.
+    pub version: &'static str,
+    /// What went in.
+    pub input: Input,
+    /// Name of the model.
+    pub model: String,
+    /// Body mass [kg]; results are normalised by it.
+    pub mass_kg: f64,
+    /// The model's mass, which the dynamics use [kg].
+    pub mass_model_kg: f64,
+    /// `plates` (whole gait cycles), `standing` (plates in the standing trial) or `model`.
+    pub mass_source: &'static str,
+    /// Whether anything but the model vouches for the mass.
+    pub mass: MassKnowledge,
+    /// Stature [m], where it was given.
+    pub height_m: Option<f64>,
+    /// Walking speed over the ground or the belt [m/s].
+    pub speed_m_s: Option<f64>,
+    /// First and last instant [s].
+    pub window_s: [f64; 2],
+    /// The range that was asked for [s]; `null` where it was left open.
+    pub window_asked_s: [Option<f64>; 2],
+    /// Frames a second [Hz].
+    pub rate_hz: f64,
+    /// Number of frames.
+    pub frames: usize,
+    /// Filters of motion and forces, in words.
+    pub filter: Filters,
+    /// Where the ground forces come from.
+    pub ground: Ground,
+    /// What motion and forces disagree by, at the root.
+    pub residual: Option<ResidualSummary>,
+    /// Extremes of every generalised force.
+    pub peaks: Vec<PeakSummary>,
+    /// Iterations and residual of a solver; inverse dynamics with known ground forces needs none.
+    pub convergence: Option<()>,
+    /// What was odd on the way.
+    pub findings: Vec<Finding>,
+    /// Whether a person could do this.
+    pub verdict: Option<Verdict>,
+    /// Whether predicted forces can be right; `null` where none were predicted.
+    pub prediction: Option<PredictionChecks>,
+    /// Prediction against plates; filled when forces are predicted and plates saw something in full.
+    pub comparison: Option<GroundAgreement>,
+    /// How markers became a body in motion; `null` where coordinates were given.
+    pub subject: Option<SubjectSummary>,
+    /// How the motion was changed to obey the forces; `null` where it was not.
+    pub consistency: Option<ConsistencySummary>,
+    /// How a synthetic walk was made; `null` for recordings.
+    pub walk: Option<WalkSummary>,
+    /// Time that each stage took [ms].
+    pub timing_ms: BTreeMap<String, f64>,
+}
+
+/// What went in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Input {
+    /// The recorded motion.
+    pub motion: String,
+    /// The model; `built-in` for Ambulo's own body.
+    pub model: String,
+    /// The standing trial.
+    #[serde(rename = "static")]
+    pub standing: Option<String>,
+    /// The ground forces.
+    pub ground: Option<String>,
+    /// The description of the loads.
+    pub loads: Option<String>,
+    /// What a worn device contributes.
+    pub device: Option<String>,
+    /// Masses that were added to the model, as `BODY:KG:X,Y,Z`.
+    pub added_mass: Vec<String>,
+    /// How the ground forces came about; reported under `ground`.
+    #[serde(skip)]
+    pub ground_source: GroundSource,
+}
+
+/// How ground forces came about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GroundSource {
+    /// By force plates or other sensors.
+    Measured,
+    /// From the motion itself; `rule` says how double support was split.
+    Predicted {
+        /// The rule, in words.
+        rule: &'static str,
+    },
+    /// By a simulation of the motion; `rule` says how double support was split.
+    Simulated {
+        /// The rule, in words.
+        rule: &'static str,
+    },
+    /// There are none.
+    None,
+}
+
+/// Whether a mass is known from more than a model. From motion alone every force scales with the mass, so that a wrong one shows only
+/// against plates, a standing trial or what somebody states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MassKnowledge {
+    /// Weighed by plates, or stated.
+    Verified,
+    /// The model's own.
+    Unverified,
+    /// Plates carry another mass than the model has.
+    Contradicted,
+}
+
+/// The filters in words and numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Filters {
+    /// Filter of the motion.
+    pub motion: FilterSummary,
+    /// Filter of the measured forces.
+    pub force: FilterSummary,
+}
+
+/// One filter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FilterSummary {
+    /// `butterworth`, `spline` or `off`.
+    pub kind: &'static str,
+    /// Cut-off of one pass [Hz].
+    pub cutoff_hz: Option<f64>,
+    /// Order of one pass; the filter runs forwards and backwards.
+    pub order: Option<usize>,
+}
+
+/// Where the ground forces come from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ground {
+    /// `measured`, `predicted`, `simulated` or `none`.
+    pub source: &'static str,
+    /// How double support was resolved; measured forces need no rule.
+    pub rule: Option<&'static str>,
+    /// Below this vertical force a foot counts as unloaded [N].
+    pub threshold_n: f64,
+}
+
+/// The residual at the root.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualSummary {
+    /// Root mean square of the force [N].
+    pub force_rms_n: f64,
+    /// Largest force [N].
+    pub force_peak_n: f64,
+    /// Root mean square of the force in body weights.
+    pub force_rms_bw: f64,
+    /// Root mean square of the moment about the root joint [N.m].
+    pub moment_rms_nm: f64,
+    /// Largest moment [N.m].
+    pub moment_peak_nm: f64,
+}
+
+/// Extremes of one generalised force.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PeakSummary {
+    /// Column of `moments.sto`.
+    pub quantity: String,
+    /// `N.m` or `N`.
+    pub unit: &'static str,
+    /// Largest value.
+    pub max: f64,
+    /// When [s].
+    pub max_at_s: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// When [s].
+    pub min_at_s: f64,
+}
+
+/// The summary of an analysis; the shell adds the last timings.
+#[must_use]
+pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: Input, findings: &Findings) -> Summary {
+    let grid = analysis.trajectory.grid();
+    let (source, rule) = match input.ground_source {
+        GroundSource::Measured => ("measured", None),
+        GroundSource::Predicted { rule } => ("predicted", Some(rule)),
+        GroundSource::Simulated { rule } => ("simulated", Some(rule)),
+        GroundSource::None => ("none", None),
+    };
+    Summary {
+        version: env!("CARGO_PKG_VERSION"),
+        input,
+        model: model.name().to_owned(),
+        mass_kg: analysis.mass.kg,
+        mass_model_kg: model.mass(),
+        mass_source: match analysis.mass.source {
+            MassSource::Plates => "plates",
+            MassSource::Standing => "standing",
+            MassSource::Model => "model",
+        },
+        mass: match analysis.mass.source {
+            MassSource::Plates | MassSource::Standing => MassKnowledge::Verified,
+            MassSource::Model => MassKnowledge::Unverified,
+        },
+        height_m: None,
+        speed_m_s: analysis.speed_m_s,
+        window_s: [grid.start_s, grid.end_s()],
+        window_asked_s: [settings.window.from_s, settings.window.to_s],
+        rate_hz: grid.rate_hz(),
+        frames: grid.frames,
+        filter: filters(settings),
+        ground: Ground { source, rule, threshold_n: UNLOADED_N },
+        residual: residual(model, analysis),
+        peaks: peaks(model, analysis),
+        convergence: None,
+        findings: findings.as_slice().to_vec(),
+        verdict: analysis.verdict.clone(),
+        prediction: None,
+        comparison: None,
+        subject: None,
+        consistency: None,
+        walk: None,
+        timing_ms: BTreeMap::new(),
+    }
+}
+
+fn filters(settings: &Settings) -> Filters {
+    let off = FilterSummary { kind: "off", cutoff_hz: None, order: None };
+    let low_pass =
+        |f: LowPass| FilterSummary { kind: "butterworth", cutoff_hz: Some(f.cutoff_hz), order: Some(f.order) };
+    Filters {
+        motion: match settings.smoother {
+            Smoother::Off => off.clone(),
+            Smoother::Butterworth(f) => low_pass(f),
+            Smoother::Spline => FilterSummary { kind: "spline", ..off.clone() },
+        },
+        force: settings.force_filter.map_or(off, low_pass),
+    }
+}
+
+fn residual(model: &Model, analysis: &Analysis) -> Option<ResidualSummary> {
+    let weight = analysis.mass.kg * model.gravity().norm();
+    analysis.residual.map(|r| ResidualSummary {
+        force_rms_n: r.force_rms_n,
+        force_peak_n: r.force_peak_n,
+        force_rms_bw: r.force_rms_n / weight,
+        moment_rms_nm: r.moment_rms_nm,
+        moment_peak_nm: r.moment_peak_nm,
+    })
+}
+
+fn peaks(model: &Model, analysis: &Analysis) -> Vec<PeakSummary> {
+    let grid = analysis.trajectory.grid();
+    let names = model.force_names();
+    let series = names.into_iter().zip(model.coordinates()).zip(&analysis.forces.generalized);
+    series
+        .filter_map(|((quantity, coordinate), values)| {
+            let p = peak(grid, values)?;
+            let unit = if coordinate.kind.force_suffix() == "moment" { "N.m" } else { "N" };
+            Some(PeakSummary { quantity, unit, max: p.max, max_at_s: p.max_at_s, min: p.min, min_at_s: p.min_at_s })
+        })
+        .collect()
+}
