@@ -14,7 +14,7 @@ use crate::simulation::{ImpactLaw, Integrator, StepSettings};
 
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
 #[derive(Debug, Default)]
-pub struct Corrected {
+pub struct CorrectedMode {
     settings: ConsistentWalkSettings,
     cache: Vec<CachedWalk>,
 }
@@ -28,7 +28,7 @@ struct CachedWalk {
     walk: ConsistentWalk,
 }
 
-impl Corrected {
+impl CorrectedMode {
     /// Simulates a walk.
     ///
     /// # Errors
