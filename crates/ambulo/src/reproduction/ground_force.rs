@@ -13,7 +13,7 @@ const SIMILAR: f64 = 0.7;
 
 pub(super) const HUMPS: Statement = Statement {
     id: "e1",
-    paper: "the vertical force during support is quite similar to measured ones: two humps",
+    paper: "the vertical force during support is quite similar to measured ones: two peaks",
     headline: "correlation_with_measured",
     scope: Scope::Brief,
     measure: measure_humps,
