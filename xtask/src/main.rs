@@ -3,8 +3,13 @@
 //! This crate has no dependencies, so its commands start at once. Commands that need the library are in the crate
 //! `xtask-measure`, which is built in release and started from here.
 
+mod build_time;
 mod check;
+#[cfg(test)]
+mod documents;
 mod house;
+mod measured;
+mod sweep;
 mod workspace;
 
 use std::process::ExitCode;
@@ -13,26 +18,34 @@ const HELP: &str = "\
 usage: cargo xtask <command>
 
   check             run what CI runs: format, lints, house, tests, documentation, viewer; stops at the first failure
+                    [--full: and everything that takes longer]
   house             print size and shape of the source; fails where it exceeds a limit  [--baseline REV] [--list]
+  build-time        time a cold release build of the `ambulo` command  [--baseline REV]
+  measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
+  sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
-  bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/BENCHMARKS_MARKERS.md]
-  bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
+  bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
+  bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
-  fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/GROUND_FIT.md]
+  fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
-  validate          compare predicted ground forces with force plates for all recordings  [--write: docs/VALIDATION.md]
-  walk-bands        compare corrected walks with normative bands  [--write: docs/WALK_BANDS.md and its picture]
+  validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
+  walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
 
 environment:
   AMBULO_DATA       folder with `data` and `reference`; default: ../shared next to this workspace
   AMBULO_PEERS_ENV  folder of the other engines' virtual environments; see `cargo xtask peers`
 ";
+
+/// Commands of this crate; the documents are compared with this list.
+#[cfg(test)]
+const OWN: [&str; 5] = ["check", "house", "build-time", "measured", "sweep"];
 
 /// Commands of the crate `xtask-measure`.
 const MEASUREMENTS: [&str; 12] = [
@@ -58,7 +71,10 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
-        ("check", []) => check::run(),
+        ("check", _) => check::run(rest),
+        ("build-time", _) => build_time::run(rest),
+        ("measured", _) => measured::run(rest),
+        ("sweep", []) => sweep::run(),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),
         ("help" | "--help" | "-h", []) => {
@@ -79,12 +95,15 @@ fn main() -> ExitCode {
     }
 }
 
-/// Builds `xtask-measure` in release and runs one of its commands.
+/// Builds `xtask-measure` in release and runs one of its commands. A page that it writes gets its first line.
 fn measure(words: &[String]) -> Result<(), String> {
     let mut command = workspace::cargo();
     command.args(["run", "--quiet", "--release", "--locked", "--package", "xtask-measure", "--"]).args(words);
     let status = command.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
-    if status.success() { Ok(()) } else { Err(format!("`{}` failed ({status}), see above", words.join(" "))) }
+    if !status.success() {
+        return Err(format!("`{}` failed ({status}), see above", words.join(" ")));
+    }
+    if words.iter().any(|word| word == "--write") { measured::stamp(&words[0]) } else { Ok(()) }
 }
 
 #[cfg(test)]
@@ -92,8 +111,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn help_lists_every_measurement() {
+    fn help_lists_every_command() {
         let listed = |name: &&str| HELP.contains(&format!("\n  {name} "));
-        assert_eq!(MEASUREMENTS.iter().find(|name| !listed(name)), None);
+        assert_eq!(OWN.iter().chain(&MEASUREMENTS).find(|name| !listed(name)), None);
     }
 }

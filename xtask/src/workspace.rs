@@ -9,6 +9,11 @@ pub(crate) fn root() -> PathBuf {
     above.map(Path::to_path_buf).unwrap_or_default()
 }
 
+/// The folder that holds `data` and `reference`.
+pub(crate) fn data() -> PathBuf {
+    std::env::var_os("AMBULO_DATA").map_or_else(|| root().join("../shared"), PathBuf::from)
+}
+
 /// The same cargo that runs this program, in the workspace root.
 pub(crate) fn cargo() -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));

@@ -2,7 +2,7 @@
 //!
 //! Every recording with plates beside the workspace goes through the library as `ambulo forces --predict` takes it: body, fit, 6 Hz,
 //! prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the page goes to
-//! docs/VALIDATION.md. What is missed is shown as missed and is no error.
+//! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is no error.
 
 mod means;
 mod page;
@@ -32,18 +32,18 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     }
     let mut trials = Vec::new();
     for recording in recording::all() {
-        match recording.load(&data).and_then(|loaded| Trial::run(&recording, &loaded)) {
+        match recording.read(&data).and_then(|source| Trial::run(&recording, &source)) {
             Ok(trial) => trials.push(trial),
             Err(reason) => return Err(format!("{}: {reason}", recording.label)),
         }
     }
     let commit = commit();
-    let page = page::text(&trials, &commit);
+    let page = page::text(&trials);
     println!("{page}");
     save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
     if write {
-        save("docs/VALIDATION.md", &page)?;
-        eprintln!("written: docs/VALIDATION.md");
+        save("docs/measured/VALIDATION.md", &page)?;
+        eprintln!("written: docs/measured/VALIDATION.md");
     }
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! Corrected walks against normative bands: `cargo xtask walk-bands [--write]`.
 //!
 //! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are made consistent
-//! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is held against the tables. What is
-//! missed is shown as missed and is no error. With `--write` the page goes to docs/WALK_BANDS.md, its picture to docs/images.
+//! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is compared with the tables. A failed
+//! criterion is listed as missed and is no error. With `--write` the page goes to docs/measured/WALK_BANDS.md, its picture to docs/images.
 
 mod adjustment;
 mod asked;
@@ -73,12 +73,12 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let page = page::text(&results);
     println!("{page}");
     if write {
-        let folder = workspace::root().join("docs");
+        let folder = workspace::root().join("docs/measured");
         let save = |name: &str, text: &str| {
             let path = folder.join(name);
             fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
         };
-        save("images/walk_bands_free.svg", &figure::free(&results.man[FREE], &results.people[FREE])?)?;
+        save("../images/walk_bands_free.svg", &figure::free(&results.man[FREE], &results.people[FREE])?)?;
         save("WALK_BANDS.md", &page)?;
         eprintln!("written: {}", folder.join("WALK_BANDS.md").display());
     }

@@ -6,7 +6,7 @@
 mod imports;
 mod items;
 mod source;
-mod tokens;
+pub(crate) mod tokens;
 
 use crate::workspace::{self, Revision};
 use items::{Function, Reach};

@@ -2,7 +2,7 @@
 
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// A name, a keyword or a number.
     Word,
     /// One sign, or `::`.
@@ -13,22 +13,22 @@ pub(super) enum Kind {
 
 /// One token with the lines that it covers, from 1.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Token<'t> {
-    pub(super) kind: Kind,
-    pub(super) text: &'t str,
-    pub(super) line: usize,
-    pub(super) last_line: usize,
+pub(crate) struct Token<'t> {
+    pub(crate) kind: Kind,
+    pub(crate) text: &'t str,
+    pub(crate) line: usize,
+    pub(crate) last_line: usize,
 }
 
 impl Token<'_> {
     /// Whether the token is this name, keyword or sign.
-    pub(super) fn is(&self, text: &str) -> bool {
+    pub(crate) fn is(&self, text: &str) -> bool {
         self.kind != Kind::Literal && self.text == text
     }
 }
 
 /// The tokens of a file.
-pub(super) fn tokens(source: &str) -> Vec<Token<'_>> {
+pub(crate) fn tokens(source: &str) -> Vec<Token<'_>> {
     let (mut list, mut rest, mut line) = (Vec::new(), source, 1);
     while let Some(first) = rest.chars().next() {
         let (kind, length) = token(rest, first);
@@ -118,7 +118,7 @@ fn block_comment(rest: &str) -> usize {
 }
 
 /// Index of the bracket that closes the one at `open`; the last token if none does.
-pub(super) fn closing(tokens: &[Token<'_>], open: usize) -> usize {
+pub(crate) fn closing(tokens: &[Token<'_>], open: usize) -> usize {
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().skip(open).filter(|(_, token)| token.kind == Kind::Sign) {
         match token.text {
@@ -134,7 +134,7 @@ pub(super) fn closing(tokens: &[Token<'_>], open: usize) -> usize {
 }
 
 /// Index of the `{` or `;` that ends the head of the item at `from`.
-pub(super) fn head_end(tokens: &[Token<'_>], from: usize) -> usize {
+pub(crate) fn head_end(tokens: &[Token<'_>], from: usize) -> usize {
     let mut i = from;
     while i < tokens.len() && !tokens[i].is("{") && !tokens[i].is(";") {
         let is_bracket = tokens[i].is("(") || tokens[i].is("[");
@@ -144,7 +144,7 @@ pub(super) fn head_end(tokens: &[Token<'_>], from: usize) -> usize {
 }
 
 /// The tokens without items marked `#[cfg(test)]`.
-pub(super) fn without_tests<'t>(tokens: &[Token<'t>]) -> Vec<Token<'t>> {
+pub(crate) fn without_tests<'t>(tokens: &[Token<'t>]) -> Vec<Token<'t>> {
     const MARK: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
     let (mut kept, mut i) = (Vec::with_capacity(tokens.len()), 0);
     while i < tokens.len() {

@@ -3,7 +3,7 @@
 //! Two recordings of the data folder are fitted, all common markers at weight 1. Ours is CPU time of the thread for the whole
 //! fit, divided by the frames; OpenSim's is CPU time of its process for `InverseKinematicsTool::run` over the same frames, as
 //! `ik_opensim.py` of the peers' scripts prints it, right after ours. Where `AMBULO_PEERS_ENV` names no folder with an `opensim`
-//! environment, ours stands alone. With `--write` the table is written to docs/BENCHMARKS_MARKERS.md.
+//! environment, ours stands alone. With `--write` the table is written to docs/measured/BENCHMARKS_MARKERS.md.
 
 use super::machine;
 use super::timing::{Timing, cpu_us};
@@ -65,10 +65,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         [word] if word == "--write" => true,
         _ => return Err(format!("unknown option `{}`, expected --write", words.join(" "))),
     };
-    let mut page = format!(
-        "# Marker fitting, timed\n\nMade by `cargo xtask bench-markers --write`; do not edit. OpenSim ran in the same run, right after ours.\n\n{}\n\n",
-        machine()
-    );
+    let mut page =
+        format!("# Marker fitting, timed\n\nOpenSim ran in the same run, right after ours.\n\n{}\n\n", machine());
     page.push_str("| recording | mean marker RMS | OpenSim's | ours, CPU a frame | asked | OpenSim, CPU a frame | ratio |\n|---|---|---|---|---|---|---|\n");
     let mut rows = 0;
     for case in &CASES {
@@ -82,7 +80,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     }
     print!("{page}");
     if write && rows == CASES.len() {
-        let path = workspace::root().join("docs/BENCHMARKS_MARKERS.md");
+        let path = workspace::root().join("docs/measured/BENCHMARKS_MARKERS.md");
         fs::write(&path, page).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
         println!("written: {}", path.display());
     }

@@ -32,8 +32,6 @@ const RATE_HZ: f64 = 100.0;
 const ASKED_OF_PUSH_US: f64 = 1e6 / RATE_HZ;
 /// Pushes of one measurement.
 const PUSHES: usize = 5;
-/// Low-pass that `ambulo forces` uses.
-const LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 
 /// Prints and returns the rows.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
@@ -119,7 +117,7 @@ fn of_markers(model: &Model, markers: &MarkerRecording) -> Result<Vec<Row>, Stri
     let fitted = || -> Result<Trajectory, String> {
         let mut findings = Findings::default();
         let fit = fit_markers(model, markers, &FitSettings::default(), &mut findings).map_err(|e| e.to_string())?;
-        let smoother = Smoother::Butterworth(LOW_PASS);
+        let smoother = Smoother::Butterworth(LowPass::MOTION);
         let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
         let smoothed = smooth(model, &fit.motion, settings, &mut findings).map_err(|e| e.to_string())?;
         Trajectory::complete(model, &smoothed, &mut findings).map_err(|e| e.to_string())

@@ -8,7 +8,7 @@
 //! | `accuracy` | energy of a chain without damping, joints of a flailing one                             |
 //! | `peers`    | what `cargo xtask simulators` runs, right after ours                                    |
 //!
-//! What is printed is the page docs/BENCHMARKS.md; with `--write` it is written there with its pictures. A missed time is
+//! What is printed is the page docs/measured/BENCHMARKS.md; with `--write` it is written there with its pictures. A missed time is
 //! told, a wrong answer fails the command.
 
 mod accuracy;
@@ -27,8 +27,8 @@ use crate::workspace;
 use ambulo::dynamics::SolverSettings;
 use std::fs;
 
-/// Folder of the page and its pictures, relative to the workspace root.
-const DOCS: &str = "docs";
+/// Folder of the page, relative to the workspace root.
+const DOCS: &str = "docs/measured";
 /// The human of the scene, in the peers' data folder.
 const HUMAN: &str = "human_contact.xml";
 
@@ -75,8 +75,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
             let path = folder.join(name);
             fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
         };
-        save("images/simulation_scaling.svg", &figure::scaling(&results)?)?;
-        save("images/simulation_ladder.svg", &figure::ladder(&results)?)?;
+        save("../images/simulation_scaling.svg", &figure::scaling(&results)?)?;
+        save("../images/simulation_ladder.svg", &figure::ladder(&results)?)?;
         save("BENCHMARKS.md", &page)?;
         eprintln!("written: {}", folder.join("BENCHMARKS.md").display());
     }

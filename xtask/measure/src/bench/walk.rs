@@ -3,11 +3,10 @@
 use super::Row;
 use super::timing::{JobTiming, Timing, job_us};
 use crate::workspace::{self, Walk};
-use ambulo::analysis::{self, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
-use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
+use ambulo::motion::{coordinates_from_table, force_recordings};
+use ambulo::study::{self, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
@@ -15,14 +14,13 @@ use ambulo_report::figure_files;
 use ambulo_results::output_files;
 use std::fs;
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
 /// Runs of the command; one more runs first, unmeasured.
 const RUNS: usize = 20;
-/// Low-pass of the motion, as OpenSim's inverse dynamics tool has it for this recording.
-const LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 /// Exit codes of the command from here on mean that it could not run.
 const COULD_NOT_RUN: i32 = 2;
 
@@ -70,16 +68,16 @@ fn main_job(files: &Files, stage: &mut dyn FnMut(&'static str)) -> Result<(), Bo
     let (loads, _) = ExternalLoads::read(&files.loads)?;
     let plates = force_recordings(&model, &loads, &table, &mut findings)?;
     stage("read forces");
-    let smoother = Smoother::Butterworth(LOW_PASS);
-    let settings = analysis::Settings {
-        smoother,
-        force_filter: None,
-        window: Window::default(),
-        rate_hz: None,
-        instrumented: None,
+    let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(plates));
+    let mut watch = |done: study::Stage| {
+        stage(done.word());
+        ControlFlow::Continue(())
     };
-    let analysis = analyse(&model, &motion, &plates, settings, &mut findings, stage)?;
-    black_box((output_files(&model, &analysis, None)?, figure_files(&model, &analysis)?));
+    // As OpenSim's inverse dynamics tool treats this recording: forces are not filtered.
+    let settings = Settings { force_filter: None, ..Settings::default() };
+    let outcome = study::run_observed(&source, &settings, &mut findings, &mut watch)?;
+    let Outcome { body, analysis, .. } = &outcome;
+    black_box((output_files(body, analysis, None)?, figure_files(body, analysis)?));
     stage("files' content");
     Ok(())
 }

@@ -1,14 +1,14 @@
 //! The recordings that the fit is judged on, ready to be predicted again and again.
 
-use crate::validate::recording::{self, Group, Loaded};
-use crate::validate::trial::predicted;
-use ambulo::analysis::{Analysis, Compared, FootAgreement, GroundAgreement, PredictedAnalysis, Seen, ground_agreement};
+use crate::validate::recording::{self, Group};
+use ambulo::analysis::{Analysis, Compared, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::feet;
 use ambulo::ground::predict::{Known, PredictSettings, Prediction, Weights, predict};
 use ambulo::model::Side;
 use ambulo::motion::Window;
 use ambulo::spatial::Vec3;
+use ambulo::study::{Outcome, PredictedGround};
 use std::path::Path;
 
 /// A sample counts while the plate carries more than this [N].
@@ -22,13 +22,12 @@ const WITHOUT_TRUNK: f64 = 0.5;
 pub(super) struct Case {
     pub(super) subject: &'static str,
     pub(super) group: Group,
-    loaded: Loaded,
+    /// By the prediction with the shipped numbers.
+    outcome: Outcome,
     known: Known,
     /// By plates.
     measured: Analysis,
-    /// By the last prediction's forces; the rest of it is not looked at.
-    frame: Analysis,
-    seen: Seen,
+    coverage: PlateCoverage,
 }
 
 /// Components of a foot's load that have a standard deviation.
@@ -62,17 +61,17 @@ pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>,
     let mut cases = Vec::new();
     for recording in recording::all().into_iter().filter(|recording| recording.group != Group::Running) {
         said(recording.label);
-        let case = recording.load(data).and_then(|loaded| {
-            let (found, seen) = predicted(&loaded, Known::default())?;
-            let PredictedAnalysis { analysis, prediction, measured } = found;
+        let case = recording.read(data).and_then(|source| {
+            let outcome = recording.predict(&source, Known::default())?;
+            let PredictedGround { prediction, measured, coverage, .. } =
+                outcome.prediction.as_ref().ok_or("nothing was predicted")?;
             Ok(Case {
                 subject: recording.subject,
                 group: recording.group,
-                loaded,
-                known: Known { footfalls: Some(prediction.footfalls), ..Known::default() },
-                measured: measured.ok_or("no plates")?,
-                frame: analysis,
-                seen,
+                known: Known { footfalls: Some(prediction.footfalls.clone()), ..Known::default() },
+                measured: measured.clone().ok_or("no plates")?,
+                coverage: coverage.clone().ok_or("no plates")?,
+                outcome,
             })
         });
         cases.push(case.map_err(|reason| format!("{}: {reason}", recording.label))?);
@@ -94,16 +93,19 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 impl Case {
     fn predict(&self, weights: &Weights) -> Option<Prediction> {
         let settings = PredictSettings { known: self.known.clone(), weights: *weights };
-        let Loaded { model, person, .. } = &self.loaded;
-        predict(model, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
+        let Outcome { body, person, .. } = &self.outcome;
+        predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }
 
     /// How a prediction agrees with the plates; `None` where there is none.
     pub(super) fn agreement(&self, weights: &Weights) -> Option<GroundAgreement> {
         let prediction = self.predict(weights)?;
-        let found = Analysis { ground: prediction.ground.clone(), ..self.frame.clone() };
-        let (model, measured) = (&self.loaded.model, &self.measured);
-        Some(ground_agreement(&Compared { model, predicted: &found, prediction: &prediction, measured }, &self.seen))
+        let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
+        let (model, measured) = (&self.outcome.body, &self.measured);
+        Some(ground_agreement(
+            &Compared { model, predicted: &found, prediction: &prediction, measured },
+            &self.coverage,
+        ))
     }
 
     /// What the fit makes small: errors of the feet over what is asked of them, 1 each where all is just met.
@@ -138,7 +140,7 @@ impl Case {
     }
 
     fn of_stance(&self, prediction: &Prediction, letter: &str, [from_s, to_s]: [f64; 2]) -> Option<StanceSamples> {
-        let model = &self.loaded.model;
+        let model = &self.outcome.body;
         let weight = self.measured.mass.kg * model.gravity().norm();
         let side = Side::BOTH.into_iter().find(|side| side.letter() == letter)?;
         let foot = |ground| feet(model, ground).into_iter().find(|(of, _)| *of == side).map(|(_, foot)| foot);

@@ -15,8 +15,7 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
     let Order { evaluations, seed, pull, .. } = *order;
     let head = format!(
         "# Fit of the ground-force estimator\n\n\
-         Written by `cargo xtask fit-ground --write --evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of \
-         `ambulo::ground::predict::Weights` that no law gives are fitted to recordings with plates. Footfalls are found once a \
+         Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of `ambulo::ground::predict::Weights` that no law gives are fitted to recordings with plates. Footfalls are found once a \
          recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local search with \
          {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a subject out.\n\n\
          Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / 0.01, forward \

@@ -16,14 +16,13 @@ struct Bar {
 }
 
 /// The whole page.
-pub(super) fn text(trials: &[Trial], commit: &str) -> String {
+pub(super) fn text(trials: &[Trial]) -> String {
     let rule = trials.first().map_or("", |trial| trial.rule);
     let head = format!(
         "# Predicted ground forces against plates\n\n\
-         Written by `cargo xtask validate --write` at commit {commit}. Every recording with plates in the development data goes \
-         through the library as `ambulo forces --predict` takes it: events and everything else from motion alone, the motion \
-         low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz (order 2, both ways). Rule in double support: {rule}. What is \
-         missed is shown as missed.\n\n\
+         Every recording with plates in the development data goes through the library as `ambulo forces --predict` takes it: \
+         events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz \
+         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed.\n\n\
          Per foot over its whole stances on plates (vertical above 20 N); RMSE in % of body weight, rRMSE over the mean of the two \
          ranges, Pearson's r. Fore-aft is along the walking direction, in turns that of the pelvis in that stance. Centres of \
          pressure where the plate carries more than 5 % of body weight. Moments of a leg over the time in which plates measured every \

@@ -1,25 +1,18 @@
-//! The recordings with plates, and what becomes of them before anything is predicted.
+//! The recordings with plates, and how they are read.
 
-use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{Body, BodyInMotion, LaboratoryRecording, body_in_motion, body_mass};
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration;
-use ambulo::kinematics::marker_fit::FitSettings;
+use ambulo::ground::predict::{Known, PredictSettings};
 use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::{Model, from_osim_bytes};
-use ambulo::motion::force_plate::{PlateSettings, plates_from_c3d, standing_weight_n};
-use ambulo::motion::{
-    ForceRecording, Motion, coordinates_from_table, force_recordings, markers_from_c3d, markers_from_trc,
+use ambulo::model::from_osim_bytes;
+use ambulo::motion::coordinates_from_table;
+use ambulo::study::{
+    self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings,
+    Source,
 };
-use ambulo_formats::c3d::C3d;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
-use ambulo_formats::trc::Trc;
 use std::fs;
 use std::path::Path;
-
-/// Weight to mass [m/s²].
-const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// How a recording counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +40,7 @@ impl Group {
 
 /// What the motion is recorded as; files below the recording's folder.
 #[derive(Debug, Clone, Copy)]
-enum Source {
+enum Kind {
     /// Coordinates of a model.
     Coordinates { motion: &'static str, model: &'static str },
     /// Markers on a model.
@@ -66,19 +59,8 @@ pub(crate) struct Recording {
     pub(crate) subject: &'static str,
     pub(crate) group: Group,
     folder: &'static str,
-    source: Source,
+    kind: Kind,
     grf: Grf,
-}
-
-/// A recording as the analysis takes it.
-pub(crate) struct Loaded {
-    pub(crate) model: Model,
-    pub(crate) motion: Motion,
-    pub(crate) plates: Vec<ForceRecording>,
-    pub(crate) person: Person,
-    /// Of markers: the body that follows them, for which foot stood on which plate.
-    pub(crate) body: Option<BodyInMotion>,
-    pub(crate) standing_kg: Option<f64>,
 }
 
 /// All recordings with plates.
@@ -88,7 +70,7 @@ pub(crate) fn all() -> Vec<Recording> {
         subject,
         group,
         folder,
-        source: Source::Markers { markers, standing, mass, height },
+        kind: Kind::Markers { markers, standing, mass, height },
         grf: None,
     };
     let (gait, walk, run) = ("opensim-gait2392-subject01", "opensim-rajagopal-walk", "opensim-rajagopal-run");
@@ -100,7 +82,7 @@ pub(crate) fn all() -> Vec<Recording> {
             subject: "gait2392",
             group: Group::Walking,
             folder: gait,
-            source: Source::ModelMarkers { markers: "subject01_walk1.trc", model },
+            kind: Kind::ModelMarkers { markers: "subject01_walk1.trc", model },
             grf: Some(("subject01_walk1_grf.mot", ["ground_force_", "1_ground_force_"])),
         },
         Recording {
@@ -108,7 +90,7 @@ pub(crate) fn all() -> Vec<Recording> {
             subject: "gait2392",
             group: Group::Walking,
             folder: gait,
-            source: Source::Coordinates { motion: "subject01_walk1_ik.mot", model },
+            kind: Kind::Coordinates { motion: "subject01_walk1_ik.mot", model },
             grf: Some(("core-id-test/subject01_walk1_grf.mot", ["ground_force_", "l_ground_force_"])),
         },
         Recording {
@@ -116,7 +98,7 @@ pub(crate) fn all() -> Vec<Recording> {
             subject: "rajagopal-walk",
             group: Group::Walking,
             folder: walk,
-            source: Source::ModelMarkers { markers: "markers_walk.trc", model: "subject_walk_scaled.osim" },
+            kind: Kind::ModelMarkers { markers: "markers_walk.trc", model: "subject_walk_scaled.osim" },
             grf: Some(("grf_walk.mot", ["ground_force_r_", "ground_force_l_"])),
         },
         c3d("HC032A03", "HC032A", Group::Walking, woman, "HC032A03.c3d", "HC032A01.c3d", 60.3, 1.58),
@@ -129,7 +111,7 @@ pub(crate) fn all() -> Vec<Recording> {
             subject: "rajagopal-run",
             group: Group::Running,
             folder: run,
-            source: Source::Markers {
+            kind: Kind::Markers {
                 markers: "motion_capture_run.trc",
                 standing: "static_run.trc",
                 mass: 72.84,
@@ -141,115 +123,67 @@ pub(crate) fn all() -> Vec<Recording> {
 }
 
 impl Recording {
-    /// Reads it and brings it to a body in motion.
-    pub(crate) fn load(&self, data: &Path) -> Result<Loaded, String> {
+    /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `known` replaces
+    /// estimates by truths.
+    pub(crate) fn predict(&self, source: &Source, known: Known) -> Result<Outcome, String> {
+        let settings = Settings {
+            ground: GroundSettings::Predicted,
+            prediction: PredictSettings { known, ..PredictSettings::default() },
+            ..Settings::default()
+        };
+        study::run(source, &settings, &mut Findings::default()).map_err(|e| e.to_string())
+    }
+
+    /// Its files, read.
+    pub(crate) fn read(&self, data: &Path) -> Result<Source, String> {
         let folder = data.join(self.folder);
         let file = |name: &str| {
             let path = folder.join(name);
             fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))
         };
         let findings = &mut Findings::default();
-        let (mut loaded, turn) = match self.source {
-            Source::Coordinates { motion, model } => (coordinates(&file(model)?, &file(motion)?, findings)?, None),
-            Source::ModelMarkers { markers, model } => {
-                let model = from_osim_bytes(&file(model)?, findings).map_err(said)?;
-                let walk = trc(&file(markers)?, findings)?;
-                let loaded = followed(&walk, None, &Body::Model { model: &model, mass: None }, findings)?;
-                let turn = loaded.body.as_ref().map(|body| body.laboratory.world_from_lab);
-                (loaded, turn)
+        let source = match self.kind {
+            Kind::Coordinates { motion, model } => coordinates(&file(model)?, &file(motion)?, findings)?,
+            Kind::ModelMarkers { markers, model } => {
+                let model = from_osim_bytes(&file(model)?, findings).map_err(|e| e.to_string())?;
+                let trial = laboratory_file(markers, &file(markers)?, findings)?;
+                let body = MarkerBody::Model { model, mass_kg: None };
+                Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
             }
-            Source::Markers { markers, standing, mass, height } => {
-                let read = |name: &str, findings: &mut Findings| match name.ends_with(".c3d") {
-                    true => c3d(&file(name)?, findings),
-                    false => trc(&file(name)?, findings),
-                };
-                let (walk, still) = (read(markers, findings)?, read(standing, findings)?);
-                let mass = body_mass(Some(mass), standing_kg(&still), findings);
-                let person = calibration::Person {
-                    table: SegmentTable::DeLevaMale,
-                    mass: mass.ok_or("no body mass")?,
-                    height: Some(height),
-                    measures: calibration::Measures::default(),
-                };
-                let loaded = followed(&walk, Some(&still), &Body::BuiltIn { person: &person, set: None }, findings)?;
-                let turn = loaded.body.as_ref().map(|body| body.laboratory.world_from_lab);
-                (loaded, turn)
+            Kind::Markers { markers, standing, mass, height } => {
+                let trial = laboratory_file(markers, &file(markers)?, findings)?;
+                let standing = Some(laboratory_file(standing, &file(standing)?, findings)?);
+                let table = SegmentTable::DeLevaMale;
+                let body = MarkerBody::BuiltIn { table, mass_kg: Some(mass), height_m: Some(height), set: None };
+                Source::markers(MarkerSource { trial, standing, body, plates: Vec::new() })
             }
         };
-        if let Some((name, prefixes)) = self.grf {
-            loaded.plates = table_forces(&loaded.model, &file(name)?, prefixes, findings)?;
-            if let Some(turn) = turn {
-                loaded.plates.iter_mut().for_each(|plate| plate.turn(&turn));
-            }
-        }
-        Ok(loaded)
+        Ok(match self.grf {
+            Some((name, prefixes)) => source.with_forces(force_table(&file(name)?, prefixes)?),
+            None => source,
+        })
     }
 }
 
-fn said(error: impl ToString) -> String {
-    error.to_string()
+fn coordinates(model: &[u8], motion: &[u8], findings: &mut Findings) -> Result<Source, String> {
+    let model = from_osim_bytes(model, findings).map_err(|e| e.to_string())?;
+    let (table, _) = Table::read_storage(motion).map_err(|e| e.to_string())?;
+    let motion = coordinates_from_table(&model, &table, "the recording", findings).map_err(|e| e.to_string())?;
+    Ok(Source::coordinates(model, motion))
 }
 
-fn coordinates(model: &[u8], motion: &[u8], findings: &mut Findings) -> Result<Loaded, String> {
-    let model = from_osim_bytes(model, findings).map_err(said)?;
-    let (table, _) = Table::read_storage(motion).map_err(said)?;
-    let motion = coordinates_from_table(&model, &table, "the recording", findings).map_err(said)?;
-    let person = Person::of_model(&model);
-    Ok(Loaded { model, motion, plates: Vec::new(), person, body: None, standing_kg: None })
-}
-
-fn followed(
-    walk: &LaboratoryRecording,
-    still: Option<&LaboratoryRecording>,
-    body: &Body<'_>,
-    findings: &mut Findings,
-) -> Result<Loaded, String> {
-    let settings = FitSettings { longest_gap_s: 0.35, ..FitSettings::default() };
-    let body = body_in_motion(walk, still, body, &settings, &[], findings, &mut |_| ()).map_err(said)?;
-    Ok(Loaded {
-        model: body.subject.model.clone(),
-        motion: body.fit.motion.clone(),
-        plates: body.plate_forces(),
-        person: body.subject.person.clone(),
-        standing_kg: still.and_then(standing_kg),
-        body: Some(body),
-    })
-}
-
-fn standing_kg(still: &LaboratoryRecording) -> Option<f64> {
-    standing_weight_n(&still.plates).map(|newtons| newtons / STANDARD_GRAVITY)
-}
-
-fn trc(bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryRecording, String> {
-    let (trc, _) = Trc::read(bytes).map_err(said)?;
-    let markers = markers_from_trc(&trc, findings).map_err(said)?;
-    Ok(LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() })
-}
-
-fn c3d(bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryRecording, String> {
-    let (c3d, _) = C3d::read(bytes).map_err(said)?;
-    Ok(LaboratoryRecording {
-        markers: markers_from_c3d(&c3d, findings).map_err(said)?,
-        plates: plates_from_c3d(&c3d, PlateSettings::default(), findings).map_err(said)?,
-        unit: c3d.point_unit.clone(),
-    })
+fn laboratory_file(name: &str, bytes: &[u8], findings: &mut Findings) -> Result<LaboratoryFile, String> {
+    let read = if name.ends_with(".c3d") { LaboratoryFile::from_c3d } else { LaboratoryFile::from_trc };
+    read(bytes, name, findings).map_err(|e| format!("{name}: {e}"))
 }
 
 /// Forces of a table on the usual feet.
-fn table_forces(
-    model: &Model,
-    bytes: &[u8],
-    [right, left]: [&str; 2],
-    findings: &mut Findings,
-) -> Result<Vec<ForceRecording>, String> {
-    let (table, _) = Table::read_storage(bytes).map_err(said)?;
-    let loads = ExternalLoads {
-        name: "feet".into(),
-        datafile: None,
-        forces: vec![
-            ExternalForce::with_prefix("right", "calcn_r", right),
-            ExternalForce::with_prefix("left", "calcn_l", left),
-        ],
-    };
-    force_recordings(model, &loads, &table, findings).map_err(said)
+fn force_table(bytes: &[u8], [right, left]: [&str; 2]) -> Result<MeasuredForces, String> {
+    let (table, _) = Table::read_storage(bytes).map_err(|e| e.to_string())?;
+    let forces = vec![
+        ExternalForce::with_prefix("right", "calcn_r", right),
+        ExternalForce::with_prefix("left", "calcn_l", left),
+    ];
+    let loads = Some(ExternalLoads { name: "feet".into(), datafile: None, forces });
+    Ok(MeasuredForces::Table(ForceTable { table, loads }))
 }

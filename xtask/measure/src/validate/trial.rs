@@ -1,23 +1,17 @@
 //! One recording: its prediction against plates, and again with each source of error replaced by the truth.
 
-use super::recording::{Group, Loaded, Recording};
-use ambulo::analysis::{
-    Analysis, GroundAgreement, MassSource, PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, Seen, Settings,
-    analyse_predicted,
-};
+use super::recording::{Group, Recording};
+use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{Known, PredictSettings, predict};
 use ambulo::ground::{BodyForces, feet};
-use ambulo::kinematics::Trajectory;
 use ambulo::model::Side;
-use ambulo::motion::filter::LowPass;
-use ambulo::motion::{Smoother, TimeGrid, Window};
+use ambulo::motion::{TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
+use ambulo::study::{Outcome, PredictedGround, Source};
 use std::time::Instant;
 
-/// What `ambulo forces` filters motion with when nobody says.
-const MOTION_FILTER: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
 /// A foot is loaded above this vertical force [N].
 const LOADED_N: f64 = 20.0;
 
@@ -41,18 +35,19 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    pub(super) fn run(recording: &Recording, loaded: &Loaded) -> Result<Trial, String> {
-        let (predicted, seen) = predicted(loaded, Known::default())?;
-        let agreement = predicted.agreement(&loaded.model, &seen).ok_or("plates saw no foot in full")?;
-        let measured = predicted.measured.as_ref().ok_or("no plates")?;
-        let judged = inside_window(&seen);
+    pub(super) fn run(recording: &Recording, source: &Source) -> Result<Trial, String> {
+        let outcome = recording.predict(source, Known::default())?;
+        let PredictedGround { prediction, measured, coverage, agreement, .. } =
+            outcome.prediction.as_ref().ok_or("nothing was predicted")?;
+        let (measured, seen) = measured.as_ref().zip(coverage.as_ref()).ok_or("no plates")?;
+        let agreement = agreement.clone().ok_or("plates saw no foot in full")?;
+        let judged = inside_window(seen);
         let mut budget = Vec::new();
-        budget.extend(predicted.agreement(&loaded.model, &judged).map(|agreement| ("nothing", agreement)));
-        for (source, known) in truths(loaded, &predicted, measured, &seen) {
-            let (again, _) = self::predicted(loaded, known)?;
-            budget.extend(again.agreement(&loaded.model, &judged).map(|agreement| (source, agreement)));
+        budget.extend(outcome.agreement_over(&judged).map(|agreement| ("nothing", agreement)));
+        for (name, known) in truths(&outcome, &prediction.footfalls, measured, seen) {
+            let again = recording.predict(source, known)?;
+            budget.extend(again.agreement_over(&judged).map(|agreement| (name, agreement)));
         }
-        let trajectory = &predicted.analysis.trajectory;
         Ok(Trial {
             label: recording.label,
             subject: recording.subject,
@@ -62,68 +57,35 @@ impl Trial {
                 MassSource::Standing => "standing",
                 MassSource::Model => "stated",
             },
-            rule: predicted.prediction.rule,
-            frames: trajectory.grid().frames,
-            microseconds: microseconds(loaded, trajectory)?,
-            peaks_off: peaks_off(loaded, &predicted.analysis, measured, &seen),
-            flight_s: [&predicted.analysis, measured].map(|analysis| flight_s(loaded, analysis, &seen)),
+            rule: prediction.rule,
+            frames: outcome.analysis.trajectory.grid().frames,
+            microseconds: microseconds(&outcome)?,
+            peaks_off: peaks_off(&outcome, measured, seen),
+            flight_s: [&outcome.analysis, measured].map(|analysis| flight_s(&outcome, analysis, seen)),
             agreement,
             budget,
         })
     }
 }
 
-/// The prediction and what plates saw, as the command makes them.
-pub(crate) fn predicted(loaded: &Loaded, known: Known) -> Result<(PredictedAnalysis, Seen), String> {
-    let Loaded { model, motion, plates, person, body, standing_kg } = loaded;
-    let on_plates = body.as_ref().filter(|body| !body.on_plates.contacts.is_empty());
-    let longest = body.as_ref().and_then(|body| body.longest_known_s());
-    let window = longest.map_or(Window::default(), |[from, to]| Window { from_s: Some(from), to_s: Some(to) });
-    let settings = Settings {
-        smoother: Smoother::Butterworth(MOTION_FILTER),
-        force_filter: None,
-        window,
-        rate_hz: None,
-        instrumented: None,
-    };
-    let order = PredictOrder {
-        soles: &person.soles,
-        settings: &PredictSettings { known, ..PredictSettings::default() },
-        plates_filter: Some(PLATES_LOW_PASS),
-    };
-    let mut findings = Findings::default();
-    let mut predicted = analyse_predicted(model, motion, plates, settings, &order, &mut findings, &mut |_| ())
-        .map_err(|e| e.to_string())?;
-    let measured = predicted.measured.as_mut().ok_or("no plates")?;
-    let seen = match on_plates {
-        Some(body) => body.seen(),
-        None => Seen::by_load(measured, plates, &predicted.prediction.footfalls),
-    };
-    if let Some(body) = on_plates {
-        measured.take_events(&body.measured_events(), &body.events(&body.feet.events));
-    }
-    predicted.weigh(model, seen.window, *standing_kg);
-    Ok((predicted, seen))
-}
-
 /// Only what happened while plates measured every foot: there each source of error can be replaced in full.
-fn inside_window(seen: &Seen) -> Seen {
-    let Some([from, to]) = seen.window else { return Seen { stances: Vec::new(), ..seen.clone() } };
+fn inside_window(seen: &PlateCoverage) -> PlateCoverage {
+    let Some([from, to]) = seen.window else { return PlateCoverage { stances: Vec::new(), ..seen.clone() } };
     let clipped = seen.stances.iter().map(|(side, [start, end])| (*side, [start.max(from), end.min(to)]));
-    Seen { stances: clipped.filter(|(_, [start, end])| end > start).collect(), ..seen.clone() }
+    PlateCoverage { stances: clipped.filter(|(_, [start, end])| end > start).collect(), ..seen.clone() }
 }
 
 /// What plates know of each source of error.
 fn truths(
-    loaded: &Loaded,
-    predicted: &PredictedAnalysis,
+    outcome: &Outcome,
+    found: &Footfalls,
     measured: &Analysis,
-    seen: &Seen,
+    seen: &PlateCoverage,
 ) -> Vec<(&'static str, Known)> {
-    let grid = predicted.analysis.trajectory.grid();
-    let by_side = feet(&loaded.model, &measured.ground);
+    let grid = outcome.analysis.trajectory.grid();
+    let by_side = feet(&outcome.body, &measured.ground);
     let of = |side: Side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces);
-    let footfalls = Some(true_footfalls(&predicted.prediction.footfalls, seen));
+    let footfalls = Some(true_footfalls(found, seen));
     let (Some(right), Some(left)) = (of(Side::Right), of(Side::Left)) else {
         return vec![("events", Known { footfalls, ..Known::default() })];
     };
@@ -142,7 +104,7 @@ fn truths(
 }
 
 /// Stances by plates; by motion where there were none.
-fn true_footfalls(found: &Footfalls, seen: &Seen) -> Footfalls {
+fn true_footfalls(found: &Footfalls, seen: &PlateCoverage) -> Footfalls {
     let overlaps = |fall: &Footfall, side: Side, span: [f64; 2]| {
         let from = fall.strike_s.unwrap_or(f64::NEG_INFINITY);
         fall.side == side && from < span[1] && fall.off_s.unwrap_or(f64::INFINITY) > span[0]
@@ -165,11 +127,11 @@ fn true_footfalls(found: &Footfalls, seen: &Seen) -> Footfalls {
 }
 
 /// Whether plates measured every foot in a frame.
-fn in_window(grid: TimeGrid, seen: &Seen, frame: usize) -> bool {
+fn in_window(grid: TimeGrid, seen: &PlateCoverage, frame: usize) -> bool {
     seen.window.is_some_and(|[from, to]| (from..=to).contains(&grid.time(frame)))
 }
 
-fn true_total(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &Seen) -> Vec<Wrench> {
+fn true_total(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &PlateCoverage) -> Vec<Wrench> {
     let unknown = Vec3::repeat(f64::NAN);
     let at = |i: usize| match in_window(grid, seen, i) {
         true => Wrench { force: right.force[i] + left.force[i], moment: right.moment[i] + left.moment[i] },
@@ -178,7 +140,7 @@ fn true_total(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &Seen
     (0..grid.frames).map(at).collect()
 }
 
-fn true_share(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &Seen) -> Vec<f64> {
+fn true_share(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &PlateCoverage) -> Vec<f64> {
     let share = |i: usize| {
         let [right, left] = [right, left].map(|foot| foot.force[i].y.max(0.0));
         if in_window(grid, seen, i) { right / (right + left) } else { f64::NAN }
@@ -187,13 +149,14 @@ fn true_share(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &Seen
 }
 
 /// Time of a prediction, a frame [µs]: the best of a few.
-fn microseconds(loaded: &Loaded, trajectory: &Trajectory) -> Result<f64, String> {
+fn microseconds(outcome: &Outcome) -> Result<f64, String> {
     const RUNS: usize = 5;
+    let trajectory = &outcome.analysis.trajectory;
     let mut best = f64::INFINITY;
     for _ in 0..RUNS {
         let (settings, mut findings) = (PredictSettings::default(), Findings::default());
         let start = Instant::now();
-        predict(&loaded.model, trajectory, &loaded.person.soles, &settings, &mut findings)
+        predict(&outcome.body, trajectory, &outcome.person.soles, &settings, &mut findings)
             .map_err(|e| e.to_string())?;
         best = best.min(start.elapsed().as_secs_f64());
     }
@@ -201,10 +164,10 @@ fn microseconds(loaded: &Loaded, trajectory: &Trajectory) -> Result<f64, String>
 }
 
 /// Largest vertical force of each whole stance against the plate's.
-fn peaks_off(loaded: &Loaded, found: &Analysis, truth: &Analysis, seen: &Seen) -> Vec<(&'static str, f64, f64)> {
-    let grid = found.trajectory.grid();
-    let sides = |analysis: &Analysis| feet(&loaded.model, &analysis.ground);
-    let (found, truth) = (sides(found), sides(truth));
+fn peaks_off(outcome: &Outcome, truth: &Analysis, seen: &PlateCoverage) -> Vec<(&'static str, f64, f64)> {
+    let grid = outcome.analysis.trajectory.grid();
+    let sides = |analysis: &Analysis| feet(&outcome.body, &analysis.ground);
+    let (found, truth) = (sides(&outcome.analysis), sides(truth));
     let peak = |feet: &[(Side, BodyForces)], side: Side, [from, to]: [f64; 2]| {
         let (_, foot) = feet.iter().find(|(s, _)| *s == side)?;
         let (first, count) = grid.inside(Window { from_s: Some(from), to_s: Some(to) });
@@ -219,8 +182,8 @@ fn peaks_off(loaded: &Loaded, found: &Analysis, truth: &Analysis, seen: &Seen) -
 }
 
 /// Time without a loaded foot inside the window [s].
-fn flight_s(loaded: &Loaded, analysis: &Analysis, seen: &Seen) -> f64 {
-    let (grid, feet) = (analysis.trajectory.grid(), feet(&loaded.model, &analysis.ground));
+fn flight_s(outcome: &Outcome, analysis: &Analysis, seen: &PlateCoverage) -> f64 {
+    let (grid, feet) = (analysis.trajectory.grid(), feet(&outcome.body, &analysis.ground));
     let flies = |i: &usize| in_window(grid, seen, *i) && feet.iter().all(|(_, foot)| foot.force[*i].y < LOADED_N);
     (0..grid.frames).filter(flies).count() as f64 * grid.step_s
 }

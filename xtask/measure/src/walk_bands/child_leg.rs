@@ -15,9 +15,7 @@
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, Sheet};
 use ambulo::reproduction::correlation;
-
-/// Standard gravity [m/s²].
-const GRAVITY: f64 = 9.80665;
+use ambulo::spatial::STANDARD_GRAVITY;
 
 /// The leg that one joint gives.
 #[derive(Debug, Clone)]
@@ -64,7 +62,7 @@ fn from_joint(joint: &'static str, powers: &Curves, angles: &Curves, moments: &C
     for i in 0..5 {
         let work = work_rate(&angles[i], &moments[i]);
         let cycle_s = dot(&work, &work) / dot(&work, &powers[i]);
-        legs[i] = GRAVITY * (0.5 * CADENCES[i] * cycle_s).powi(2);
+        legs[i] = STANDARD_GRAVITY * (0.5 * CADENCES[i] * cycle_s).powi(2);
         correlations[i] = correlation(&work, &powers[i]);
     }
     FromJoint { joint, legs, correlations }
@@ -94,7 +92,7 @@ mod tests {
         let angles: Vec<f64> = (0..samples).map(|i| 20.0 * phase(i).sin()).collect();
         let moments: Vec<f64> = (0..samples).map(|i| 0.4 * (phase(i) + 0.3).cos()).collect();
         let powers = CADENCES.map(|cadence| {
-            let cycle_s = 2.0 / cadence * f64::sqrt(leg / GRAVITY);
+            let cycle_s = 2.0 / cadence * f64::sqrt(leg / STANDARD_GRAVITY);
             let velocity = |i: usize| 20f64.to_radians() * TAU / cycle_s * phase(i).cos();
             (0..samples).map(|i| -moments[i] * velocity(i)).collect::<Vec<f64>>()
         });

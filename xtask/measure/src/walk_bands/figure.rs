@@ -1,4 +1,4 @@
-//! Draws the picture of docs/WALK_BANDS.md: nine curves of free walking with the normative bands.
+//! Draws the picture of docs/measured/WALK_BANDS.md: nine curves of free walking with the normative bands.
 
 use super::curve::QUANTITIES;
 use super::cycle::Cycle;

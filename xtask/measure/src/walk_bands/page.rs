@@ -1,4 +1,4 @@
-//! The page docs/WALK_BANDS.md, as Markdown that also reads well in a terminal.
+//! The page docs/measured/WALK_BANDS.md, as Markdown that also reads well in a terminal.
 
 use super::asked::{self, Asked, SLIP, SPEED_RANGE_MISS, SPEED_RANGES, TRUNK};
 use super::curve::{QUANTITIES, Quantity, inside};
@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 const HEAD: &str = "\
 # Corrected walks against normative bands
 
-Made by `cargo xtask walk-bands --write`; do not edit. What is missed stands here as missed.
+Failed criteria are listed as missed.
 
 A synthetic walk is made consistent (`simulation::consistent_walk`, settings as they come) and then walked by the simulator on soft
 shoes: joints driven, the root free to slide, steps of 1 ms, 6 cycles. Ground forces, joint moments, slip and the torque that holds
@@ -64,7 +64,7 @@ pub(super) fn text(results: &Results) -> String {
     );
     let _ = write!(
         text,
-        "\n![Angles, moments and forces of free walking](images/walk_bands_free.svg)\n\nGrey: mean +- 2 SD of people; black: their \
+        "\n![Angles, moments and forces of free walking](../images/walk_bands_free.svg)\n\nGrey: mean +- 2 SD of people; black: their \
          mean; blue: ours.\n"
     );
     let _ = write!(text, "\n## All five speeds\n\n{HELD_OUT}\n{}", speeds(results));

@@ -1,4 +1,4 @@
-//! Draws the pictures of docs/BENCHMARKS.md: time and error over size, on logarithmic axes.
+//! Draws the pictures of docs/measured/BENCHMARKS.md: time and error over size, on logarithmic axes.
 //!
 //! Panels are drawn over the logarithms, with a labelled tick at each power of ten.
 

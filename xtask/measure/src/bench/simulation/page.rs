@@ -1,4 +1,4 @@
-//! The page docs/BENCHMARKS.md, as Markdown that also reads well in a terminal.
+//! The page docs/measured/BENCHMARKS.md, as Markdown that also reads well in a terminal.
 
 use super::asked::Asked;
 use super::ladder::{self, OfMethod};
@@ -14,8 +14,7 @@ use std::fmt::Write as _;
 const HEAD: &str = "\
 # Benchmarks of the simulator
 
-Made by `cargo xtask bench-simulation --write`; do not edit. The other engines ran in the same run, right after ours
-(`cargo xtask simulators` runs them alone).
+The other engines ran in the same run, right after ours (`cargo xtask simulators` runs them alone).
 
 Steps of 1 ms, gravity 9.81 m/s². Times are CPU time of one thread for one step: median, and tenth and ninetieth
 percentile. Each case runs for 10 simulated seconds, or for 20 s of CPU time if that is less. Errors are the largest
@@ -178,7 +177,7 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
     });
     let ours = scaling.family("chain", true).map_or(&[][..], |f| f.sizes.as_slice());
     format!(
-        "![Time per step and joint error over the number of bodies](images/simulation_scaling.svg)\n\n\
+        "![Time per step and joint error over the number of bodies](../images/simulation_scaling.svg)\n\n\
          Links of 0.2 m and 1 kg, hinged to each other about y and z by turns, level at the start. In a random tree each hangs\n\
          on one of the ten before it.\n\n{}{memory}\nThe chain, all engines; worst and median (ours) or last (theirs) error:\n\n{}{}",
         table.text(),
@@ -189,7 +188,7 @@ fn scaling(scaling: &Scaling, peers: &[PeerTiming]) -> String {
 
 fn ladder(all: &[OfMethod], first: &OfMethod, peers: &[PeerTiming]) -> String {
     let mut text = format!(
-        "![Time per step and loop error over the number of loops](images/simulation_ladder.svg)\n\n\
+        "![Time per step and loop error over the number of loops](../images/simulation_ladder.svg)\n\n\
          Two rails of such links, 0.3 m apart, a rung hinged to each link of the one and closed by a point on the other; three\n\
          bodies a loop. Time grows with the power {:.2} of the number of loops.\n\n{}{}",
         first.slope(),

@@ -1,6 +1,6 @@
-//! A motion made to agree with the forces under its feet.
+//! Residual reduction: a motion that is changed within its noise so that it agrees with the ground forces.
 
-use super::recording::{Analysis, MassSource, Settings};
+use super::recording::{Analysis, Mass, MassSource, Settings};
 use super::residual::residual_within;
 use crate::dynamics::consistency::{ConsistencyError, ConsistencySettings, Consistent, make_consistent};
 use crate::dynamics::{Workspace, inverse};
@@ -21,18 +21,18 @@ pub enum Adjustable {
 /// A filter with this cut-off mixes what lies within half its period, so laws hold only so far inside of the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
-/// Changes the motion of an analysis within its noise until it obeys the forces under the feet, in the time in which they are
-/// complete; its joint forces and residual become those of the changed motion and body.
+/// Changes the motion of an analysis within its noise until it agrees with the ground forces, in the time in which these are complete.
+/// Returns the analysis of the changed motion and body, and how they were changed.
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ConsistencyError`].
-pub fn agree(
+pub fn reduce_residual(
     model: &Model,
-    analysis: &mut Analysis,
+    analysis: Analysis,
     settings: &Settings,
     adjustable: Adjustable,
     findings: &mut Findings,
-) -> Result<Consistent, ConsistencyError> {
+) -> Result<(Analysis, Consistent), ConsistencyError> {
     let loads = analysis.ground.loads();
     let body = adjustable == Adjustable::MotionAndBody;
     let asked = ConsistencySettings {
@@ -44,14 +44,15 @@ pub fn agree(
     let done = make_consistent(model, &analysis.trajectory, &loads, &asked, findings)?;
     let [from, to] = done.window_s;
     let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
-    analysis.forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);
-    analysis.residual = residual_within(&done.model, &analysis.forces, first..first + frames);
-    analysis.trajectory = done.trajectory.clone();
-    analysis.adjusted = true;
-    if analysis.mass.source == MassSource::Model {
-        analysis.mass.kg = done.model.mass();
-    }
-    Ok(done)
+    let forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);
+    let residual = residual_within(&done.model, &forces, first..first + frames);
+    let mass = match analysis.mass.source {
+        MassSource::Model => Mass { kg: done.model.mass(), ..analysis.mass },
+        MassSource::Plates | MassSource::Standing => analysis.mass,
+    };
+    let trajectory = done.trajectory.clone();
+    let analysis = Analysis { trajectory, adjusted: true, forces, residual, mass, ..analysis };
+    Ok((analysis, done))
 }
 
 /// The time in which plates saw every foot, or else all of it, without the ends in which the filters mix in what was not measured.
