@@ -88,7 +88,8 @@ fn mirrors() -> Machine {
                 inputs.state(other) == Some(&wanted)
             })
         };
-        Machine::new(name, states, |state, _, _| Jet::constant(state as f64)).with_transitions([way(0), way(1)])
+        Machine::new(name, states, |state, _, _| Jet::constant(state as f64))
+            .with_transitions([transition(0), transition(1)])
     };
     let counter = Machine::new("counter", Vec::new(), |_, inputs, _| {
         inputs.output("counter").unwrap() * 10.0 + inputs.output("left").unwrap().value
