@@ -28,7 +28,7 @@ fn forces_are_predicted_where_none_were_measured() {
     let run = ran(bench.run(&[&MOTION[..], &RAW[..2]].concat()));
     run.says(&[
         "note: no ground forces were given; they are predicted",
-        "warning: nobody states or weighs the body mass",
+        "warning: body mass is neither given nor measured",
     ]);
     let summary = bench.json("out/summary.json");
     assert_eq!(summary["ground"]["source"], "predicted");

@@ -5,7 +5,8 @@ use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
 use ambulo::model::{Model, Side};
-use ambulo_results::{OutputFile, cycle_rows};
+use ambulo::study::Outcome;
+use ambulo_results::{OutputFile, cycle_rows, predicted_analysis};
 
 /// `figures/quality.svg` and the figures of gait cycles.
 ///
@@ -27,6 +28,18 @@ pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile
             speed_dimensionless: speed_dimensionless(model, analysis),
         };
         files.extend(figures.files()?);
+    }
+    Ok(files)
+}
+
+/// Every figure of a run.
+///
+/// # Errors
+/// A figure that could not be drawn.
+pub fn outcome_figures(outcome: &Outcome) -> Result<Vec<OutputFile>, FigureError> {
+    let mut files = figure_files(&outcome.body, &outcome.analysis)?;
+    if let Some(predicted) = predicted_analysis(outcome) {
+        files.extend(prediction_figure_file(&outcome.body, &predicted)?);
     }
     Ok(files)
 }

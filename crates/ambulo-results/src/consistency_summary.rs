@@ -1,6 +1,6 @@
 //! The part of `summary.json` that motions made to agree with the forces have.
 
-use ambulo::dynamics::consistency::{Consistent, RootResidual};
+use ambulo::dynamics::residual_reduction::{ReducedMotion, RootResidual};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -65,7 +65,7 @@ pub struct FootSize {
 impl ConsistencySummary {
     /// Of a motion that was changed.
     #[must_use]
-    pub fn of(consistent: &Consistent) -> ConsistencySummary {
+    pub fn of(consistent: &ReducedMotion) -> ConsistencySummary {
         let changes = consistent.changes.iter().map(|change| {
             let (scale, unit) = if change.unit == "rad" { (1.0_f64.to_degrees(), "deg") } else { (1e3, "mm") };
             (change.name.clone(), CoordinateSize { rms: scale * change.rms, max: scale * change.max, unit })

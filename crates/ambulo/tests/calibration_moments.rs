@@ -16,7 +16,7 @@ use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::{feet_on_plates, foot_bodies};
 use ambulo::kinematics::calibration::{Calibrated, Trial, assume_upright_trunk, calibrate};
-use ambulo::kinematics::marker_fit::{FitSettings, Limits, fit_markers};
+use ambulo::kinematics::marker_fit::{FitSettings, JointLimits, fit_markers};
 use ambulo::model::Side;
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::motion::filter::{LowPass, low_pass};
@@ -46,7 +46,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
     let mut findings = Findings::default();
     let body = calibrate(standing, trial, &known, &subject.person, &mut findings).unwrap();
     let model = &body.human.model;
-    let settings = FitSettings { weights: body.weights.clone(), limits: Limits::Ranges, ..FitSettings::default() };
+    let settings = FitSettings { weights: body.weights.clone(), limits: JointLimits::Ranges, ..FitSettings::default() };
     let mut motion = fit_markers(model, markers, &settings, &mut findings).unwrap().motion;
     assume_upright_trunk(model, &mut motion, &mut findings);
     let plates = plates_from_c3d(&subject.walk.c3d, PlateSettings::default(), &mut findings).unwrap();

@@ -561,7 +561,7 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
         ),
         (
             "[friction]\navailabel = 0.5\n",
-            "line 2, `friction.availabel`: this key is not known here; expected `available`, `least_load_bw`. hint: is `available` meant?",
+            "line 2, `friction.availabel`: unknown key; expected `available`, `least_load_bw`. hint: is `available` meant?",
         ),
         ("friction = 0.5\n", "line 1, `friction`: found 0.5; expected a table under the header [friction]"),
         ("[person]\nmass_kg = 1000\n", "line 2, `person.mass_kg`: found 1000; expected a number from 2 to 300"),

@@ -11,7 +11,7 @@ use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
 use ambulo::ground::sole::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 
@@ -42,7 +42,7 @@ fn model() -> Model {
         body("calcn_r", 1.0),
         body("calcn_l", 1.0)
     );
-    from_osim_bytes(text.as_bytes(), &mut Findings::default()).unwrap()
+    Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }
 
 /// Share of the way, its rate and acceleration, after the share `u` of the time.

@@ -17,7 +17,7 @@ mod simm_spline;
 
 pub use export::{ExportError, to_osim};
 pub use function::Function;
-pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
+pub use import::{ImportError, OsimError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
 pub use knots::Knots;
 pub use scaled::ScaleError;

@@ -16,7 +16,7 @@ use super::joint::{JointKind, MOST, rotation_vector};
 use super::rates::rates;
 use super::state::{RowKey, WorldState};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
-use crate::dynamics::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
+use crate::dynamics::{ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
 /// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
@@ -153,8 +153,8 @@ impl Assembly {
         }
         let start = self.graph.rows.len();
         self.graph.rows.extend(rows);
-        let on = Acting::Bodies { first: closure.first, second: closure.second };
-        self.graph.groups.push(ConstraintGroup { on, rows: start..self.graph.rows.len(), law: Law::HELD });
+        let on = ActsOn::Bodies { first: closure.first, second: closure.second };
+        self.graph.groups.push(ConstraintGroup { on, rows: start..self.graph.rows.len(), law: Law::EQUALITY });
         self.keys.push(RowKey::Closure(number));
     }
 
@@ -259,7 +259,7 @@ impl Assembly {
             let start = self.graph.rows.len();
             let (on_first, on_second) = (Six::zeros(), Six::zeros());
             self.graph.rows.push(Constraint { on_first, on_second, target, compliance });
-            let on = Acting::Coordinate { body: joint.child, coordinate: slot };
+            let on = ActsOn::Coordinate { body: joint.child, coordinate: slot };
             self.graph.groups.push(ConstraintGroup { on, rows: start..start + 1, law: Law::Bounded { least, most } });
             self.keys.push(key);
         };

@@ -30,7 +30,7 @@ impl StepWorkspace {
             (_, kind) => goes_straight(kind) && (0..kind.freedom()).all(|k| driven(number, k)),
         };
         let hangs = self.assembly.joint_of.iter().all(Option::is_some);
-        hangs && self.solver.carries() && world.closures.is_empty() && world.joints.iter().enumerate().all(fits)
+        hangs && self.solver.is_lumped() && world.closures.is_empty() && world.joints.iter().enumerate().all(fits)
     }
 
     /// Places all bodies at the end of the step.

@@ -29,7 +29,8 @@ use crate::dynamics::{
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// A body with the joint that carries it, real or free.
+/// A body with the joint that carries it, real or free. Not built on `kinematics::plan`, whose axes follow coordinates by functions:
+/// these joints are of a few kinds, turn freely by rotation vectors, and include loose bodies.
 struct Branch {
     body: usize,
     parent: Option<usize>,

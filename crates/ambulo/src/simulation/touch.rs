@@ -18,7 +18,7 @@
 use super::state::{RowKey, WorldState};
 use super::world::{ContactLaw, ImpactLaw, Material, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
-use crate::dynamics::{Acting, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
+use crate::dynamics::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
 use crate::spatial::{Pose, Twist, Vec3};
 
 /// Surfaces nearer than this are looked at even if nothing moves [m].
@@ -220,8 +220,8 @@ impl Rows<'_> {
         let (one, other) = if flipped { (second, first) } else { (first, second) };
         let Owner::Body(body) = one.owner else { return false };
         let on = match other.owner {
-            Owner::Body(second) => Acting::Bodies { first: body, second: Some(second) },
-            Owner::Obstacle(_) => Acting::Bodies { first: body, second: None },
+            Owner::Body(second) => ActsOn::Bodies { first: body, second: Some(second) },
+            Owner::Obstacle(_) => ActsOn::Bodies { first: body, second: None },
         };
         let directions = [touch.at.normal, touch.tangents[0], touch.tangents[1]];
         let mut rows = directions.map(|d| self.row(touch.at.point, d * sign, body, other));
@@ -262,11 +262,11 @@ impl Rows<'_> {
     }
 
     /// A point that strikes and loses all its velocity: one row that pushes, two that hold.
-    fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: Acting) {
+    fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: ActsOn) {
         let ((a, b), feature) = (touch.surfaces, touch.at.feature);
         touch.group = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
         self.keys.push(RowKey::Contact(a, b, feature));
-        touch.friction_group = Some(self.push(&rows[1..], on, Law::HELD));
+        touch.friction_group = Some(self.push(&rows[1..], on, Law::EQUALITY));
         self.keys.push(RowKey::SoftFriction(a, b, feature));
     }
 
@@ -293,20 +293,20 @@ impl Rows<'_> {
     }
 
     /// J v before the step.
-    fn velocity(&self, row: &Constraint, on: Acting) -> f64 {
+    fn velocity(&self, row: &Constraint, on: ActsOn) -> f64 {
         let of = |body: usize, j: &Six| {
             let t = &self.state.twists[body];
             Vec3::new(j[0], j[1], j[2]).dot(&t.angular) + Vec3::new(j[3], j[4], j[5]).dot(&t.linear)
         };
         match on {
-            Acting::Bodies { first, second } => {
+            ActsOn::Bodies { first, second } => {
                 of(first, &row.on_first) + second.map_or(0.0, |s| of(s, &row.on_second))
             }
-            Acting::Coordinate { .. } => 0.0,
+            ActsOn::Coordinate { .. } => 0.0,
         }
     }
 
-    fn push(&mut self, rows: &[Constraint], on: Acting, law: Law) -> usize {
+    fn push(&mut self, rows: &[Constraint], on: ActsOn, law: Law) -> usize {
         let start = self.graph.rows.len();
         self.graph.rows.extend_from_slice(rows);
         self.graph.groups.push(ConstraintGroup { on, rows: start..start + rows.len(), law });
@@ -320,7 +320,7 @@ impl Rows<'_> {
         law: &HuntCrossley,
         mut rows: [Constraint; 3],
         u: [f64; 3],
-        on: Acting,
+        on: ActsOn,
         (a, b): (usize, usize),
     ) -> bool {
         let h = self.step_s;
@@ -354,7 +354,7 @@ impl Rows<'_> {
             for row in &mut rows[1..] {
                 row.compliance = 1.0 / (h * secant);
             }
-            touch.friction_group = Some(self.push(&rows[1..], on, Law::HELD));
+            touch.friction_group = Some(self.push(&rows[1..], on, Law::EQUALITY));
             self.keys.push(RowKey::SoftFriction(a, b, touch.at.feature));
         }
         true

@@ -45,7 +45,7 @@ pub(super) enum Origin {
     Coordinates,
     Markers(Box<Followed>),
     Skeleton(Box<Tracking>),
-    Simulation { rule: String },
+    Simulation { rule: &'static str },
 }
 
 /// A body that followed markers, and what the files state besides.
@@ -113,7 +113,7 @@ impl Source {
                 person: made.person.clone(),
                 motion: ObservedMotion::Complete(made.trajectory.clone()),
                 forces: made.loads.clone(),
-                origin: Origin::Simulation { rule: made.rule.clone() },
+                origin: Origin::Simulation { rule: made.rule },
                 mass_is_stated: true,
             }),
         }

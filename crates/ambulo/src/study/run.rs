@@ -12,7 +12,7 @@ use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, Progress, Stage, analyse_measured, analyse_with_progress,
     reduce_residual, times_and_distances,
 };
-use crate::dynamics::consistency::Consistent;
+use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::motion::{Event, Smoother, Window, device_from_table};
@@ -168,8 +168,8 @@ fn forces(
 
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
     match (origin, prediction) {
-        (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule: rule.clone() },
-        (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule.to_owned() },
+        (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule },
+        (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule },
         _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
         _ => ForceOrigin::Measured,
     }
@@ -183,7 +183,7 @@ fn residual_reduced(
     settings: &Settings,
     force_origin: &ForceOrigin,
     findings: &mut Findings,
-) -> Result<(Analysis, Option<Consistent>), StudyError> {
+) -> Result<(Analysis, Option<ReducedMotion>), StudyError> {
     let Some(adjustable) = settings.residual_reduction else { return Ok((analysis, None)) };
     let (adjustable, instrumented) = match force_origin {
         ForceOrigin::Predicted { .. } => (Adjustable::Motion, None),

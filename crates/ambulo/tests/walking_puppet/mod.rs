@@ -13,7 +13,7 @@
 use ambulo::findings::Findings;
 use ambulo::ground::sole::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 
@@ -69,7 +69,7 @@ fn model() -> Model {
         body("calcn_r", 0.1, 0.001),
         body("calcn_l", 0.1, 0.001)
     );
-    from_osim_bytes(text.as_bytes(), &mut Findings::default()).unwrap()
+    Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }
 
 fn soles(model: &Model) -> [Option<Sole>; 2] {

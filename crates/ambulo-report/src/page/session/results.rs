@@ -6,7 +6,7 @@ use crate::clinical::{KNEE, knee_flexion_sign};
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
 use crate::page::folder::{Folder, PageError};
 use ambulo::findings::Findings;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
 use serde_json::Value;
@@ -139,7 +139,7 @@ fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Opt
 fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError> {
     for file in BODIES {
         if let Some(bytes) = (folder.file)(file) {
-            let model = from_osim_bytes(&bytes, &mut Findings::default());
+            let model = Model::from_osim(&bytes, &mut Findings::default());
             return match model {
                 Ok(model) => Ok(Some((file, model))),
                 Err(error) => Err(folder.unreadable(file, error.to_string())),

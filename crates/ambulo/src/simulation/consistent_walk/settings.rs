@@ -1,6 +1,6 @@
 //! How a walk is made consistent: what a deviation costs, how fine the splines are, what the shoes are made of.
 
-use crate::contact::{Creep, HuntCrossley};
+use crate::contact::{FrictionCurve, HuntCrossley};
 
 /// Deviations that count one each. Smaller means dearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +84,6 @@ pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
     viscous_friction: 0.0,
     transition_velocity: 0.013,
     depth_offset: 0.0,
-    creep: Creep::Smooth,
+    friction_curve: FrictionCurve::Smooth,
     ..HuntCrossley::MOCO_2D_GAIT
 };

@@ -1,15 +1,15 @@
-//! Balls and capsules on solids with flat faces.
+//! Spheres and capsules on solids with flat faces.
 //!
-//! Both are what lies within a radius r of a core: a point or a segment. With δ the distance of the core from the solid
-//! (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ leads to the face
-//! over which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis: a face's
-//! normal or, for a segment with direction d, the product of d and an edge whose two faces look to both sides of the
-//! plane across d.
+//! Both contain all points within a radius r of a core: a point or a segment. With δ the distance of the core from the solid
+//! (negative inside) and n the direction from the solid to the core, the gap is δ - r. Outside, δ is the distance to the face
+//! over which the point lies, or else to the nearest edge. Inside, δ is the separation along the best axis: a face normal or,
+//! for a segment of direction d, the cross product of d and an edge whose two faces lie on both sides of the plane through
+//! the edge along d.
 //!
-//! A segment over a face to which n belongs touches at the two ends of what the face leaves of it, each with the gap
-//! there; along an edge likewise.
+//! A segment over a face with normal n touches at the two ends of the part over the face, each with its own gap; along an
+//! edge likewise.
 //!
-//! Source: distances of convex sets; derived here.
+//! Source: distances of convex sets, derived here.
 //! Cost: faces and edges of the solid; nothing is allocated.
 //! Pinned by: tests/contact_geometry.rs
 
@@ -18,51 +18,54 @@ use super::segment::{Segment, at_share, nearest_point, nearest_shares, shared_le
 use super::separating_axis::Touch;
 use crate::spatial::Vec3;
 
-/// The nearest point of a capsule is reported beside those at the ends of what a face or another capsule leaves of it
-/// only if it lies this much deeper [m]: on a flat contact it is any point of the length, and another one in each step.
+/// The nearest point of a capsule is reported in addition to the ends of the line of contact only if it lies this much
+/// deeper [m]. On a flat contact all points are equally near, and rounding would choose another one in each step.
 pub(super) const DEEPER: f64 = 1e-6;
-/// A face belongs to a normal at less than this angle from its own [rad], whose cosine it is: 6 degrees, at which the
-/// ends of a rod of 0.4 m differ by 40 mm in their gaps.
+/// Cosine of the largest angle between a contact normal and the normal of its face: 6 degrees, at which the gaps at the
+/// ends of a rod of 0.4 m differ by 40 mm.
 const FACING: f64 = 0.995;
 
-/// From a solid to a core.
+/// Distance of a core from a solid.
 #[derive(Debug, Clone, Copy)]
-struct Way {
+struct Separation {
     /// The point of the core [m].
     point: Vec3,
     /// Unit vector from the solid to the core.
     outward: Vec3,
     /// Distance [m], negative inside.
     distance: f64,
-    /// 0 face, 1 edge; its number.
+    /// Kind (0 face, 1 edge) and index.
     feature: [usize; 2],
 }
 
-impl Way {
+impl Separation {
     fn touch(&self, radius: f64, feature: [u64; 4]) -> Touch {
         let gap = self.distance - radius;
         Touch { point: self.point - self.outward * (radius + gap / 2.0), outward: self.outward, gap, feature }
     }
 }
 
-/// A ball on a solid, in the solid's frame.
+/// A sphere on a solid, in the frame of the solid.
 pub(super) fn ball_touch(solid: &Polytope, center: Vec3, radius: f64) -> Touch {
-    way_to_point(solid, center).touch(radius, [0; 4])
+    separation_from_point(solid, center).touch(radius, [0; 4])
 }
 
-/// A capsule on a solid, in the solid's frame.
+/// A capsule on a solid, in the frame of the solid.
 pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, mut report: impl FnMut(Touch)) {
-    let nearest = way_to_segment(solid, segment);
+    let nearest = separation_from_segment(solid, segment);
     let mut lowest = f64::MAX;
-    let mut report_end = |way: Way, feature: [u64; 4]| {
-        let touch = way.touch(radius, feature);
+    let mut report_end = |separation: Separation, feature: [u64; 4]| {
+        let touch = separation.touch(radius, feature);
         lowest = lowest.min(touch.gap);
         report(touch);
     };
     if let Some(face) = facing(solid, nearest.outward) {
         if let Some(ends) = over_face(solid, face, segment) {
             for (share, name) in ends {
-                report_end(way_to_plane(solid, face, at_share(segment, share)), [1, face as u64, name as u64, 0]);
+                report_end(
+                    separation_from_plane(solid, face, at_share(segment, share)),
+                    [1, face as u64, name as u64, 0],
+                );
             }
         }
     } else if let (1, number) = (nearest.feature[0], nearest.feature[1]) {
@@ -70,8 +73,8 @@ pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, m
         if let Some(shares) = shared_length(segment, edge).filter(|_| nearest.distance > 0.0) {
             for (k, share) in shares.into_iter().enumerate() {
                 let point = at_share(segment, share);
-                if let Some(way) = way_between(point, nearest_point(point, edge), nearest.feature) {
-                    report_end(way, [2, number as u64, k as u64, 0]);
+                if let Some(separation) = separation_between(point, nearest_point(point, edge), nearest.feature) {
+                    report_end(separation, [2, number as u64, k as u64, 0]);
                 }
             }
         }
@@ -81,27 +84,27 @@ pub(super) fn capsule_touches(solid: &Polytope, segment: Segment, radius: f64, m
     }
 }
 
-fn way_to_plane(solid: &Polytope, face: usize, point: Vec3) -> Way {
+fn separation_from_plane(solid: &Polytope, face: usize, point: Vec3) -> Separation {
     let plane = &solid.faces[face];
     let distance = plane.normal.dot(&point) - plane.height;
-    Way { point, outward: plane.normal, distance, feature: [0, face] }
+    Separation { point, outward: plane.normal, distance, feature: [0, face] }
 }
 
 /// `None` if the points coincide.
-fn way_between(point: Vec3, on_solid: Vec3, feature: [usize; 2]) -> Option<Way> {
+fn separation_between(point: Vec3, on_solid: Vec3, feature: [usize; 2]) -> Option<Separation> {
     let distance = (point - on_solid).norm();
-    (distance > 0.0).then(|| Way { point, outward: (point - on_solid) / distance, distance, feature })
+    (distance > 0.0).then(|| Separation { point, outward: (point - on_solid) / distance, distance, feature })
 }
 
-fn way_to_point(solid: &Polytope, point: Vec3) -> Way {
-    let mut best = way_to_plane(solid, 0, point);
+fn separation_from_point(solid: &Polytope, point: Vec3) -> Separation {
+    let mut best = separation_from_plane(solid, 0, point);
     for face in 0..solid.faces.len() {
-        let way = way_to_plane(solid, face, point);
-        if way.distance > 0.0 && solid.is_over(face, point, 0.0) {
-            return way;
+        let separation = separation_from_plane(solid, face, point);
+        if separation.distance > 0.0 && solid.is_over(face, point, 0.0) {
+            return separation;
         }
-        if way.distance > best.distance {
-            best = way;
+        if separation.distance > best.distance {
+            best = separation;
         }
     }
     if best.distance <= 0.0 {
@@ -109,40 +112,40 @@ fn way_to_point(solid: &Polytope, point: Vec3) -> Way {
     }
     let to_edge = |number: usize| {
         let edge = solid.ends(&solid.net.edges[number]);
-        way_between(point, nearest_point(point, edge), [1, number])
+        separation_between(point, nearest_point(point, edge), [1, number])
     };
     nearest_of((0..solid.net.edges.len()).filter_map(to_edge)).unwrap_or(best)
 }
 
-fn nearest_of(ways: impl Iterator<Item = Way>) -> Option<Way> {
-    ways.min_by(|a, b| a.distance.total_cmp(&b.distance))
+fn nearest_of(separations: impl Iterator<Item = Separation>) -> Option<Separation> {
+    separations.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-fn way_to_segment(solid: &Polytope, segment: Segment) -> Way {
-    let inner = separation(solid, segment);
+fn separation_from_segment(solid: &Polytope, segment: Segment) -> Separation {
+    let inner = deepest_axis(solid, segment);
     if inner.distance <= 0.0 {
         return inner;
     }
     let to_edge = |number: usize| {
         let edge = solid.ends(&solid.net.edges[number]);
         let (s, t) = nearest_shares(segment, edge);
-        way_between(at_share(segment, s), at_share(edge, t), [1, number])
+        separation_between(at_share(segment, s), at_share(edge, t), [1, number])
     };
-    let ends = segment.into_iter().map(|end| way_to_point(solid, end));
+    let ends = segment.into_iter().map(|end| separation_from_point(solid, end));
     nearest_of(ends.chain((0..solid.net.edges.len()).filter_map(to_edge))).unwrap_or(inner)
 }
 
-/// The axis along which a segment is furthest outside.
-fn separation(solid: &Polytope, segment: Segment) -> Way {
+/// The axis of largest separation of a segment.
+fn deepest_axis(solid: &Polytope, segment: Segment) -> Separation {
     let lower = |face: usize| {
-        let [a, b] = segment.map(|end| way_to_plane(solid, face, end));
+        let [a, b] = segment.map(|end| separation_from_plane(solid, face, end));
         if b.distance < a.distance { b } else { a }
     };
     let mut best = lower(0);
     for face in 1..solid.faces.len() {
-        let way = lower(face);
-        if way.distance > best.distance {
-            best = way;
+        let separation = lower(face);
+        if separation.distance > best.distance {
+            best = separation;
         }
     }
     let along = segment[1] - segment[0];
@@ -155,14 +158,14 @@ fn separation(solid: &Polytope, segment: Segment) -> Way {
             let distance = outward.dot(&(segment[0] - ends[0]));
             if distance > best.distance {
                 let (s, _) = nearest_shares(segment, ends);
-                best = Way { point: at_share(segment, s), outward, distance, feature: [1, number] };
+                best = Separation { point: at_share(segment, s), outward, distance, feature: [1, number] };
             }
         }
     }
     best
 }
 
-/// The face whose normal is nearest to this one, if it is near.
+/// The face whose normal is nearest to this direction, if it is within [`FACING`].
 fn facing(solid: &Polytope, outward: Vec3) -> Option<usize> {
     let mut best = (FACING, None);
     for (number, face) in solid.faces.iter().enumerate() {
@@ -174,8 +177,8 @@ fn facing(solid: &Polytope, outward: Vec3) -> Option<usize> {
     best.1
 }
 
-/// Shares of the way between which a segment lies over a face, each with a name: 0 and 1 for its own ends, 2 and up for
-/// the side of the face that cuts it.
+/// The part of a segment over a face: two shares of its length, each with a number for its end: 0 and 1 for the ends of the
+/// segment, 2 and up for the side of the face that cuts it.
 fn over_face(solid: &Polytope, face: usize, segment: Segment) -> Option<[(f64, usize); 2]> {
     let normal = solid.faces[face].normal;
     let (mut from, mut to) = ((0.0, 0), (1.0, 1));

@@ -1,17 +1,16 @@
-//! Normal equations with a band and a border: many unknowns that meet only their neighbours, and a few that meet all.
+//! Normal equations with a band and a border: many unknowns coupled only to their neighbours, and a few coupled to all.
 //!
 //!   [A  B ] [x]   [r]        Z = A⁻¹ B,   (D - Bᵀ Z) y = s - Zᵀ r,   x = A⁻¹ r - Z y
 //!   [Bᵀ D ] [y] = [s]
 //!
-//! Source: block elimination.
-//! Cost: that of [`BandMatrix`], and one solution a column of the border.
+//! Cost: that of [`BandMatrix`], and one solution per column of the border.
 
 use crate::numerics::BandMatrix;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// The equations, gathered term by term.
+/// The equations, assembled term by term.
 #[derive(Debug, Clone)]
-pub(super) struct Bordered {
+pub(super) struct BorderedSystem {
     pub(super) band: BandMatrix,
     /// B by columns.
     pub(super) border: Vec<Vec<f64>>,
@@ -20,9 +19,9 @@ pub(super) struct Bordered {
     pub(super) corner_right: DVector<f64>,
 }
 
-impl Bordered {
-    pub(super) fn zeros(size: usize, bands: usize, border: usize) -> Bordered {
-        Bordered {
+impl BorderedSystem {
+    pub(super) fn zeros(size: usize, bands: usize, border: usize) -> BorderedSystem {
+        BorderedSystem {
             band: BandMatrix::zeros(size, bands),
             border: vec![vec![0.0; size]; border],
             corner: DMatrix::zeros(border, border),
@@ -31,9 +30,9 @@ impl Bordered {
         }
     }
 
-    /// x and y, each entry of y held inside its range. `None` if a pivot is not positive.
+    /// x and y, with each entry of y clamped to its range. Returns `None` if the matrix is not positive definite.
     pub(super) fn solve(self, ranges: &[[f64; 2]]) -> Option<(Vec<f64>, Vec<f64>)> {
-        let Bordered { band, border, corner, right, corner_right } = self;
+        let BorderedSystem { band, border, corner, right, corner_right } = self;
         let factor = band.factor()?;
         let mut x = right;
         factor.solve(&mut x);
@@ -58,7 +57,7 @@ impl Bordered {
     }
 }
 
-/// The solution of `inner` y = `rest`; entries that leave their range are held at its end, and the others found anew.
+/// The solution of `inner` y = `rest`. Entries that leave their range are fixed at its limit, and the others are solved again.
 fn within(inner: &DMatrix<f64>, rest: &DVector<f64>, ranges: &[[f64; 2]]) -> Option<Vec<f64>> {
     let mut held: Vec<Option<f64>> = vec![None; ranges.len()];
     loop {
@@ -93,8 +92,8 @@ mod tests {
     use super::*;
 
     /// Six unknowns in a band of one, two in the border.
-    fn equations() -> (Bordered, DMatrix<f64>, DVector<f64>) {
-        let mut bordered = Bordered::zeros(6, 1, 2);
+    fn equations() -> (BorderedSystem, DMatrix<f64>, DVector<f64>) {
+        let mut bordered = BorderedSystem::zeros(6, 1, 2);
         let mut dense = DMatrix::<f64>::zeros(8, 8);
         for i in 0..6 {
             bordered.band.add(i, i, 4.0 + i as f64);
@@ -127,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn what_leaves_its_range_is_held_at_the_end_and_the_rest_found_anew() {
+    fn entries_outside_their_range_are_fixed_at_the_limit_and_the_others_solved_again() {
         let (bordered, dense, right) = equations();
         let (x, y) = bordered.solve(&[[-9.0, 9.0], [-9.0, 0.01]]).unwrap();
         assert!((y[1] - 0.01).abs() < 1e-15, "{y:?}");

@@ -1,48 +1,48 @@
-//! Bodies whose joints leave no freedom, carried by the body that they hang on.
+//! Lumps bodies whose joints leave no freedom together with the body that carries them.
 //!
-//! Where joints follow (drives, recordings, welds), a_c = X a_p + w with nothing unknown. A body that is free to move in some
-//! way and all that it carries so are one body for the solver: with C their common mass centre,
+//! A joint without freedom (driven, recorded, welded) gives a_c = X a_p + w with nothing unknown. A body with some freedom and all
+//! bodies attached to it in this way are one body for the solver. With C their common mass centre,
 //!
 //!   a_c = X_c a_C + W_c          W_c = X W_p + w_c          W = 0 for the first of them
 //!   A_C = Σ X_cᵀ A_c X_c         b_C = Σ X_cᵀ (b_c - A_c W_c)          j_C = X_cᵀ j_c          target_C = target - j_c W_c
 //!
-//! which is again a rigid body with its inertia about its mass centre. A walking figure all of whose joints are driven is one
-//! body with two free directions, whatever the number of its bodies, and each Newton step costs no more than for a box.
+//! which is again a rigid body with its inertia about its mass centre. A walking figure whose joints are all driven becomes one
+//! body with two free directions, whatever the number of its bodies, and a Newton step costs no more than for a box.
 //!
-//! | code      | symbol | unit           | shape       |
-//! | `arm`     |        | m              | one a body  |
-//! | `beyond`  | W      | as the unknown | one a body  |
-//! | `shift`   | j W    | as the unknown | one a row   |
+//! | code      | symbol | unit           | shape        |
+//! | `arm`     |        | m              | one per body |
+//! | `beyond`  | W      | as the unknown | one per body |
+//! | `shift`   | j W    | as the unknown | one per row  |
 //!
-//! Source: derived above; the same sums as an elimination of those bodies makes, once instead of at each factorisation.
-//! Not handled: rows within one such body, or on one that nothing can move; then the graph is solved as it stands.
-//! Pinned by: tests/carried.rs
+//! Source: derived above; the same sums as in an elimination of those bodies, computed once instead of at each factorisation.
+//! Not handled: rows within one lumped body, or on one without freedom; then the whole graph is solved.
+//! Pinned by: tests/lumped.rs
 
-use super::block::{carry, transport};
-use super::constraint::{Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, Six};
-use super::elimination::Link;
+use super::block::{BodyTerms, Six, carry, transport};
+use super::constraint::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution};
+use super::elimination_order::Link;
 use crate::spatial::{Mat3, Vec3};
 
-/// The graph of what is left to move, and how all bodies follow from it.
+/// The graph of lumped bodies, and the relation of all bodies to it.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Carried {
+pub(super) struct LumpedGraph {
     pub(super) graph: ConstraintGraph,
     pub(super) solution: GraphSolution,
-    /// Displacements of the graph.
+    /// Displacements of the lumped bodies.
     pub(super) displacements: Vec<Six>,
-    /// Targets of displacements, less what offsets bring about.
+    /// Targets of displacements, minus the effect of the offsets.
     pub(super) targets: Vec<f64>,
-    /// Which body of the graph each body is part of.
+    /// The lumped body that each body belongs to.
     of: Vec<usize>,
-    /// Of each body of the graph, the one that is free to move.
+    /// The body with freedom in each lumped body.
     first: Vec<usize>,
-    /// From the first one's mass centre to that of all [m].
+    /// From the mass centre of the first body to the common one [m].
     center: Vec<Vec3>,
-    /// From the mass centre of all to the body's own [m].
+    /// From the common mass centre to that of each body [m].
     arm: Vec<Vec3>,
     beyond: Vec<Six>,
     shift: Vec<f64>,
-    /// -Σ X_cᵀ A_c W_c, one a body of the graph.
+    /// -Σ X_cᵀ A_c W_c, one per lumped body.
     inertial: Vec<Six>,
 }
 
@@ -50,8 +50,8 @@ fn is_first(link: &Link) -> bool {
     link.freedom > 0 || link.parent.is_none()
 }
 
-impl Carried {
-    /// Makes the smaller graph; false where there is none. `outwards`: bodies, parents first.
+impl LumpedGraph {
+    /// Makes the smaller graph; returns false if there is none. `outwards`: bodies, parents first.
     pub(super) fn take(&mut self, full: &ConstraintGraph, outwards: &[(usize, Option<usize>)]) -> bool {
         if full.links.iter().all(is_first) {
             return false;
@@ -73,7 +73,7 @@ impl Carried {
         true
     }
 
-    /// Which bodies go together, and from the first of them to each.
+    /// Assigns bodies to lumped bodies, with the arm from the first body to each.
     fn number(&mut self, full: &ConstraintGraph, outwards: &[(usize, Option<usize>)]) {
         self.of.clear();
         self.of.resize(full.links.len(), 0);
@@ -92,9 +92,9 @@ impl Carried {
         }
     }
 
-    /// Rows within one body, or on one that does not move.
+    /// Whether a group has rows within one lumped body, or on one that cannot move.
     fn unfit(&self, full: &ConstraintGraph, group: &ConstraintGroup) -> bool {
-        let Acting::Bodies { first, second } = group.on else { return false };
+        let ActsOn::Bodies { first, second } = group.on else { return false };
         let stays = |body: usize| full.links[self.first[self.of[body]]].freedom == 0;
         stays(first) || second.is_some_and(|second| stays(second) || self.of[first] == self.of[second])
     }
@@ -125,7 +125,7 @@ impl Carried {
         }
     }
 
-    /// Links, free directions and what acts along them.
+    /// Links, free directions and the efforts along them.
     fn reduce_joints(&mut self, full: &ConstraintGraph) {
         let graph = &mut self.graph;
         graph.links.clear();
@@ -135,7 +135,7 @@ impl Carried {
         let mut next = 0;
         for (number, &body) in self.first.iter().enumerate() {
             let link = full.links[body];
-            // Carried bodies between have no directions.
+            // The lumped bodies in between have no directions.
             while next < body {
                 from += full.links[next].freedom;
                 next += 1;
@@ -160,16 +160,16 @@ impl Carried {
         self.graph.rows.clear();
         for group in &full.groups {
             let on = match group.on {
-                Acting::Coordinate { body, coordinate } => Acting::Coordinate { body: self.of[body], coordinate },
-                Acting::Bodies { first, second } => {
-                    Acting::Bodies { first: self.of[first], second: second.map(|s| self.of[s]) }
+                ActsOn::Coordinate { body, coordinate } => ActsOn::Coordinate { body: self.of[body], coordinate },
+                ActsOn::Bodies { first, second } => {
+                    ActsOn::Bodies { first: self.of[first], second: second.map(|s| self.of[s]) }
                 }
             };
             self.graph.groups.push(ConstraintGroup { on, ..group.clone() });
         }
         self.graph.rows.extend_from_slice(&full.rows);
         for group in &full.groups {
-            let Acting::Bodies { first, second } = group.on else { continue };
+            let ActsOn::Bodies { first, second } = group.on else { continue };
             for row in &mut self.graph.rows[group.rows.clone()] {
                 row.on_first = carry(&row.on_first, &self.arm[first]);
                 if let Some(second) = second {
@@ -179,7 +179,7 @@ impl Carried {
         }
     }
 
-    /// What the joints prescribe, as they stand in the full graph.
+    /// Computes W and j W from the current offsets of the full graph.
     pub(super) fn take_offsets(&mut self, full: &ConstraintGraph, outwards: &[(usize, Option<usize>)]) {
         self.beyond.clear();
         self.beyond.resize(full.links.len(), Six::zeros());
@@ -202,7 +202,7 @@ impl Carried {
         self.shift.clear();
         self.shift.resize(full.rows.len(), 0.0);
         for group in &full.groups {
-            let Acting::Bodies { first, second } = group.on else { continue };
+            let ActsOn::Bodies { first, second } = group.on else { continue };
             for row in group.rows.clone() {
                 let Constraint { on_first, on_second, .. } = &full.rows[row];
                 self.shift[row] = beyond(first, on_first) + second.map_or(0.0, |s| beyond(s, on_second));
@@ -210,7 +210,7 @@ impl Carried {
         }
     }
 
-    /// Begins displacements: offsets as they stand in the full graph, targets less what these bring about.
+    /// Prepares displacements from the current offsets of the full graph and the targets.
     pub(super) fn begin_displacements(
         &mut self,
         full: &ConstraintGraph,
@@ -223,7 +223,7 @@ impl Carried {
         self.targets.extend(targets.iter().zip(&self.shift).map(|(target, shift)| target - shift));
     }
 
-    /// Begins displacements from where bodies have been placed, `off` from where their motion takes them; joints hold.
+    /// Prepares displacements of bodies that are already placed, `off` from the positions that follow from their motion.
     pub(super) fn begin_placed(&mut self, full: &ConstraintGraph, off: &[Six]) {
         self.graph.terms.offset.fill(Six::zeros());
         self.beyond.fill(Six::zeros());
@@ -234,7 +234,7 @@ impl Carried {
         }
     }
 
-    /// a_c = X a_C + W_c of all bodies.
+    /// Motions of all bodies: a_c = X a_C + W_c.
     pub(super) fn spread(&self, of_graph: &[Six], motions: &mut Vec<Six>) {
         motions.clear();
         let bodies = self.of.iter().zip(self.arm.iter().zip(&self.beyond));

@@ -1,95 +1,95 @@
-//! The least-squares problem of a consistent motion, and Gauss and Newton's method on it.
+//! The least-squares problem of residual reduction, solved by the Gauss-Newton method.
 
-use super::body::Body;
-use super::bordered::Bordered;
-use super::curves::{AtFrame, Curves, Instant, Region};
-use super::frame::{Eyes, Place, Slopes, root_slope, six};
-use super::{ConsistencyError, ConsistencySettings};
+use super::adjustable_body::AdjustableBody;
+use super::bordered::BorderedSystem;
+use super::frame::{FootPose, FrameEvaluator, FrameSlopes, root_slope, six};
+use super::settings::{ResidualReductionError, ResidualReductionSettings};
+use super::splines::{CorrectionSplines, Instant, Region, SplineWeights};
 use crate::dynamics::{BodyLoad, LoadSeries, Workspace};
 use crate::kinematics::Trajectory;
 use crate::spatial::Wrench;
 
-/// Numbers of the body are nudged by this to see what follows [share or m].
+/// Step of the finite differences by parameters of the body [share or m].
 const NUDGE: f64 = 1e-4;
-/// Iterations end when none of them lowers the cost by more than this share.
+/// Iterations end when the cost falls by less than this share.
 const SETTLED: f64 = 1e-6;
-/// A step that does not help is halved so many times before the search ends.
+/// Maximum number of halvings of a step that does not lower the cost.
 const HALVINGS: usize = 6;
 
-/// All that the cost is made of.
-pub(super) struct Problem<'a> {
+/// All terms of the cost.
+pub(super) struct ReductionProblem<'a> {
     pub(super) trajectory: &'a Trajectory,
     pub(super) loads: &'a [LoadSeries],
     pub(super) region: Region,
-    pub(super) curves: Curves,
-    pub(super) body: Body<'a>,
-    pub(super) eyes: Eyes,
-    /// Where feet were before any change, one entry a frame of the region.
-    pub(super) stood: Vec<Vec<Place>>,
-    /// What counts one at the root: force and moment; at a foot: displacement and rotation.
+    pub(super) splines: CorrectionSplines,
+    pub(super) body: AdjustableBody<'a>,
+    pub(super) evaluator: FrameEvaluator,
+    /// Foot poses of the recorded motion, one entry per frame of the region.
+    pub(super) recorded_feet: Vec<Vec<FootPose>>,
+    /// Standard deviations: force and moment at the root; displacement and rotation of a foot.
     pub(super) root_scale: [f64; 6],
     pub(super) foot_scale: [f64; 6],
-    pub(super) settings: ConsistencySettings,
+    pub(super) settings: ResidualReductionSettings,
 }
 
-/// What is looked for.
+/// The unknowns.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Unknowns {
-    /// Of the curves.
+    /// Spline coefficients.
     pub(super) coefficients: Vec<f64>,
-    /// Of the body.
+    /// Parameters of the body.
     pub(super) numbers: Vec<f64>,
 }
 
-/// How the search ended.
+/// How the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Ending {
+pub(super) struct Termination {
     pub(super) iterations: usize,
     pub(super) converged: bool,
 }
 
-impl Problem<'_> {
-    /// Gauss and Newton's method; a step that makes things worse is halved.
-    pub(super) fn solve(&self) -> Result<(Unknowns, Ending), ConsistencyError> {
+impl ReductionProblem<'_> {
+    /// Gauss-Newton iterations; a step that raises the cost is halved.
+    pub(super) fn solve(&self) -> Result<(Unknowns, Termination), ResidualReductionError> {
         let mut at =
-            Unknowns { coefficients: vec![0.0; self.curves.unknowns()], numbers: vec![0.0; self.body.count()] };
+            Unknowns { coefficients: vec![0.0; self.splines.unknowns()], numbers: vec![0.0; self.body.count()] };
         let mut cost = self.cost(&at)?;
         for iteration in 1..=self.settings.most_iterations {
             let equations = self.linearise(&at)?;
             let ranges: Vec<[f64; 2]> = at.numbers.iter().enumerate().map(|(k, x)| self.range(k, *x)).collect();
-            let (dx, dy) = equations.solve(&ranges).ok_or(ConsistencyError::Singular { iteration })?;
+            let (dx, dy) = equations.solve(&ranges).ok_or(ResidualReductionError::Singular { iteration })?;
             let Some((better, lower)) = self.along(&at, cost, &dx, &dy)? else {
-                return Ok((at, Ending { iterations: iteration, converged: self.curves.is_small(&dx) }));
+                return Ok((at, Termination { iterations: iteration, converged: self.splines.is_small(&dx) }));
             };
             let settled = cost - lower <= SETTLED * cost;
             (at, cost) = (better, lower);
             if settled {
-                return Ok((at, Ending { iterations: iteration, converged: true }));
+                return Ok((at, Termination { iterations: iteration, converged: true }));
             }
         }
-        Ok((at, Ending { iterations: self.settings.most_iterations, converged: false }))
+        Ok((at, Termination { iterations: self.settings.most_iterations, converged: false }))
     }
 
-    /// How far a number of the body may go from where it is.
+    /// Range of the next step of a parameter of the body.
     fn range(&self, number: usize, at: f64) -> [f64; 2] {
         let [_, most] = self.body.tolerance_and_most(number);
         [-most - at, most - at]
     }
 
-    /// What a number of the body costs. What is wrong with a motion hardly varies along a trial (skin, places of markers, lengths), and a
-    /// number of the body is wrong in every frame: it counts like an equal offset of a coordinate throughout the window.
+    /// Weight of a parameter of the body. Errors of a motion hardly vary along a trial (skin, marker placement, lengths), and a wrong
+    /// parameter acts in every frame: it costs as much as a constant offset of a coordinate throughout the window.
     fn trust(&self, number: usize) -> f64 {
         self.region.window.len() as f64 * self.body.tolerance_and_most(number)[0].powi(-2)
     }
 
-    /// The first point along a step that costs less, with its cost.
+    /// The first point along a step that lowers the cost, with its cost.
     fn along(
         &self,
         at: &Unknowns,
         cost: f64,
         dx: &[f64],
         dy: &[f64],
-    ) -> Result<Option<(Unknowns, f64)>, ConsistencyError> {
+    ) -> Result<Option<(Unknowns, f64)>, ResidualReductionError> {
         for halving in 0..HALVINGS {
             let share = 0.5_f64.powi(halving as i32);
             let moved = |x: &[f64], d: &[f64]| x.iter().zip(d).map(|(x, d)| x + share * d).collect();
@@ -102,25 +102,25 @@ impl Problem<'_> {
         Ok(None)
     }
 
-    /// Sum of squares.
-    fn cost(&self, at: &Unknowns) -> Result<f64, ConsistencyError> {
+    /// Sum of squares at a point.
+    fn cost(&self, at: &Unknowns) -> Result<f64, ResidualReductionError> {
         let mut workspace = Workspace::new(&self.body.with(&at.numbers)?);
         let mut instant = Instant::zeros(self.trajectory.columns().len());
         let mut loads = Vec::new();
         let mut cost = 0.0;
-        for (stood, frame) in self.stood.iter().zip(self.region.frames.clone()) {
-            self.curves.write(self.trajectory, frame, &at.coefficients, &mut instant);
+        for (recorded_feet, frame) in self.recorded_feet.iter().zip(self.region.frames.clone()) {
+            self.splines.write(self.trajectory, frame, &at.coefficients, &mut instant);
             self.loads_at(frame, &mut loads);
-            let sight = self.eyes.see(&mut workspace, &instant, &loads);
+            let state = self.evaluator.evaluate(&mut workspace, &instant, &loads);
             if self.region.window.contains(&frame) {
-                cost += squares(&six(&sight.root), &self.root_scale);
+                cost += squares(&six(&state.root), &self.root_scale);
             }
-            for (place, before) in sight.feet.iter().zip(stood) {
-                cost += squares(&place.away_from(before), &self.foot_scale);
+            for (place, before) in state.feet.iter().zip(recorded_feet) {
+                cost += squares(&place.displacement_from(before), &self.foot_scale);
             }
-            let spline = self.curves.at(frame);
-            for (k, [value, acceleration]) in self.curves.tolerances(frame).enumerate() {
-                let [change, _, second] = self.curves.change(&spline, &at.coefficients, k);
+            let spline = self.splines.at(frame);
+            for (k, [value, acceleration]) in self.splines.tolerances(frame).enumerate() {
+                let [change, _, second] = self.splines.change(&spline, &at.coefficients, k);
                 cost += (change / value).powi(2) + (second / acceleration).powi(2);
             }
         }
@@ -128,7 +128,7 @@ impl Problem<'_> {
         Ok(cost + at.numbers.iter().enumerate().map(prior).sum::<f64>())
     }
 
-    /// The loads of a frame; none outside of the window, where they may be no numbers.
+    /// The loads of a frame; none outside the window, where they may not be finite.
     fn loads_at(&self, frame: usize, loads: &mut Vec<BodyLoad>) {
         loads.clear();
         if self.region.window.contains(&frame) {
@@ -136,51 +136,58 @@ impl Problem<'_> {
         }
     }
 
-    /// What is lacking at the root in each frame of the window, for a body and a motion.
-    pub(super) fn lacking(&self, at: &Unknowns) -> Result<Vec<Wrench>, ConsistencyError> {
+    /// Residual wrench at the root in each frame of the window.
+    pub(super) fn root_residuals(&self, at: &Unknowns) -> Result<Vec<Wrench>, ResidualReductionError> {
         let mut workspace = Workspace::new(&self.body.with(&at.numbers)?);
         let mut instant = Instant::zeros(self.trajectory.columns().len());
         let mut loads = Vec::new();
         let mut list = Vec::with_capacity(self.region.window.len());
         for frame in self.region.window.clone() {
-            self.curves.write(self.trajectory, frame, &at.coefficients, &mut instant);
+            self.splines.write(self.trajectory, frame, &at.coefficients, &mut instant);
             self.loads_at(frame, &mut loads);
-            list.push(self.eyes.see(&mut workspace, &instant, &loads).root);
+            list.push(self.evaluator.evaluate(&mut workspace, &instant, &loads).root);
         }
         Ok(list)
     }
 
-    /// The normal equations around a point.
-    fn linearise(&self, at: &Unknowns) -> Result<Bordered, ConsistencyError> {
+    /// The normal equations, linearised at a point.
+    fn linearise(&self, at: &Unknowns) -> Result<BorderedSystem, ResidualReductionError> {
         let numbers = self.body.count();
-        let mut equations = Bordered::zeros(self.curves.unknowns(), self.curves.bands(), numbers);
+        let mut equations = BorderedSystem::zeros(self.splines.unknowns(), self.splines.bands(), numbers);
         let mut workspace = Workspace::new(&self.body.with(&at.numbers)?);
         let mut nudged = self.nudged(at)?;
         let mut instant = Instant::zeros(self.trajectory.columns().len());
-        let (mut loads, mut slopes, mut local) = (Vec::new(), Slopes::default(), Local::default());
-        for (stood, frame) in self.stood.iter().zip(self.region.frames.clone()) {
-            self.curves.write(self.trajectory, frame, &at.coefficients, &mut instant);
+        let (mut loads, mut slopes, mut local) = (Vec::new(), FrameSlopes::default(), FrameEquations::default());
+        for (recorded_feet, frame) in self.recorded_feet.iter().zip(self.region.frames.clone()) {
+            self.splines.write(self.trajectory, frame, &at.coefficients, &mut instant);
             self.loads_at(frame, &mut loads);
-            let spline = self.curves.at(frame);
-            let obeys = self.region.window.contains(&frame);
-            local.clear(spline.count * self.curves.coordinates.len(), numbers);
-            let sight = self.eyes.see(&mut workspace, &instant, &loads);
-            self.eyes.slopes(&mut workspace, &self.curves, &mut instant, &loads, obeys, &mut slopes);
-            if obeys {
+            let spline = self.splines.at(frame);
+            let enforced = self.region.window.contains(&frame);
+            local.clear(spline.count * self.splines.coordinates.len(), numbers);
+            let state = self.evaluator.evaluate(&mut workspace, &instant, &loads);
+            self.evaluator.slopes(
+                &mut workspace,
+                &self.splines,
+                &mut instant,
+                &loads,
+                if enforced { 3 } else { 1 },
+                &mut slopes,
+            );
+            if enforced {
                 let of_body: Vec<[f64; 6]> = nudged
                     .iter_mut()
-                    .map(|other| root_slope(&sight.root, &self.eyes.see(other, &instant, &loads).root, NUDGE))
+                    .map(|other| root_slope(&state.root, &self.evaluator.evaluate(other, &instant, &loads).root, NUDGE))
                     .collect();
-                local.add_root(&spline, &six(&sight.root), &slopes.root, &of_body, &self.root_scale);
+                local.add_root(&spline, &six(&state.root), &slopes.root, &of_body, &self.root_scale);
             }
-            for (foot, (place, before)) in slopes.feet.iter().zip(sight.feet.iter().zip(stood)) {
-                local.add_foot(&spline, &place.away_from(before), foot, &self.foot_scale);
+            for (foot, (place, before)) in slopes.feet.iter().zip(state.feet.iter().zip(recorded_feet)) {
+                local.add_foot(&spline, &place.displacement_from(before), foot, &self.foot_scale);
             }
-            for (k, tolerances) in self.curves.tolerances(frame).enumerate() {
-                let change = self.curves.change(&spline, &at.coefficients, k);
-                local.add_change(&spline, change, tolerances, k, self.curves.coordinates.len());
+            for (k, tolerances) in self.splines.tolerances(frame).enumerate() {
+                let change = self.splines.change(&spline, &at.coefficients, k);
+                local.add_change(&spline, change, tolerances, k, self.splines.coordinates.len());
             }
-            local.spread(spline.first * self.curves.coordinates.len(), &mut equations);
+            local.spread(spline.first * self.splines.coordinates.len(), &mut equations);
         }
         for (k, x) in at.numbers.iter().enumerate() {
             let weight = self.trust(k);
@@ -190,8 +197,8 @@ impl Problem<'_> {
         Ok(equations)
     }
 
-    /// Workspaces of the body with each number a little larger.
-    fn nudged(&self, at: &Unknowns) -> Result<Vec<Workspace>, ConsistencyError> {
+    /// Workspaces of the model with each parameter increased by a small step.
+    fn nudged(&self, at: &Unknowns) -> Result<Vec<Workspace>, ResidualReductionError> {
         let one = |k: usize| {
             let mut numbers = at.numbers.clone();
             numbers[k] += NUDGE;
@@ -205,18 +212,18 @@ fn squares(values: &[f64; 6], scale: &[f64; 6]) -> f64 {
     values.iter().zip(scale).map(|(x, s)| (x / s).powi(2)).sum()
 }
 
-/// Normal equations of one frame's unknowns and the body's numbers.
+/// Normal equations of the unknowns of one frame and the parameters of the body.
 #[derive(Debug, Clone, Default)]
-struct Local {
+struct FrameEquations {
     size: usize,
     numbers: usize,
-    /// Lower triangle by rows, the body's numbers last.
+    /// Lower triangle by rows, the parameters of the body last.
     matrix: Vec<f64>,
     right: Vec<f64>,
     row: Vec<f64>,
 }
 
-impl Local {
+impl FrameEquations {
     fn clear(&mut self, size: usize, numbers: usize) {
         let whole = size + numbers;
         (self.size, self.numbers) = (size, numbers);
@@ -226,7 +233,7 @@ impl Local {
         }
     }
 
-    /// One residual with the slopes in `row`.
+    /// Adds one residual whose derivatives are in `row`.
     fn add_row(&mut self, residual: f64) {
         let whole = self.size + self.numbers;
         for i in 0..whole {
@@ -240,7 +247,7 @@ impl Local {
 
     fn add_root(
         &mut self,
-        at: &AtFrame,
+        at: &SplineWeights,
         root: &[f64; 6],
         slopes: &[Vec<[f64; 6]>; 3],
         of_body: &[[f64; 6]],
@@ -259,7 +266,7 @@ impl Local {
         }
     }
 
-    fn add_foot(&mut self, at: &AtFrame, away: &[f64; 6], slopes: &[[f64; 6]], scale: &[f64; 6]) {
+    fn add_foot(&mut self, at: &SplineWeights, away: &[f64; 6], slopes: &[[f64; 6]], scale: &[f64; 6]) {
         let n = slopes.len();
         self.row[self.size..].fill(0.0);
         for k in 0..6 {
@@ -270,8 +277,8 @@ impl Local {
         }
     }
 
-    /// What a change of one coordinate, and its acceleration, costs.
-    fn add_change(&mut self, at: &AtFrame, change: [f64; 3], tolerances: [f64; 2], place: usize, n: usize) {
+    /// Adds the cost of a correction of one coordinate and its acceleration.
+    fn add_change(&mut self, at: &SplineWeights, change: [f64; 3], tolerances: [f64; 2], place: usize, n: usize) {
         let whole = self.size + self.numbers;
         for (d, tolerance) in [(0, tolerances[0]), (2, tolerances[1])] {
             let weight = tolerance.powi(-2);
@@ -285,8 +292,8 @@ impl Local {
         }
     }
 
-    /// Adds these equations to the whole, whose unknowns of this frame begin at `first`.
-    fn spread(&self, first: usize, equations: &mut Bordered) {
+    /// Adds these equations to those of the motion, where the unknowns of this frame begin at `first`.
+    fn spread(&self, first: usize, equations: &mut BorderedSystem) {
         let whole = self.size + self.numbers;
         for i in 0..self.size {
             equations.right[first + i] += self.right[i];

@@ -1,39 +1,39 @@
-//! What may be changed of a motion: a cubic spline added to each free coordinate, around the window.
+//! Corrections of a motion: a cubic spline added to each free coordinate, in and around the window.
 
-use super::{ConsistencyError, ConsistencySettings};
+use super::settings::{ResidualReductionError, ResidualReductionSettings};
 use crate::kinematics::{Posture, Trajectory};
 use crate::model::{Coordinate, CoordinateKind, Displacement, Drive, Function, JointAxis, Model};
 use crate::motion::TimeGrid;
 use crate::numerics::{SPLINES_AT_ONCE, UniformSplines};
 use std::ops::Range;
 
-/// Knots are no closer than this [s]: forces and motions of people hold little above 50 Hz.
+/// Smallest spacing of knots [s]: human motion and ground forces have little content above 50 Hz.
 const KNOT_STEP_S: f64 = 0.010;
-/// Time on each side of the window in which the change fades [s].
+/// Time on each side of the window in which the correction fades [s].
 const FADING_S: f64 = 0.5;
-/// Outside of the window, where no law asks for it, a change that varies faster than this is dear [Hz]: what is left of it at the edge
-/// fades in a tenth of a second or two, so that it hardly adds to accelerations.
+/// Bandwidth of corrections outside the window [Hz]: a correction at the edge fades within 0.1 to 0.2 s, so that it hardly adds to
+/// accelerations.
 const FADING_HZ: f64 = 1.5;
-/// Fewer frames than this in the window make no problem.
+/// Minimum number of frames in the window.
 const FEWEST_FRAMES: usize = 8;
 
-/// The frames that are looked at.
+/// The frames of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Region {
-    /// Where laws are enforced.
+    /// Where Newton's laws are enforced.
     pub(super) window: Range<usize>,
-    /// Where the motion may change.
+    /// Where the motion may be corrected: the window and the fading on each side.
     pub(super) frames: Range<usize>,
 }
 
 /// Splines added to the free coordinates of a motion.
 #[derive(Debug, Clone)]
-pub(super) struct Curves {
-    /// Numbers of the coordinates that may change.
+pub(super) struct CorrectionSplines {
+    /// Indices of the free coordinates.
     pub(super) coordinates: Vec<usize>,
-    /// How far each may be off [rad or m].
+    /// Standard deviation of each [rad or m].
     tolerances: Vec<f64>,
-    /// How far accelerations may be off, as multiples of that, inside the window and outside [1/s²].
+    /// Standard deviation of accelerations, as a multiple of that, inside and outside the window [1/s²].
     sharpness: [f64; 2],
     window: Range<usize>,
     followers: Vec<(usize, usize, Function)>,
@@ -42,9 +42,10 @@ pub(super) struct Curves {
     step_s: f64,
 }
 
-/// The splines that count at one frame: number of the first, how many, and what each adds to value, rate and acceleration.
+/// The basis splines that are not zero at one frame: index of the first, count, and what each adds to value, rate and
+/// acceleration.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AtFrame {
+pub(super) struct SplineWeights {
     pub(super) first: usize,
     pub(super) count: usize,
     pub(super) weights: [[f64; SPLINES_AT_ONCE]; 3],
@@ -59,10 +60,10 @@ pub(super) struct Instant {
 }
 
 impl Region {
-    pub(super) fn of(grid: TimeGrid, settings: &ConsistencySettings) -> Result<Region, ConsistencyError> {
+    pub(super) fn of(grid: TimeGrid, settings: &ResidualReductionSettings) -> Result<Region, ResidualReductionError> {
         let (first, count) = grid.inside(settings.within);
         if count < FEWEST_FRAMES {
-            return Err(ConsistencyError::TooShort {
+            return Err(ResidualReductionError::TooShort {
                 from_s: settings.within.from_s.unwrap_or(grid.start_s),
                 to_s: settings.within.to_s.unwrap_or(grid.end_s()),
                 found: count,
@@ -77,13 +78,18 @@ impl Region {
     }
 }
 
-/// Samples from knot to knot.
+/// Samples per knot interval.
 fn stride(grid: TimeGrid) -> usize {
     ((KNOT_STEP_S / grid.step_s + 1e-6).floor() as usize).max(1)
 }
 
-impl Curves {
-    pub(super) fn new(model: &Model, grid: TimeGrid, region: &Region, settings: &ConsistencySettings) -> Curves {
+impl CorrectionSplines {
+    pub(super) fn new(
+        model: &Model,
+        grid: TimeGrid,
+        region: &Region,
+        settings: &ResidualReductionSettings,
+    ) -> CorrectionSplines {
         let frames = &region.frames;
         let sharpness = [settings.bandwidth_hz, settings.bandwidth_hz.min(FADING_HZ)];
         let is_free = |&c: &usize| matches!(model.coordinates()[c].drive, Drive::Free);
@@ -98,7 +104,7 @@ impl Curves {
             _ => None,
         };
         let closed = [frames.start > 0, frames.end < grid.frames];
-        Curves {
+        CorrectionSplines {
             coordinates,
             tolerances,
             sharpness: sharpness.map(|hz| (std::f64::consts::TAU * hz).powi(2)),
@@ -110,17 +116,17 @@ impl Curves {
         }
     }
 
-    /// How many numbers there are to find.
+    /// Number of spline coefficients.
     pub(super) fn unknowns(&self) -> usize {
         self.splines.count() * self.coordinates.len()
     }
 
-    /// Bands below the diagonal of the normal equations: unknowns are ordered by spline, then by coordinate.
+    /// Bands below the diagonal of the normal equations. Unknowns are ordered by spline, then by coordinate.
     pub(super) fn bands(&self) -> usize {
         self.splines.overlap() * self.coordinates.len() - 1
     }
 
-    pub(super) fn at(&self, frame: usize) -> AtFrame {
+    pub(super) fn at(&self, frame: usize) -> SplineWeights {
         let (first, values, which) = self.splines.at(frame - self.first_frame);
         let rate = 1.0 / self.step_s;
         let mut weights = [[0.0; SPLINES_AT_ONCE]; 3];
@@ -129,30 +135,30 @@ impl Curves {
                 weights[d][k] = values[d][j] * scale;
             }
         }
-        AtFrame { first, count: which.len(), weights }
+        SplineWeights { first, count: which.len(), weights }
     }
 
-    /// How far each coordinate [rad or m] and its acceleration [rad/s² or m/s²] may be off at a frame.
+    /// Standard deviations of each coordinate [rad or m] and its acceleration [rad/s² or m/s²] at a frame.
     pub(super) fn tolerances(&self, frame: usize) -> impl Iterator<Item = [f64; 2]> {
         let sharpness = self.sharpness[usize::from(!self.window.contains(&frame))];
         self.tolerances.iter().map(move |tolerance| [*tolerance, tolerance * sharpness])
     }
 
-    /// Whether a step of the coefficients moves no coordinate by a thousandth of its tolerance.
+    /// Whether a step of the coefficients moves every coordinate by less than a thousandth of its tolerance.
     pub(super) fn is_small(&self, step: &[f64]) -> bool {
         let tolerances = self.tolerances.iter().cycle();
         step.iter().zip(tolerances).all(|(x, tolerance)| x.abs() < 1e-3 * tolerance)
     }
 
-    /// What is added to a coordinate that may change, by its place among them: value, rate, acceleration.
-    pub(super) fn change(&self, at: &AtFrame, coefficients: &[f64], place: usize) -> [f64; 3] {
+    /// Correction of a free coordinate (given by its place among them): value, rate, acceleration.
+    pub(super) fn change(&self, at: &SplineWeights, coefficients: &[f64], place: usize) -> [f64; 3] {
         let n = self.coordinates.len();
         std::array::from_fn(|d| {
             (0..at.count).map(|k| at.weights[d][k] * coefficients[(at.first + k) * n + place]).sum()
         })
     }
 
-    /// The changed motion at a frame.
+    /// The corrected motion at a frame.
     pub(super) fn write(&self, trajectory: &Trajectory, frame: usize, coefficients: &[f64], instant: &mut Instant) {
         instant.take(trajectory, frame);
         let at = self.at(frame);
@@ -165,7 +171,7 @@ impl Curves {
         self.follow(instant);
     }
 
-    /// Puts coordinates that follow others where these lead them.
+    /// Updates coordinates that follow others.
     pub(super) fn follow(&self, instant: &mut Instant) {
         for (follower, leader, function) in &self.followers {
             let [y, dy, ddy] = function.at(instant.q[*leader]);
@@ -176,14 +182,14 @@ impl Curves {
         }
     }
 
-    /// The whole changed motion.
-    pub(super) fn changed(
+    /// The whole corrected motion.
+    pub(super) fn corrected(
         &self,
         model: &Model,
         trajectory: &Trajectory,
         frames: Range<usize>,
         coefficients: &[f64],
-    ) -> Result<Trajectory, ConsistencyError> {
+    ) -> Result<Trajectory, ResidualReductionError> {
         let mut columns = trajectory.columns().to_vec();
         let mut instant = Instant::zeros(columns.len());
         for frame in frames {
@@ -214,7 +220,7 @@ impl Instant {
     }
 }
 
-/// Whether a joint to ground slides along a coordinate that may change: without that nothing answers a force.
+/// Whether a joint to ground translates along a free coordinate. Without one, the motion cannot balance a force.
 pub(super) fn has_free_root(model: &Model) -> bool {
     let is_free = |axis: &JointAxis| match &axis.displacement {
         Displacement::Follows(id, _) => matches!(model.coordinates()[id.index()].drive, Drive::Free),

@@ -1,36 +1,36 @@
-//! What was changed, and what remains.
+//! Result of residual reduction: the corrected motion, its corrections and the remaining residual.
 
 use crate::kinematics::Trajectory;
 use crate::model::{CoordinateKind, Model};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
-/// A motion that obeys Newton's laws under given loads as well as its noise allows.
+/// A motion changed within its noise so that it obeys Newton's laws under given loads.
 #[derive(Debug, Clone)]
-pub struct Consistent {
-    /// The motion.
+pub struct ReducedMotion {
+    /// The corrected motion.
     pub trajectory: Trajectory,
-    /// The body: as it was given but for mass and trunk, where these were allowed to change.
+    /// The given model; its mass and trunk are changed where the settings allow it.
     pub model: Model,
-    /// What nothing supplied before, inside the window.
+    /// Residual before the correction, inside the window.
     pub residual_before: RootResidual,
-    /// What nothing supplies now, inside the window.
+    /// Residual after the correction, inside the window.
     pub residual_after: RootResidual,
-    /// How each coordinate that may move was changed.
+    /// Correction of each free coordinate.
     pub changes: Vec<CoordinateChange>,
-    /// How bodies that carry loads were moved.
+    /// Displacement of each body that carries a load.
     pub feet: Vec<FootChange>,
-    /// How the body was changed.
+    /// Adjustment of the body.
     pub body: BodyChange,
-    /// First and last instant of the frames in which laws were enforced [s].
+    /// First and last instant at which Newton's laws were enforced [s].
     pub window_s: [f64; 2],
-    /// Iterations taken.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Whether the last iteration changed nothing that counts.
+    /// Whether the iteration converged.
     pub converged: bool,
 }
 
-/// What nothing supplies at the root: length of the force, and of the moment about the root's joint.
+/// Residual force at the root, and residual moment about the root joint (magnitudes).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RootResidual {
     /// Root mean square of the force [body weights].
@@ -43,7 +43,7 @@ pub struct RootResidual {
     pub moment_peak_nm: f64,
 }
 
-/// How a coordinate was changed: by radians or metres.
+/// Correction of one coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateChange {
     /// Name of the coordinate.
@@ -56,7 +56,7 @@ pub struct CoordinateChange {
     pub unit: &'static str,
 }
 
-/// How a body that carries a load was moved.
+/// Displacement of a body that carries a load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootChange {
     /// Name of the body.
@@ -65,31 +65,31 @@ pub struct FootChange {
     pub rms_m: f64,
     /// Largest displacement anywhere [m].
     pub max_m: f64,
-    /// Largest angle by which it was turned [rad].
+    /// Largest rotation [rad].
     pub max_rad: f64,
 }
 
-/// How the body was changed.
+/// Adjustment of mass and trunk.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BodyChange {
-    /// All masses, and inertias with them, were multiplied by one and this.
+    /// All masses and inertias were multiplied by 1 + this.
     pub mass_share: f64,
-    /// Name of the segment whose mass centre was moved.
+    /// Name of the trunk segment.
     pub trunk: String,
-    /// By how much, in its own axes [m].
+    /// Displacement of its mass centre, in its own axes [m].
     pub trunk_center_m: Vec3,
 }
 
-impl Consistent {
-    /// Whether the force that remains is less than a share of body weight, rms, and the moment less than that share of body weight
-    /// times a metre.
+impl ReducedMotion {
+    /// Whether the RMS residual force is below this share of body weight, and the RMS residual moment below this share of body
+    /// weight times 1 m.
     #[must_use]
     pub fn obeys(&self, share: f64) -> bool {
         let weight = self.model.mass() * self.model.gravity().norm();
         self.residual_after.force_rms_bw < share && self.residual_after.moment_rms_nm < share * weight
     }
 
-    /// The largest change of an angle [rad].
+    /// Largest correction of an angle [rad].
     #[must_use]
     pub fn largest_angle(&self) -> f64 {
         self.changes.iter().filter(|c| c.unit == "rad").map(|c| c.max).fold(0.0, f64::max)
@@ -97,7 +97,7 @@ impl Consistent {
 }
 
 impl RootResidual {
-    /// Of the wrenches at the root, with the body's weight [N].
+    /// From the residual wrenches at the root and the body weight [N].
     pub(super) fn of(wrenches: &[Wrench], weight: f64) -> RootResidual {
         let [force, moment] = [0, 1].map(|k| {
             let lengths = wrenches.iter().map(|w| if k == 0 { w.force.norm() } else { w.moment.norm() });
@@ -113,7 +113,7 @@ impl RootResidual {
 }
 
 impl CoordinateChange {
-    /// Of a coordinate's values before and after.
+    /// From the values of a coordinate before and after.
     pub(super) fn of(
         model: &Model,
         coordinate: usize,
@@ -132,7 +132,7 @@ impl CoordinateChange {
     }
 }
 
-/// Root mean square and largest size.
+/// Root mean square and largest magnitude.
 pub(super) fn rms_and_largest(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (mut squares, mut largest, mut count) = (0.0, 0.0_f64, 0_usize);
     for value in values {

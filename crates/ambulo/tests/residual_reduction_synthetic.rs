@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
-use ambulo::dynamics::consistency::{
-    ConsistencyError, ConsistencySettings, Consistent, MOST_CENTER_M, make_consistent,
+use ambulo::dynamics::residual_reduction::{
+    MOST_CENTER_M, ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::{Code, Findings};
@@ -136,21 +136,24 @@ fn run(
     model: &Model,
     trajectory: &Trajectory,
     loads: &[LoadSeries],
-    settings: ConsistencySettings,
-) -> (Consistent, Findings) {
+    settings: ResidualReductionSettings,
+) -> (ReducedMotion, Findings) {
     let mut findings = Findings::default();
-    (make_consistent(model, trajectory, loads, &settings, &mut findings).unwrap(), findings)
+    (reduce_residuals(model, trajectory, loads, &settings, &mut findings).unwrap(), findings)
 }
 
-fn largest_change(done: &Consistent) -> f64 {
+fn largest_change(done: &ReducedMotion) -> f64 {
     done.changes.iter().map(|c| c.max).fold(0.0, f64::max)
 }
 
 #[test]
 fn a_motion_that_obeys_stays_as_it_is() {
     let t = truth();
-    let settings =
-        ConsistencySettings { adjust_mass: true, adjust_trunk_center: true, ..ConsistencySettings::default() };
+    let settings = ResidualReductionSettings {
+        adjust_mass: true,
+        adjust_trunk_center: true,
+        ..ResidualReductionSettings::default()
+    };
     let (done, findings) = run(&t.model, &t.trajectory, &t.loads, settings);
     // Sums of some twenty bodies' forces of 1e3 N round at 1e-12 N; accelerations of 1e-12 follow, times (0.5 s)² at most.
     assert!(done.residual_before.force_rms_bw < 1e-12, "{:?}", done.residual_before);
@@ -163,7 +166,7 @@ fn a_motion_that_obeys_stays_as_it_is() {
 fn noise_of_a_degree_is_taken_back_as_far_as_the_forces_tell() {
     let t = truth();
     let recorded = noisy(&t.model, &t.columns);
-    let (done, findings) = run(&t.model, &recorded, &t.loads, ConsistencySettings::default());
+    let (done, findings) = run(&t.model, &recorded, &t.loads, ResidualReductionSettings::default());
     println!("before {:?}\nafter {:?}", done.residual_before, done.residual_after);
     assert!(done.residual_before.force_rms_bw > 0.03 && done.residual_before.moment_rms_nm > 10.0);
     assert!(done.residual_after.force_rms_bw < 0.002 && done.obeys(0.01), "{:?}", done.residual_after);
@@ -200,7 +203,8 @@ fn a_change_is_one_smooth_curve_and_fades_outside_of_the_window() {
             load.wrenches[frame].force = Vec3::repeat(f64::NAN);
         }
     }
-    let (done, _) = run(&t.model, &recorded, &loads, ConsistencySettings { within, ..ConsistencySettings::default() });
+    let (done, _) =
+        run(&t.model, &recorded, &loads, ResidualReductionSettings { within, ..ResidualReductionSettings::default() });
     assert!(done.obeys(0.01) && (done.window_s[0] - 0.6).abs() < 1e-9 && (done.window_s[1] - 1.2).abs() < 1e-9);
     let id = t.model.coordinate("lumbar_bending").unwrap();
     let change = |f: fn(&Trajectory, ambulo::model::CoordinateId) -> &[f64]| -> Vec<f64> {
@@ -236,8 +240,11 @@ fn a_wrong_mass_and_a_wrong_trunk_are_found() {
         Inertia::new(1.03 * own.mass(), own.center() + shift, own.about_center() * 1.03).unwrap()
     });
     let loads = exact_loads(&heavier, &t.trajectory);
-    let settings =
-        ConsistencySettings { adjust_mass: true, adjust_trunk_center: true, ..ConsistencySettings::default() };
+    let settings = ResidualReductionSettings {
+        adjust_mass: true,
+        adjust_trunk_center: true,
+        ..ResidualReductionSettings::default()
+    };
     let (done, _) = run(&t.model, &t.trajectory, &loads, settings);
     println!("{:?}, {:?} -> {:?}", done.body, done.residual_before, done.residual_after);
     assert!((done.body.mass_share - 0.03).abs() < 0.003, "{:?}", done.body);
@@ -250,8 +257,8 @@ fn a_wrong_mass_and_a_wrong_trunk_are_found() {
     );
     assert!((done.model.mass() / heavier.mass() - 1.0).abs() < 0.003 && done.obeys(0.01));
     // The motion alone would have to fall for the missing weight.
-    let (motion_only, _) = run(&t.model, &t.trajectory, &loads, ConsistencySettings::default());
-    let drop = |done: &Consistent| done.changes.iter().find(|c| c.name == "pelvis_ty").unwrap().max;
+    let (motion_only, _) = run(&t.model, &t.trajectory, &loads, ResidualReductionSettings::default());
+    let drop = |done: &ReducedMotion| done.changes.iter().find(|c| c.name == "pelvis_ty").unwrap().max;
     assert!(drop(&motion_only) > 5.0 * drop(&done), "{} and {}", drop(&motion_only), drop(&done));
 }
 
@@ -259,7 +266,8 @@ fn a_wrong_mass_and_a_wrong_trunk_are_found() {
 fn tolerances_that_are_too_tight_leave_a_residual_and_say_so() {
     let t = truth();
     let recorded = noisy(&t.model, &t.columns);
-    let tight = ConsistencySettings { tolerance_rad: 1e-5, tolerance_m: 1e-6, ..ConsistencySettings::default() };
+    let tight =
+        ResidualReductionSettings { tolerance_rad: 1e-5, tolerance_m: 1e-6, ..ResidualReductionSettings::default() };
     let (done, findings) = run(&t.model, &recorded, &t.loads, tight);
     assert!(done.residual_after.force_rms_bw > 0.5 * done.residual_before.force_rms_bw, "{:?}", done.residual_after);
     assert!(!done.obeys(0.01) && findings.has(Code::ConsistencyResidualLeft), "{:?}", findings.as_slice());
@@ -271,7 +279,7 @@ fn tolerances_that_are_too_tight_leave_a_residual_and_say_so() {
 fn turning_the_world_changes_nothing() {
     let t = truth();
     let recorded = noisy(&t.model, &t.columns);
-    let (straight, _) = run(&t.model, &recorded, &t.loads, ConsistencySettings::default());
+    let (straight, _) = run(&t.model, &recorded, &t.loads, ResidualReductionSettings::default());
     let turn = *nalgebra::Rotation3::from_axis_angle(&Vec3::y_axis(), 0.8).matrix();
     let mut bodies = t.model.bodies().to_vec();
     let pose = &mut bodies[0].joint.parent_from_joint;
@@ -281,7 +289,7 @@ fn turning_the_world_changes_nothing() {
     for wrench in loads.iter_mut().flat_map(|load| &mut load.wrenches) {
         (wrench.force, wrench.moment) = (turn * wrench.force, turn * wrench.moment);
     }
-    let (turned, _) = run(&model, &recorded, &loads, ConsistencySettings::default());
+    let (turned, _) = run(&model, &recorded, &loads, ResidualReductionSettings::default());
     assert_same_changes(&straight, &turned, |name| name.to_owned());
 }
 
@@ -289,7 +297,7 @@ fn turning_the_world_changes_nothing() {
 fn the_mirrored_motion_is_changed_by_the_mirrored_amount() {
     let t = truth();
     let recorded = noisy(&t.model, &t.columns);
-    let (straight, _) = run(&t.model, &recorded, &t.loads, ConsistencySettings::default());
+    let (straight, _) = run(&t.model, &recorded, &t.loads, ResidualReductionSettings::default());
     let other = |name: &str| match (name.strip_suffix("_r"), name.strip_suffix("_l")) {
         (Some(stem), _) => format!("{stem}_l"),
         (_, Some(stem)) => format!("{stem}_r"),
@@ -320,13 +328,13 @@ fn the_mirrored_motion_is_changed_by_the_mirrored_amount() {
             }
         })
         .collect();
-    let (image, _) = run(&t.model, &mirrored, &loads, ConsistencySettings::default());
+    let (image, _) = run(&t.model, &mirrored, &loads, ResidualReductionSettings::default());
     assert_same_changes(&straight, &image, other);
 }
 
 /// Changes of every coordinate, up to what the differences' steps round off.
 #[track_caller]
-fn assert_same_changes(a: &Consistent, b: &Consistent, other: impl Fn(&str) -> String) {
+fn assert_same_changes(a: &ReducedMotion, b: &ReducedMotion, other: impl Fn(&str) -> String) {
     assert!(largest_change(a) > 0.2 * DEGREE);
     for change in &a.changes {
         let image = b.changes.iter().find(|c| c.name == other(&change.name)).unwrap();
@@ -338,35 +346,35 @@ fn assert_same_changes(a: &Consistent, b: &Consistent, other: impl Fn(&str) -> S
 #[test]
 fn what_cannot_be_used_is_refused_with_reasons() {
     let t = truth();
-    let attempt = |loads: &[LoadSeries], settings: ConsistencySettings| {
-        make_consistent(&t.model, &t.trajectory, loads, &settings, &mut Findings::default()).unwrap_err()
+    let attempt = |loads: &[LoadSeries], settings: ResidualReductionSettings| {
+        reduce_residuals(&t.model, &t.trajectory, loads, &settings, &mut Findings::default()).unwrap_err()
     };
-    let usual = ConsistencySettings::default;
-    assert_eq!(attempt(&[], usual()), ConsistencyError::NoLoads);
+    let usual = ResidualReductionSettings::default;
+    assert_eq!(attempt(&[], usual()), ResidualReductionError::NoLoads);
     let mut short = t.loads.clone();
     short[1].wrenches.pop();
     let text = attempt(&short, usual()).to_string();
-    assert_eq!(text, "the load on `calcn_l` has 180 entries; expected 181, one a frame");
+    assert_eq!(text, "the load on `calcn_l` has 180 entries; expected 181, one per frame");
     let mut gap = t.loads.clone();
     gap[0].wrenches[50].moment.x = f64::NAN;
     let text = attempt(&gap, usual()).to_string();
     assert!(text.starts_with("the load on `calcn_r` is not a finite number at 0.500 s. hint:"), "{text}");
     let narrow = Window { from_s: Some(0.5), to_s: Some(0.55) };
-    let text = attempt(&t.loads, ConsistencySettings { within: narrow, ..usual() }).to_string();
+    let text = attempt(&t.loads, ResidualReductionSettings { within: narrow, ..usual() }).to_string();
     assert!(text.contains("0.500 to 0.550 s holds 6 frames of the motion; expected at least 8"), "{text}");
     let nothing = Window { from_s: Some(7.0), to_s: None };
-    let error = attempt(&t.loads, ConsistencySettings { within: nothing, ..usual() });
-    assert!(matches!(error, ConsistencyError::TooShort { found: 0, .. }), "{error}");
+    let error = attempt(&t.loads, ResidualReductionSettings { within: nothing, ..usual() });
+    assert!(matches!(error, ResidualReductionError::TooShort { found: 0, .. }), "{error}");
     let mut coordinates = t.model.coordinates().to_vec();
     for coordinate in coordinates.iter_mut().filter(|c| c.name.starts_with("pelvis_t") && c.name.len() == 9) {
         coordinate.drive = Drive::Locked;
     }
     let held = Model::new("held", t.model.gravity(), t.model.bodies().to_vec(), coordinates, Vec::new()).unwrap();
-    let error = make_consistent(&held, &t.trajectory, &t.loads, &usual(), &mut Findings::default()).unwrap_err();
-    assert_eq!(error, ConsistencyError::HeldRoot);
+    let error = reduce_residuals(&held, &t.trajectory, &t.loads, &usual(), &mut Findings::default()).unwrap_err();
+    assert_eq!(error, ResidualReductionError::HeldRoot);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let error = attempt(&t.loads, ConsistencySettings { tolerance_rad: bad, ..usual() });
-        assert!(matches!(error, ConsistencyError::Setting { name: "tolerance_rad", .. }), "{error}");
+        let error = attempt(&t.loads, ResidualReductionSettings { tolerance_rad: bad, ..usual() });
+        assert!(matches!(error, ResidualReductionError::Setting { name: "tolerance_rad", .. }), "{error}");
     }
 }
 
@@ -380,12 +388,15 @@ fn a_recording_that_would_not_fit_into_memory_is_refused_at_once() {
     let (points, wrenches) = (vec![Vec3::zeros(); frames], vec![Wrench::ZERO; frames]);
     let load = LoadSeries { body: model.body("calcn_r").unwrap(), points, wrenches };
     let attempt = |within: Window| {
-        let settings = ConsistencySettings { within, ..ConsistencySettings::default() };
+        let settings = ResidualReductionSettings { within, ..ResidualReductionSettings::default() };
         let mut findings = Findings::default();
-        (make_consistent(&model, &still, std::slice::from_ref(&load), &settings, &mut findings), findings)
+        (reduce_residuals(&model, &still, std::slice::from_ref(&load), &settings, &mut findings), findings)
     };
     let text = attempt(Window::default()).0.unwrap_err().to_string();
-    assert!(text.contains("MB would be needed for 100000 frames; allowed are 2000 MB. hint:"), "{text}");
+    assert!(
+        text.starts_with("100000 frames need") && text.contains("MB of memory; expected at most 2000 MB. hint:"),
+        "{text}"
+    );
     // A part of it is no trouble. Nothing carries the body here: all that it can do is to fall, and that is said.
     let (part, findings) = attempt(Window { from_s: Some(500.0), to_s: Some(500.5) });
     let part = part.unwrap();
@@ -403,7 +414,7 @@ fn a_simulated_walk_in_a_plane_hardly_changes() {
     let walk = synthesise(&order, &mut findings).unwrap();
     let model = &walk.human.model;
     let loads = measured(model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap().loads();
-    let (done, _) = run(model, &walk.trajectory, &loads, ConsistencySettings::default());
+    let (done, _) = run(model, &walk.trajectory, &loads, ResidualReductionSettings::default());
     println!("{:?} -> {:?}: {} deg", done.residual_before, done.residual_after, done.largest_angle() / DEGREE);
     // The simulator lacks 2 N and 3 N.m rms (tests/synthetic_walk.rs); the trunk of 30 kg answers 3 N.m at 1 Hz by 0.2 degrees.
     assert!(done.residual_before.force_rms_bw < 0.005 && done.residual_before.moment_rms_nm < 4.0);

@@ -12,7 +12,7 @@ mod marker_data;
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{Analysis, Body, LaboratoryRecording, MarkerTrial, Settings, analyse, body_in_motion};
 use ambulo::dynamics::LoadSeries;
-use ambulo::dynamics::consistency::{ConsistencySettings, Consistent, make_consistent};
+use ambulo::dynamics::residual_reduction::{ReducedMotion, ResidualReductionSettings, reduce_residuals};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::predict::{PredictSettings, predict};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
@@ -128,19 +128,19 @@ fn cases() -> Vec<Case> {
     list
 }
 
-fn consistent(case: &Case, loads: &[LoadSeries], settings: ConsistencySettings) -> Consistent {
-    let settings = ConsistencySettings { within: case.window, ..settings };
-    make_consistent(&case.model, &case.analysis.trajectory, loads, &settings, &mut Findings::default()).unwrap()
+fn consistent(case: &Case, loads: &[LoadSeries], settings: ResidualReductionSettings) -> ReducedMotion {
+    let settings = ResidualReductionSettings { within: case.window, ..settings };
+    reduce_residuals(&case.model, &case.analysis.trajectory, loads, &settings, &mut Findings::default()).unwrap()
 }
 
 /// The motion alone may change.
-fn motion_only() -> ConsistencySettings {
-    ConsistencySettings::default()
+fn motion_only() -> ResidualReductionSettings {
+    ResidualReductionSettings::default()
 }
 
 /// Mass and trunk too.
-fn with_body() -> ConsistencySettings {
-    ConsistencySettings { adjust_mass: true, adjust_trunk_center: true, ..ConsistencySettings::default() }
+fn with_body() -> ResidualReductionSettings {
+    ResidualReductionSettings { adjust_mass: true, adjust_trunk_center: true, ..ResidualReductionSettings::default() }
 }
 
 fn head(what: &str) {
@@ -149,7 +149,7 @@ fn head(what: &str) {
     );
 }
 
-fn print_row(case: &Case, done: &Consistent, ms: f64) {
+fn print_row(case: &Case, done: &ReducedMotion, ms: f64) {
     let (before, after) = (done.residual_before, done.residual_after);
     let mut angles: Vec<_> = done.changes.iter().filter(|c| c.unit == "rad").collect();
     angles.sort_by(|a, b| b.max.total_cmp(&a.max));
@@ -172,7 +172,7 @@ fn print_row(case: &Case, done: &Consistent, ms: f64) {
     );
 }
 
-fn measure(case: &Case, loads: &[LoadSeries], settings: ConsistencySettings) -> Consistent {
+fn measure(case: &Case, loads: &[LoadSeries], settings: ResidualReductionSettings) -> ReducedMotion {
     let clock = Instant::now();
     let done = consistent(case, loads, settings);
     print_row(case, &done, 1e3 * clock.elapsed().as_secs_f64());
@@ -205,8 +205,8 @@ fn motions_obey_the_plates_after_changes_below_two_degrees() {
 
 #[test]
 fn the_residual_is_as_small_as_it_is_asked_to_be() {
-    let usual = ConsistencySettings::default();
-    let exact = ConsistencySettings {
+    let usual = ResidualReductionSettings::default();
+    let exact = ResidualReductionSettings {
         residual_force_bw: 0.01 * usual.residual_force_bw,
         residual_moment_bw_m: 0.01 * usual.residual_moment_bw_m,
         ..with_body()
@@ -231,8 +231,8 @@ fn forces_that_were_predicted_are_obeyed_or_the_findings_say_that_they_are_not()
         let predicted = predict(model, trajectory, &soles, &PredictSettings::default(), &mut findings).unwrap();
         let loads = predicted.ground.loads();
         let done = measure(&case, &loads, motion_only());
-        let settings = ConsistencySettings { within: case.window, ..motion_only() };
-        make_consistent(model, trajectory, &loads, &settings, &mut findings).unwrap();
+        let settings = ResidualReductionSettings { within: case.window, ..motion_only() };
+        reduce_residuals(model, trajectory, &loads, &settings, &mut findings).unwrap();
         assert_eq!(findings.has(Code::ConsistencyResidualLeft), !done.obeys(0.01), "{}", case.name);
         // Predicted forces are Newton's behind a low-pass only: a heel strike that markers do not show is left over.
         let [before, after] = [done.residual_before, done.residual_after].map(|r| r.moment_rms_nm);

@@ -1,91 +1,94 @@
-//! One frame: what it lacks at the root, where its feet are, and how both follow the coordinates.
+//! One frame: the residual at the root, the poses of the feet, and the derivatives of both by the coordinates.
 
-use super::curves::{Curves, Instant};
+use super::splines::{CorrectionSplines, Instant};
 use crate::dynamics::{BodyLoad, FrameForces, Roots, Workspace, inverse_frame};
 use crate::model::BodyId;
 use crate::spatial::{Mat3, Vec3, Wrench};
 
-/// Steps of the differences: values [rad or m], rates [1/s of that]. Truncation is of their size relative to the slopes; accelerations
-/// enter linearly, so any step is exact.
+/// Steps of the finite differences: values [rad or m], rates [1/s of that]. The relative truncation error is of their size;
+/// accelerations enter linearly, so any step is exact.
 const STEPS: [f64; 3] = [1e-6, 1e-4, 1.0];
 
-/// What a frame shows.
+/// Residual and foot poses of a frame.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Sight {
-    /// At the root: what nothing supplies.
+pub(super) struct FrameState {
+    /// Residual wrench at the root.
     pub(super) root: Wrench,
-    /// Place and direction of each body that carries a load.
-    pub(super) feet: Vec<Place>,
+    /// Pose of each body that carries a load.
+    pub(super) feet: Vec<FootPose>,
 }
 
-/// Where a body is: its mass centre, and the axes of its frame.
+/// Pose of a body: its mass centre and the axes of its frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct FootPose {
     pub(super) center: Vec3,
     pub(super) rotation: Mat3,
 }
 
-/// How what a frame shows follows the coordinates that may change.
+/// Derivatives of a [`FrameState`] by the free coordinates.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Slopes {
-    /// Of the root's force and moment: by value, rate and acceleration, one entry a coordinate.
+pub(super) struct FrameSlopes {
+    /// Of the residual force and moment: by value, rate and acceleration, one entry per coordinate.
     pub(super) root: [Vec<[f64; 6]>; 3],
-    /// Of each foot's displacement and rotation vector by value, one entry a coordinate.
+    /// Of each foot's displacement and rotation vector by value, one entry per coordinate.
     pub(super) feet: Vec<Vec<[f64; 6]>>,
 }
 
-/// Which bodies are looked at.
+/// Computes the state of frames: which joints are roots, which bodies carry loads.
 #[derive(Debug, Clone)]
-pub(super) struct Eyes {
+pub(super) struct FrameEvaluator {
     pub(super) roots: Roots,
     pub(super) feet: Vec<BodyId>,
 }
 
-impl Eyes {
-    /// What a frame shows under its loads.
-    pub(super) fn see(&self, workspace: &mut Workspace, instant: &Instant, loads: &[BodyLoad]) -> Sight {
+impl FrameEvaluator {
+    /// The state of a frame under its loads.
+    pub(super) fn evaluate(&self, workspace: &mut Workspace, instant: &Instant, loads: &[BodyLoad]) -> FrameState {
         let forces: FrameForces<'_> = inverse_frame(workspace, instant.posture(), loads);
         let place = |body: &BodyId| {
             let motion = forces.body_motion(*body);
-            Place { center: motion.center, rotation: motion.pose.rotation }
+            FootPose { center: motion.center, rotation: motion.pose.rotation }
         };
-        Sight { root: self.roots.residual(|body| forces.reaction(body)), feet: self.feet.iter().map(place).collect() }
+        FrameState {
+            root: self.roots.residual(|body| forces.reaction(body)),
+            feet: self.feet.iter().map(place).collect(),
+        }
     }
 
-    /// By differences: what a frame shows when one number is a little larger. Without laws to obey, rates and accelerations
-    /// are of no interest.
+    /// Derivatives by forward differences around `state`. Only the first `derivatives` of value, rate and acceleration are
+    /// varied: one outside the window, where the residual does not count.
     pub(super) fn slopes(
         &self,
         workspace: &mut Workspace,
-        curves: &Curves,
+        splines: &CorrectionSplines,
         instant: &mut Instant,
         loads: &[BodyLoad],
-        with_laws: bool,
-        slopes: &mut Slopes,
+        derivatives: usize,
+        slopes: &mut FrameSlopes,
     ) {
-        let still = self.see(workspace, instant, loads);
+        let still = self.evaluate(workspace, instant, loads);
         slopes.feet.iter_mut().for_each(Vec::clear);
         slopes.feet.resize(self.feet.len(), Vec::new());
-        for derivative in 0..if with_laws { 3 } else { 1 } {
+        for derivative in 0..derivatives {
             slopes.root[derivative].clear();
-            for &c in &curves.coordinates {
+            for &c in &splines.coordinates {
                 let old = nudge(instant, derivative, c, STEPS[derivative]);
-                curves.follow(instant);
-                let moved = self.see(workspace, instant, loads);
+                splines.follow(instant);
+                let moved = self.evaluate(workspace, instant, loads);
                 slopes.root[derivative].push(root_slope(&still.root, &moved.root, STEPS[derivative]));
                 if derivative == 0 {
                     for (foot, (a, b)) in slopes.feet.iter_mut().zip(still.feet.iter().zip(&moved.feet)) {
-                        foot.push(b.away_from(a).map(|x| x / STEPS[0]));
+                        foot.push(b.displacement_from(a).map(|x| x / STEPS[0]));
                     }
                 }
                 *entry(instant, derivative, c) = old;
             }
         }
-        curves.follow(instant);
+        splines.follow(instant);
     }
 }
 
-/// Makes a number larger; what it was.
+/// Increases a number; returns its old value.
 fn nudge(instant: &mut Instant, derivative: usize, c: usize, step: f64) -> f64 {
     let entry = entry(instant, derivative, c);
     std::mem::replace(entry, *entry + step)
@@ -99,7 +102,7 @@ fn entry(instant: &mut Instant, derivative: usize, c: usize) -> &mut f64 {
     }
 }
 
-/// How force and moment change by one unit of what was changed by `step`.
+/// Derivative of force and moment by a quantity that was increased by `step`.
 pub(super) fn root_slope(still: &Wrench, moved: &Wrench, step: f64) -> [f64; 6] {
     let (a, b) = (six(still), six(moved));
     std::array::from_fn(|k| (b[k] - a[k]) / step)
@@ -111,9 +114,9 @@ pub(super) fn six(wrench: &Wrench) -> [f64; 6] {
     [f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
-impl Place {
-    /// Displacement of the mass centre and small rotation from another place.
-    pub(super) fn away_from(&self, other: &Place) -> [f64; 6] {
+impl FootPose {
+    /// Displacement of the mass centre and small rotation from another pose.
+    pub(super) fn displacement_from(&self, other: &FootPose) -> [f64; 6] {
         let d = self.center - other.center;
         let turn = self.rotation * other.rotation.transpose();
         // The antisymmetric part is sin(angle) times the axis.
