@@ -11,7 +11,7 @@ mod workbench;
 
 use ambulo::findings::Findings;
 use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::{Model, from_osim_bytes, to_osim};
+use ambulo::model::{Model, to_osim};
 use ambulo::motion::coordinates_from_table;
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::study::{
@@ -49,7 +49,7 @@ impl Reader {
     }
 
     fn model(&mut self, name: &str) -> Model {
-        from_osim_bytes(&self.bytes(name), &mut self.findings).unwrap()
+        Model::from_osim(&self.bytes(name), &mut self.findings).unwrap()
     }
 
     fn coordinates(&mut self, model: &str, motion: &str) -> Source {

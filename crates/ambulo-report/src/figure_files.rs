@@ -1,5 +1,6 @@
 //! The figures of a run, as names and bytes.
 
+use crate::clinical::ClinicalNames;
 use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
@@ -22,6 +23,7 @@ pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile
     if !rows.is_empty() {
         let figures = CycleFigures {
             rows: &rows,
+            names: &ClinicalNames::of_model(model),
             mass_kg: analysis.mass.kg,
             caption: &caption,
             marks: &marks(analysis),
