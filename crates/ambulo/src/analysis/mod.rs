@@ -31,6 +31,7 @@ pub use ground_agreement::{
 };
 pub use marker_trial::{Body, BodyInMotion, LaboratoryRecording, MarkerTrialError, Subject, body_in_motion};
 pub use peaks::{Peak, peak};
+pub use plausibility::LARGE_RESIDUAL_BW;
 pub use predicted::{
     PLATES_LOW_PASS, PredictOrder, PredictedAnalysis, analyse_predicted, analyse_predicted_trajectory,
 };

@@ -45,12 +45,24 @@ pub struct StepSettings {
 }
 
 /// How positions and velocities follow from forces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// First order, by impulses.
     Impulse,
     /// Fourth order where motion is smooth.
     RungeKutta,
+}
+
+impl Integrator {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Integrator::Impulse => "impulse",
+            Integrator::RungeKutta => "runge-kutta",
+        }
+    }
 }
 
 impl Default for StepSettings {

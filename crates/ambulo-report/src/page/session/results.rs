@@ -4,21 +4,19 @@ use super::cycles_file::{self, CycleValues};
 use super::{cycles, events};
 use crate::clinical::{KNEE, knee_flexion_sign};
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
-use crate::page::folder::{Folder, PageError};
+use ambulo::analysis::feasibility::Check;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side, from_osim_bytes};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
-use serde_json::Value;
+use ambulo_results::{Folder, GroundOrigin, ResultsError, Summary};
 
-/// Standard gravity [m/s²] (CGPM 1901, unverified), which OpenSim's models have unless they say otherwise.
-const STANDARD_GRAVITY: f64 = 9.806_65;
 /// A body in files: of recordings, of synthetic walks.
 const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
 
 /// A recording's or a walk's files.
 pub(super) struct Results {
-    pub(super) summary: Value,
+    pub(super) summary: Summary,
     pub(super) grid: TimeGrid,
     pub(super) times: Vec<f64>,
     pub(super) kinematics: Table,
@@ -43,8 +41,8 @@ pub(super) struct Results {
 
 impl Results {
     /// Reads the files.
-    pub(super) fn read(folder: &Folder<'_>, summary: Value) -> Result<Results, PageError> {
-        let missing = || PageError::Missing { folder: folder.name.clone(), file: KINEMATICS };
+    pub(super) fn read(folder: &Folder<'_>, summary: Summary) -> Result<Results, ResultsError> {
+        let missing = || ResultsError::Missing { folder: folder.name.clone(), file: KINEMATICS };
         let kinematics = folder.table(KINEMATICS)?.ok_or_else(missing)?;
         let times = kinematics.times().unwrap_or_default().to_vec();
         let uneven = || "the time column is not even; expected two or more rows at even steps".to_owned();
@@ -60,7 +58,7 @@ impl Results {
             ground: table(GROUND)?,
             deviations: table(DEVIATIONS)?,
             measured: table(MEASURED)?,
-            weight_n: mass_kg * gravity(body.as_ref().map(|(_, model)| model), &summary),
+            weight_n: mass_kg * summary.gravity_m_s2,
             knee_flexion: knee_flexion(&kinematics),
             source: source(&summary),
             summary,
@@ -81,33 +79,18 @@ impl Results {
 
     /// Gravity [m/s²].
     pub(super) fn gravity(&self) -> f64 {
-        self.weight_n / self.mass_kg
+        self.summary.gravity_m_s2
     }
 
-    /// A number of the summary, by its path: `/ground/threshold_n`.
-    pub(super) fn number(&self, path: &str) -> Option<f64> {
-        self.summary.pointer(path)?.as_f64()
-    }
-
-    /// A text of the summary.
-    pub(super) fn text(&self, path: &str) -> Option<&str> {
-        self.summary.pointer(path)?.as_str()
-    }
-
-    /// Whether something odd of this kind was found.
-    pub(super) fn has_finding(&self, code: &str) -> bool {
-        self.list("/findings").iter().any(|finding| finding["code"].as_str() == Some(code))
-    }
-
-    /// A list of the summary, empty where there is none.
-    pub(super) fn list(&self, path: &str) -> &[Value] {
-        self.summary.pointer(path).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+    /// Angle by which the path of markers turns, where it does not run straight [deg].
+    pub(super) fn turn_deg(&self) -> Option<f64> {
+        self.summary.subject.as_ref()?.turn_deg
     }
 
     /// The limit that a check of the verdict judged by.
-    pub(super) fn limit(&self, check: &str) -> Option<f64> {
-        let judged = self.list("/verdict/closest").iter().find(|entry| entry["check"].as_str() == Some(check))?;
-        judged["limit"].as_f64().filter(|limit| limit.is_finite())
+    pub(super) fn limit(&self, check: Check) -> Option<f64> {
+        let judged = self.summary.verdict.as_ref()?.closest.iter().find(|entry| entry.check == check)?;
+        Some(judged.limit).filter(|limit| limit.is_finite())
     }
 
     /// Cycles of one foot.
@@ -125,7 +108,7 @@ pub(super) const GROUND: &str = "grf.mot";
 pub(super) const DEVIATIONS: &str = "grf_sd.mot";
 pub(super) const MEASURED: &str = "grf_measured.mot";
 
-fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, PageError> {
+fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, ResultsError> {
     let Some(table) = folder.table(file)? else { return Ok(None) };
     let times = table.times().unwrap_or_default();
     let near = |(i, t): (usize, &f64)| (t - grid.time(i)).abs() < 0.5 * grid.step_s;
@@ -136,7 +119,7 @@ fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Opt
     Err(folder.unreadable(file, format!("found {} rows; expected {expected}", times.len())))
 }
 
-fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError> {
+fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, ResultsError> {
     for file in BODIES {
         if let Some(bytes) = (folder.file)(file) {
             let model = from_osim_bytes(&bytes, &mut Findings::default());
@@ -149,30 +132,19 @@ fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError>
     Ok(None)
 }
 
-fn mass(folder: &Folder<'_>, summary: &Value) -> Result<f64, PageError> {
-    let found = &summary["mass_kg"];
-    let positive = found.as_f64().filter(|mass| mass.is_finite() && *mass > 0.0);
-    positive
-        .ok_or_else(|| folder.unreadable("summary.json", format!("`mass_kg` is {found}; expected a positive number")))
+fn mass(folder: &Folder<'_>, summary: &Summary) -> Result<f64, ResultsError> {
+    let found = summary.mass_kg;
+    let wrong =
+        || folder.unreadable(ambulo_results::SUMMARY, format!("`mass_kg` is {found}; expected a positive number"));
+    Some(found).filter(|mass| *mass > 0.0).ok_or_else(wrong)
 }
 
-/// From the body, or from two numbers of the summary that differ by the weight.
-fn gravity(model: Option<&Model>, summary: &Value) -> f64 {
-    let residual = &summary["residual"];
-    let of_residual = || {
-        let weight = residual["force_rms_n"].as_f64()? / residual["force_rms_bw"].as_f64()?;
-        Some(weight / summary["mass_kg"].as_f64()?)
-    };
-    let known = model.map(|model| model.gravity().norm()).or_else(of_residual);
-    known.filter(|g| g.is_finite() && *g > 0.0).unwrap_or(STANDARD_GRAVITY)
-}
-
-fn source(summary: &Value) -> PageSource {
-    match summary["ground"]["source"].as_str() {
-        Some("measured") => PageSource::Measured,
-        Some("predicted") => PageSource::Predicted,
-        Some("simulated") => PageSource::Simulated,
-        _ => PageSource::None,
+fn source(summary: &Summary) -> PageSource {
+    match summary.ground.source {
+        GroundOrigin::Measured => PageSource::Measured,
+        GroundOrigin::Predicted => PageSource::Predicted,
+        GroundOrigin::Simulated => PageSource::Simulated,
+        GroundOrigin::None => PageSource::None,
     }
 }
 

@@ -46,7 +46,7 @@ pub fn knee_flexion_of_motion(model: &Model, trajectory: &Trajectory) -> f64 {
 pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let Evidence { model, trajectory, .. } = *evidence;
     let judge = Judge::new(model, person, thresholds, knee_flexion_of_motion(model, trajectory));
-    let tracks = measure(evidence, &judge, findings);
+    let (tracks, frames_unmeasured) = measure(evidence, &judge, findings);
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
@@ -65,7 +65,7 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
                 at_s: grid.time(frame),
                 value: m.value,
                 limit: m.limit,
-                unit: check.unit(),
+                unit: check.unit().into(),
                 share: m.share,
             }
         }));
@@ -75,6 +75,8 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
         reasons,
         closest,
         not_judged: not_judged(evidence, &judge),
+        frames: grid.frames,
+        frames_unmeasured,
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
     }
@@ -107,8 +109,8 @@ fn check_of(model: &Model, slot: usize) -> Check {
     }
 }
 
-/// Every frame, into tracks.
-fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> Vec<Track> {
+/// Every frame, into tracks; and the number of frames in which a foot may stand where nothing measures.
+fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> (Vec<Track>, usize) {
     let Evidence { model, trajectory, forces, ground, device } = *evidence;
     let up = upward(model);
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
@@ -162,7 +164,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
         );
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
-    tracks
+    (tracks, unseen)
 }
 
 /// Least number of frames in a row that is no noise.
@@ -254,7 +256,7 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
         at_s,
         value: m.value,
         limit: m.limit,
-        unit: m.check.unit(),
+        unit: m.check.unit().into(),
         message,
     }
 }

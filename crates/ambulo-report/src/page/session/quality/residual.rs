@@ -4,6 +4,7 @@ use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
 use crate::page::session::results::{MOMENTS, Results};
+use ambulo::analysis::feasibility::Check;
 
 /// A column of the root in `moments.sto`, as OpenSim's models and the built-in bodies call it, and its panel: word, heading, unit,
 /// directions.
@@ -52,7 +53,7 @@ fn size(results: &Results, block: &mut Block) -> Option<Panel> {
     }
     let lengths: Vec<f64> = (0..results.grid.frames).map(length).collect();
     let mut traces = vec![trace("residual", Role::Main, &lengths, None, block)];
-    if let Some(limit) = results.limit("support").filter(|_| results.source != PageSource::None) {
+    if let Some(limit) = results.limit(Check::Support).filter(|_| results.source != PageSource::None) {
         traces.push(trace("limit", Role::Limit, &vec![100.0 * limit; lengths.len()], None, block));
     }
     Some(over_time([RESIDUAL_FORCE, "Residual force, size", "%BW"], ["", ""], traces))
