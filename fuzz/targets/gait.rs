@@ -1,9 +1,4 @@
-//! Synthetic gaits.
+//! Fuzz target; the check is `ambulo_fuzz::gait`.
 #![no_main]
 
-use ambulo::gait::Gait;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|text: &str| {
-    let _ = Gait::from_toml(text);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| ambulo_fuzz::gait(bytes));

@@ -1,9 +1,4 @@
-//! Marker sets.
+//! Fuzz target; the check is `ambulo_fuzz::marker_set`.
 #![no_main]
 
-use ambulo::model::marker_set::MarkerSet;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|text: &str| {
-    let _ = MarkerSet::from_toml(text);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| ambulo_fuzz::marker_set(bytes));

@@ -1,9 +1,4 @@
-//! Scenes of the simulator: the file alone, nothing is built.
+//! Fuzz target; the check is `ambulo_fuzz::scene`.
 #![no_main]
 
-use ambulo::simulation::scene::SceneFile;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|text: &str| {
-    let _ = SceneFile::parse(text);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| ambulo_fuzz::scene(bytes));

@@ -1,7 +1,6 @@
-//! What CI runs, in order, up to the first failure: `cargo xtask check`.
+//! What CI runs, in order, up to the first failure: `cargo xtask check`; with `--full` everything that takes longer, too.
 //!
-//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so each can be run alone while something is
-//! mended. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
+//! The steps are plain commands of cargo (in the dev profile) and, in `viewer/`, of npm, so you can repeat a failed step alone. A step whose program or target is not installed is skipped with a message; where `CI` is set, that is a failure.
 
 use crate::workspace;
 use std::path::{Path, PathBuf};
@@ -17,6 +16,8 @@ enum Tool {
     CargoForWasm,
     /// In `viewer/`.
     Npm,
+    /// This program.
+    Xtask,
 }
 
 /// One command.
@@ -33,7 +34,7 @@ struct Step {
 /// The 32-bit target that the library is built for, so that it can run in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
@@ -47,6 +48,13 @@ const STEPS: [Step; 8] = [
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
+    },
+    Step {
+        name: "house",
+        tool: Tool::Xtask,
+        arguments: &["house"],
+        variable: None,
+        hint: "`cargo xtask house` repeats this step",
     },
     Step {
         name: "tests",
@@ -93,16 +101,47 @@ const STEPS: [Step; 8] = [
     },
 ];
 
+/// Steps of `--full`, after the others.
+const LONG_STEPS: [Step; 3] = [
+    Step {
+        name: "fuzz corpus",
+        tool: Tool::Cargo,
+        arguments: &["run", "--manifest-path", "fuzz/Cargo.toml", "--no-default-features", "--example", "replay"],
+        variable: None,
+        hint: "the last file that is printed is the one that fails",
+    },
+    Step {
+        name: "sweep",
+        tool: Tool::Xtask,
+        arguments: &["sweep"],
+        variable: None,
+        hint: "each line above is a command that failed and what it printed last",
+    },
+    Step {
+        name: "benchmark",
+        tool: Tool::Xtask,
+        arguments: &["bench"],
+        variable: None,
+        hint: "`cargo xtask bench` repeats this step",
+    },
+];
+
 /// Runs the steps. The error names the step that failed and what to do.
 #[expect(clippy::print_stdout, reason = "the steps and their times are the command's result")]
-pub(crate) fn run() -> Result<(), String> {
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let long: &[Step] = match words {
+        [] => &[],
+        [option] if option == "--full" => &LONG_STEPS,
+        _ => return Err("usage: cargo xtask check [--full]".to_owned()),
+    };
+    let steps: Vec<&Step> = STEPS.iter().chain(long).collect();
     let start = Instant::now();
-    let lacking = STEPS.each_ref().map(|step| step.tool.lacking());
-    if let (Some(lacking), true) = (lacking.iter().flatten().next(), std::env::var_os("CI").is_some()) {
-        return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
+    let lacking: Vec<Option<&str>> = steps.iter().map(|step| step.tool.lacking()).collect();
+    if std::env::var_os("CI").is_some() {
+        all_present(&lacking)?;
     }
-    for (i, (step, lacking)) in STEPS.iter().zip(lacking).enumerate() {
-        let head = format!("[{}/{}] {}", i + 1, STEPS.len(), step.name);
+    for (i, (step, lacking)) in steps.iter().zip(lacking).enumerate() {
+        let head = format!("[{}/{}] {}", i + 1, steps.len(), step.name);
         if let Some(lacking) = lacking {
             println!("{head}: skipped: {lacking} is not installed");
             continue;
@@ -112,8 +151,23 @@ pub(crate) fn run() -> Result<(), String> {
         run_step(step)?;
         println!("{head}: {:.1} s", step_start.elapsed().as_secs_f64());
     }
-    println!("all {} steps passed or skipped in {:.1} s", STEPS.len(), start.elapsed().as_secs_f64());
+    println!("all {} steps passed or skipped in {:.1} s", steps.len(), start.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// An error if CI would skip a step or the tests that need recordings.
+fn all_present(lacking: &[Option<&str>]) -> Result<(), String> {
+    if let Some(lacking) = lacking.iter().flatten().next() {
+        return Err(format!("{lacking} is not installed\nhint: .ci/run installs what the steps need"));
+    }
+    let data = workspace::data().join("data");
+    if data.is_dir() {
+        return Ok(());
+    }
+    let data = data.display();
+    Err(format!(
+        "{data}: no recordings, and in CI no test may be skipped\nhint: set AMBULO_DATA to the folder with `data`"
+    ))
 }
 
 /// Whether the compiler has the standard library of the target `WASM`.
@@ -128,7 +182,7 @@ impl Tool {
         let starts =
             |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
         match self {
-            Tool::Cargo => None,
+            Tool::Cargo | Tool::Xtask => None,
             Tool::CargoForWasm => {
                 (!has_wasm_target()).then_some("the target wasm32-unknown-unknown (`rustup target add`)")
             }
@@ -140,12 +194,14 @@ impl Tool {
         match self {
             Tool::Cargo | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
+            Tool::Xtask => "cargo xtask",
         }
     }
 
     fn command(self) -> Command {
         match self {
             Tool::Cargo | Tool::CargoForWasm => workspace::cargo(),
+            Tool::Xtask => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
                 command.current_dir(workspace::root().join("viewer")).env("AMBULO", debug_program());

@@ -1,20 +1,15 @@
-//! Automation of the workspace: `cargo xtask <command>`. Each command is a file of this folder.
+//! Automation of the workspace: `cargo xtask <command>`.
+//!
+//! This crate has no dependencies, so its commands start at once. Commands that need the library are in the crate
+//! `xtask-measure`, which is built in release and started from here.
 
-mod bench;
+mod build_time;
 mod check;
-mod figures;
-mod fit_gait;
-mod fit_ground;
-mod harmonics;
-mod normative;
-mod normative_bands;
-mod npz;
-mod oracle_c3d;
-mod peers;
-mod simulators;
-mod table;
-mod validate;
-mod walk_bands;
+#[cfg(test)]
+mod documents;
+mod house;
+mod measured;
+mod sweep;
 mod workspace;
 
 use std::process::ExitCode;
@@ -22,48 +17,66 @@ use std::process::ExitCode;
 const HELP: &str = "\
 usage: cargo xtask <command>
 
-  check             what CI runs: format, lints, tests, documentation, the viewer, its pages in a browser; stops at the first failure
+  check             run what CI runs: format, lints, house, tests, documentation, viewer; stops at the first failure
+                    [--full: and everything that takes longer]
+  house             print size and shape of the source; fails where it exceeds a limit  [--baseline REV] [--list]
+  build-time        time a cold release build of the `ambulo` command  [--baseline REV]
+  measured          write the generated pages of docs/measured/  [PAGE..] [--check: list pages that are out of date]
+  sweep             run the `ambulo` command on all examples and recordings, and kill it while it writes
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
-  bench-markers     time marker fitting and compare it, ours and OpenSim's  [--write: docs/BENCHMARKS_MARKERS.md]
-  bench-simulation  time and check forward simulation, ours and others'  [--write: docs/BENCHMARKS.md] [--without-peers]
+  bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
+  bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
-  figures           draw docs/images/ anew with the `ambulo` command and a headless Chromium
-  fit-gait          fit the laws of joints and ground forces against speed anew from normative curves; prints their errors
-  fit-ground        fit the numbers of the ground-force estimator anew, each subject left out in turn  [--write: docs/GROUND_FIT.md]
+  figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
+  fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
+  fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
-  normative-bands   write the normative bands of page and figures anew, from the tables beside the workspace
-  validate          judge predicted ground forces against plates of all recordings  [--write: docs/VALIDATION.md]
-  walk-bands        judge corrected walks against normative bands  [--write: docs/WALK_BANDS.md and its picture]
-  help              this text
+  normative-bands   write the normative bands of page and figures from the tables next to the workspace
+  validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
+  walk-bands        compare corrected walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
+  help              print this text
 
 environment:
-  AMBULO_DATA       folder that holds `data` and `reference`; without it ../shared beside this workspace
+  AMBULO_DATA       folder with `data` and `reference`; default: ../shared next to this workspace
   AMBULO_PEERS_ENV  folder of the other engines' virtual environments; see `cargo xtask peers`
 ";
 
-/// The command line could not be understood.
+/// Commands of this crate; the documents are compared with this list.
+#[cfg(test)]
+const OWN: [&str; 5] = ["check", "house", "build-time", "measured", "sweep"];
+
+/// Commands of the crate `xtask-measure`.
+const MEASUREMENTS: [&str; 12] = [
+    "bench",
+    "bench-markers",
+    "bench-simulation",
+    "peers",
+    "simulators",
+    "oracle-c3d",
+    "figures",
+    "fit-gait",
+    "fit-ground",
+    "normative-bands",
+    "validate",
+    "walk-bands",
+];
+
+/// Exit code for a command line that is not understood.
 const MISUSED: u8 = 2;
 
-#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the shell of the automation: help and errors")]
+#[expect(clippy::print_stdout, clippy::print_stderr, reason = "help and errors of the automation go to the terminal")]
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
-        ("peers", _) => peers::run(rest),
-        ("simulators", _) => simulators::command(rest),
-        ("oracle-c3d", _) => oracle_c3d::run(rest),
-        ("check", []) => check::run(),
-        ("bench", []) => bench::run(),
-        ("bench-markers", _) => bench::markers::run(rest),
-        ("bench-simulation", _) => bench::simulation::run(rest),
-        ("figures", []) => figures::run(),
-        ("fit-gait", []) => fit_gait::run(),
-        ("normative-bands", []) => normative_bands::run(),
-        ("fit-ground", _) => fit_ground::run(rest),
-        ("validate", _) => validate::run(rest),
-        ("walk-bands", _) => walk_bands::run(rest),
+        ("check", _) => check::run(rest),
+        ("build-time", _) => build_time::run(rest),
+        ("measured", _) => measured::run(rest),
+        ("sweep", []) => sweep::run(),
+        ("house", _) => house::run(rest),
+        (command, _) if MEASUREMENTS.contains(&command) => measure(&words),
         ("help" | "--help" | "-h", []) => {
             print!("{HELP}");
             Ok(())
@@ -79,5 +92,27 @@ fn main() -> ExitCode {
             eprintln!("error: {message}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Builds `xtask-measure` in release and runs one of its commands. A page that it writes gets its first line.
+fn measure(words: &[String]) -> Result<(), String> {
+    let mut command = workspace::cargo();
+    command.args(["run", "--quiet", "--release", "--locked", "--package", "xtask-measure", "--"]).args(words);
+    let status = command.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
+    if !status.success() {
+        return Err(format!("`{}` failed ({status}), see above", words.join(" ")));
+    }
+    if words.iter().any(|word| word == "--write") { measured::stamp(&words[0]) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_lists_every_command() {
+        let listed = |name: &&str| HELP.contains(&format!("\n  {name} "));
+        assert_eq!(OWN.iter().chain(&MEASUREMENTS).find(|name| !listed(name)), None);
     }
 }

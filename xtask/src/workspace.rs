@@ -1,14 +1,7 @@
-//! Where things are: the workspace, the recordings beside it, the `ambulo` command.
+//! The workspace: its folder, its cargo, the files of another revision.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// Folder that holds `data` and `reference`, where it is not [`DATA`].
-const DATA_VARIABLE: &str = "AMBULO_DATA";
-/// The same, relative to the workspace root.
-const DATA: &str = "../shared";
-/// The recording that the main job is shown and timed on: model, motion, forces and what the forces act on.
-const WALK: &str = "data/opensim-gait2392-subject01";
+use std::process::{Command, Stdio};
 
 /// The folder of the workspace's `Cargo.toml`.
 pub(crate) fn root() -> PathBuf {
@@ -18,7 +11,7 @@ pub(crate) fn root() -> PathBuf {
 
 /// The folder that holds `data` and `reference`.
 pub(crate) fn data() -> PathBuf {
-    std::env::var_os(DATA_VARIABLE).map_or_else(|| root().join(DATA), PathBuf::from)
+    std::env::var_os("AMBULO_DATA").map_or_else(|| root().join("../shared"), PathBuf::from)
 }
 
 /// The same cargo that runs this program, in the workspace root.
@@ -28,52 +21,49 @@ pub(crate) fn cargo() -> Command {
     command
 }
 
-/// Files of the recording that the main job is timed on.
-#[derive(Debug, Clone)]
-pub(crate) struct Walk {
-    pub(crate) model: PathBuf,
-    pub(crate) motion: PathBuf,
-    pub(crate) forces: PathBuf,
-    pub(crate) loads: PathBuf,
-}
-
-impl Walk {
-    /// The recording, if it is there.
-    pub(crate) fn find() -> Option<Walk> {
-        let file = |name: &str| data().join(WALK).join(name);
-        let walk = Walk {
-            model: file("subject01_simbody.osim"),
-            motion: file("subject01_walk1_ik.mot"),
-            forces: file("subject01_walk1_grf.mot"),
-            loads: file("subject01_walk1_grf.xml"),
-        };
-        [&walk.model, &walk.motion, &walk.forces, &walk.loads].iter().all(|path| path.is_file()).then_some(walk)
-    }
-
-    /// `ambulo forces` on this recording, with OpenSim's usual 6 Hz and the forces as measured.
-    pub(crate) fn command(&self, program: &Path, output: &Path) -> Command {
-        let mut command = Command::new(program);
-        command.arg("forces").arg(&self.motion).arg("--model").arg(&self.model);
-        command.args(["--cutoff", "6", "--force-cutoff", "off"]);
-        command.arg("--grf").arg(&self.forces).arg("--loads").arg(&self.loads).arg("-o").arg(output);
-        command
-    }
-}
-
-/// The folder that cargo builds into: this program stands in `<target>/<profile>`.
+/// The folder that cargo builds into: this program is in `<target>/<profile>`.
 pub(crate) fn target() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
 }
 
-/// Builds the `ambulo` command in release and returns its path.
-pub(crate) fn build_program() -> Result<PathBuf, String> {
-    let mut build = cargo();
-    build.args(["build", "--quiet", "--release", "--locked", "--package", "ambulo-cli"]);
-    let status = build.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
-    if !status.success() {
-        return Err(format!("ambulo-cli did not build ({status}), see above"));
+/// Files of one revision in a temporary folder, removed when dropped.
+pub(crate) struct Revision {
+    folder: PathBuf,
+}
+
+impl Revision {
+    /// Unpacks a revision: a commit, a tag or a branch.
+    pub(crate) fn unpack(name: &str) -> Result<Revision, String> {
+        let revision =
+            Revision { folder: std::env::temp_dir().join(format!("ambulo-revision-{}", std::process::id())) };
+        std::fs::create_dir_all(&revision.folder)
+            .map_err(|e| format!("{}: cannot create: {e}", revision.folder.display()))?;
+        let mut archive = Command::new("git");
+        archive.current_dir(root()).args(["archive", "--format=tar", name]).stdout(Stdio::piped());
+        let mut archive = archive.spawn().map_err(|e| format!("git: cannot start: {e}"))?;
+        let mut tar = Command::new("tar");
+        tar.arg("-x")
+            .arg("-C")
+            .arg(&revision.folder)
+            .stdin(archive.stdout.take().map_or_else(Stdio::null, Stdio::from));
+        let unpacked = tar.status().map_err(|e| format!("tar: cannot start: {e}"))?;
+        let read = archive.wait().map_err(|e| format!("git: {e}"))?;
+        if read.success() && unpacked.success() {
+            return Ok(revision);
+        }
+        Err(format!("the revision `{name}` could not be unpacked, see above\nhint: `git log` lists revisions"))
     }
-    let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
-    if program.is_file() { Ok(program) } else { Err(format!("{}: not there after the build", program.display())) }
+
+    /// The folder of the revision's `Cargo.toml`.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+impl Drop for Revision {
+    fn drop(&mut self) {
+        // A temporary folder that cannot be removed does no harm.
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
 }

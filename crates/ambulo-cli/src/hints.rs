@@ -8,6 +8,7 @@ use ambulo::ground::predict::PredictError;
 use ambulo::kinematics::TrajectoryError;
 use ambulo::motion::MotionError;
 use ambulo::motion::skeleton::SkeletonError;
+use ambulo::study::StudyError;
 use std::error::Error;
 
 /// Cuts a part of a recording off.
@@ -40,15 +41,9 @@ pub(crate) fn of_error(error: &anyhow::Error) -> Option<&'static str> {
 }
 
 fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
-    if let Some(error) = cause.downcast_ref::<AnalysisError>() {
-        return match error {
-            AnalysisError::Motion(error) | AnalysisError::Ground(error) => of_motion(error),
-            AnalysisError::Trajectory(error) => of_trajectory(error),
-            AnalysisError::Prediction(error) => of_prediction(error),
-            _ => None,
-        };
-    }
     let others = [
+        cause.downcast_ref().and_then(of_study),
+        cause.downcast_ref().and_then(of_analysis),
         cause.downcast_ref().and_then(of_motion),
         cause.downcast_ref().and_then(of_trajectory),
         cause.downcast_ref().and_then(of_prediction),
@@ -56,6 +51,26 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_comparison),
     ];
     others.into_iter().flatten().next()
+}
+
+fn of_study(error: &StudyError) -> Option<&'static str> {
+    match error {
+        StudyError::Analysis(error) => of_analysis(error),
+        StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
+        StudyError::ForceColumns { .. } => {
+            Some("`--right BODY:PREFIX` and `--left BODY:PREFIX` name the columns, or `--loads XML` describes them")
+        }
+        _ => None,
+    }
+}
+
+fn of_analysis(error: &AnalysisError) -> Option<&'static str> {
+    match error {
+        AnalysisError::Motion(error) | AnalysisError::Ground(error) => of_motion(error),
+        AnalysisError::Trajectory(error) => of_trajectory(error),
+        AnalysisError::Prediction(error) => of_prediction(error),
+        _ => None,
+    }
 }
 
 fn of_motion(error: &MotionError) -> Option<&'static str> {
@@ -102,6 +117,8 @@ mod tests {
         let of = |error: anyhow::Error| of_error(&error);
         assert_eq!(of(gap().into()), Some(RANGE));
         assert_eq!(of(AnalysisError::Motion(gap()).into()), Some(RANGE));
+        let of_run = StudyError::Analysis(AnalysisError::Motion(gap()));
+        assert_eq!(of(anyhow::Error::new(of_run).context("walk.mot")), Some(RANGE));
         let named: anyhow::Result<()> = Err(AnalysisError::Ground(gap())).context("walk.mot");
         assert_eq!(of(named.unwrap_err()), Some(RANGE));
         let unit = SkeletonError::Unit { length: 3.0, units: "m".to_owned() };

@@ -4,7 +4,6 @@ mod args;
 mod commands;
 mod files;
 mod hints;
-mod laboratory_file;
 mod printer;
 
 use args::{Args, Command};

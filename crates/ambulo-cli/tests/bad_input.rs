@@ -295,7 +295,7 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
             };
             let Ok(motion) = coordinates_from_table(&model, &motion, "walk", &mut findings) else { continue };
             let Ok(plates) = force_recordings(&model, &loads, &forces, &mut findings) else { continue };
-            analysed += usize::from(analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).is_ok());
+            analysed += usize::from(analyse(&model, &motion, &plates, settings, &mut findings).is_ok());
         }
     }
     println!("{read} cut tables read with a remark, {analysed} of them went through the analysis");
@@ -319,7 +319,7 @@ fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
         rate_hz: None,
         instrumented: None,
     };
-    let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).ok()?;
+    let analysis = analyse(&model, &motion, &plates, settings, &mut findings).ok()?;
     Some(output_files(&model, &analysis, None).ok()?.len() + figure_files(&model, &analysis).ok()?.len())
 }
 

@@ -61,7 +61,7 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
         rate_hz: None,
         instrumented: None,
     };
-    let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default(), &mut |_| {}).unwrap();
+    let analysis = analyse(&model, &motion, &[push], settings, &mut Findings::default()).unwrap();
     let files = output_files(&model, &analysis, None).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
     let table = Table::read_storage(&file.bytes).unwrap().0;
@@ -100,7 +100,7 @@ fn the_written_ground_forces_hold_everything_that_pushed_a_side() {
         instrumented: None,
     };
     let mut findings = Findings::default();
-    let analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
     let files = output_files(&model, &analysis, None).unwrap();
     let file = files.iter().find(|f| f.name == "grf.mot").unwrap();
     let table = Table::read_storage(&file.bytes).unwrap().0;

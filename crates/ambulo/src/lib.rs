@@ -30,6 +30,8 @@ pub mod ground;
 
 pub mod analysis;
 
+pub mod study;
+
 pub mod reproduction;
 
 /// The code in README.md is compiled as a test.

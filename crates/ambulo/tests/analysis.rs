@@ -318,7 +318,7 @@ fn run(model: &Model, motion: &Motion, plates: &[ForceRecording]) -> (Analysis, 
         instrumented: None,
     };
     let mut findings = Findings::default();
-    let analysis = analyse(model, motion, plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     (analysis, findings)
 }
 

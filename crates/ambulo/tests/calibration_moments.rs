@@ -61,7 +61,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
         rate_hz: None,
         instrumented: None,
     };
-    let analysis = analyse(model, &motion, &forces, settings, &mut findings, &mut |_| ()).unwrap();
+    let analysis = analyse(model, &motion, &forces, settings, &mut findings).unwrap();
     Walked { body, analysis, forces }
 }
 

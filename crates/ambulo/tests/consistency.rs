@@ -10,7 +10,7 @@ mod gait_files;
 mod marker_data;
 
 use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{Analysis, Body, LaboratoryRecording, Settings, analyse, body_in_motion};
+use ambulo::analysis::{Analysis, Body, LaboratoryRecording, MarkerTrial, Settings, analyse, body_in_motion};
 use ambulo::dynamics::LoadSeries;
 use ambulo::dynamics::consistency::{ConsistencySettings, Consistent, make_consistent};
 use ambulo::findings::{Code, Findings};
@@ -67,7 +67,7 @@ fn case(
         rate_hz: None,
         instrumented: None,
     };
-    let analysis = analyse(&model, motion, plates, settings, &mut Findings::default(), &mut |_| ()).unwrap();
+    let analysis = analyse(&model, motion, plates, settings, &mut Findings::default()).unwrap();
     let window = Window { from_s: Some(from + REACH_S), to_s: Some(to - REACH_S) };
     Case { name, model, analysis, window, weighed_kg }
 }
@@ -102,7 +102,8 @@ fn of_c3d(name: &'static str, subject: &gait_files::Subject, seen: Seen) -> Case
     let (still, walk) = (recording(&subject.standing), recording(&subject.walk));
     let body = Body::BuiltIn { person: &subject.person, set: None };
     let settings = FitSettings::default();
-    let body = body_in_motion(&walk, Some(&still), &body, &settings, &[], &mut findings, &mut |_| ()).unwrap();
+    let trial = MarkerTrial { walk: &walk, still: Some(&still), body, plate_feet: &[] };
+    let body = body_in_motion(&trial, &settings, &mut findings).unwrap();
     case(name, body.subject.model.clone(), &body.fit.motion, &body.plate_forces(), seen)
 }
 

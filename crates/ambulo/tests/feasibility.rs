@@ -678,7 +678,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     };
     let mut findings = Findings::default();
     let Subject { model, motion, plates } = subject;
-    let analysis = analyse(model, motion, plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
     let evidence = Evidence { model, trajectory, forces, ground, device: None };
     check(&evidence, &Person::of_model(model), thresholds, &mut findings)

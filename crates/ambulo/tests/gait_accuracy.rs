@@ -26,6 +26,7 @@ fn table(name: &str) -> Option<String> {
     };
     let found = std::fs::read_to_string(folder.join("normative").join(name)).ok();
     if found.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "no recordings, and in CI no test may be skipped");
         println!("skipped: no data");
     }
     found

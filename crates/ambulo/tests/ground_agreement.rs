@@ -10,8 +10,8 @@
 
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
-    Analysis, Compared, GroundAgreement, PredictOrder, PredictedAnalysis, Seen, analyse_predicted_trajectory,
-    ground_agreement,
+    Analysis, Compared, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,
+    analyse_predicted_trajectory, ground_agreement,
 };
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
@@ -33,14 +33,14 @@ static WALK: LazyLock<SyntheticWalk> = LazyLock::new(|| {
 
 fn predicted(plates: &[ForceRecording]) -> PredictedAnalysis {
     let soles = Person::of_human(&WALK.human).soles;
-    let order = PredictOrder { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
+    let order = PredictionInput { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
     let (trajectory, mut findings) = (WALK.trajectory.clone(), Findings::default());
     let model = &WALK.human.model;
-    analyse_predicted_trajectory(model, trajectory, plates, None, &order, &mut findings, &mut |_| ()).unwrap()
+    analyse_predicted_trajectory(model, trajectory, plates, None, &order, &mut findings).unwrap()
 }
 
-fn seen(predicted: &PredictedAnalysis, plates: &[ForceRecording]) -> Seen {
-    Seen::by_load(predicted.measured.as_ref().unwrap(), plates, &predicted.prediction.footfalls)
+fn seen(predicted: &PredictedAnalysis, plates: &[ForceRecording]) -> PlateCoverage {
+    PlateCoverage::by_load(predicted.measured.as_ref().unwrap(), plates, &predicted.prediction.footfalls)
 }
 
 /// The plates' own forces, changed, as if they were a prediction.

@@ -5,7 +5,7 @@
 
 mod gait_files;
 
-use ambulo::analysis::{Body, LaboratoryRecording, Settings, analyse, body_in_motion};
+use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, Settings, analyse, body_in_motion};
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::motion::filter::LowPass;
@@ -47,7 +47,8 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     let mut findings = Findings::default();
     let body = Body::BuiltIn { person: &trial.subject.person, set: None };
     let settings = FitSettings::default();
-    let body = body_in_motion(walk, Some(&trial.still), &body, &settings, &[], &mut findings, &mut |_| ()).unwrap();
+    let markers = MarkerTrial { walk, still: Some(&trial.still), body, plate_feet: &[] };
+    let body = body_in_motion(&markers, &settings, &mut findings).unwrap();
     let [from, to] = trial.window;
     let settings = Settings {
         smoother: Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 6.0 }),
@@ -57,7 +58,7 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
         instrumented: None,
     };
     let model = &body.subject.model;
-    let done = analyse(model, &body.fit.motion, &body.plate_forces(), settings, &mut findings, &mut |_| ()).unwrap();
+    let done = analyse(model, &body.fit.motion, &body.plate_forces(), settings, &mut findings).unwrap();
     let column = |joint: &&str| done.forces.generalized[model.coordinate(joint).unwrap().index()].clone();
     (JOINTS.iter().map(column).collect(), findings, body.fit.errors.into_iter().map(|e| e.name).collect())
 }

@@ -32,7 +32,7 @@ fn moments(subject: &Subject, fit: &MarkerFit, window: [f64; 2]) -> Vec<Vec<f64>
         instrumented: None,
     };
     let mut findings = Findings::default();
-    let done = analyse(&subject.model, &fit.motion, &subject.plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let done = analyse(&subject.model, &fit.motion, &subject.plates, settings, &mut findings).unwrap();
     let column = |joint: &&str| {
         let id = subject.model.coordinate(joint).unwrap();
         done.forces.generalized[id.index()].clone()

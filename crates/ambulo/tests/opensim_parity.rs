@@ -73,7 +73,7 @@ fn run_with(subject: &Subject, smoother: Smoother) -> (Analysis, Findings) {
     let settings =
         Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None, instrumented: None };
     let mut findings = subject.findings.clone();
-    let done = analyse(&subject.model, &subject.motion, &subject.plates, settings, &mut findings, &mut |_| {});
+    let done = analyse(&subject.model, &subject.motion, &subject.plates, settings, &mut findings);
     (done.unwrap(), findings)
 }
 

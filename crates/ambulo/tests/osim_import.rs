@@ -594,6 +594,7 @@ fn real_files() -> Vec<PathBuf> {
         None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
     };
     let Ok(folders) = std::fs::read_dir(&folder) else {
+        assert!(std::env::var_os("CI").is_none(), "no recordings, and in CI no test may be skipped");
         println!("skipped: no data");
         return Vec::new();
     };

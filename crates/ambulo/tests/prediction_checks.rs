@@ -10,8 +10,8 @@ mod walking_puppet;
 
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
-    CarriedMass, CheckOrder, CheckedPrediction, MassSource, PredictOrder, PredictedAnalysis, PredictionChecks, Seen,
-    analyse_predicted_trajectory, cycles, prediction_checks,
+    CarriedMass, CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PredictedAnalysis, PredictionChecks,
+    PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
@@ -268,16 +268,15 @@ fn lighter(share: f64) -> Model {
 fn of_mass(share: f64, with_plates: bool, standing_kg: Option<f64>) -> (PredictionChecks, Findings, PredictedAnalysis) {
     let (model, soles) = (lighter(share), Person::of_human(&WALK.human).soles);
     let plates = if with_plates { &WALK.loads[..] } else { &[] };
-    let order = PredictOrder { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
+    let order = PredictionInput { soles: &soles, settings: &PredictSettings::default(), plates_filter: None };
     let mut findings = Findings::default();
     let trajectory = WALK.trajectory.clone();
-    let mut predicted =
-        analyse_predicted_trajectory(&model, trajectory, plates, None, &order, &mut findings, &mut |_| ()).unwrap();
-    let seen = predicted.measured.as_ref().map(|m| Seen::by_load(m, plates, &predicted.prediction.footfalls));
+    let predicted = analyse_predicted_trajectory(&model, trajectory, plates, None, &order, &mut findings).unwrap();
+    let seen = predicted.measured.as_ref().map(|m| PlateCoverage::by_load(m, plates, &predicted.prediction.footfalls));
     let window_s = seen.and_then(|seen| seen.window);
-    predicted.weigh(&model, window_s, standing_kg);
+    let predicted = predicted.weighed(&model, window_s, standing_kg);
     let thresholds = Thresholds::default();
-    let order = CheckOrder { model: &model, soles: &soles, thresholds: &thresholds, window_s, standing_kg };
+    let order = CheckSettings { model: &model, soles: &soles, thresholds: &thresholds, window_s, standing_kg };
     let mut findings = Findings::default();
     (predicted.checks(&order, &mut findings), findings, predicted)
 }

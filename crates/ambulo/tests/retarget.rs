@@ -140,7 +140,7 @@ fn support(moved: &Retargeted, [from, to]: [f64; 2], findings: &mut Findings) ->
         rate_hz: None,
         instrumented: None,
     };
-    let analysis = analyse(model, &moved.fit.motion, &[], settings, findings, &mut |_| {}).unwrap();
+    let analysis = analyse(model, &moved.fit.motion, &[], settings, findings).unwrap();
     let up = model.coordinate("pelvis_ty").unwrap();
     let weight = model.mass() * model.gravity().norm();
     analysis.forces.generalized[up.index()].iter().map(|force| force / weight).collect()

@@ -465,7 +465,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
     let rate_hz = Some(2000.0);
     let window = Window { from_s: Some(1.0), to_s: Some(1.7) };
     let asked = Settings { smoother: Smoother::Off, force_filter: None, window, rate_hz, instrumented: None };
-    let analysis = analyse(&model, &motion, &[], asked, &mut findings, &mut |_| {}).unwrap();
+    let analysis = analyse(&model, &motion, &[], asked, &mut findings).unwrap();
     let grid = analysis.trajectory.grid();
     let step_s = scene.settings().step_s;
     let mut found = Vec::new();

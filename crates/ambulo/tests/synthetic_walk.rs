@@ -32,7 +32,7 @@ fn made(gait: &str, build: Build, mode: SyntheticMode) -> (SyntheticWalk, Findin
 fn analysed(walk: &SyntheticWalk) -> Analysis {
     let (model, mut findings) = (&walk.human.model, Findings::default());
     let trajectory = walk.trajectory.clone();
-    analyse_trajectory(model, trajectory, &walk.loads, ForceSource::Simulated, &mut findings, &mut |_| ()).unwrap()
+    analyse_trajectory(model, trajectory, &walk.loads, ForceSource::Simulated, &mut findings).unwrap()
 }
 
 /// Largest difference between moments of inverse dynamics and the simulator's efforts, with the coordinate [N.m].

@@ -1,7 +1,9 @@
 //! `ambulo forces`: what may be typed.
 
 use super::Voice;
-use super::values::{AddedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::values::{CarriedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use ambulo::kinematics::marker_fit::FitSettings;
+use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -58,13 +60,13 @@ pub(crate) struct ForcesArgs {
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
     /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
-    #[arg(long, value_name = "HZ|off", default_value = "6", allow_hyphen_values = true)]
+    #[arg(long, value_name = "HZ|off", default_value_t = Cutoff(Some(Settings::LOW_PASS.cutoff_hz)), allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
     /// Low-pass of the measured forces [default: the same as the motion's; beside a prediction 20 Hz, order 2].
     #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<Cutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = order)]
+    #[arg(long, value_name = "N", default_value_t = Settings::LOW_PASS.order, value_parser = order)]
     pub(crate) order: usize,
     /// How the motion is smoothed; spline: quintic, stiffness by generalised cross-validation, --cutoff then goes for the forces only.
     #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
@@ -77,7 +79,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) device: Option<PathBuf>,
     /// A point mass fixed to a body, place in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
-    pub(crate) add_mass: Vec<AddedMass>,
+    pub(crate) add_mass: Vec<CarriedMass>,
     /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
@@ -132,7 +134,7 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
     pub(crate) fit: MarkerFitting,
     /// Gaps of markers up to this long are bridged [s]; longer ones stay gaps.
-    #[arg(long, value_name = "S", default_value_t = 0.35, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,
 }
 

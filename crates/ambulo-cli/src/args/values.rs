@@ -2,6 +2,7 @@
 
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
+use ambulo::study::AddedMass;
 use std::fmt;
 use std::str::FromStr;
 
@@ -43,6 +44,15 @@ pub(super) fn limit(text: &str) -> Result<f64, String> {
 /// A cut-off frequency, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cutoff(pub(crate) Option<f64>);
+
+impl fmt::Display for Cutoff {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(hz) => write!(f, "{hz}"),
+            None => f.write_str("off"),
+        }
+    }
+}
 
 impl FromStr for Cutoff {
     type Err = String;
@@ -107,37 +117,34 @@ impl FromStr for PlateFoot {
     }
 }
 
-/// A mass that the subject carries.
+/// A mass that the person carries.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AddedMass {
-    pub(crate) body: String,
-    pub(crate) mass_kg: f64,
-    pub(crate) place_m: Vec3,
-}
+pub(crate) struct CarriedMass(pub(crate) AddedMass);
 
-impl fmt::Display for AddedMass {
+impl fmt::Display for CarriedMass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z]: [f64; 3] = self.place_m.into();
-        write!(f, "{}:{}:{x},{y},{z}", self.body, self.mass_kg)
+        let CarriedMass(AddedMass { body, mass_kg, position_m }) = self;
+        let [x, y, z]: [f64; 3] = (*position_m).into();
+        write!(f, "{body}:{mass_kg}:{x},{y},{z}")
     }
 }
 
-impl FromStr for AddedMass {
+impl FromStr for CarriedMass {
     type Err = String;
-    fn from_str(text: &str) -> Result<AddedMass, String> {
+    fn from_str(text: &str) -> Result<CarriedMass, String> {
         let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
         let mut parts = text.split(':');
         let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
         let mass_kg = mass.trim().parse().map_err(|_| expected())?;
-        let place: Vec<f64> = match parts.next() {
+        let position: Vec<f64> = match parts.next() {
             None => vec![0.0; 3],
-            Some(place) => {
-                place.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?
+            Some(position) => {
+                position.split(',').map(|x| x.trim().parse()).collect::<Result<_, _>>().map_err(|_| expected())?
             }
         };
-        match (place[..].try_into(), parts.next()) {
-            (Ok::<[f64; 3], _>(place), None) if !body.is_empty() => {
-                Ok(AddedMass { body: body.to_owned(), mass_kg, place_m: Vec3::from(place) })
+        match (position[..].try_into(), parts.next()) {
+            (Ok::<[f64; 3], _>(position), None) if !body.is_empty() => {
+                Ok(CarriedMass(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
             }
             _ => Err(expected()),
         }

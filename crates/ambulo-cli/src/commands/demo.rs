@@ -26,7 +26,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds: &Thresholds::default(), read: &[] };
+    let made = Made { walk: &walk, order: &order, thresholds: Thresholds::default(), read: &[] };
     let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
     write_input(&args.output)?;
     write_recording(&walk, &args.output)?;

@@ -1,7 +1,6 @@
 //! `ambulo events`: foot strikes and toe-offs, from every source that a recording has.
 
 use crate::args::EventsArgs;
-use crate::laboratory_file::{self, LaboratoryFile};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::{EventAgreement, LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
@@ -11,6 +10,7 @@ use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::motion::{Event, EventKind, MarkerRecording, PlateRecording, straightened};
+use ambulo::study::LaboratoryFile;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
 }
 
 fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
-    let LaboratoryFile { recording, events, .. } = laboratory_file::from_c3d(bytes, shown, findings)?;
+    let LaboratoryFile { recording, events, .. } = LaboratoryFile::from_c3d(bytes, shown, findings)?;
     let LaboratoryRecording { markers, plates, .. } = in_world(&recording, findings);
     let motion = foot_motion(&markers, findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
@@ -69,7 +69,7 @@ fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<So
 }
 
 fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
-    let file = laboratory_file::from_trc(bytes, shown, findings)?;
+    let file = LaboratoryFile::from_trc(bytes, shown, findings)?;
     Ok(markers_alone(&in_world(&file.recording, findings).markers, findings))
 }
 

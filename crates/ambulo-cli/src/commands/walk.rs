@@ -1,21 +1,21 @@
 //! `ambulo walk`: synthetic walking, and the forces behind it.
 
-use super::outcome::{Outcome, read_thresholds};
+use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{FigureArgs, GaitArgs, Voice, WalkArgs, WalkMode};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
-use ambulo::analysis::{ForceSource, Settings, analyse_trajectory};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
 use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::to_osim;
-use ambulo::motion::{Smoother, Window};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
+use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
 use ambulo_results::{GroundSource, Input, OutputFile, WalkSummary};
 use anyhow::{Context, Result};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
         SyntheticWalkSettings { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds: &thresholds, read: &read };
+    let made = Made { walk: &walk, order: &order, thresholds, read: &read };
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
     made.analyse_and_write(findings, clock, output, args.voice)
 }
@@ -51,48 +51,48 @@ const DEFAULT_OUTPUT: &str = "out";
 pub(super) struct Made<'a> {
     pub(super) walk: &'a SyntheticWalk,
     pub(super) order: &'a SyntheticWalkSettings<'a>,
-    pub(super) thresholds: &'a Thresholds,
+    pub(super) thresholds: Thresholds,
     pub(super) read: &'a [PathBuf],
 }
 
 impl Made<'_> {
-    /// The way of any recording, from a complete motion on.
+    /// Takes the same road as a recording, from a complete motion on.
     pub(super) fn analyse_and_write(
-        &self,
+        self,
         mut findings: Findings,
         mut clock: Stopwatch,
         output: &Path,
         voice: Voice,
     ) -> Result<Verdict> {
-        let SyntheticWalk { human, trajectory, loads, report, .. } = self.walk;
-        let model = &human.model;
-        let stage = &mut |stage: &'static str| clock.lap(stage);
-        let analysis =
-            analyse_trajectory(model, trajectory.clone(), loads, ForceSource::Simulated, &mut findings, stage)?;
-        let settings = Settings {
-            smoother: Smoother::Off,
-            force_filter: None,
-            window: Window::default(),
-            rate_hz: Some(self.order.rate_hz),
-            instrumented: None,
+        let settings = Settings { thresholds: self.thresholds.clone(), ..Settings::default() };
+        let mut watch = |stage: Stage| {
+            clock.lap(stage.word());
+            ControlFlow::Continue(())
         };
-        let outcome = Outcome {
-            model,
-            settings: &settings,
-            thresholds: self.thresholds,
-            input: &input(self.order),
-            person: Person::of_human(human),
-            device: None,
-            read: self.read,
-            consistency: None,
-            walk: Some(WalkSummary::new(model, report)),
-            subject: None,
-            checks: None,
-            comparison: None,
-            mass_is_stated: true,
+        let outcome = study::run_observed(&self.source(), &settings, &mut findings, &mut watch)?;
+        let files = RunFiles {
+            outcome: &outcome,
+            input: input(self.order),
+            walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
+            read: self.read,
+            findings,
+            clock,
         };
-        outcome.write(analysis, findings, clock, output, voice)
+        files.write(output, voice)
+    }
+
+    /// The walk with the forces that its simulation or correction gives.
+    fn source(&self) -> Source {
+        let SyntheticWalk { human, trajectory, loads, .. } = self.walk;
+        let made = CompleteMotion {
+            model: human.model.clone(),
+            person: Person::of_human(human),
+            trajectory: trajectory.clone(),
+            loads: loads.clone(),
+            rule: rule(self.order).to_owned(),
+        };
+        Source::new(Recording::Complete(Box::new(made)))
     }
 
     /// The figure as a model that `ambulo forces` and OpenSim read, and the gait as a picture.
@@ -107,11 +107,15 @@ fn gait_file(walk: &Walk) -> Result<OutputFile> {
     Ok(OutputFile { name: "figures/gait.svg".to_owned(), bytes: gait_figure(walk)?.into_bytes() })
 }
 
-fn input(order: &SyntheticWalkSettings<'_>) -> Input {
-    let rule = match order.mode {
+/// How the forces were divided between the feet in double support.
+fn rule(order: &SyntheticWalkSettings<'_>) -> &'static str {
+    match order.mode {
         SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
-    };
+    }
+}
+
+fn input(order: &SyntheticWalkSettings<'_>) -> Input {
     Input {
         motion: format!("gait {}", order.gait.name),
         model: format!("figure {}", order.build.table),
@@ -120,7 +124,7 @@ fn input(order: &SyntheticWalkSettings<'_>) -> Input {
         loads: None,
         device: None,
         added_mass: Vec::new(),
-        ground_source: GroundSource::Simulated { rule },
+        ground_source: GroundSource::Simulated { rule: rule(order) },
     }
 }
 

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
-use ambulo::analysis::{PredictOrder, Settings, analyse, analyse_predicted};
+use ambulo::analysis::{PredictionInput, Settings, analyse, analyse_predicted};
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
 use ambulo::model::from_osim_bytes;
@@ -47,7 +47,7 @@ pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &Extern
         rate_hz: None,
         instrumented: None,
     };
-    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings, &mut |_| {}).unwrap();
+    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
     let evidence = Evidence {
         model: &model,
         trajectory: &analysis.trajectory,
@@ -94,8 +94,8 @@ pub(crate) fn predicted() -> Files {
         instrumented: None,
     };
     let person = Person::of_model(&model);
-    let order = PredictOrder { soles: &person.soles, settings: &PredictSettings::default(), plates_filter: None };
-    let predicted = analyse_predicted(&model, &motion, &plates, settings, &order, &mut findings, &mut |_| {}).unwrap();
+    let order = PredictionInput { soles: &person.soles, settings: &PredictSettings::default(), plates_filter: None };
+    let predicted = analyse_predicted(&model, &motion, &plates, settings, &order, &mut findings).unwrap();
     let written = output_files(&model, &predicted.analysis, None).unwrap();
     let figures = figure_files(&model, &predicted.analysis).unwrap();
     let beside = prediction_files(&model, &predicted).unwrap();

@@ -41,7 +41,7 @@ const MEASURED_SHARE: f64 = 0.5;
 
 /// What plates saw in full.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Seen {
+pub struct PlateCoverage {
     /// Whole stances of feet that stood wholly on their own plates [s].
     pub stances: Vec<(Side, [f64; 2])>,
     /// The longest time in which every foot on the ground stood on a plate [s].
@@ -152,18 +152,18 @@ pub struct MomentAgreement {
     pub r: f64,
 }
 
-impl Seen {
+impl PlateCoverage {
     /// What plates saw of a motion that has no markers to say whose foot stood where: stances are the times in which a foot's sensor was
     /// loaded; a stance that the motion sees and no sensor bars its time from the window.
     #[must_use]
-    pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> Seen {
+    pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> PlateCoverage {
         let grid = measured.trajectory.grid();
         let ends =
             |plate: &ForceRecording| Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() };
         let whole = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
         let both = plates.iter().fold(whole, |window, plate| window.overlap(ends(plate)));
         let [from, to] = [both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN)];
-        let mut seen = Seen { stances: Vec::new(), window: None, events: measured.events.clone() };
+        let mut seen = PlateCoverage { stances: Vec::new(), window: None, events: measured.events.clone() };
         let mut free = if to > from { vec![[from, to]] } else { Vec::new() };
         for side in Side::BOTH {
             let contacts = contacts_of_events(&measured.events, side);
@@ -204,17 +204,23 @@ pub struct Compared<'a> {
 impl PredictedAnalysis {
     /// How prediction and plates agree; `None` without plates, or if they saw nothing in full.
     #[must_use]
-    pub fn agreement(&self, model: &Model, seen: &Seen) -> Option<GroundAgreement> {
+    pub fn agreement(&self, model: &Model, seen: &PlateCoverage) -> Option<GroundAgreement> {
         let PredictedAnalysis { analysis, prediction, measured } = self;
-        let measured = measured.as_ref()?;
-        let found = ground_agreement(&Compared { model, predicted: analysis, prediction, measured }, seen);
+        Compared { model, predicted: analysis, prediction, measured: measured.as_ref()? }.agreement(seen)
+    }
+}
+
+impl Compared<'_> {
+    /// How both agree; `None` if the plates measured nothing completely.
+    pub(crate) fn agreement(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
+        let found = ground_agreement(self, coverage);
         (!found.feet.is_empty() || !found.moments.is_empty()).then_some(found)
     }
 }
 
 /// How prediction and plates agree on what plates saw in full.
 #[must_use]
-pub fn ground_agreement(compared: &Compared<'_>, seen: &Seen) -> GroundAgreement {
+pub fn ground_agreement(compared: &Compared<'_>, seen: &PlateCoverage) -> GroundAgreement {
     let Compared { model, predicted, prediction, measured } = *compared;
     let Mass { kg, .. } = measured.mass;
     let judge = Judge {
@@ -248,7 +254,7 @@ pub fn ground_agreement(compared: &Compared<'_>, seen: &Seen) -> GroundAgreement
 }
 
 /// Stances of a side that are long enough and lie wholly in the motion, give or take a frame.
-fn stances(seen: &Seen, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
+fn stances(seen: &PlateCoverage, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
     let long = |s: &[f64; 2]| s[1] - s[0] >= SHORTEST_STANCE_S;
     let inside = |s: &[f64; 2]| s[0] >= grid.start_s - grid.step_s && s[1] <= grid.end_s() + grid.step_s;
     let of_side = seen.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s);
@@ -299,7 +305,7 @@ impl Judge {
     }
 
     /// Frames in which all that acts on a leg was measured.
-    fn measured_frames(&self, side: Side, seen: &Seen, truth: Option<&BodyForces>) -> Vec<usize> {
+    fn measured_frames(&self, side: Side, seen: &PlateCoverage, truth: Option<&BodyForces>) -> Vec<usize> {
         let mut known = vec![false; self.grid.frames];
         if let Some([from_s, to_s]) = seen.window {
             let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });

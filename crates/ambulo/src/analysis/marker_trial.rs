@@ -4,7 +4,8 @@
 //! its coordinates are fitted to the markers, and what plates measured is given to the feet that stood on them.
 
 use super::feasibility::Person;
-use super::ground_agreement::Seen;
+use super::ground_agreement::PlateCoverage;
+use super::progress::{Progress, Stage, Stopped};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion};
 use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
@@ -60,6 +61,8 @@ pub enum Body<'a> {
         /// Body mass [kg]; `None` keeps the model's.
         mass: Option<f64>,
     },
+    /// A body that was calibrated before.
+    Calibrated(&'a Subject),
 }
 
 /// A body that moves as the markers did.
@@ -112,31 +115,53 @@ pub enum MarkerTrialError {
     /// The fit.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// The observer stopped the computation.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
-/// Fits a body to a recording. `still` is the same person standing; `told` names the foot of plates (by index) where a person has
-/// decided. `stage` is called with a name as each stage ends.
+/// A recording of markers, and the body that is fitted to it.
+#[derive(Debug, Clone)]
+pub struct MarkerTrial<'a> {
+    /// The trial.
+    pub walk: &'a LaboratoryRecording,
+    /// The same person standing still.
+    pub still: Option<&'a LaboratoryRecording>,
+    /// The body.
+    pub body: Body<'a>,
+    /// Plates (by index) of which the foot is known.
+    pub plate_feet: &'a [(usize, Side)],
+}
+
+/// Fits a body to a recording of markers.
 ///
 /// # Errors
 /// Markers that no set knows, that make no body, or that the body does not have: see [`MarkerTrialError`].
 pub fn body_in_motion(
-    walk: &LaboratoryRecording,
-    still: Option<&LaboratoryRecording>,
-    body: &Body<'_>,
+    trial: &MarkerTrial<'_>,
     settings: &FitSettings,
-    told: &[(usize, Side)],
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
 ) -> Result<BodyInMotion, MarkerTrialError> {
+    follow_markers(trial, settings, findings, &mut Progress::default())
+}
+
+pub(crate) fn follow_markers(
+    trial: &MarkerTrial<'_>,
+    settings: &FitSettings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<BodyInMotion, MarkerTrialError> {
+    let MarkerTrial { walk, still, body, plate_feet } = trial;
     let (axes, LaboratoryRecording { markers, plates, .. }) = walk.in_world(findings);
     let markers = while_seen(&markers, findings);
-    stage("axes");
+    progress.end(Stage::Axes)?;
     let still = still.map(|still| still.in_world(findings).1.markers);
     let subject = match body {
         Body::Model { model, mass } => Subject::of_model(model, *mass, still.as_ref(), findings)?,
+        Body::Calibrated(subject) => (*subject).clone(),
         Body::BuiltIn { person, set } => Subject::built_in(&markers, still.as_ref(), person, *set, findings)?,
     };
-    stage("body");
+    progress.end(Stage::Body)?;
     // What a given model clamps is its author's word; the ranges of the built-in body keep arms from winding up.
     let limits = if subject.calibration.is_some() { Limits::Ranges } else { settings.limits };
     let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
@@ -145,10 +170,10 @@ pub fn body_in_motion(
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     hold_what_no_marker_shows(&subject.model, &mut fit.motion, findings);
-    stage("markers");
+    progress.end(Stage::Markers)?;
     let feet = foot_motion(&fit.followed, findings);
-    let on_plates = feet_on_plates(&fit.followed, &plates, &feet, told, findings);
-    stage("feet");
+    let on_plates = feet_on_plates(&fit.followed, &plates, &feet, plate_feet, findings);
+    progress.end(Stage::Feet)?;
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
 }
 
@@ -191,13 +216,13 @@ impl BodyInMotion {
 
     /// What plates saw in full: stances that the recording does not cut, and the longest time in which every foot stood on a plate.
     #[must_use]
-    pub fn seen(&self) -> Seen {
+    pub fn coverage(&self) -> PlateCoverage {
         let [first, last] = self.recorded_s();
         let stances = Side::BOTH.into_iter().flat_map(|side| {
             let whole = move |s: &[f64; 2]| s[0] > first && s[1] < last;
             self.on_plates.measured_stances(side).into_iter().filter(whole).map(move |s| (side, s))
         });
-        Seen {
+        PlateCoverage {
             stances: stances.collect(),
             window: self.on_plates.windows.first().copied(),
             events: self.measured_events(),

@@ -4,6 +4,7 @@ use super::cycles::cycles;
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
 use super::plausibility;
+use super::progress::{Progress, Stage};
 use super::recording::{
     Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, trajectory_within, with_forces,
 };
@@ -18,16 +19,9 @@ use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
-/// Low-pass of the motion that a prediction is made from, whatever the one is that joint moments are computed with: the estimator's numbers
-/// were fitted behind it, and compare nothing above (docs/GROUND_FIT.md).
-const MOTION_LOW_PASS: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
-
-/// Low-pass of the plates against which a prediction is held, whatever the motion's: 20 Hz, second order, forwards and backwards.
-pub const PLATES_LOW_PASS: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
-
 /// What a prediction needs besides the motion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PredictOrder<'a> {
+pub struct PredictionInput<'a> {
     /// Right and left sole.
     pub soles: &'a [Option<Sole>; 2],
     /// How forces are predicted.
@@ -47,30 +41,8 @@ pub struct PredictedAnalysis {
     pub measured: Option<Analysis>,
 }
 
-impl PredictedAnalysis {
-    /// Weighs the body by what plates carried: over a whole gait cycle inside the time in which they measured every foot, else in a
-    /// standing trial [kg]. Without either the model's mass stays.
-    pub fn weigh(&mut self, model: &Model, window_s: Option<[f64; 2]>, standing_kg: Option<f64>) {
-        let gravity = model.gravity().norm();
-        if let Some(measured) = &mut self.measured {
-            if let Some([from, to]) = window_s {
-                measured.weigh_within(Window { from_s: Some(from), to_s: Some(to) }, upward(model), gravity);
-            }
-            if let Some(kg) = standing_kg {
-                measured.weigh_standing(kg);
-            }
-            if measured.mass.source != MassSource::Model {
-                self.analysis.mass = measured.mass;
-            }
-        }
-        if let Some(kg) = standing_kg {
-            self.analysis.weigh_standing(kg);
-        }
-    }
-}
-
 /// Analyses a recording with predicted ground forces: as [`super::analyse`], without plates. `plates`, if there are any, are only
-/// compared with. `stage` is called with a name as each stage ends.
+/// compared with.
 ///
 /// # Errors
 /// Recordings that cannot be used, bodies that no forces can be predicted for: see [`AnalysisError`].
@@ -79,38 +51,50 @@ pub fn analyse_predicted(
     motion: &Motion,
     plates: &[ForceRecording],
     settings: Settings,
-    order: &PredictOrder<'_>,
+    input: &PredictionInput<'_>,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
 ) -> Result<PredictedAnalysis, AnalysisError> {
-    let trajectory = trajectory_within(model, motion, &[], settings, settings.window, findings)?;
-    stage("smooth");
-    let prediction = match prediction_of_whole_motion(model, motion, settings, trajectory.grid(), order, findings) {
-        Some(prediction) => prediction?,
-        None => predict(model, &trajectory, order.soles, order.settings, findings)?,
-    };
-    stage("prediction");
-    with_plates(model, trajectory, prediction, plates, settings.instrumented, order, findings, stage)
+    predict_and_analyse(model, motion, plates, settings, input, findings, &mut Progress::default())
 }
 
-/// The prediction from all that was recorded around the window, behind the low-pass that predictions are made for, whatever that of the
-/// motion is. `None` where the recording around the window cannot be used, or parts of the answer are given.
+pub(crate) fn predict_and_analyse(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: Settings,
+    input: &PredictionInput<'_>,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<PredictedAnalysis, AnalysisError> {
+    let trajectory = trajectory_within(model, motion, &[], settings, settings.window, findings)?;
+    progress.end(Stage::Smoothing)?;
+    let prediction = match prediction_of_whole_motion(model, motion, settings, trajectory.grid(), input, findings) {
+        Some(prediction) => prediction?,
+        None => predict(model, &trajectory, input.soles, input.settings, findings)?,
+    };
+    progress.end(Stage::Prediction)?;
+    with_plates(model, trajectory, prediction, plates, settings.instrumented, input, findings, progress)
+}
+
+/// The prediction from all that was recorded around the window, behind the low-pass that the numbers of the estimator were fitted with
+/// ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the motion's own low-pass is. `None` where the recording around the window
+/// cannot be used, or parts of the answer are given.
 fn prediction_of_whole_motion(
     model: &Model,
     motion: &Motion,
     settings: Settings,
     grid: TimeGrid,
-    order: &PredictOrder<'_>,
+    input: &PredictionInput<'_>,
     findings: &mut Findings,
 ) -> Option<Result<Prediction, AnalysisError>> {
     /// Frames are the same instants if they differ by less than this share of a step.
     const SAME_INSTANT: f64 = 1e-3;
     let is_the_same =
-        settings.smoother == Smoother::Butterworth(MOTION_LOW_PASS) && settings.window == Window::default();
-    if is_the_same || order.settings.known != Known::default() {
+        settings.smoother == Smoother::Butterworth(LowPass::MOTION) && settings.window == Window::default();
+    if is_the_same || input.settings.known != Known::default() {
         return None;
     }
-    let settings = Settings { smoother: Smoother::Butterworth(MOTION_LOW_PASS), ..settings };
+    let settings = Settings { smoother: Smoother::Butterworth(LowPass::MOTION), ..settings };
     let whole = trajectory_within(model, motion, &[], settings, Window::default(), &mut Findings::default()).ok()?;
     let offset = (grid.start_s - whole.grid().start_s) / grid.step_s;
     let first = offset.round().max(0.0) as usize;
@@ -119,7 +103,7 @@ fn prediction_of_whole_motion(
     if !(same_steps && is_inside) {
         return None;
     }
-    let found = predict(model, &whole, order.soles, order.settings, findings);
+    let found = predict(model, &whole, input.soles, input.settings, findings);
     Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }
 
@@ -132,13 +116,11 @@ pub fn analyse_predicted_trajectory(
     trajectory: Trajectory,
     plates: &[ForceRecording],
     within: Option<Window>,
-    order: &PredictOrder<'_>,
+    input: &PredictionInput<'_>,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
 ) -> Result<PredictedAnalysis, AnalysisError> {
-    let prediction = predict(model, &trajectory, order.soles, order.settings, findings)?;
-    stage("prediction");
-    with_plates(model, trajectory, prediction, plates, within, order, findings, stage)
+    let prediction = predict(model, &trajectory, input.soles, input.settings, findings)?;
+    with_plates(model, trajectory, prediction, plates, within, input, findings, &mut Progress::default())
 }
 
 /// Both analyses: with the prediction, and with plates if there are any.
@@ -149,16 +131,16 @@ fn with_plates(
     prediction: Prediction,
     plates: &[ForceRecording],
     within: Option<Window>,
-    order: &PredictOrder<'_>,
+    input: &PredictionInput<'_>,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
+    progress: &mut Progress<'_>,
 ) -> Result<PredictedAnalysis, AnalysisError> {
-    let filter = order.plates_filter.filter(|filter| plates.iter().all(|plate| allows(plate, *filter)));
+    let filter = input.plates_filter.filter(|filter| plates.iter().all(|plate| allows(plate, *filter)));
     let source = ForceSource::Measured { filter, within };
     let mut of_plates = Findings::default();
     let measured = match plates {
         [] => None,
-        _ => Some(with_forces(model, trajectory.clone(), plates, source, &mut of_plates, &mut |_| ())?),
+        _ => Some(with_forces(model, trajectory.clone(), plates, source, &mut of_plates, &mut Progress::default())?),
     };
     if let Some(measured) = &measured {
         report_plates(model, measured, within.is_some(), &mut of_plates);
@@ -167,9 +149,9 @@ fn with_plates(
         let message = format!("plates beside the prediction: {}", finding.message);
         findings.add(Finding { message, ..finding.clone() });
     }
-    stage("plates");
+    progress.end(Stage::Plates)?;
     let analysis = with_prediction(model, trajectory, &prediction, findings);
-    stage("analysis");
+    progress.end(Stage::Analysis)?;
     Ok(PredictedAnalysis { analysis, prediction, measured })
 }
 

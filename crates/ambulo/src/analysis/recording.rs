@@ -4,6 +4,7 @@ use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts, events};
 use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
+use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::{Code, Findings};
@@ -105,6 +106,9 @@ pub enum AnalysisError {
     /// Forces that no plate measured.
     #[error(transparent)]
     Prediction(#[from] PredictError),
+    /// The observer stopped the computation.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// A mean vertical force within this share of the model's weight is believed to be the whole body's.
@@ -112,7 +116,8 @@ pub(super) const WHOLE_BODY_SHARE: f64 = 0.05;
 /// Above this difference between plates and model the reader is told (issue of scaling or of plates).
 const MASS_MISMATCH: f64 = 0.03;
 
-/// Analyses a recording. `stage` is called with a name as each stage ends.
+/// Analyses recorded coordinates with measured forces: smoothing, inverse dynamics, events, cycles, body mass and residual. It is the
+/// inner step of [`crate::study::run`] for measured forces.
 ///
 /// The window is cut to the time that the force recordings cover, which is a finding.
 ///
@@ -124,19 +129,23 @@ pub fn analyse(
     plates: &[ForceRecording],
     settings: Settings,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
+) -> Result<Analysis, AnalysisError> {
+    analyse_with_progress(model, motion, plates, settings, findings, &mut Progress::default())
+}
+
+pub(crate) fn analyse_with_progress(
+    model: &Model,
+    motion: &Motion,
+    plates: &[ForceRecording],
+    settings: Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
 ) -> Result<Analysis, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
     let trajectory = trajectory_within(model, motion, plates, settings, window, findings)?;
-    stage("smooth");
-    analyse_trajectory(
-        model,
-        trajectory,
-        plates,
-        ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented },
-        findings,
-        stage,
-    )
+    progress.end(Stage::Smoothing)?;
+    let source = ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented };
+    analyse_measured(model, trajectory, plates, source, findings, progress)
 }
 
 /// The motion smoothed and completed inside a window; `plates` bound what can be asked for.
@@ -178,15 +187,25 @@ pub fn analyse_trajectory(
     plates: &[ForceRecording],
     source: ForceSource,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
 ) -> Result<Analysis, AnalysisError> {
-    let analysis = with_forces(model, trajectory, plates, source, findings, stage)?;
+    analyse_measured(model, trajectory, plates, source, findings, &mut Progress::default())
+}
+
+pub(crate) fn analyse_measured(
+    model: &Model,
+    trajectory: Trajectory,
+    plates: &[ForceRecording],
+    source: ForceSource,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<Analysis, AnalysisError> {
+    let analysis = with_forces(model, trajectory, plates, source, findings, progress)?;
     if !plates.is_empty() {
         plausibility::report_residual(model, &analysis, findings);
     }
     plausibility::report_loads(model, &analysis, findings);
     plausibility::report_ranges(model, &analysis.trajectory, findings);
-    stage("analysis");
+    progress.end(Stage::Analysis)?;
     Ok(analysis)
 }
 
@@ -197,7 +216,7 @@ pub(super) fn with_forces(
     plates: &[ForceRecording],
     source: ForceSource,
     findings: &mut Findings,
-    stage: &mut dyn FnMut(&'static str),
+    progress: &mut Progress<'_>,
 ) -> Result<Analysis, AnalysisError> {
     let (filter, within) = match source {
         ForceSource::Measured { filter, within } => (filter, within),
@@ -205,9 +224,9 @@ pub(super) fn with_forces(
     };
     let ground = ground::measured(model, &trajectory, plates, filter, findings).map_err(AnalysisError::Ground)?;
     report_sides(model, &ground, findings);
-    stage("ground");
+    progress.end(Stage::Ground)?;
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    stage("inverse_dynamics");
+    progress.end(Stage::InverseDynamics)?;
     let up = ground::upward(model);
     let vertical = vertical_by_side(model, plates, up);
     let contacts: Vec<(Side, Vec<Contact>)> =

@@ -43,6 +43,13 @@ pub struct LowPass {
     pub cutoff_hz: f64,
 }
 
+impl LowPass {
+    /// The usual low-pass of recorded motion: 6 Hz, third order. Prediction of ground forces was fitted with it.
+    pub const MOTION: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
+    /// The usual low-pass of plates that a prediction is compared with: 20 Hz, second order.
+    pub const COMPARED_PLATES: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
+}
+
 /// A filtered series with the extension it was filtered in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaddedSeries {

@@ -19,13 +19,11 @@ use super::touch::ObstacleMotion;
 use super::world::{ImpactLaw, TreeJoint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
 use crate::findings::{Code, Findings};
-use crate::spatial::{Pose, Twist};
+use crate::spatial::{Pose, STANDARD_GRAVITY, Twist};
 
 /// Forces beyond so many times the weight of everything are taken as a sign that rows contradict each other: drives without
 /// a limit give way there, and where the solver fails no force is larger.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
-/// What things weigh where there is little gravity [m/s²].
-const STANDARD_GRAVITY: f64 = 9.80665;
 /// Rows that depart by more than this share contradict each other; less is slow convergence, as where a loop is stretched.
 const CONTRADICTION: f64 = 1e-6;
 

@@ -47,7 +47,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works and what it is measured to do: docs/SIMULATION.md and docs/BENCHMARKS.md.
+//! How it works and what it is measured to do: docs/SIMULATION.md and docs/measured/BENCHMARKS.md.
 
 mod assemble;
 mod check;

@@ -5,7 +5,7 @@ use super::signal::Signal;
 use crate::contact::{HuntCrossley, Shape};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::Model;
-use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, STANDARD_GRAVITY, Twist, Vec3, Wrench};
 
 /// Everything that can move or be touched. Changed only between steps: joints and closures may come and go.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ impl Default for World {
     /// Nothing, under standard gravity along -y (9.80665 m/s²).
     fn default() -> Self {
         World {
-            gravity: Vec3::new(0.0, -9.80665, 0.0),
+            gravity: Vec3::new(0.0, -STANDARD_GRAVITY, 0.0),
             bodies: Vec::new(),
             joints: Vec::new(),
             closures: Vec::new(),

@@ -10,7 +10,7 @@
 #[path = "../gait_files/mod.rs"]
 mod gait_files;
 
-use ambulo::analysis::{Body, LaboratoryRecording, body_in_motion};
+use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts;
 use ambulo::ground::sole::Sole;
@@ -141,7 +141,8 @@ fn fitted(
     Plates { events: plates, forces, all_seen }: Plates<'_>,
 ) -> Recorded {
     let settings = FitSettings::default();
-    let body = body_in_motion(walk, still, body, &settings, &[], &mut Findings::default(), &mut |_| ()).unwrap();
+    let trial = MarkerTrial { walk, still, body: body.clone(), plate_feet: &[] };
+    let body = body_in_motion(&trial, &settings, &mut Findings::default()).unwrap();
     let forces = forces.map_or_else(
         || body.plate_forces(),
         |table| {

@@ -3,7 +3,6 @@
 use super::{Converted, counted, lost};
 use crate::args::{ConvertArgs, What};
 use crate::files;
-use crate::laboratory_file::recording_of_c3d;
 use ambulo::analysis::LaboratoryRecording;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
@@ -11,6 +10,7 @@ use ambulo::ground::plates::feet_on_plates;
 use ambulo::motion::{
     MarkerRecording, PlateRecording, PlateSettings, laboratory, markers_from_c3d, markers_from_trc, plates_from_c3d,
 };
+use ambulo::study::LaboratoryFile;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
@@ -108,7 +108,7 @@ fn analog_table(c3d: &C3d) -> Result<Table> {
 
 /// Ground forces by foot, and how OpenSim's tools apply them.
 fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Result<Converted> {
-    let (axes, recording) = recording_of_c3d(c3d, &mut findings)?.in_world(&mut findings);
+    let (axes, recording) = LaboratoryFile::recording_of_c3d(c3d, &mut findings)?.in_world(&mut findings);
     findings.report(Code::ConvertAxes, axes.statement);
     let LaboratoryRecording { markers, plates, .. } = recording;
     let motion = foot_motion(&markers, &mut findings);

@@ -1,48 +1,31 @@
-//! Which columns of which file are the ground forces, from what the user typed.
+//! Measured ground forces in a table of their own, from what the user typed.
 
+use super::Reading;
 use crate::args::{FootColumns, ForcesArgs};
 use crate::files;
-use ambulo::findings::{Code, Findings};
-use ambulo::model::Model;
+use ambulo::findings::Findings;
+use ambulo::study::{ForceTable, MeasuredForces};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
-use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
-/// Measured ground forces as a table, and what its columns mean.
-pub(super) struct GroundTable {
-    pub(super) path: PathBuf,
-    pub(super) table: Table,
-    pub(super) loads: ExternalLoads,
-}
-
-/// Column prefixes that laboratories use, right and left; tried in this order when nothing was said.
-const USUAL_PREFIXES: [(&str, &str); 4] = [
-    ("ground_force_r_", "ground_force_l_"),
-    ("R_ground_force_", "L_ground_force_"),
-    ("ground_force_", "1_ground_force_"),
-    ("ground_force_", "l_ground_force_"),
-];
-/// Bodies that carry the foot's load in the usual models, right and left.
-const USUAL_FEET: [(&str, &str); 3] = [("calcn_r", "calcn_l"), ("foot_r", "foot_l"), ("talus_r", "talus_l")];
-
-pub(super) fn read(args: &ForcesArgs, model: &Model, findings: &mut Findings) -> Result<GroundTable> {
-    let loads = args.loads.as_deref().map(|path| read_loads(path, findings)).transpose()?;
+/// The forces of `--grf` or `--loads`; those of the recording if neither was given.
+pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<MeasuredForces> {
+    if args.no_ground || (args.grf.is_none() && args.loads.is_none()) {
+        return Ok(MeasuredForces::InRecording);
+    }
+    let loads = args.loads.as_deref().map(|path| read_loads(path, &mut reading.findings)).transpose()?;
     let path = match (&args.grf, &loads) {
         (Some(path), _) => path.clone(),
         (None, Some(loads)) => data_file(args.loads.as_deref(), loads)?,
-        (None, None) => {
-            bail!("no ground forces were given; expected --grf FILE with --loads XML or --right and --left")
-        }
+        (None, None) => return Ok(MeasuredForces::InRecording),
     };
     let (table, remarks) = files::read_table(&path)?;
-    files::note_remarks(&path.display().to_string(), &remarks, findings);
-    let loads = match loads {
-        Some(loads) => loads,
-        None if args.right.is_some() || args.left.is_some() => named(args),
-        None => usual(model, &table, &path, findings)?,
-    };
-    Ok(GroundTable { path, table, loads })
+    files::note_remarks(&path.display().to_string(), &remarks, &mut reading.findings);
+    reading.read.push(path.clone());
+    reading.read.extend(args.loads.clone());
+    reading.ground = Some(path);
+    Ok(MeasuredForces::Table(ForceTable { table, loads: loads.or_else(|| named(args)) }))
 }
 
 fn read_loads(path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
@@ -52,15 +35,15 @@ fn read_loads(path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
     Ok(loads)
 }
 
-/// The data file that the loads name: relative to them, or else a file of that name beside them.
+/// The data file that the loads name: relative to them, or a file of that name in the same folder.
 fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     let Some(named) = &loads.datafile else {
         bail!("the external loads name no <datafile>; expected --grf FILE");
     };
     let folder = xml.and_then(Path::parent).unwrap_or(Path::new(""));
     let named = Path::new(named);
-    let beside = named.file_name().map(|name| folder.join(name));
-    let candidates = [Some(folder.join(named)), beside];
+    let in_folder = named.file_name().map(|name| folder.join(name));
+    let candidates = [Some(folder.join(named)), in_folder];
     match candidates.into_iter().flatten().find(|path| path.is_file()) {
         Some(path) => Ok(path),
         None => bail!(
@@ -70,32 +53,12 @@ fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     }
 }
 
-fn named(args: &ForcesArgs) -> ExternalLoads {
+/// The columns of `--right` and `--left`.
+fn named(args: &ForcesArgs) -> Option<ExternalLoads> {
     let feet = [("right", &args.right), ("left", &args.left)];
-    let forces = feet.into_iter().filter_map(|(side, foot)| {
+    let force = |(side, foot): (&str, &Option<FootColumns>)| {
         foot.as_ref().map(|FootColumns { body, prefix }| ExternalForce::with_prefix(side, body, prefix))
-    });
-    ExternalLoads { name: "feet".into(), datafile: None, forces: forces.collect() }
-}
-
-/// Usual prefixes on usual feet; what was taken is a finding.
-fn usual(model: &Model, table: &Table, path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
-    let has = |prefix: &str| table.column(&format!("{prefix}vx")).is_some();
-    let columns = USUAL_PREFIXES.iter().find(|(right, left)| has(right) && has(left));
-    let feet = USUAL_FEET.iter().find(|(right, left)| model.body(right).is_some() && model.body(left).is_some());
-    let (Some((right_prefix, left_prefix)), Some((right_foot, left_foot))) = (columns, feet) else {
-        bail!(
-            "{}: the columns of the two feet were not recognised among {}. hint: name them with --right BODY:PREFIX and --left BODY:PREFIX, or give --loads XML",
-            path.display(),
-            table.names().join(", ")
-        );
     };
-    let message =
-        format!("taken as ground forces: `{right_prefix}...` on {right_foot}, `{left_prefix}...` on {left_foot}");
-    findings.report(Code::LoadsGuessed, message);
-    let forces = vec![
-        ExternalForce::with_prefix("right", right_foot, right_prefix),
-        ExternalForce::with_prefix("left", left_foot, left_prefix),
-    ];
-    Ok(ExternalLoads { name: "feet".into(), datafile: None, forces })
+    let forces: Vec<ExternalForce> = feet.into_iter().filter_map(force).collect();
+    (!forces.is_empty()).then(|| ExternalLoads { name: "feet".into(), datafile: None, forces })
 }

@@ -5,7 +5,7 @@ use super::judgement::{Found, Judgement, Looked};
 use super::record::Record;
 use crate::findings::Code;
 use crate::model::Side;
-use crate::spatial::Vec3;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use std::ops::Range;
 
 /// Slower than this over the floor a body goes nowhere [m/s].
@@ -93,7 +93,6 @@ fn whole_cycles(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Ran
 /// The whole recording, if the mass centre goes up or down by less than what changes the mean force by a hundredth.
 fn at_rest(record: &Record) -> Option<Range<usize>> {
     const SHARE: f64 = 0.01;
-    const STANDARD_GRAVITY: f64 = 9.81;
     let frames = 0..record.grid.frames;
     let (first, last) = (record.velocity.first()?, record.velocity.last()?);
     let change = (last - first).dot(&record.up).abs();

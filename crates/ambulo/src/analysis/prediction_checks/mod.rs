@@ -136,7 +136,7 @@ pub fn prediction_checks(evidence: &CheckedPrediction<'_>, findings: &mut Findin
 
 /// What a prediction is checked with.
 #[derive(Debug, Clone, Copy)]
-pub struct CheckOrder<'a> {
+pub struct CheckSettings<'a> {
     /// The body.
     pub model: &'a Model,
     /// Right and left sole.
@@ -152,8 +152,8 @@ pub struct CheckOrder<'a> {
 impl PredictedAnalysis {
     /// Checks the prediction, the mass by the plates where there are any.
     #[must_use]
-    pub fn checks(&self, order: &CheckOrder<'_>, findings: &mut Findings) -> PredictionChecks {
-        let CheckOrder { model, soles, thresholds, window_s, standing_kg } = *order;
+    pub fn checks(&self, settings: &CheckSettings<'_>, findings: &mut Findings) -> PredictionChecks {
+        let CheckSettings { model, soles, thresholds, window_s, standing_kg } = *settings;
         let plates = window_s.and_then(|window_s| CarriedMass::of_plates(self, model, window_s));
         let evidence = CheckedPrediction {
             model,

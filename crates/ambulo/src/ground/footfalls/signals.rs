@@ -12,10 +12,7 @@ use crate::ground::upward;
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::{Model, Side};
 use crate::motion::TimeGrid;
-use crate::spatial::Vec3;
-
-/// Gravity where the model has none [m/s²].
-const STANDARD_GRAVITY: f64 = 9.80665;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 
 /// The three points of one sole, frame by frame.
 pub(super) struct FootPath {

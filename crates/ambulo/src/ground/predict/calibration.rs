@@ -3,7 +3,7 @@
 //!   σ² = (k σ_equations)² + floor²
 //!
 //! The equations take every piece of evidence for independent and every model for true; k and the floor are what plates say of that,
-//! component by component. Found across subjects, leave one subject out, by `cargo xtask fit-ground` (docs/GROUND_FIT.md).
+//! component by component. Found across subjects, leave one subject out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 
 /// Factor and floor of the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]

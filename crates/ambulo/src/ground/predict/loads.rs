@@ -14,7 +14,7 @@ use crate::spatial::Vec3;
 /// Below this vertical force the centre of pressure is not moved any further by a moment [body weights].
 const LEAST_LOAD: f64 = 0.05;
 
-/// Deviations were calibrated on walks; the one run at hand is off by about three times as much (docs/VALIDATION.md).
+/// Deviations were calibrated on walks; the one run at hand is off by about three times as much (docs/measured/VALIDATION.md).
 const RUN_DEVIATION: f64 = 3.0;
 
 /// Loads of one foot, one entry a frame.

@@ -2,7 +2,7 @@
 
 use super::calibration::{Calibration, Spread};
 
-/// The numbers of the estimator that no law gives, fitted on the recordings with plates by `cargo xtask fit-ground`; docs/GROUND_FIT.md has
+/// The numbers of the estimator that no law gives, fitted on the recordings with plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
 /// them, how they fare on subjects who were left out, and what changes when one is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights {

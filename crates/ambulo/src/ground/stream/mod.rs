@@ -63,12 +63,11 @@ impl StreamSettings {
     /// At this rate, with a delay of 70 ms, a window of 2.5 s, and the low-pass at 6 Hz that recordings have.
     #[must_use]
     pub fn at_rate(rate_hz: f64) -> StreamSettings {
-        let low_pass = LowPass { order: 3, cutoff_hz: 6.0 };
         StreamSettings {
             rate_hz,
             delay_s: 0.07,
             window_s: 2.5,
-            smoother: Smoother::Butterworth(low_pass),
+            smoother: Smoother::Butterworth(LowPass::MOTION),
             weights: Weights::default(),
         }
     }

@@ -9,10 +9,7 @@ use crate::model::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
     Measure, Model, Side,
 };
-use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
-
-/// Standard gravity [m/s²], downwards.
-const GRAVITY: f64 = 9.80665;
+use crate::spatial::{Inertia, InertiaError, Mat3, Pose, STANDARD_GRAVITY, Vec3};
 
 /// A model under construction.
 struct Making<'a> {
@@ -44,7 +41,7 @@ pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Mo
     let Making { bodies, coordinates, markers, .. } = making;
     let rounded = |x: f64| (1e3 * x).round() / 1e3;
     let name = format!("{} {} kg {} m", build.table, rounded(build.mass), rounded(build.height));
-    Ok(Model::new(name, Vec3::new(0.0, -GRAVITY, 0.0), bodies, coordinates, markers)?)
+    Ok(Model::new(name, Vec3::new(0.0, -STANDARD_GRAVITY, 0.0), bodies, coordinates, markers)?)
 }
 
 impl Making<'_> {

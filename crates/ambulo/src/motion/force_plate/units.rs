@@ -1,9 +1,11 @@
 //! Units as they are written beside channels.
 
+use crate::spatial::STANDARD_GRAVITY;
+
 /// Newtons in a pound-force, exact by definition.
 const POUND_N: f64 = 4.448_221_615_260_5;
 /// Newtons in a kilogram-force, exact by definition.
-const KILOPOND_N: f64 = 9.806_65;
+const KILOPOND_N: f64 = STANDARD_GRAVITY;
 /// Metres in an inch, exact by definition.
 const INCH_M: f64 = 0.0254;
 /// Metres in a foot, exact by definition.

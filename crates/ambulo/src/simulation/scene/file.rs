@@ -13,7 +13,7 @@ use super::output::{self, AllNames, Outputs};
 use super::solver::{Integrator, Solver, read_impact};
 use super::tree;
 use crate::simulation::ImpactLaw;
-use crate::spatial::Vec3;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use crate::toml_reader::{Source, Table};
 
 /// A scene as its file says it: SI units and radians, references resolved, numbers checked.
@@ -89,7 +89,7 @@ const KEYS: &[&str] = &[
     "output",
 ];
 /// Standard gravity, against y up [m/s²].
-const GRAVITY: Vec3 = Vec3::new(0.0, -9.80665, 0.0);
+const GRAVITY: Vec3 = Vec3::new(0.0, -STANDARD_GRAVITY, 0.0);
 /// Rows a second without `output_rate`; one a step where steps are longer.
 const OUTPUT_RATE_HZ: f64 = 100.0;
 /// More steps than this are a slip: eleven days at a microsecond a step would be 1e12.

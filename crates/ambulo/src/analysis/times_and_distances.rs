@@ -1,0 +1,433 @@
+//! Times and distances of walking: speed, cadence, step and stride length, step width, stance, swing and support, stride by stride.
+//!
+//! | quantity              | from                                                                                              |
+//! |-----------------------|---------------------------------------------------------------------------------------------------|
+//! | cycle time            | strike to next strike of a foot in which the foot leaves the ground once                           |
+//! | stance, swing         | strike to foot off, foot off to strike, as shares of the cycle                                     |
+//! | single support        | foot off to strike of the other foot inside the stance                                             |
+//! | double support        | initial: strike to the other foot's off; terminal: the other foot's strike to the off              |
+//! | step time             | strike of the other foot to the strike that ends the stride                                        |
+//! | stride length         | way of the heel (the rear point of the sole) over the floor, from strike to strike                 |
+//! | step length and width | from the other heel at its strike to this heel at its own, along and across the direction of both feet |
+//!
+//! The floor of a treadmill moves with the feet that carry the body; places are then those on the belt. A direction is that of the
+//! strides around the step, so that a turn makes no step wide or narrow.
+//! Pinned by: its own tests, tests/times_and_distances.rs
+
+use super::events::{Event, EventKind};
+use super::feasibility::over_ground;
+use super::recording::Analysis;
+use crate::ground::sole::Sole;
+use crate::ground::upward;
+use crate::kinematics::each_body_motion;
+use crate::model::{Model, Side};
+use crate::motion::{TimeGrid, interpolate};
+use crate::spatial::Vec3;
+
+/// A floor that moves slower than this share of the walking speed stands still.
+const MOVING_FLOOR: f64 = 0.2;
+/// Between two strikes of a foot that are this many strides apart, one was missed.
+const MISSED: f64 = 1.5;
+
+/// Times and distances of all strides.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TimesAndDistances {
+    /// Mean speed over the floor or belt [m/s].
+    pub speed_m_s: Option<f64>,
+    /// Every stride of both feet, right foot first.
+    pub strides: Vec<Stride>,
+}
+
+/// One stride of a foot: strike, foot off, next strike. Shares are those of the cycle, from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stride {
+    /// Which foot.
+    pub side: Side,
+    /// First strike [s].
+    pub start_s: f64,
+    /// Duration of the cycle [s].
+    pub cycle_s: f64,
+    /// Share of the stance.
+    pub stance: f64,
+    /// Share of single support, where the events of the other foot are known.
+    pub single_support: Option<f64>,
+    /// Share from the strike to the other foot's off, likewise.
+    pub initial_double_support: Option<f64>,
+    /// Share from the other foot's strike to the off, likewise.
+    pub terminal_double_support: Option<f64>,
+    /// From the other foot's strike to the end of the stride [s].
+    pub step_time_s: Option<f64>,
+    /// Way of the heel over the floor [m], where the soles are known.
+    pub stride_length_m: Option<f64>,
+    /// From the other heel to this one at the end of the stride, forwards [m].
+    pub step_length_m: Option<f64>,
+    /// The same sideways, positive if the feet are not crossed [m].
+    pub step_width_m: Option<f64>,
+}
+
+/// A quantity of walking.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum StrideQuantity {
+    /// Steps per time [1/s].
+    Cadence,
+    /// Stride length [m].
+    StrideLength,
+    /// Step length [m].
+    StepLength,
+    /// Step width [m].
+    StepWidth,
+    /// Duration of a cycle [s].
+    CycleTime,
+    /// Duration of a step [s].
+    StepTime,
+    /// Duration of stance [s].
+    StanceTime,
+    /// Duration of swing [s].
+    SwingTime,
+    /// Share of stance.
+    Stance,
+    /// Share of swing.
+    Swing,
+    /// Share of single support.
+    SingleSupport,
+    /// Share of double support.
+    DoubleSupport,
+    /// Share of double support after the strike.
+    InitialDoubleSupport,
+    /// Share of double support before the foot off.
+    TerminalDoubleSupport,
+    /// Step length over cadence [m s].
+    WalkRatio,
+}
+
+/// Mean and spread of a quantity over strides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; `None` for a single stride.
+    pub standard_deviation: Option<f64>,
+    /// Number of strides.
+    pub strides: usize,
+}
+
+impl StrideQuantity {
+    /// All of them, in the order of tables.
+    pub const ALL: [StrideQuantity; 15] = [
+        StrideQuantity::Cadence,
+        StrideQuantity::StrideLength,
+        StrideQuantity::StepLength,
+        StrideQuantity::StepWidth,
+        StrideQuantity::CycleTime,
+        StrideQuantity::StepTime,
+        StrideQuantity::StanceTime,
+        StrideQuantity::SwingTime,
+        StrideQuantity::Stance,
+        StrideQuantity::Swing,
+        StrideQuantity::SingleSupport,
+        StrideQuantity::DoubleSupport,
+        StrideQuantity::InitialDoubleSupport,
+        StrideQuantity::TerminalDoubleSupport,
+        StrideQuantity::WalkRatio,
+    ];
+
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            StrideQuantity::Cadence => "cadence",
+            StrideQuantity::StrideLength => "stride_length",
+            StrideQuantity::StepLength => "step_length",
+            StrideQuantity::StepWidth => "step_width",
+            StrideQuantity::CycleTime => "cycle_time",
+            StrideQuantity::StepTime => "step_time",
+            StrideQuantity::StanceTime => "stance_time",
+            StrideQuantity::SwingTime => "swing_time",
+            StrideQuantity::Stance => "stance",
+            StrideQuantity::Swing => "swing",
+            StrideQuantity::SingleSupport => "single_support",
+            StrideQuantity::DoubleSupport => "double_support",
+            StrideQuantity::InitialDoubleSupport => "initial_double_support",
+            StrideQuantity::TerminalDoubleSupport => "terminal_double_support",
+            StrideQuantity::WalkRatio => "walk_ratio",
+        }
+    }
+
+    /// Its value for a stride, in SI units.
+    #[must_use]
+    pub fn of(self, stride: &Stride) -> Option<f64> {
+        match self {
+            StrideQuantity::Cadence => Some(2.0 / stride.cycle_s),
+            StrideQuantity::StrideLength => stride.stride_length_m,
+            StrideQuantity::StepLength => stride.step_length_m,
+            StrideQuantity::StepWidth => stride.step_width_m,
+            StrideQuantity::CycleTime => Some(stride.cycle_s),
+            StrideQuantity::StepTime => stride.step_time_s,
+            StrideQuantity::StanceTime => Some(stride.stance * stride.cycle_s),
+            StrideQuantity::SwingTime => Some((1.0 - stride.stance) * stride.cycle_s),
+            StrideQuantity::Stance => Some(stride.stance),
+            StrideQuantity::Swing => Some(1.0 - stride.stance),
+            StrideQuantity::SingleSupport => stride.single_support,
+            StrideQuantity::DoubleSupport => Some(stride.stance - stride.single_support?),
+            StrideQuantity::InitialDoubleSupport => stride.initial_double_support,
+            StrideQuantity::TerminalDoubleSupport => stride.terminal_double_support,
+            StrideQuantity::WalkRatio => Some(0.5 * stride.step_length_m? * stride.cycle_s),
+        }
+    }
+}
+
+impl TimesAndDistances {
+    /// Mean and standard deviation of a quantity over the strides of one foot or of both; `None` where it is not known.
+    #[must_use]
+    pub fn spread(&self, quantity: StrideQuantity, side: Option<Side>) -> Option<Spread> {
+        let chosen = self.strides.iter().filter(|stride| side.is_none_or(|side| stride.side == side));
+        let values: Vec<f64> = chosen.filter_map(|stride| quantity.of(stride)).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let standard_deviation = (values.len() > 1).then(|| variance.sqrt());
+        (!values.is_empty()).then_some(Spread { mean, standard_deviation, strides: values.len() })
+    }
+
+    /// Symmetry index: (right - left) over the mean of both, of the means of each foot; 0 is symmetric, positive where the right one is
+    /// larger. `None` for values with different signs or near zero, whose ratio means nothing.
+    #[must_use]
+    pub fn symmetry(&self, quantity: StrideQuantity) -> Option<f64> {
+        let [right, left] = [Side::Right, Side::Left].map(|side| Some(self.spread(quantity, Some(side))?.mean));
+        symmetry_index(right?, left?)
+    }
+}
+
+/// (right - left) over the mean of both sizes; `None` for values with different signs or near zero.
+#[must_use]
+pub fn symmetry_index(right: f64, left: f64) -> Option<f64> {
+    let sum = right.abs() + left.abs();
+    (right * left > 0.0).then(|| 2.0 * (right.abs() - left.abs()) / sum)
+}
+
+/// Times and distances of an analysed walk; `soles` are right and left sole. Without soles there are no distances.
+#[must_use]
+pub fn times_and_distances(model: &Model, soles: &[Option<Sole>; 2], analysis: &Analysis) -> TimesAndDistances {
+    let places = Places::of(model, soles, analysis);
+    let mut strides = Vec::new();
+    for side in Side::BOTH {
+        let own = times(&analysis.events, side, EventKind::Strike);
+        let spans = own.windows(2).map(|pair| [pair[0], pair[1]]);
+        strides.extend(spans.filter_map(|span| stride(&analysis.events, &places, side, span)));
+    }
+    TimesAndDistances { speed_m_s: analysis.speed_m_s, strides }
+}
+
+fn times(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {
+    events.iter().filter(|e| e.side == side && e.kind == kind).map(|e| e.time_s).collect()
+}
+
+/// The stride of a foot between two strikes; `None` if the foot does not leave the ground exactly once.
+fn stride(events: &[Event], places: &Places, side: Side, span: [f64; 2]) -> Option<Stride> {
+    let off = only(&times(events, side, EventKind::Off), span)?;
+    let other = other(side);
+    let other_off = only(&times(events, other, EventKind::Off), span);
+    let other_strike = only(&times(events, other, EventKind::Strike), span);
+    let alone = other_off.zip(other_strike).filter(|(from, to)| from < to && *to <= off);
+    let cycle_s = span[1] - span[0];
+    let share = |from: f64, to: f64| (to - from) / cycle_s;
+    let placed = places.of_stride(side, span);
+    Some(Stride {
+        side,
+        start_s: span[0],
+        cycle_s,
+        stance: share(span[0], off),
+        single_support: alone.map(|(from, to)| share(from, to)),
+        initial_double_support: alone.map(|(other_off, _)| share(span[0], other_off)),
+        terminal_double_support: alone.map(|(_, other_strike)| share(other_strike, off)),
+        step_time_s: other_strike.map(|other_strike| span[1] - other_strike),
+        stride_length_m: placed.map(|placed| placed.stride_m),
+        step_length_m: placed.and_then(|placed| placed.step_m),
+        step_width_m: placed.and_then(|placed| placed.width_m),
+    })
+}
+
+fn other(side: Side) -> Side {
+    match side {
+        Side::Right => Side::Left,
+        Side::Left => Side::Right,
+    }
+}
+
+/// The only instant inside a span, if there is just one.
+fn only(times: &[f64], [from, to]: [f64; 2]) -> Option<f64> {
+    let mut inside = times.iter().copied().filter(|t| *t > from && *t < to);
+    let first = inside.next()?;
+    inside.next().is_none().then_some(first)
+}
+
+/// A strike, and the place of its heel on a floor that stands still.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Strike {
+    side: Side,
+    time_s: f64,
+    heel: Vec3,
+}
+
+/// Where the heels are at the strikes, in order of time.
+struct Places {
+    up: Vec3,
+    strikes: Vec<Strike>,
+}
+
+/// Distances of one stride.
+#[derive(Debug, Clone, Copy)]
+struct Placed {
+    stride_m: f64,
+    step_m: Option<f64>,
+    width_m: Option<f64>,
+}
+
+impl Places {
+    fn of(model: &Model, soles: &[Option<Sole>; 2], analysis: &Analysis) -> Places {
+        let up = upward(model);
+        let floor = floor_velocity(model, analysis, up);
+        let grid = analysis.trajectory.grid();
+        let mut heels = [Vec::new(), Vec::new()];
+        each_body_motion(model, &analysis.trajectory, |_, bodies| {
+            for (path, sole) in heels.iter_mut().zip(soles) {
+                path.extend(
+                    sole.as_ref().map(|sole| bodies[sole.points[0].body.index()].pose.place(sole.points[0].place)),
+                );
+            }
+        });
+        let strikes = analysis.events.iter().filter(|event| event.kind == EventKind::Strike);
+        let placed = |event: &Event| {
+            let path = match event.side {
+                Side::Right => &heels[0],
+                Side::Left => &heels[1],
+            };
+            let heel = at(grid, path, event.time_s)? - floor * (event.time_s - grid.start_s);
+            Some(Strike { side: event.side, time_s: event.time_s, heel })
+        };
+        let mut strikes: Vec<Strike> = strikes.filter_map(placed).collect();
+        strikes.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        Places { up, strikes }
+    }
+
+    fn of_stride(&self, side: Side, [from, to]: [f64; 2]) -> Option<Placed> {
+        let at = |time: f64| self.strikes.iter().find(|s| s.side == side && s.time_s.total_cmp(&time).is_eq());
+        let (first, last) = (at(from)?, at(to)?);
+        let line = self.level(last.heel - first.heel);
+        let mut between = self.strikes.iter().filter(|s| s.side != side && s.time_s > from && s.time_s < to);
+        let other = between.next().filter(|_| between.next().is_none());
+        let outwards = if side == Side::Right { 1.0 } else { -1.0 };
+        let step = other.map(|other| {
+            let (step, ahead) = (last.heel - other.heel, self.heading(line, other, to - from));
+            [step.dot(&ahead), outwards * step.dot(&ahead.cross(&self.up))]
+        });
+        Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
+    }
+
+    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. The line of a stride
+    /// has the direction in its middle: this foot's that of half a step before, the other foot's next stride that of half a step after.
+    /// The other foot's last stride, one and a half steps before, serves where there is no next one.
+    fn heading(&self, line: Vec3, other: &Strike, stride_s: f64) -> Vec3 {
+        let of_other = |from_s: f64, to_s: f64| {
+            let same_foot = |s: &&Strike| s.side == other.side && s.time_s > from_s && s.time_s < to_s;
+            let mut inside = self.strikes.iter().filter(same_foot);
+            inside.find(|s| (s.time_s - other.time_s).abs() > 0.5 * stride_s)
+        };
+        let longest = MISSED * stride_s;
+        let direction = |way: Vec3| way.try_normalize(1e-6);
+        let own = direction(line).unwrap_or_else(Vec3::x);
+        let next = of_other(other.time_s, other.time_s + longest).map(|next| self.level(next.heel - other.heel));
+        let last = of_other(other.time_s - longest, other.time_s).map(|last| self.level(other.heel - last.heel));
+        let ahead = match (next.and_then(direction), last.and_then(direction)) {
+            (Some(next), _) => own + next,
+            (None, Some(last)) => own * 1.5 - last * 0.5,
+            (None, None) => own,
+        };
+        direction(ahead).unwrap_or(own)
+    }
+
+    /// Along the floor.
+    fn level(&self, v: Vec3) -> Vec3 {
+        v - self.up * v.dot(&self.up)
+    }
+}
+
+/// The velocity of a belt [m/s]; none on a floor that stands still.
+fn floor_velocity(model: &Model, analysis: &Analysis, up: Vec3) -> Vec3 {
+    let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return Vec3::zeros() };
+    let along = over.ground - up * over.ground.dot(&up);
+    if along.norm() > MOVING_FLOOR * over.speed { along } else { Vec3::zeros() }
+}
+
+/// A path at an instant, on straight lines between frames.
+fn at(grid: TimeGrid, path: &[Vec3], time_s: f64) -> Option<Vec3> {
+    let times = grid.times();
+    let along = |axis: usize| interpolate(&times, &path.iter().map(|p| p[axis]).collect::<Vec<f64>>(), time_s);
+    (!path.is_empty()).then(|| Vec3::new(along(0), along(1), along(2)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stride_of(side: Side, cycle_s: f64, stance: f64) -> Stride {
+        Stride {
+            side,
+            start_s: 0.0,
+            cycle_s,
+            stance,
+            single_support: Some(0.4),
+            initial_double_support: None,
+            terminal_double_support: None,
+            step_time_s: None,
+            stride_length_m: Some(1.4),
+            step_length_m: Some(0.7),
+            step_width_m: None,
+        }
+    }
+
+    #[test]
+    fn means_deviations_and_symmetry_are_those_of_the_strides() {
+        let strides = vec![
+            stride_of(Side::Right, 1.0, 0.62),
+            stride_of(Side::Right, 1.2, 0.58),
+            stride_of(Side::Left, 1.1, 0.66),
+        ];
+        let found = TimesAndDistances { speed_m_s: None, strides };
+        let right = found.spread(StrideQuantity::CycleTime, Some(Side::Right)).unwrap();
+        assert!((right.mean - 1.1).abs() < 1e-12 && right.strides == 2);
+        assert!((right.standard_deviation.unwrap() - 0.02_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(found.spread(StrideQuantity::CycleTime, Some(Side::Left)).unwrap().standard_deviation, None);
+        assert_eq!(found.spread(StrideQuantity::StepWidth, None), None);
+        assert!((found.symmetry(StrideQuantity::Stance).unwrap() - (0.60 - 0.66) / 0.63).abs() < 1e-12);
+        let double = found.spread(StrideQuantity::DoubleSupport, Some(Side::Left)).unwrap().mean;
+        assert!((double - 0.26).abs() < 1e-12);
+        let cadence = found.spread(StrideQuantity::Cadence, Some(Side::Left)).unwrap().mean;
+        let ratio = found.spread(StrideQuantity::WalkRatio, Some(Side::Left)).unwrap().mean;
+        assert!((ratio * cadence - 0.7).abs() < 1e-12, "step length is walk ratio times cadence");
+    }
+
+    #[test]
+    fn symmetry_has_the_sign_of_the_larger_side() {
+        assert!((symmetry_index(1.1, 0.9).unwrap() - 0.2).abs() < 1e-12);
+        assert!((symmetry_index(-0.9, -1.1).unwrap() + 0.2).abs() < 1e-12, "sizes of negative peaks");
+        assert_eq!(symmetry_index(0.1, -0.1), None);
+    }
+
+    #[test]
+    fn a_step_round_a_bend_is_measured_along_the_bend() {
+        // Feet 0.2 m apart on a circle of 2 m, 20 degrees from strike to strike.
+        let on_circle = |i: usize| {
+            let (angle, side) =
+                (f64::to_radians(20.0) * i as f64, if i.is_multiple_of(2) { Side::Right } else { Side::Left });
+            // Turning left: the right foot is outside.
+            let radius = if side == Side::Right { 2.1 } else { 1.9 };
+            let heel = Vec3::new(radius * angle.sin(), 0.0, radius * angle.cos());
+            Strike { side, time_s: 0.5 * i as f64, heel }
+        };
+        let places = Places { up: Vec3::y(), strikes: (0..5).map(on_circle).collect() };
+        let placed = places.of_stride(Side::Right, [0.0, 1.0]).unwrap();
+        assert!((placed.width_m.unwrap() - 0.2).abs() < 0.02, "{placed:?}");
+        assert!((placed.step_m.unwrap() - 0.70).abs() < 0.02, "{placed:?}");
+    }
+}

@@ -1,0 +1,128 @@
+//! Why a study gives no forces.
+
+use crate::analysis::{AnalysisError, MarkerTrialError, Stopped};
+use crate::dynamics::consistency::ConsistencyError;
+use crate::kinematics::calibration::CalibrationError;
+use crate::kinematics::retarget::RetargetError;
+use crate::model::ModelError;
+use crate::motion::MotionError;
+
+/// Why a study gives no forces. [`StudyError::input`] tells which part of the source it is about.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// Markers that give no body in motion.
+    #[error(transparent)]
+    Markers(MarkerTrialError),
+    /// A skeleton that gives no body in motion.
+    #[error(transparent)]
+    Skeleton(#[from] RetargetError),
+    /// Motion or forces that cannot be analysed.
+    #[error(transparent)]
+    Analysis(AnalysisError),
+    /// A table of forces that cannot be used.
+    #[error(transparent)]
+    ForceTable(MotionError),
+    /// Forces of the two feet that are not recognised by their names.
+    #[error("the columns of the two feet were not recognised among {}", .found.join(", "))]
+    ForceColumns {
+        /// Names of the columns.
+        found: Vec<String>,
+    },
+    /// A device that cannot be used.
+    #[error(transparent)]
+    Device(MotionError),
+    /// The built-in body needs a mass.
+    #[error("the body mass is not known: the files state none, and no person stands still on force plates")]
+    MassUnknown,
+    /// A mass on a body that the model does not have.
+    #[error("the model has no body `{found}`; expected one of {}", .known.join(", "))]
+    UnknownBody {
+        /// Its name.
+        found: String,
+        /// Names of the model's bodies.
+        known: Vec<String>,
+    },
+    /// A mass that no body can carry.
+    #[error(transparent)]
+    AddedMass(ModelError),
+    /// A force plate that the recording does not have.
+    #[error("there is no force plate {plate}: the recording has {count}", plate = .plate + 1)]
+    NoSuchPlate {
+        /// The plate, counted from 0.
+        plate: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// Residual reduction that is not possible.
+    #[error(transparent)]
+    ResidualReduction(#[from] ConsistencyError),
+    /// The observer stopped the run.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// A part of a source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Input {
+    /// The recorded motion.
+    Motion,
+    /// The standing trial.
+    StandingTrial,
+    /// The measured forces.
+    Forces,
+    /// The device.
+    Device,
+}
+
+impl StudyError {
+    /// The part of the source that the error is about; `None` if it is about none or about all of them. A standing trial is named where
+    /// the body was looked for in it: without one, the same errors are about the motion.
+    #[must_use]
+    pub fn input(&self) -> Option<Input> {
+        match self {
+            StudyError::Markers(error) if is_about_calibration(error) => Some(Input::StandingTrial),
+            StudyError::Analysis(AnalysisError::Ground(_))
+            | StudyError::ForceTable(_)
+            | StudyError::ForceColumns { .. } => Some(Input::Forces),
+            StudyError::Device(_) => Some(Input::Device),
+            StudyError::Markers(_)
+            | StudyError::Skeleton(_)
+            | StudyError::Analysis(_)
+            | StudyError::MassUnknown
+            | StudyError::NoSuchPlate { .. } => Some(Input::Motion),
+            StudyError::UnknownBody { .. }
+            | StudyError::AddedMass(_)
+            | StudyError::ResidualReduction(_)
+            | StudyError::Stopped(_) => None,
+        }
+    }
+}
+
+/// Whether the body was being looked for in the standing trial.
+fn is_about_calibration(error: &MarkerTrialError) -> bool {
+    match error {
+        MarkerTrialError::Calibration(CalibrationError::Build(_))
+        | MarkerTrialError::Fit(_)
+        | MarkerTrialError::Stopped(_) => false,
+        MarkerTrialError::Names(_) | MarkerTrialError::Calibration(_) | MarkerTrialError::Scaling(_) => true,
+    }
+}
+
+impl From<MarkerTrialError> for StudyError {
+    fn from(error: MarkerTrialError) -> StudyError {
+        match error {
+            MarkerTrialError::Stopped(stopped) => StudyError::Stopped(stopped),
+            error => StudyError::Markers(error),
+        }
+    }
+}
+
+impl From<AnalysisError> for StudyError {
+    fn from(error: AnalysisError) -> StudyError {
+        match error {
+            AnalysisError::Stopped(stopped) => StudyError::Stopped(stopped),
+            error => StudyError::Analysis(error),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What one file of a laboratory holds: markers, force plates, events, and what it states about the person.
+
+use crate::analysis::LaboratoryRecording;
+use crate::findings::{Code, Findings};
+use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
+use crate::motion::{
+    Event, MarkerError, SubjectParameters, events_from_c3d, markers_from_c3d, markers_from_trc, subject_from_c3d,
+};
+use ambulo_formats::c3d::C3d;
+use ambulo_formats::trc::Trc;
+use ambulo_formats::{Error, Remark};
+
+/// Markers and all that was recorded with them, in the axes of the laboratory.
+#[derive(Debug, Clone)]
+pub struct LaboratoryFile {
+    /// Markers and force plates; a TRC has no plates.
+    pub recording: LaboratoryRecording,
+    /// Foot strikes and foot offs that the file lists.
+    pub events: Vec<Event>,
+    /// What the file states about the person.
+    pub subject: SubjectParameters,
+}
+
+/// Why a file of a laboratory cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LaboratoryFileError {
+    /// The format.
+    #[error(transparent)]
+    Format(#[from] Error),
+    /// The markers.
+    #[error(transparent)]
+    Markers(#[from] MarkerError),
+    /// The force plates.
+    #[error(transparent)]
+    Plates(#[from] PlateError),
+    /// A file without a recording.
+    #[error("the file holds no frames{}; expected a recorded trial. hint: export it again", .remark.as_ref().map_or_else(String::new, |remark| format!(" ({remark})")))]
+    NoFrames {
+        /// The last oddity of the file.
+        remark: Option<String>,
+    },
+}
+
+impl LaboratoryFile {
+    /// From the bytes of a C3D; `label` names the file in findings.
+    ///
+    /// # Errors
+    /// A file that is no C3D, holds no frames, or has markers or plates that cannot be used.
+    pub fn from_c3d(bytes: &[u8], label: &str, findings: &mut Findings) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let (c3d, remarks) = C3d::read(bytes)?;
+        report_remarks(label, &remarks, findings);
+        if c3d.frames() == 0 {
+            return Err(LaboratoryFileError::NoFrames { remark: remarks.last().map(ToString::to_string) });
+        }
+        let mut recording = LaboratoryFile::recording_of_c3d(&c3d, findings)?;
+        recording.markers.name = label.to_owned();
+        Ok(LaboratoryFile { recording, events: events_from_c3d(&c3d, findings), subject: subject_from_c3d(&c3d) })
+    }
+
+    /// Markers and force plates of a C3D.
+    ///
+    /// # Errors
+    /// Markers or plates that cannot be used.
+    pub fn recording_of_c3d(c3d: &C3d, findings: &mut Findings) -> Result<LaboratoryRecording, LaboratoryFileError> {
+        Ok(LaboratoryRecording {
+            markers: markers_from_c3d(c3d, findings)?,
+            plates: plates_from_c3d(c3d, PlateSettings::default(), findings)?,
+            unit: c3d.point_unit.clone(),
+        })
+    }
+
+    /// From the bytes of a TRC; `label` names the file in findings.
+    ///
+    /// # Errors
+    /// A file that is no TRC, or has markers that cannot be used.
+    pub fn from_trc(bytes: &[u8], label: &str, findings: &mut Findings) -> Result<LaboratoryFile, LaboratoryFileError> {
+        let (trc, remarks) = Trc::read(bytes)?;
+        report_remarks(label, &remarks, findings);
+        let mut markers = markers_from_trc(&trc, findings)?;
+        markers.name = label.to_owned();
+        Ok(LaboratoryFile {
+            recording: LaboratoryRecording { markers, plates: Vec::new(), unit: trc.unit.symbol().to_owned() },
+            events: Vec::new(),
+            subject: SubjectParameters::default(),
+        })
+    }
+}
+
+/// Oddities of a file become findings.
+fn report_remarks(label: &str, remarks: &[Remark], findings: &mut Findings) {
+    for remark in remarks {
+        findings.report(Code::FileOdd, format!("{label}: {remark}"));
+    }
+}

@@ -1,0 +1,39 @@
+//! From a recording to the forces behind it: the one road that the command, the validation and every other program takes.
+//!
+//! ```text
+//! Source    what was recorded: coordinates, markers, a skeleton or a complete motion,
+//!           with measured forces and what the laboratory stated
+//! Settings  filters, time range, how the ground forces are found
+//!    |
+//!   run  -> markers or skeleton to a body in motion -> smoothing -> ground forces (measured or predicted)
+//!    |      -> inverse dynamics -> events, cycles, body mass -> checks -> residual reduction -> verdict
+//!    v
+//! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
+//! ```
+//!
+//! [`run`] reads no file, prints nothing and has no clock. [`run_observed`] reports the end of each [`Stage`] to its caller, who can
+//! measure time, show progress or stop the computation.
+
+mod error;
+mod events;
+mod force_table;
+mod laboratory_file;
+mod mass;
+mod observation;
+mod outcome;
+mod prediction;
+mod run;
+mod settings;
+mod source;
+
+pub use crate::analysis::{Stage, Stopped};
+pub use error::{Input, StudyError};
+pub use laboratory_file::{LaboratoryFile, LaboratoryFileError};
+pub use mass::{MassKnowledge, standing_mass_kg};
+pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
+pub use run::{run, run_observed};
+pub use settings::{GroundSettings, Settings};
+pub use source::{
+    AddedMass, CompleteMotion, ForceTable, MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse,
+    Recording, Source,
+};

@@ -1,0 +1,308 @@
+//! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
+
+use super::error::StudyError;
+use super::force_table::{forces_of_table, turn_to_world};
+use super::laboratory_file::LaboratoryFile;
+use super::mass::{built_in_mass_kg, standing_mass_kg};
+use super::outcome::Tracking;
+use super::settings::{GroundSettings, Settings};
+use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
+use crate::analysis::feasibility::Person;
+use crate::analysis::{Body, BodyInMotion, LaboratoryRecording, MarkerTrial, Progress, Stage, follow_markers};
+use crate::findings::{Code, Findings};
+use crate::ground::plates::{PlateContact, foot_bodies};
+use crate::kinematics::Trajectory;
+use crate::kinematics::calibration::{self, Measures};
+use crate::kinematics::retarget::retarget;
+use crate::model::anthropometry::Build;
+use crate::model::{Model, Side};
+use crate::motion::skeleton::SkeletonRecording;
+use crate::motion::{Event, ForceRecording, Motion, Window};
+use crate::spatial::Vec3;
+use std::borrow::Cow;
+
+/// A body, its motion and the forces under its feet, as observed.
+pub(super) struct Observation {
+    pub(super) model: Model,
+    pub(super) person: Person,
+    pub(super) motion: ObservedMotion,
+    pub(super) forces: Vec<ForceRecording>,
+    pub(super) origin: Origin,
+    /// Whether the body mass is stated by anything but a model.
+    pub(super) mass_is_stated: bool,
+}
+
+/// A motion as observed.
+pub(super) enum ObservedMotion {
+    /// Samples, possibly with gaps.
+    Recorded(Motion),
+    /// Complete, with the exact forces of a simulation.
+    Complete(Trajectory),
+}
+
+/// What a body in motion was made from.
+pub(super) enum Origin {
+    Coordinates,
+    Markers(Box<Followed>),
+    Skeleton(Box<Tracking>),
+    Simulation { rule: String },
+}
+
+/// A body that followed markers, and what the files state besides.
+pub(super) struct Followed {
+    pub(super) body: BodyInMotion,
+    /// Foot strikes and foot offs that the file lists.
+    pub(super) listed: Vec<Event>,
+    /// What plates carried while the person stood [kg].
+    pub(super) standing_kg: Option<f64>,
+}
+
+impl Observation {
+    /// Whether forces are predicted: if that is wanted, or if no forces were measured.
+    pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
+        match (&self.origin, settings.ground) {
+            (Origin::Simulation { .. }, _) | (_, GroundSettings::NoContact) => false,
+            (_, GroundSettings::Predicted) => true,
+            (_, GroundSettings::MeasuredOrPredicted) => self.forces.is_empty(),
+        }
+    }
+}
+
+impl Origin {
+    /// What plates carried in a standing trial [kg].
+    pub(super) fn standing_kg(&self) -> Option<f64> {
+        self.followed().and_then(|followed| followed.standing_kg)
+    }
+
+    pub(super) fn followed(&self) -> Option<&Followed> {
+        match self {
+            Origin::Markers(followed) => Some(followed),
+            Origin::Coordinates | Origin::Skeleton(_) | Origin::Simulation { .. } => None,
+        }
+    }
+
+    /// The longest time during which plates measured all that the ground did.
+    pub(super) fn instrumented(&self) -> Option<Window> {
+        let [from, to] = *self.followed()?.body.on_plates.windows.first()?;
+        Some(Window { from_s: Some(from), to_s: Some(to) })
+    }
+
+    /// Whether the directions of both feet are known.
+    pub(super) fn shows_both_feet(&self) -> bool {
+        self.followed().is_none_or(|followed| followed.body.feet.feet_without_markers.is_empty())
+    }
+}
+
+impl Source {
+    /// The body in motion that this source describes.
+    pub(super) fn observe(
+        &self,
+        settings: &Settings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<Observation, StudyError> {
+        match &self.recording {
+            Recording::Coordinates { model, motion } => self.observe_coordinates(model, motion, settings, findings),
+            Recording::Markers(markers) => self.observe_markers(markers, settings, findings, progress),
+            Recording::Skeleton { skeleton, table, mass_kg } => {
+                let build = Build { table: *table, mass: *mass_kg, height: skeleton.height_m, toe_joint: true };
+                self.observe_skeleton(skeleton, &build, settings, findings, progress)
+            }
+            Recording::Complete(made) => Ok(Observation {
+                model: self.loaded(&made.model)?,
+                person: made.person.clone(),
+                motion: ObservedMotion::Complete(made.trajectory.clone()),
+                forces: made.loads.clone(),
+                origin: Origin::Simulation { rule: made.rule.clone() },
+                mass_is_stated: true,
+            }),
+        }
+    }
+
+    fn observe_coordinates(
+        &self,
+        model: &Model,
+        motion: &Motion,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Result<Observation, StudyError> {
+        let model = self.loaded(model)?;
+        let forces = match &self.forces {
+            _ if settings.ground == GroundSettings::NoContact => Vec::new(),
+            MeasuredForces::InRecording => {
+                let message = "no ground forces were given; they are predicted from the motion";
+                findings.report(Code::GroundPredicted, message);
+                Vec::new()
+            }
+            MeasuredForces::OnBodies(forces) => forces.clone(),
+            MeasuredForces::Table(table) => forces_of_table(&model, table, findings)?,
+        };
+        Ok(Observation {
+            person: Person::of_model(&model),
+            model,
+            motion: ObservedMotion::Recorded(motion.clone()),
+            forces,
+            origin: Origin::Coordinates,
+            mass_is_stated: false,
+        })
+    }
+
+    fn observe_skeleton(
+        &self,
+        skeleton: &SkeletonRecording,
+        build: &Build,
+        settings: &Settings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<Observation, StudyError> {
+        let body = retarget(build, skeleton, findings)?;
+        progress.end(Stage::Markers)?;
+        if settings.ground != GroundSettings::NoContact {
+            let message = "a BVH has no ground forces; they are predicted from the motion";
+            findings.report(Code::GroundPredicted, message);
+        }
+        Ok(Observation {
+            person: Person::of_human(&body.human),
+            model: self.loaded(&body.human.model)?,
+            motion: ObservedMotion::Recorded(body.fit.motion.clone()),
+            forces: Vec::new(),
+            origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
+                statement: skeleton.statement.clone(),
+                fit: Box::new(body.fit),
+            })),
+            mass_is_stated: true,
+        })
+    }
+
+    fn observe_markers(
+        &self,
+        markers: &MarkerSource,
+        settings: &Settings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<Observation, StudyError> {
+        let mut body = self.follow(markers, settings, findings, progress)?;
+        if !matches!(markers.body, MarkerBody::Model { .. }) {
+            body.subject.model = self.loaded(&body.subject.model)?;
+        }
+        let forces = match &self.forces {
+            _ if settings.ground == GroundSettings::NoContact => Vec::new(),
+            MeasuredForces::OnBodies(forces) => forces.clone(),
+            MeasuredForces::Table(table) => {
+                let mut forces = forces_of_table(&body.subject.model, table, findings)?;
+                turn_to_world(&mut forces, &body.laboratory.world_from_lab, findings);
+                forces
+            }
+            MeasuredForces::InRecording => plate_forces(&body, findings),
+        };
+        Ok(Observation {
+            model: body.subject.model.clone(),
+            person: body.subject.person.clone(),
+            motion: ObservedMotion::Recorded(body.fit.motion.clone()),
+            forces,
+            mass_is_stated: match &markers.body {
+                MarkerBody::BuiltIn { .. } => true,
+                MarkerBody::Model { mass_kg, .. } => mass_kg.is_some(),
+                MarkerBody::Calibrated(subject) => subject.calibration.is_some(),
+            },
+            origin: Origin::Markers(Box::new(Followed {
+                body,
+                listed: markers.trial.events.clone(),
+                standing_kg: markers.standing.as_ref().and_then(standing_mass_kg),
+            })),
+        })
+    }
+
+    /// The body, calibrated, scaled or as it is, following the markers.
+    fn follow(
+        &self,
+        markers: &MarkerSource,
+        settings: &Settings,
+        findings: &mut Findings,
+        progress: &mut Progress<'_>,
+    ) -> Result<BodyInMotion, StudyError> {
+        let trial = markers.without_plates_switched_off()?;
+        let (person, model);
+        let body = match &markers.body {
+            MarkerBody::Model { model: given, mass_kg } => {
+                model = self.loaded(given)?;
+                Body::Model { model: &model, mass: *mass_kg }
+            }
+            MarkerBody::BuiltIn { set, .. } => {
+                person = markers.person(findings)?;
+                Body::BuiltIn { person: &person, set: set.as_ref() }
+            }
+            MarkerBody::Calibrated(subject) => Body::Calibrated(subject),
+        };
+        let of_foot = |used: PlateUse| match used {
+            PlateUse::Foot(side) => Some(side),
+            PlateUse::Off => None,
+        };
+        let plate_feet: Vec<(usize, Side)> =
+            markers.plates.iter().filter_map(|known| Some((known.plate, of_foot(known.used)?))).collect();
+        let still = markers.standing.as_ref().map(|standing| &standing.recording);
+        let trial = MarkerTrial { walk: &trial, still, body, plate_feet: &plate_feet };
+        Ok(follow_markers(&trial, &settings.marker_fit, findings, progress)?)
+    }
+}
+
+impl MarkerSource {
+    /// The trial without what switched-off plates measured. Plates that are named must exist.
+    fn without_plates_switched_off(&self) -> Result<Cow<'_, LaboratoryRecording>, StudyError> {
+        let mut recording = Cow::Borrowed(&self.trial.recording);
+        for PlateAssignment { plate, used } in &self.plates {
+            let count = recording.plates.len();
+            if *plate >= count {
+                return Err(StudyError::NoSuchPlate { plate: *plate, count });
+            }
+            if *used == PlateUse::Off {
+                let off = &mut recording.to_mut().plates[*plate];
+                off.force.fill(Vec3::zeros());
+                off.moment.fill(Vec3::zeros());
+            }
+        }
+        Ok(recording)
+    }
+
+    /// What is known about the person, for the built-in body.
+    fn person(&self, findings: &mut Findings) -> Result<calibration::Person, StudyError> {
+        let MarkerSource { trial, standing, body, .. } = self;
+        let MarkerBody::BuiltIn { table, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
+        let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| standing.as_ref().and_then(of).or_else(|| of(trial));
+        Ok(calibration::Person {
+            table: *table,
+            mass: built_in_mass_kg(self, findings).ok_or(StudyError::MassUnknown)?,
+            height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
+            measures: Measures::from_processing(|name| stated(&|file| file.subject.processing(name))),
+        })
+    }
+}
+
+/// The forces of the file's plates on the feet; a note where there are none.
+fn plate_forces(body: &BodyInMotion, findings: &mut Findings) -> Vec<ForceRecording> {
+    let forces = body.plate_forces();
+    if forces.is_empty() {
+        let message = format!("{}: the ground forces are predicted from the motion", without_forces(body));
+        findings.report(Code::GroundPredicted, message);
+    }
+    forces
+}
+
+/// Why the plates of a file give no forces on the feet.
+fn without_forces(body: &BodyInMotion) -> String {
+    let contacts = &body.on_plates.contacts;
+    let one =
+        |c: &PlateContact| format!("{}, {:.3}-{:.3} s: {}", body.plates[c.plate].name, c.start_s, c.end_s, c.reason);
+    match contacts.first() {
+        _ if body.plates.is_empty() => "the file has no force plates".to_owned(),
+        None => format!("no load was measured on the file's {}", counted(body.plates.len(), "force plate")),
+        Some(_) if foot_bodies(&body.subject.model).is_none() => {
+            "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l".to_owned()
+        }
+        Some(first) => format!("no plate's load belongs to one foot ({})", one(first)),
+    }
+}
+
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}

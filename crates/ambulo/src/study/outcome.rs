@@ -1,0 +1,131 @@
+//! What a study found.
+
+use super::mass::MassKnowledge;
+use crate::analysis::feasibility::{Person, Verdict};
+use crate::analysis::{
+    Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances,
+};
+use crate::dynamics::consistency::Consistent;
+use crate::ground::predict::Prediction;
+use crate::kinematics::marker_fit::MarkerFit;
+use crate::model::Model;
+use crate::motion::filter::LowPass;
+use crate::motion::{Smoother, Window};
+
+/// Everything that [`super::run`] found. It is complete when it exists: only a run makes one.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The body: given, scaled or calibrated, with added masses, and with what residual reduction changed.
+    pub body: Model,
+    /// Stature and soles.
+    pub person: Person,
+    /// Motion, ground forces, joint forces, events, cycles, body mass and residual.
+    pub analysis: Analysis,
+    /// Speed, cadence, lengths, stance, swing and support.
+    pub times_and_distances: TimesAndDistances,
+    /// Where the ground forces come from.
+    pub force_origin: ForceOrigin,
+    /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or are none.
+    pub prediction: Option<PredictedGround>,
+    /// How well the body mass is known.
+    pub mass_knowledge: MassKnowledge,
+    /// How the body follows markers or a skeleton; `None` for coordinates and complete motions.
+    pub tracking: Option<Tracking>,
+    /// Residual reduction: the changed motion and body; `None` where nothing was changed.
+    pub residual_reduction: Option<Consistent>,
+    /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
+    pub device: Option<Vec<Vec<f64>>>,
+    /// Whether a person could do this.
+    pub verdict: Verdict,
+    /// Filters and time range that were used.
+    pub processing: Processing,
+}
+
+/// Where ground forces come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ForceOrigin {
+    /// Force plates or other sensors.
+    Measured,
+    /// The motion itself.
+    Predicted {
+        /// How double support was resolved.
+        rule: String,
+    },
+    /// A simulation of the motion.
+    Simulated {
+        /// How double support was resolved.
+        rule: String,
+    },
+    /// There are none.
+    None,
+}
+
+/// Filters and time range that were used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Processing {
+    /// How the motion was smoothed.
+    pub smoother: Smoother,
+    /// Low-pass of the measured forces.
+    pub force_filter: Option<LowPass>,
+    /// The time range that was asked for, or that long gaps of markers leave.
+    pub window: Window,
+}
+
+/// Predicted ground forces.
+#[derive(Debug, Clone)]
+pub struct PredictedGround {
+    /// The prediction.
+    pub prediction: Prediction,
+    /// Whether it can be right.
+    pub checks: PredictionChecks,
+    /// The same motion with the measured forces; `None` where there are none.
+    pub measured: Option<Analysis>,
+    /// What the plates measured completely; `None` without plates.
+    pub coverage: Option<PlateCoverage>,
+    /// How prediction and measurement agree; `None` where nothing was measured completely.
+    pub agreement: Option<GroundAgreement>,
+}
+
+/// How a body follows what was recorded.
+#[derive(Debug, Clone)]
+pub enum Tracking {
+    /// Markers.
+    Markers(Box<TrackedMarkers>),
+    /// A skeleton.
+    Skeleton {
+        /// The assumed unit and axes, in one line.
+        statement: String,
+        /// How well the body follows.
+        fit: Box<MarkerFit>,
+    },
+}
+
+/// A body that follows markers.
+#[derive(Debug, Clone)]
+pub struct TrackedMarkers {
+    /// The body, its motion, and which foot was on which plate.
+    pub body: BodyInMotion,
+    /// Foot strikes and foot offs that the file lists.
+    pub listed_events: Vec<Event>,
+    /// Those that plates measured.
+    pub measured_events: Vec<Event>,
+}
+
+impl Outcome {
+    /// How prediction and measured forces agree on what a coverage names, such as a part of the stances; `None` without measured forces,
+    /// or if the coverage is empty.
+    #[must_use]
+    pub fn agreement_over(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
+        let PredictedGround { prediction, measured, .. } = self.prediction.as_ref()?;
+        let measured = measured.as_ref()?;
+        let compared = Compared { model: &self.body, predicted: &self.analysis, prediction, measured };
+        compared.agreement(coverage)
+    }
+
+    /// Stature [m], where it is known rather than estimated from the joints of a model.
+    #[must_use]
+    pub fn height_m(&self) -> Option<f64> {
+        (!self.person.estimated).then_some(self.person.height_m)
+    }
+}

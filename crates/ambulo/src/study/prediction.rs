@@ -1,0 +1,109 @@
+//! Ground forces from the motion alone, and their comparison with measured ones.
+
+use super::events::with_events_of_markers;
+use super::observation::{Followed, Observation, Origin};
+use super::outcome::PredictedGround;
+use super::run::Found;
+use super::settings::Settings;
+use crate::analysis::{
+    self, Analysis, AnalysisError, CheckSettings, MassSource, PlateCoverage, PredictedAnalysis, PredictionInput,
+    Progress, Stage, predict_and_analyse, weighed_standing, weighed_within,
+};
+use crate::findings::{Code, Findings};
+use crate::model::Model;
+use crate::motion::{Event, Motion};
+
+/// A shorter motion has no whole cycle [s].
+const SHORT_S: f64 = 1.0;
+
+/// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
+pub(super) fn predicted(
+    observation: &Observation,
+    motion: &Motion,
+    processing: analysis::Settings,
+    settings: &Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<Found, AnalysisError> {
+    let Observation { model, forces, person, origin, mass_is_stated, .. } = observation;
+    let input = PredictionInput {
+        soles: &person.soles,
+        settings: &settings.prediction,
+        plates_filter: processing.force_filter,
+    };
+    let predicted = predict_and_analyse(model, motion, forces, processing, &input, findings, progress)?;
+    let coverage = coverage(observation, &predicted);
+    let (predicted, measured_events) = completed(predicted, model, origin);
+    let window_s = coverage.as_ref().and_then(|coverage| coverage.window);
+    let predicted = predicted.weighed(model, window_s, origin.standing_kg());
+    let check = CheckSettings {
+        model,
+        soles: &person.soles,
+        thresholds: &settings.thresholds,
+        window_s,
+        standing_kg: origin.standing_kg(),
+    };
+    let checks = predicted.checks(&check, findings);
+    progress.end(Stage::Checks)?;
+    let agreement = coverage.as_ref().and_then(|coverage| predicted.agreement(model, coverage));
+    if agreement.is_none() && predicted.measured.is_some() {
+        findings.report(
+            Code::ComparisonNone,
+            "forces were measured, but no foot was wholly on its own plate: the prediction was compared with nothing",
+        );
+    }
+    if predicted.analysis.mass.source == MassSource::Model && checks.mass_agrees().is_none() && !mass_is_stated {
+        let message = format!(
+            "body mass is neither given nor measured; the model has {:.1} kg, and every predicted force is proportional to it",
+            model.mass()
+        );
+        findings.report(Code::MassUnverified, message);
+    }
+    report_weak_evidence(origin, motion, findings);
+    let PredictedAnalysis { analysis, prediction, measured } = predicted;
+    let prediction = PredictedGround { prediction, checks, measured, coverage, agreement };
+    Ok(Found { analysis, prediction: Some(prediction), measured_events })
+}
+
+/// What makes a prediction a guess.
+fn report_weak_evidence(origin: &Origin, motion: &Motion, findings: &mut Findings) {
+    if !origin.shows_both_feet() {
+        findings.report(
+            Code::PredictionFeetUnseen,
+            "no marker shows where a foot points: its ankle is held, so its stances, centre of pressure and moments are guesses. hint: markers on heel and toe of both feet",
+        );
+    }
+    let recorded_s = motion.times.last().zip(motion.times.first()).map_or(0.0, |(last, first)| last - first);
+    if recorded_s < SHORT_S {
+        findings.report(
+            Code::PredictionShort,
+            "the recording holds less than a gait cycle: forces near its ends are guesses, see grf_sd.mot",
+        );
+    }
+}
+
+/// What plates measured completely; `None` without plates.
+fn coverage(observation: &Observation, predicted: &PredictedAnalysis) -> Option<PlateCoverage> {
+    let measured = predicted.measured.as_ref()?;
+    match observation.origin.followed() {
+        Some(Followed { body, .. }) if !body.on_plates.contacts.is_empty() => Some(body.coverage()),
+        _ => Some(PlateCoverage::by_load(measured, &observation.forces, &predicted.prediction.footfalls)),
+    }
+}
+
+/// Events and mass of the measured forces alongside a prediction; with the events that plates measured.
+fn completed(predicted: PredictedAnalysis, model: &Model, origin: &Origin) -> (PredictedAnalysis, Vec<Event>) {
+    let PredictedAnalysis { analysis, prediction, measured } = predicted;
+    let (measured, events) = measured.map(|measured| with_markers(measured, model, origin)).unzip();
+    (PredictedAnalysis { analysis, prediction, measured }, events.unwrap_or_default())
+}
+
+/// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
+pub(super) fn with_markers(analysis: Analysis, model: &Model, origin: &Origin) -> (Analysis, Vec<Event>) {
+    let Some(Followed { body, listed, standing_kg }) = origin.followed() else { return (analysis, Vec::new()) };
+    let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);
+    if let Some(window) = origin.instrumented() {
+        analysis = weighed_within(analysis, model, window);
+    }
+    (weighed_standing(analysis, *standing_kg), measured_events)
+}

@@ -1,0 +1,207 @@
+//! The road from a recording to forces.
+
+use super::error::StudyError;
+use super::mass::MassKnowledge;
+use super::observation::{Observation, ObservedMotion, Origin};
+use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
+use super::prediction::{predicted, with_markers};
+use super::settings::{GroundSettings, Settings};
+use super::source::Source;
+use crate::analysis::feasibility::{self, Evidence};
+use crate::analysis::{
+    self, Adjustable, Analysis, AnalysisError, ForceSource, Progress, Stage, analyse_measured, analyse_with_progress,
+    reduce_residual, times_and_distances,
+};
+use crate::dynamics::consistency::Consistent;
+use crate::findings::{Code, Findings};
+use crate::model::Model;
+use crate::motion::{Event, Smoother, Window, device_from_table};
+use std::ops::ControlFlow;
+
+/// Computes the forces behind a recording. What is odd, but leaves results, goes to `findings`.
+///
+/// # Errors
+/// Recordings that give no forces: see [`StudyError`].
+pub fn run(source: &Source, settings: &Settings, findings: &mut Findings) -> Result<Outcome, StudyError> {
+    road(source, settings, findings, &mut Progress::default())
+}
+
+/// As [`run`]; `observer` is called as each stage ends, and stops the run by [`ControlFlow::Break`].
+///
+/// # Errors
+/// As [`run`], and [`StudyError::Stopped`] if the observer stops it.
+pub fn run_observed(
+    source: &Source,
+    settings: &Settings,
+    findings: &mut Findings,
+    observer: &mut dyn FnMut(Stage) -> ControlFlow<()>,
+) -> Result<Outcome, StudyError> {
+    road(source, settings, findings, &mut Progress::watched_by(observer))
+}
+
+/// Forces and what goes with them, before residual reduction and verdict.
+pub(super) struct Found {
+    pub(super) analysis: Analysis,
+    pub(super) prediction: Option<PredictedGround>,
+    /// Foot strikes and foot offs that plates measured.
+    pub(super) measured_events: Vec<Event>,
+}
+
+fn road(
+    source: &Source,
+    settings: &Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<Outcome, StudyError> {
+    let observation = source.observe(settings, findings, progress)?;
+    let device = source.device.as_ref().map(|table| device_from_table(&observation.model, table, findings));
+    let device = device.transpose().map_err(StudyError::Device)?;
+    let processing = processing(&observation, settings, findings);
+    let Found { analysis, prediction, measured_events } =
+        forces(&observation, processing, settings, findings, progress)?;
+    let Observation { mut model, person, origin, mass_is_stated, .. } = observation;
+    let force_origin = force_origin(&origin, prediction.as_ref(), settings);
+    let (analysis, residual_reduction) =
+        residual_reduced(&model, analysis, processing, settings, &force_origin, findings)?;
+    if let Some(reduced) = &residual_reduction {
+        model = reduced.model.clone();
+    }
+    progress.end(Stage::ResidualReduction)?;
+    let grid = analysis.trajectory.grid();
+    let device = device.map(|device| {
+        device.report_cover(grid, findings);
+        device.on(grid)
+    });
+    if analysis.cycles.is_empty() {
+        findings
+            .report(Code::CyclesNone, "no whole gait cycle in the window: cycles.csv and the figure were not written");
+    }
+    let checks = prediction.as_ref().map(|prediction| &prediction.checks);
+    let Analysis { trajectory, forces, ground, .. } = &analysis;
+    let evidence = Evidence { model: &model, trajectory, forces, ground, device: device.as_deref() };
+    let mut verdict = feasibility::check(&evidence, &person, &settings.thresholds, findings);
+    verdict.oppose(checks.map_or(&[], |checks| &checks.reasons));
+    progress.end(Stage::Feasibility)?;
+    let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
+    Ok(Outcome {
+        mass_knowledge: MassKnowledge::of(analysis.mass, checks, mass_is_stated),
+        tracking: tracking(origin, measured_events),
+        times_and_distances: times_and_distances(&model, &person.soles, &analysis),
+        body: model,
+        person,
+        analysis,
+        force_origin,
+        prediction,
+        residual_reduction,
+        device,
+        verdict,
+        processing: Processing {
+            smoother: processing.smoother,
+            force_filter: processing.force_filter,
+            window: processing.window,
+        },
+    })
+}
+
+/// Filters and time range for this recording.
+fn processing(observation: &Observation, settings: &Settings, findings: &mut Findings) -> analysis::Settings {
+    let whole = Window::default();
+    let as_it_is = analysis::Settings {
+        smoother: Smoother::Off,
+        force_filter: None,
+        window: whole,
+        rate_hz: None,
+        instrumented: None,
+    };
+    if let ObservedMotion::Complete(_) = observation.motion {
+        return as_it_is;
+    }
+    let force_filter = match observation.is_predicted(settings) {
+        true => settings.comparison_filter.filter(|_| !observation.forces.is_empty()),
+        false => settings.force_filter,
+    };
+    let window = if settings.window == whole { known_window(&observation.origin, findings) } else { settings.window };
+    analysis::Settings {
+        smoother: settings.smoother,
+        force_filter,
+        window,
+        rate_hz: settings.rate_hz,
+        instrumented: observation.origin.instrumented(),
+    }
+}
+
+/// The time to analyse if none is asked for: all of it, or the longest time without a gap in what the markers show.
+fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
+    let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_known_s()) else {
+        return Window::default();
+    };
+    let message =
+        format!("markers are missing for too long outside of {from:.3} to {to:.3} s; only this time was analysed");
+    findings.report(Code::MarkersWindow, message);
+    Window { from_s: Some(from), to_s: Some(to) }
+}
+
+/// Ground forces and joint forces.
+fn forces(
+    observation: &Observation,
+    processing: analysis::Settings,
+    settings: &Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<Found, AnalysisError> {
+    let Observation { model, forces, origin, .. } = observation;
+    let (analysis, measured_events) = match &observation.motion {
+        ObservedMotion::Complete(trajectory) => {
+            let source = ForceSource::Simulated;
+            (analyse_measured(model, trajectory.clone(), forces, source, findings, progress)?, Vec::new())
+        }
+        ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
+            return predicted(observation, motion, processing, settings, findings, progress);
+        }
+        ObservedMotion::Recorded(motion) => {
+            let analysis = analyse_with_progress(model, motion, forces, processing, findings, progress)?;
+            with_markers(analysis, model, origin)
+        }
+    };
+    Ok(Found { analysis, prediction: None, measured_events })
+}
+
+fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
+    match (origin, prediction) {
+        (Origin::Simulation { rule }, _) => ForceOrigin::Simulated { rule: rule.clone() },
+        (_, Some(predicted)) => ForceOrigin::Predicted { rule: predicted.prediction.rule.to_owned() },
+        _ if settings.ground == GroundSettings::NoContact => ForceOrigin::None,
+        _ => ForceOrigin::Measured,
+    }
+}
+
+/// Residual reduction, if it is wanted. Predicted forces scale with the mass of the body, so they cannot correct it.
+fn residual_reduced(
+    model: &Model,
+    analysis: Analysis,
+    processing: analysis::Settings,
+    settings: &Settings,
+    force_origin: &ForceOrigin,
+    findings: &mut Findings,
+) -> Result<(Analysis, Option<Consistent>), StudyError> {
+    let Some(adjustable) = settings.residual_reduction else { return Ok((analysis, None)) };
+    let (adjustable, instrumented) = match force_origin {
+        ForceOrigin::Predicted { .. } => (Adjustable::Motion, None),
+        _ => (adjustable, processing.instrumented),
+    };
+    let processing = analysis::Settings { instrumented, ..processing };
+    let (analysis, reduced) = reduce_residual(model, analysis, &processing, adjustable, findings)?;
+    Ok((analysis, Some(reduced)))
+}
+
+fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
+    match origin {
+        Origin::Markers(followed) => Some(Tracking::Markers(Box::new(TrackedMarkers {
+            body: followed.body,
+            listed_events: followed.listed,
+            measured_events,
+        }))),
+        Origin::Skeleton(tracking) => Some(*tracking),
+        Origin::Coordinates | Origin::Simulation { .. } => None,
+    }
+}

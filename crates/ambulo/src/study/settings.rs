@@ -1,0 +1,71 @@
+//! How a recording is processed.
+
+use crate::analysis::Adjustable;
+use crate::analysis::feasibility::Thresholds;
+use crate::ground::predict::PredictSettings;
+use crate::kinematics::marker_fit::FitSettings;
+use crate::motion::filter::LowPass;
+use crate::motion::{Smoother, Window};
+
+/// How a recording is processed. [`Settings::default`] has every default of Ambulo.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// How the motion is smoothed.
+    pub smoother: Smoother,
+    /// Low-pass of the measured forces that joint forces are computed from; `None` leaves them as recorded.
+    pub force_filter: Option<LowPass>,
+    /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs from the
+    /// filter of the motion, because it must keep what plates measure.
+    pub comparison_filter: Option<LowPass>,
+    /// The time range to analyse. An open range is all of the recording or, where markers are missing for long, the longest time
+    /// without a gap.
+    pub window: Window,
+    /// Frames per second of the results [Hz]; `None` keeps those of the recording.
+    pub rate_hz: Option<f64>,
+    /// How the ground forces are found.
+    pub ground: GroundSettings,
+    /// How forces are predicted. Truths in place of estimates go here ([`PredictSettings::known`]).
+    pub prediction: PredictSettings,
+    /// How markers are fitted.
+    pub marker_fit: FitSettings,
+    /// Residual reduction: what may change so that the motion agrees with the ground forces; `None` changes nothing.
+    pub residual_reduction: Option<Adjustable>,
+    /// The limits of a person, for the verdict.
+    pub thresholds: Thresholds,
+}
+
+/// How the ground forces are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GroundSettings {
+    /// Measured forces where there are any, otherwise predicted ones.
+    #[default]
+    MeasuredOrPredicted,
+    /// Predicted from the motion; measured forces are compared with the prediction.
+    Predicted,
+    /// None: a motion without contact, such as a swinging leg or a flight.
+    NoContact,
+}
+
+impl Settings {
+    /// Low-pass of recorded motion and of the forces with it: zero-phase Butterworth, 6 Hz, third order.
+    pub const LOW_PASS: LowPass = LowPass::MOTION;
+    /// Low-pass of measured forces that a prediction is compared with: 20 Hz, second order.
+    pub const COMPARISON_LOW_PASS: LowPass = LowPass::COMPARED_PLATES;
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            smoother: Smoother::Butterworth(Settings::LOW_PASS),
+            force_filter: Some(Settings::LOW_PASS),
+            comparison_filter: Some(Settings::COMPARISON_LOW_PASS),
+            window: Window::default(),
+            rate_hz: None,
+            ground: GroundSettings::default(),
+            prediction: PredictSettings::default(),
+            marker_fit: FitSettings::default(),
+            residual_reduction: None,
+            thresholds: Thresholds::default(),
+        }
+    }
+}

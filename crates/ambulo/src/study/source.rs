@@ -1,0 +1,197 @@
+//! What was recorded, and what the laboratory stated about it.
+
+use super::error::StudyError;
+use super::laboratory_file::LaboratoryFile;
+use crate::analysis::Subject;
+use crate::analysis::feasibility::Person;
+use crate::kinematics::Trajectory;
+use crate::model::anthropometry::SegmentTable;
+use crate::model::marker_set::MarkerSet;
+use crate::model::{Model, Side};
+use crate::motion::skeleton::SkeletonRecording;
+use crate::motion::{ForceRecording, Motion};
+use crate::spatial::Vec3;
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::table::Table;
+
+/// A recording with everything that is known about it. It holds data; names of files appear in messages only.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// What was recorded.
+    pub recording: Recording,
+    /// The measured ground forces.
+    pub forces: MeasuredForces,
+    /// What a worn device contributes to the joints: a table with columns named as in `moments.sto`.
+    pub device: Option<Table>,
+    /// Masses that the person carried.
+    pub added_mass: Vec<AddedMass>,
+}
+
+/// The kinds of recording.
+#[derive(Debug, Clone)]
+pub enum Recording {
+    /// Coordinates of a model.
+    Coordinates {
+        /// The body.
+        model: Model,
+        /// Its coordinates over time.
+        motion: Motion,
+    },
+    /// Markers in a laboratory.
+    Markers(Box<MarkerSource>),
+    /// Joint centres of a skeleton; the built-in body takes its lengths.
+    Skeleton {
+        /// The joint centres.
+        skeleton: SkeletonRecording,
+        /// Segment masses of the built-in body.
+        table: SegmentTable,
+        /// Body mass [kg].
+        mass_kg: f64,
+    },
+    /// A complete motion with its ground forces. Nothing is smoothed or predicted.
+    Complete(Box<CompleteMotion>),
+}
+
+/// A complete motion with its ground forces, from a synthetic walk or a simulation.
+#[derive(Debug, Clone)]
+pub struct CompleteMotion {
+    /// The body.
+    pub model: Model,
+    /// Stature and soles.
+    pub person: Person,
+    /// The motion.
+    pub trajectory: Trajectory,
+    /// The forces of the ground.
+    pub loads: Vec<ForceRecording>,
+    /// How the forces were divided between the feet in double support.
+    pub rule: String,
+}
+
+/// Measured ground forces.
+#[derive(Debug, Clone, Default)]
+pub enum MeasuredForces {
+    /// Those of the force plates in a recording of markers, if it has any.
+    #[default]
+    InRecording,
+    /// Forces on bodies of the model.
+    OnBodies(Vec<ForceRecording>),
+    /// A table; its axes are those of the markers or of the world.
+    Table(ForceTable),
+}
+
+/// A table of ground forces, and which columns act on which body.
+#[derive(Debug, Clone)]
+pub struct ForceTable {
+    /// The table.
+    pub table: Table,
+    /// The columns of each foot; `None` recognises columns by the names that laboratories use.
+    pub loads: Option<ExternalLoads>,
+}
+
+/// Markers, and the body that follows them.
+#[derive(Debug, Clone)]
+pub struct MarkerSource {
+    /// The trial.
+    pub trial: LaboratoryFile,
+    /// The same person standing still.
+    pub standing: Option<LaboratoryFile>,
+    /// The body.
+    pub body: MarkerBody,
+    /// Force plates of which the laboratory knows the foot.
+    pub plates: Vec<PlateAssignment>,
+}
+
+/// The body that follows markers.
+#[derive(Debug, Clone)]
+pub enum MarkerBody {
+    /// The built-in one, calibrated from the standing trial or, without one, from the trial itself.
+    BuiltIn {
+        /// Segment masses.
+        table: SegmentTable,
+        /// Stated body mass [kg]; `None` takes it from the standing trial or the files.
+        mass_kg: Option<f64>,
+        /// Stature [m]; `None` takes it from the files or estimates it from the legs.
+        height_m: Option<f64>,
+        /// The set of markers; `None` finds it by the names of the markers.
+        set: Option<MarkerSet>,
+    },
+    /// A model, scaled to the person if there is a standing trial.
+    Model {
+        /// The model.
+        model: Model,
+        /// Body mass [kg]; `None` keeps that of the model.
+        mass_kg: Option<f64>,
+    },
+    /// A body that was calibrated before.
+    Calibrated(Box<Subject>),
+}
+
+/// What the laboratory knows about a force plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlateAssignment {
+    /// The plate, counted from 0.
+    pub plate: usize,
+    /// Its use.
+    pub used: PlateUse,
+}
+
+/// Who used a force plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlateUse {
+    /// One foot.
+    Foot(Side),
+    /// Nobody; what it measured is left out.
+    Off,
+}
+
+/// A mass that the person carried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AddedMass {
+    /// The body that it is fixed to.
+    pub body: String,
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Position in the frame of the body [m].
+    pub position_m: Vec3,
+}
+
+impl Source {
+    /// A recording alone: its own force plates, no device, no added mass.
+    #[must_use]
+    pub fn new(recording: Recording) -> Source {
+        Source { recording, forces: MeasuredForces::InRecording, device: None, added_mass: Vec::new() }
+    }
+
+    /// Coordinates of a model, without measured forces.
+    #[must_use]
+    pub fn coordinates(model: Model, motion: Motion) -> Source {
+        Source::new(Recording::Coordinates { model, motion })
+    }
+
+    /// Markers.
+    #[must_use]
+    pub fn markers(markers: MarkerSource) -> Source {
+        Source::new(Recording::Markers(Box::new(markers)))
+    }
+
+    /// The same recording with these ground forces.
+    #[must_use]
+    pub fn with_forces(self, forces: MeasuredForces) -> Source {
+        Source { forces, ..self }
+    }
+
+    /// A model with the masses that the person carried.
+    pub(super) fn loaded(&self, model: &Model) -> Result<Model, StudyError> {
+        self.added_mass.iter().try_fold(model.clone(), |model, added| added.on(&model))
+    }
+}
+
+impl AddedMass {
+    fn on(&self, model: &Model) -> Result<Model, StudyError> {
+        let Some(body) = model.body(&self.body) else {
+            let known = model.bodies().iter().map(|body| body.name.clone()).collect();
+            return Err(StudyError::UnknownBody { found: self.body.clone(), known });
+        };
+        model.with_point_mass(body, self.mass_kg, self.position_m).map_err(StudyError::AddedMass)
+    }
+}

@@ -1,0 +1,138 @@
+//! Ground forces without plates: predicted from a trajectory, behind a fit of markers, and frame by frame.
+//!
+//! A synthetic walk needs no data; the recording with markers is that of `bench-markers`. No other engine installed here predicts ground
+//! forces, so there is no ratio. What a prediction holds in memory is counted by a test of the library
+//! (crates/ambulo/tests/allocation.rs).
+
+use super::timing::{Timing, cpu_us};
+use super::{Row, markers, table, verdict};
+use ambulo::analysis::feasibility::Person;
+use ambulo::findings::Findings;
+use ambulo::gait::Gait;
+use ambulo::ground::footfalls::footfalls;
+use ambulo::ground::predict::{PredictSettings, predict, total_wrench};
+use ambulo::ground::sole::Sole;
+use ambulo::ground::stream::{Stream, StreamSettings};
+use ambulo::kinematics::Trajectory;
+use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
+use ambulo::model::Model;
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::motion::filter::LowPass;
+use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
+use std::hint::black_box;
+
+/// A prediction from a trajectory takes at most this a frame [us].
+const ASKED_OF_PREDICTION_US: f64 = 20.0;
+/// With marker fitting included this many frames a second at least, so a frame takes this long at most [us].
+const ASKED_WITH_MARKERS_US: f64 = 1000.0;
+/// Frames of the synthetic walk, a second.
+const RATE_HZ: f64 = 100.0;
+/// A frame pushed at that rate must be done when the next one comes [us].
+const ASKED_OF_PUSH_US: f64 = 1e6 / RATE_HZ;
+/// Pushes of one measurement.
+const PUSHES: usize = 5;
+
+/// Prints and returns the rows.
+#[expect(clippy::print_stdout, reason = "the table is the command's result")]
+pub(super) fn bench() -> Result<Vec<Row>, String> {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let gait = Gait::named("free").map_err(|e| e.to_string())?;
+    let order =
+        SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Corrected, cycles: 6, rate_hz: RATE_HZ };
+    let walk = synthesise(&order, &mut Findings::default()).map_err(|e| e.to_string())?;
+    let (model, soles) = (&walk.human.model, Person::of_human(&walk.human).soles);
+    let mut rows = of_trajectory("synthetic walk", model, &walk.trajectory, &soles)?;
+    rows.push(row("stream, a push, synthetic walk", push(model, &walk.trajectory, &soles)?));
+    if let Some((model, markers)) = markers::walk()? {
+        rows.extend(of_markers(&model, &markers)?);
+    }
+    println!("\nground forces without plates");
+    print!("{}", table(&rows));
+    for (start, asked) in [
+        ("prediction,", ASKED_OF_PREDICTION_US),
+        ("stream,", ASKED_OF_PUSH_US),
+        ("fit, smooth and predict,", ASKED_WITH_MARKERS_US),
+    ] {
+        for row in rows.iter().filter(|row| row.quantity.starts_with(start)) {
+            let per_second = 1e6 / row.timing.median;
+            let met = verdict(row.timing.median, asked);
+            println!("{}: {per_second:.0} frames a second; asked at most {asked} us: {met}", row.quantity);
+        }
+    }
+    Ok(rows)
+}
+
+fn row(quantity: &str, timing: Timing) -> Row {
+    Row { quantity: quantity.to_owned(), unit: "us/frame", timing }
+}
+
+/// The prediction and, apart, its parts that others use as well.
+fn of_trajectory(
+    name: &str,
+    model: &Model,
+    trajectory: &Trajectory,
+    soles: &[Option<Sole>; 2],
+) -> Result<Vec<Row>, String> {
+    let settings = PredictSettings::default();
+    let run = || predict(model, trajectory, soles, &settings, &mut Findings::default());
+    run().map_err(|e| e.to_string())?;
+    let frames = trajectory.grid().frames;
+    let whole = cpu_us(frames, || {
+        black_box(run().is_ok());
+    });
+    let steps = cpu_us(frames, || {
+        black_box(footfalls(model, trajectory, soles, &mut Findings::default()));
+    });
+    let total = cpu_us(frames, || {
+        black_box(total_wrench(model, trajectory));
+    });
+    Ok(vec![
+        row(&format!("prediction, {name}"), whole),
+        row("  of that: footfalls", steps),
+        row("  of that: total wrench", total),
+    ])
+}
+
+/// A push once the window is full.
+fn push(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Result<Timing, String> {
+    let mut stream =
+        Stream::new(model.clone(), *soles, &StreamSettings::at_rate(RATE_HZ)).map_err(|e| e.to_string())?;
+    let mut frames = Vec::new();
+    trajectory.for_each_posture(|_, posture| frames.push(posture.q.to_vec()));
+    for q in &frames {
+        stream.push(q).map_err(|e| e.to_string())?;
+    }
+    let mut next = frames.iter().cycle();
+    Ok(cpu_us(PUSHES, || {
+        for q in next.by_ref().take(PUSHES) {
+            black_box(stream.push(q).is_ok());
+        }
+    }))
+}
+
+/// From recorded markers to forces.
+fn of_markers(model: &Model, markers: &MarkerRecording) -> Result<Vec<Row>, String> {
+    let soles = Person::of_model(model).soles;
+    let fitted = || -> Result<Trajectory, String> {
+        let mut findings = Findings::default();
+        let fit = fit_markers(model, markers, &FitSettings::default(), &mut findings).map_err(|e| e.to_string())?;
+        let smoother = Smoother::Butterworth(LowPass::MOTION);
+        let settings = SmoothSettings { smoother, window: Window::default(), rate_hz: None };
+        let smoothed = smooth(model, &fit.motion, settings, &mut findings).map_err(|e| e.to_string())?;
+        Trajectory::complete(model, &smoothed, &mut findings).map_err(|e| e.to_string())
+    };
+    let run = || {
+        let trajectory = fitted()?;
+        predict(model, &trajectory, &soles, &PredictSettings::default(), &mut Findings::default())
+            .map_err(|e| e.to_string())
+    };
+    run()?;
+    let trajectory = fitted()?;
+    let together = cpu_us(trajectory.grid().frames, || {
+        black_box(run().is_ok());
+    });
+    let mut rows = of_trajectory("rajagopal-walk", model, &trajectory, &soles)?;
+    rows.push(row("fit, smooth and predict, rajagopal-walk", together));
+    Ok(rows)
+}

@@ -1,0 +1,53 @@
+//! Commands of `cargo xtask` that need the library: benchmarks, validations and fits. Each command is a file of this folder.
+
+mod bench;
+mod figures;
+mod fit_gait;
+mod fit_ground;
+mod harmonics;
+mod normative;
+mod normative_bands;
+mod npz;
+mod oracle_c3d;
+mod peers;
+mod simulators;
+mod table;
+mod validate;
+mod walk_bands;
+mod workspace;
+
+use std::process::ExitCode;
+
+/// Exit code for a command line that is not understood.
+const MISUSED: u8 = 2;
+
+#[expect(clippy::print_stderr, reason = "errors of the automation go to the terminal")]
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let (command, rest) = words.split_first().map_or(("", &[][..]), |(first, rest)| (first.as_str(), rest));
+    let done = match (command, rest) {
+        ("peers", _) => peers::run(rest),
+        ("simulators", _) => simulators::command(rest),
+        ("oracle-c3d", _) => oracle_c3d::run(rest),
+        ("bench", []) => bench::run(),
+        ("bench-markers", _) => bench::markers::run(rest),
+        ("bench-simulation", _) => bench::simulation::run(rest),
+        ("figures", []) => figures::run(),
+        ("fit-gait", []) => fit_gait::run(),
+        ("normative-bands", []) => normative_bands::run(),
+        ("fit-ground", _) => fit_ground::run(rest),
+        ("validate", _) => validate::run(rest),
+        ("walk-bands", _) => walk_bands::run(rest),
+        _ => {
+            eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));
+            return ExitCode::from(MISUSED);
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

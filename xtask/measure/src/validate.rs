@@ -1,0 +1,88 @@
+//! Predicted ground forces against plates: `cargo xtask validate [--write]`.
+//!
+//! Every recording with plates beside the workspace goes through the library as `ambulo forces --predict` takes it: body, fit, 6 Hz,
+//! prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the page goes to
+//! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is no error.
+
+mod means;
+mod page;
+pub(crate) mod recording;
+pub(crate) mod trial;
+
+use crate::workspace;
+use serde_json::{Value, json};
+use std::fs;
+use std::process::Command;
+use trial::Trial;
+
+/// Runs the verb.
+#[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let mut write = false;
+    for word in words {
+        match word.as_str() {
+            "--write" => write = true,
+            _ => return Err(format!("unknown option `{word}`, expected --write")),
+        }
+    }
+    let data = workspace::data().join("data");
+    if !data.is_dir() {
+        println!("skipped: no data");
+        return Ok(());
+    }
+    let mut trials = Vec::new();
+    for recording in recording::all() {
+        match recording.read(&data).and_then(|source| Trial::run(&recording, &source)) {
+            Ok(trial) => trials.push(trial),
+            Err(reason) => return Err(format!("{}: {reason}", recording.label)),
+        }
+    }
+    let commit = commit();
+    let page = page::text(&trials);
+    println!("{page}");
+    save("target/validation.json", &format!("{:#}\n", json(&trials, &commit)))?;
+    if write {
+        save("docs/measured/VALIDATION.md", &page)?;
+        eprintln!("written: docs/measured/VALIDATION.md");
+    }
+    Ok(())
+}
+
+fn save(name: &str, text: &str) -> Result<(), String> {
+    let path = workspace::root().join(name);
+    let folder = path.parent().unwrap_or(&path);
+    fs::create_dir_all(folder).map_err(|e| format!("{}: cannot make this folder: {e}", folder.display()))?;
+    fs::write(&path, text).map_err(|e| format!("{}: cannot write: {e}", path.display()))
+}
+
+/// The commit that the numbers come from, with a word where files differ from it.
+fn commit() -> String {
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").current_dir(workspace::root()).args(arguments).output().ok()?;
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"]) else { return "of unknown origin".to_owned() };
+    // The page itself is always behind the commit that holds it.
+    let changed = git(&["status", "--porcelain", "--", "crates", "xtask", "Cargo.lock"]).is_none_or(|s| !s.is_empty());
+    if changed { format!("{commit} + changes") } else { commit }
+}
+
+fn json(trials: &[Trial], commit: &str) -> Value {
+    let trial = |trial: &Trial| {
+        let known = trial.budget.iter().map(|(source, agreement)| json!({ "known": source, "agreement": agreement }));
+        json!({
+            "recording": trial.label,
+            "subject": trial.subject,
+            "group": trial.group.word(),
+            "mass_source": trial.mass_source,
+            "rule": trial.rule,
+            "frames": trial.frames,
+            "predict_us_per_frame": trial.microseconds,
+            "peaks_off": trial.peaks_off,
+            "flight_s": trial.flight_s,
+            "agreement": trial.agreement,
+            "budget": known.collect::<Vec<_>>(),
+        })
+    };
+    json!({ "commit": commit, "recordings": trials.iter().map(trial).collect::<Vec<_>>() })
+}

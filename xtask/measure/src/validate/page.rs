@@ -1,0 +1,293 @@
+//! The page: tables that read as text and as Markdown.
+
+use super::means::{COMPONENTS, Figure, JOINTS, component, over_subjects};
+use super::recording::Group;
+use super::trial::Trial;
+use crate::table::Table;
+use ambulo::analysis::GroundAgreement;
+
+/// What is asked of a mean.
+struct Bar {
+    what: String,
+    got: f64,
+    /// Least and most that is allowed.
+    allowed: [Option<f64>; 2],
+    digits: usize,
+}
+
+/// The whole page.
+pub(super) fn text(trials: &[Trial]) -> String {
+    let rule = trials.first().map_or("", |trial| trial.rule);
+    let head = format!(
+        "# Predicted ground forces against plates\n\n\
+         Every recording with plates in the development data goes through the library as `ambulo forces --predict` takes it: \
+         events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz \
+         (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed.\n\n\
+         Per foot over its whole stances on plates (vertical above 20 N); RMSE in % of body weight, rRMSE over the mean of the two \
+         ranges, Pearson's r. Fore-aft is along the walking direction, in turns that of the pelvis in that stance. Centres of \
+         pressure where the plate carries more than 5 % of body weight. Moments of a leg over the time in which plates measured every \
+         foot, and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
+         `walking` makes the means.\n"
+    );
+    let sections = [
+        ("What was asked, and what came out", asked(trials)),
+        ("Forces of each foot", forces(trials)),
+        ("Centres of pressure", centers(trials)),
+        ("Sagittal moments: RMSE [N.m/kg], r", moments(trials)),
+        ("Foot strikes and toe-offs", events(trials)),
+        ("Vertical peaks and flight", peaks(trials)),
+        ("Error budget: each source replaced by what plates say", budget(trials)),
+        ("Time of a prediction from a trajectory", times(trials)),
+    ];
+    sections.into_iter().fold(head, |page, (title, table)| format!("{page}\n## {title}\n\n{table}"))
+}
+
+/// A number, or a dash.
+fn number(x: f64, digits: usize) -> String {
+    if x.is_finite() { format!("{x:.digits$}") } else { "-".to_owned() }
+}
+
+fn asked(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["figure", "asked", "got", "verdict"]);
+    for bar in bars(trials) {
+        let Bar { what, got, allowed, digits } = bar;
+        let asked = match allowed {
+            [Some(least), Some(most)] => format!("{} to {}", number(least, digits), number(most, digits)),
+            [Some(least), None] => format!(">= {}", number(least, digits)),
+            [None, Some(most)] => format!("<= {}", number(most, digits)),
+            [None, None] => "-".to_owned(),
+        };
+        let met = got.is_finite() && allowed[0].is_none_or(|x| got >= x) && allowed[1].is_none_or(|x| got <= x);
+        table.row([what, asked, number(got, digits), if met { "met" } else { "missed" }.to_owned()]);
+    }
+    table.text()
+}
+
+fn bars(trials: &[Trial]) -> Vec<Bar> {
+    let mean = |figure| over_subjects(trials, figure, |trial| Some(&trial.agreement));
+    let mut bars = Vec::new();
+    let mut add = |what: String, got: f64, allowed, digits| bars.push(Bar { what, got, allowed, digits });
+    let of_forces = [(5.0, 4.0, 0.99), (2.8, 8.5, 0.97), (1.5, 12.0, 0.88)];
+    for (k, (rmse, relative, r)) in of_forces.into_iter().enumerate() {
+        let name = COMPONENTS[k];
+        add(format!("{name}, RMSE %BW"), mean(Figure::Force(k)), [None, Some(rmse)], 2);
+        add(format!("{name}, rRMSE %"), mean(Figure::Relative(k)), [None, Some(relative)], 1);
+        add(format!("{name}, r"), mean(Figure::Correlation(k)), [Some(r), None], 3);
+    }
+    for (k, name) in ["fore-aft", "lateral"].into_iter().enumerate() {
+        let what = format!("centre of pressure {name}, force-weighted RMS mm");
+        add(what, mean(Figure::Center(k)), [None, Some(12.0)], 1);
+    }
+    for (joint, (rmse, r)) in [(0.18, 0.93), (0.15, 0.93), (0.10, 0.98)].into_iter().enumerate() {
+        let name = JOINTS[joint].0;
+        add(format!("{name} moment, RMSE N.m/kg"), mean(Figure::Moment(joint)), [None, Some(rmse)], 3);
+        add(format!("{name} moment, r"), mean(Figure::MomentCorrelation(joint)), [Some(r), None], 3);
+    }
+    add("events, mean absolute error ms".to_owned(), mean(Figure::Events), [None, Some(15.0)], 1);
+    for (k, name) in COMPONENTS.into_iter().enumerate() {
+        add(format!("{name}, samples in the 90 % band %"), mean(Figure::Band(k)), [Some(80.0), Some(97.0)], 1);
+        add(format!("{name}, half-width of the band / RMSE"), mean(Figure::Width(k)), [None, Some(2.5)], 2);
+    }
+    for trial in trials.iter().filter(|trial| trial.group == Group::Turning) {
+        for foot in &trial.agreement.feet {
+            let what = format!("{} {}, vertical RMSE %BW", trial.label, foot.side.letter());
+            add(what, 100.0 * foot.vertical.rmse_bw, [None, Some(7.0)], 2);
+        }
+    }
+    for trial in trials.iter().filter(|trial| trial.group == Group::Running) {
+        add(format!("{}, vertical r", trial.label), Figure::Correlation(0).of(&trial.agreement), [Some(0.97), None], 3);
+        let worst = trial.peaks_off.iter().map(|(_, _, off)| 100.0 * off.abs()).fold(0.0, f64::max);
+        add(format!("{}, vertical peak of the worst stance off by %", trial.label), worst, [None, Some(10.0)], 1);
+        let [found, truth] = trial.flight_s;
+        add(
+            format!("{}, flight found, % of the true time", trial.label),
+            100.0 * found / truth,
+            [Some(50.0), Some(150.0)],
+            0,
+        );
+    }
+    let slowest = trials.iter().map(|trial| trial.microseconds).fold(0.0, f64::max);
+    add("prediction, microseconds a frame, slowest recording".to_owned(), slowest, [None, Some(20.0)], 1);
+    bars
+}
+
+fn forces(trials: &[Trial]) -> String {
+    let mut table = Table::new(&[
+        "recording",
+        "group",
+        "foot",
+        "stances",
+        "component",
+        "RMSE %BW",
+        "rRMSE %",
+        "r",
+        "in band %",
+        "band/RMSE",
+    ]);
+    for trial in trials {
+        for foot in &trial.agreement.feet {
+            for (k, name) in COMPONENTS.into_iter().enumerate() {
+                let force = component(foot, k);
+                table.row([
+                    trial.label.to_owned(),
+                    trial.group.word().to_owned(),
+                    foot.side.letter().to_owned(),
+                    foot.stances_s.len().to_string(),
+                    name.to_owned(),
+                    number(100.0 * force.rmse_bw, 2),
+                    number(100.0 * force.rrmse, 1),
+                    number(force.r, 3),
+                    number(100.0 * force.band.holds, 1),
+                    number(force.band.half_width_over_rmse, 2),
+                ]);
+            }
+        }
+    }
+    let mean = |figure| over_subjects(trials, figure, |trial| Some(&trial.agreement));
+    for (k, name) in COMPONENTS.into_iter().enumerate() {
+        table.row([
+            "mean over subjects".to_owned(),
+            Group::Walking.word().to_owned(),
+            "both".to_owned(),
+            "-".to_owned(),
+            name.to_owned(),
+            number(mean(Figure::Force(k)), 2),
+            number(mean(Figure::Relative(k)), 1),
+            number(mean(Figure::Correlation(k)), 3),
+            number(mean(Figure::Band(k)), 1),
+            number(mean(Figure::Width(k)), 2),
+        ]);
+    }
+    table.text()
+}
+
+fn centers(trials: &[Trial]) -> String {
+    let mut table = Table::new(&[
+        "recording",
+        "foot",
+        "fore-aft mm",
+        "fore-aft weighted",
+        "lateral mm",
+        "lateral weighted",
+        "samples",
+        "without",
+    ]);
+    for trial in trials {
+        for foot in &trial.agreement.feet {
+            let center = &foot.center_of_pressure;
+            table.row([
+                trial.label.to_owned(),
+                foot.side.letter().to_owned(),
+                number(center.fore_aft_mm, 1),
+                number(center.fore_aft_weighted_mm, 1),
+                number(center.lateral_mm, 1),
+                number(center.lateral_weighted_mm, 1),
+                center.samples.to_string(),
+                center.missing.to_string(),
+            ]);
+        }
+    }
+    table.text()
+}
+
+fn moments(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["recording", "leg", "hip", "r", "knee", "r", "ankle", "r"]);
+    for trial in trials {
+        for side in ["r", "l"] {
+            let of = |joint: usize| {
+                let name = format!("{}_{side}_moment", JOINTS[joint].1);
+                let found = trial.agreement.moments.iter().find(|m| m.quantity == name);
+                found.map_or([f64::NAN; 2], |m| [m.rmse_nm_kg, m.r])
+            };
+            let [[hip, hip_r], [knee, knee_r], [ankle, ankle_r]] = [of(0), of(1), of(2)];
+            if [hip, knee, ankle].iter().any(|x| x.is_finite()) {
+                let n = |x| number(x, 3);
+                let cells = [n(hip), n(hip_r), n(knee), n(knee_r), n(ankle), n(ankle_r)];
+                let [a, b, c, d, e, f] = cells;
+                table.row([trial.label.to_owned(), side.to_owned(), a, b, c, d, e, f]);
+            }
+        }
+    }
+    table.text()
+}
+
+fn events(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["recording", "kind", "pairs", "missed", "extra", "mean error ms", "bias ms"]);
+    for trial in trials {
+        for event in &trial.agreement.events {
+            table.row([
+                trial.label.to_owned(),
+                event.kind.word().to_owned(),
+                event.pairs.to_string(),
+                event.missed.to_string(),
+                event.extra.to_string(),
+                number(event.mean_absolute_ms, 1),
+                number(event.bias_ms, 1),
+            ]);
+        }
+    }
+    table.text()
+}
+
+fn peaks(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["recording", "peaks off by % (each stance)", "flight s", "by plates s", "mass from"]);
+    for trial in trials {
+        let peaks: Vec<String> =
+            trial.peaks_off.iter().map(|(side, _, off)| format!("{side} {:+.1}", 100.0 * off)).collect();
+        let [found, truth] = trial.flight_s;
+        let peaks = peaks.join(" ");
+        let source = trial.mass_source.to_owned();
+        table.row([trial.label.to_owned(), peaks, number(found, 2), number(truth, 2), source]);
+    }
+    table.text()
+}
+
+fn budget(trials: &[Trial]) -> String {
+    let mut table = Table::new(&[
+        "known",
+        "vertical %BW",
+        "fore-aft %BW",
+        "lateral %BW",
+        "CoP fore-aft mm",
+        "CoP lateral mm",
+        "hip",
+        "knee",
+        "ankle",
+    ]);
+    let mut row = |name: &str, of: &dyn Fn(&Trial) -> Option<&GroundAgreement>| {
+        let mean = |figure, digits| number(over_subjects(trials, figure, of), digits);
+        table.row([
+            name.to_owned(),
+            mean(Figure::Force(0), 2),
+            mean(Figure::Force(1), 2),
+            mean(Figure::Force(2), 2),
+            mean(Figure::Center(0), 1),
+            mean(Figure::Center(1), 1),
+            mean(Figure::Moment(0), 3),
+            mean(Figure::Moment(1), 3),
+            mean(Figure::Moment(2), 3),
+        ]);
+    };
+    let mut sources: Vec<&str> = Vec::new();
+    for (source, _) in trials.iter().flat_map(|trial| &trial.budget) {
+        if !sources.contains(source) {
+            sources.push(source);
+        }
+    }
+    for source in sources {
+        row(source, &|trial| trial.budget.iter().find(|(name, _)| *name == source).map(|(_, agreement)| agreement));
+    }
+    format!(
+        "{}\nMeans over subjects, walking, over the part of the stances in which plates measured every foot: only there can every source \
+         be replaced. A known split is that of the vertical force; along the ground the rule divides. Moments in N.m/kg; centres of pressure are force-weighted.\n",
+        table.text()
+    )
+}
+
+fn times(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["recording", "frames", "microseconds a frame"]);
+    for trial in trials {
+        table.row([trial.label.to_owned(), trial.frames.to_string(), number(trial.microseconds, 1)]);
+    }
+    format!("{}\nThe best of five runs, on whatever machine wrote this page.\n", table.text())
+}

@@ -1,0 +1,79 @@
+//! Where things are: the workspace, the recordings beside it, the `ambulo` command.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Folder that holds `data` and `reference`, where it is not [`DATA`].
+const DATA_VARIABLE: &str = "AMBULO_DATA";
+/// The same, relative to the workspace root.
+const DATA: &str = "../shared";
+/// The recording that the main job is shown and timed on: model, motion, forces and what the forces act on.
+const WALK: &str = "data/opensim-gait2392-subject01";
+
+/// The folder of the workspace's `Cargo.toml`.
+pub(crate) fn root() -> PathBuf {
+    let above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);
+    above.map(Path::to_path_buf).unwrap_or_default()
+}
+
+/// The folder that holds `data` and `reference`.
+pub(crate) fn data() -> PathBuf {
+    std::env::var_os(DATA_VARIABLE).map_or_else(|| root().join(DATA), PathBuf::from)
+}
+
+/// The same cargo that runs this program, in the workspace root.
+pub(crate) fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root());
+    command
+}
+
+/// Files of the recording that the main job is timed on.
+#[derive(Debug, Clone)]
+pub(crate) struct Walk {
+    pub(crate) model: PathBuf,
+    pub(crate) motion: PathBuf,
+    pub(crate) forces: PathBuf,
+    pub(crate) loads: PathBuf,
+}
+
+impl Walk {
+    /// The recording, if it is there.
+    pub(crate) fn find() -> Option<Walk> {
+        let file = |name: &str| data().join(WALK).join(name);
+        let walk = Walk {
+            model: file("subject01_simbody.osim"),
+            motion: file("subject01_walk1_ik.mot"),
+            forces: file("subject01_walk1_grf.mot"),
+            loads: file("subject01_walk1_grf.xml"),
+        };
+        [&walk.model, &walk.motion, &walk.forces, &walk.loads].iter().all(|path| path.is_file()).then_some(walk)
+    }
+
+    /// `ambulo forces` on this recording, with OpenSim's usual 6 Hz and the forces as measured.
+    pub(crate) fn command(&self, program: &Path, output: &Path) -> Command {
+        let mut command = Command::new(program);
+        command.arg("forces").arg(&self.motion).arg("--model").arg(&self.model);
+        command.args(["--cutoff", "6", "--force-cutoff", "off"]);
+        command.arg("--grf").arg(&self.forces).arg("--loads").arg(&self.loads).arg("-o").arg(output);
+        command
+    }
+}
+
+/// The folder that cargo builds into: this program stands in `<target>/<profile>`.
+pub(crate) fn target() -> PathBuf {
+    let here = std::env::current_exe().unwrap_or_default();
+    here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
+}
+
+/// Builds the `ambulo` command in release and returns its path.
+pub(crate) fn build_program() -> Result<PathBuf, String> {
+    let mut build = cargo();
+    build.args(["build", "--quiet", "--release", "--locked", "--package", "ambulo-cli"]);
+    let status = build.status().map_err(|e| format!("cargo: cannot start: {e}"))?;
+    if !status.success() {
+        return Err(format!("ambulo-cli did not build ({status}), see above"));
+    }
+    let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
+    if program.is_file() { Ok(program) } else { Err(format!("{}: not there after the build", program.display())) }
+}

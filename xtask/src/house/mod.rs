@@ -1,0 +1,216 @@
+//! Size and shape of the product's source: `cargo xtask house [--baseline REV] [--list]`.
+//!
+//! Product is `crates/*/src` without items for tests; `xtask` and `viewer` are not counted. A function's lines run from its
+//! signature to its closing brace. A private function is a free function without `pub`.
+
+mod imports;
+mod items;
+mod source;
+pub(crate) mod tokens;
+
+use crate::workspace::{self, Revision};
+use items::{Function, Reach};
+use source::{Crate, File};
+use std::path::Path;
+use tokens::Token;
+
+/// Longest function that is allowed.
+const LONGEST_FUNCTION: usize = 60;
+/// Most circles of files that are allowed.
+const MOST_CIRCLES: usize = 8;
+
+/// What is measured of a tree.
+#[derive(Debug, Default)]
+struct House {
+    lines: usize,
+    code_lines: usize,
+    files: usize,
+    types: usize,
+    /// Lines of each function, sorted.
+    function_lines: Vec<usize>,
+    /// Functions above [`LONGEST_FUNCTION`], with place and lines.
+    long_functions: Vec<String>,
+    private_functions: usize,
+    /// Private functions that are called once, with their place.
+    called_once: Vec<String>,
+    /// Files of each circle.
+    circles: Vec<String>,
+}
+
+/// Measures the tree, and a revision next to it; fails where the tree exceeds a limit.
+#[expect(clippy::print_stdout, reason = "the table is the command's result")]
+pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    let mut words = words.iter().map(String::as_str);
+    let (mut baseline, mut listed) = (None, false);
+    while let Some(word) = words.next() {
+        match word {
+            "--baseline" => baseline = Some(words.next().ok_or("--baseline needs a revision, such as a commit")?),
+            "--list" => listed = true,
+            other => {
+                return Err(format!("unknown option `{other}`\nhint: cargo xtask house [--baseline REV] [--list]"));
+            }
+        }
+    }
+    let now = House::measure(&workspace::root())?;
+    let before = match baseline {
+        Some(revision) => Some((revision, House::measure(Revision::unpack(revision)?.folder())?)),
+        None => None,
+    };
+    print!("{}", table(&now, before.as_ref().map(|(name, house)| (*name, house))));
+    print_list("functions over 60 lines", &now.long_functions);
+    print_list("circles of files", &now.circles);
+    if listed {
+        print_list("private functions called once", &now.called_once);
+    }
+    now.judge()
+}
+
+#[expect(clippy::print_stdout, reason = "the lists are the command's result")]
+fn print_list(title: &str, places: &[String]) {
+    if !places.is_empty() {
+        println!("\n{title}:\n  {}", places.join("\n  "));
+    }
+}
+
+impl House {
+    fn measure(workspace: &Path) -> Result<House, String> {
+        let mut house = House::default();
+        for one in source::crates(workspace)? {
+            house.add(&one);
+        }
+        house.function_lines.sort_unstable();
+        Ok(house)
+    }
+
+    fn add(&mut self, one: &Crate) {
+        let all: Vec<Vec<Token<'_>>> = one.files.iter().map(|file| tokens::tokens(&file.text)).collect();
+        let product: Vec<Vec<Token<'_>>> = all.iter().map(|tokens| tokens::without_tests(tokens)).collect();
+        let place = |file: &File| format!("crates/{}/src/{}", one.name, file.path);
+        for (i, file) in one.files.iter().enumerate() {
+            self.files += 1;
+            self.lines += file.text.lines().count();
+            self.code_lines += code_lines(&all[i]);
+            self.types += items::types(&product[i]).len();
+            for function in items::functions(&product[i]) {
+                self.function_lines.push(function.lines);
+                let at = format!("{}:{} {}", place(file), function.line, function.name);
+                if function.lines > LONGEST_FUNCTION {
+                    self.long_functions.push(format!("{at}: {} lines", function.lines));
+                }
+                if function.reach == Reach::PrivateFree {
+                    self.private_functions += 1;
+                    if calls_within(&one.files, &product, i, &function) == 1 {
+                        self.called_once.push(at);
+                    }
+                }
+            }
+        }
+        for circle in imports::circles(&one.files, &product) {
+            let files: Vec<&str> = circle.iter().map(|&i| one.files[i].path.as_str()).collect();
+            self.circles.push(format!("{}: {}", one.name, files.join(" ")));
+        }
+    }
+
+    /// An error if the tree exceeds a limit.
+    fn judge(&self) -> Result<(), String> {
+        let (long, circles) = (self.long_functions.len(), self.circles.len());
+        if long == 0 && circles <= MOST_CIRCLES {
+            return Ok(());
+        }
+        Err(format!(
+            "{long} functions have more than {LONGEST_FUNCTION} lines (allowed: 0), {circles} circles of files (allowed: {MOST_CIRCLES})\nhint: the lists above name them; divide the functions, or move what two files share into a third"
+        ))
+    }
+
+    /// The names and values of the table's rows.
+    fn rows(&self) -> [(&'static str, usize); 12] {
+        let share = |share: f64| {
+            let last = self.function_lines.len().saturating_sub(1);
+            self.function_lines.get((last as f64 * share).round() as usize).copied().unwrap_or(0)
+        };
+        [
+            ("lines", self.lines),
+            ("code lines", self.code_lines),
+            ("files", self.files),
+            ("types", self.types),
+            ("functions", self.function_lines.len()),
+            ("function lines, median", share(0.5)),
+            ("function lines, p90", share(0.9)),
+            ("function lines, longest", share(1.0)),
+            ("functions over 60 lines", self.long_functions.len()),
+            ("private functions", self.private_functions),
+            ("private functions called once", self.called_once.len()),
+            ("circles of files", self.circles.len()),
+        ]
+    }
+}
+
+/// Lines with at least one token: neither blank nor only comment.
+fn code_lines(tokens: &[Token<'_>]) -> usize {
+    let (mut count, mut counted_to) = (0, 0);
+    for token in tokens {
+        let first = token.line.max(counted_to + 1);
+        count += (token.last_line + 1).saturating_sub(first);
+        counted_to = counted_to.max(token.last_line);
+    }
+    count
+}
+
+/// Calls of a private function of file `own`, in that file and in the modules inside.
+fn calls_within(files: &[File], tokens: &[Vec<Token<'_>>], own: usize, function: &Function) -> usize {
+    let module = files[own].module();
+    let inside = files.iter().zip(tokens).filter(|(file, _)| file.module().starts_with(&module));
+    inside.map(|(_, tokens)| items::calls(tokens, &function.name)).sum()
+}
+
+/// The measured values, with the change where there is a baseline.
+fn table(now: &House, before: Option<(&str, &House)>) -> String {
+    let mut text = String::new();
+    let rows = now.rows();
+    let mut line = |cells: [&str; 4]| {
+        let [name, was, is, change] = cells;
+        let row = match before {
+            Some(_) => format!("{name:<30} {was:>12} {is:>10} {change:>10}"),
+            None => format!("{name:<30} {is:>10}"),
+        };
+        text.push_str(row.trim_end());
+        text.push('\n');
+    };
+    line(["", before.map_or("", |(name, _)| name), "this tree", "change"]);
+    let earlier = before.map(|(_, house)| house.rows());
+    for (i, (name, value)) in rows.iter().enumerate() {
+        let was = earlier.map_or(*value, |earlier| earlier[i].1);
+        let change = *value as i64 - was as i64;
+        line([name, &was.to_string(), &value.to_string(), &format!("{change:+}")]);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn code_lines_are_those_with_code() {
+        let source = "//! Head.\n\nfn f() {\n    // why\n    let a = \"x\n  y\";\n} fn g() {}\n";
+        assert_eq!(code_lines(&tokens::tokens(source)), 4);
+    }
+
+    #[test]
+    fn a_long_function_or_a_ninth_circle_exceeds_the_limits() {
+        let mut house = House { circles: vec!["a b".to_owned(); MOST_CIRCLES], ..House::default() };
+        assert!(house.judge().is_ok());
+        house.circles.push("c d".to_owned());
+        assert!(house.judge().is_err());
+        let house = House { long_functions: vec!["f: 61 lines".to_owned()], ..House::default() };
+        assert!(house.judge().is_err_and(|message| message.starts_with("1 functions have more than 60 lines")));
+    }
+
+    #[test]
+    fn the_table_shows_the_change() {
+        let [mut now, mut before] = [House::default(), House::default()];
+        (now.lines, before.lines) = (90, 100);
+        let text = table(&now, Some(("v1", &before)));
+        assert!(text.contains("lines                                   100         90        -10"), "{text}");
+    }
+}

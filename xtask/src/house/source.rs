@@ -1,0 +1,65 @@
+//! Product source of a tree: `crates/*/src`, one entry per file.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The source of one crate.
+pub(super) struct Crate {
+    pub(super) name: String,
+    pub(super) files: Vec<File>,
+}
+
+/// One file of Rust.
+pub(super) struct File {
+    /// Path below the crate's `src`, with `/`.
+    pub(super) path: String,
+    pub(super) text: String,
+}
+
+impl File {
+    /// Module path below the crate's root: `dynamics/block.rs` and `dynamics/block/mod.rs` are `["dynamics", "block"]`.
+    pub(super) fn module(&self) -> Vec<&str> {
+        let stem = self.path.strip_suffix(".rs").unwrap_or(&self.path);
+        let mut parts: Vec<&str> = stem.split('/').collect();
+        let is_root = parts == ["lib"] || parts == ["main"];
+        if is_root || parts.last() == Some(&"mod") {
+            parts.pop();
+        }
+        parts
+    }
+}
+
+/// The crates below `crates/` of a workspace, by name.
+pub(super) fn crates(workspace: &Path) -> Result<Vec<Crate>, String> {
+    let mut list = Vec::new();
+    for folder in entries(&workspace.join("crates"))? {
+        let source = folder.join("src");
+        if !source.is_dir() {
+            continue;
+        }
+        let mut files = Vec::new();
+        collect(&source, &source, &mut files)?;
+        list.push(Crate { name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(), files });
+    }
+    Ok(list)
+}
+
+fn collect(source: &Path, folder: &Path, files: &mut Vec<File>) -> Result<(), String> {
+    for path in entries(folder)? {
+        if path.is_dir() {
+            collect(source, &path, files)?;
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let text = fs::read_to_string(&path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+            let below = path.strip_prefix(source).unwrap_or(&path);
+            files.push(File { path: below.to_string_lossy().replace('\\', "/"), text });
+        }
+    }
+    Ok(())
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let listing = fs::read_dir(folder).map_err(|e| format!("{}: cannot read: {e}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = listing.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}
