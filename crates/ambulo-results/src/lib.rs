@@ -13,6 +13,7 @@ mod subject_summary;
 mod summary;
 mod tables;
 mod walk_summary;
+mod walking_summary;
 
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
@@ -35,6 +36,9 @@ pub use summary::{
 };
 pub use tables::ground_columns;
 pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};
+pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// Name of the summary in a result folder.
 pub const SUMMARY: &str = "summary.json";
+/// Name of the table of times and distances in a result folder.
+pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";

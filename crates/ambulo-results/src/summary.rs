@@ -4,6 +4,7 @@ use crate::consistency_summary::ConsistencySummary;
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::walk_summary::WalkSummary;
+use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PredictionChecks, Settings, peak};
 use ambulo::findings::{Finding, Findings};
@@ -47,6 +48,8 @@ pub struct Summary {
     pub frames: usize,
     /// Filters of motion and forces, in words.
     pub filter: Filters,
+    /// Times and distances of the strides; `null` where no feet were seen to walk.
+    pub times_and_distances: Option<WalkingSummary>,
     /// Where the ground forces come from.
     pub ground: Ground,
     /// What motion and forces disagree by, at the root.
@@ -298,6 +301,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         frames: grid.frames,
         filter: filters(settings),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
+        times_and_distances: None,
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
         findings: findings.as_slice().to_vec(),

@@ -11,8 +11,8 @@ use ambulo::model::Model;
 use ambulo::study::{self, Outcome, PredictedGround, Processing, Tracking};
 use ambulo_report::{figure_files, prediction_figure_file};
 use ambulo_results::{
-    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files,
-    prediction_files, summary,
+    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, WalkingSummary,
+    output_files, prediction_files, summary,
 };
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -37,11 +37,16 @@ impl RunFiles<'_> {
         let RunFiles { outcome, input, walk, files, read, mut findings, mut clock } = self;
         let mut written = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
         written.extend(figure_files(&outcome.body, &outcome.analysis)?);
+        let walking = WalkingSummary::of(&outcome.times_and_distances);
+        if !outcome.times_and_distances.strides.is_empty() {
+            written.push(walking.file());
+        }
         written.extend(files_of_prediction(outcome, &mut findings));
         written.extend(files);
         files::replace_results(output, &written, read)?;
         clock.lap("write");
-        let mut summary = Summary { walk, ..summary_of(outcome, input, &findings) };
+        let walking = Some(walking).filter(|walking| !walking.quantities.is_empty());
+        let mut summary = Summary { walk, times_and_distances: walking, ..summary_of(outcome, input, &findings) };
         let page = page_of_run(output, &written, &json(&summary)?);
         clock.lap("report");
         match page {

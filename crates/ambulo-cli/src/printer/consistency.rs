@@ -44,7 +44,7 @@ fn residual_line(when: &str, residual: &ResidualSize) -> String {
 }
 
 /// Coordinates of a unit, the one that changed most first.
-fn largest<'a>(summary: &'a ConsistencySummary, unit: ChangeUnit) -> Vec<(&'a String, &'a CoordinateSize)> {
+fn largest(summary: &ConsistencySummary, unit: ChangeUnit) -> Vec<(&String, &CoordinateSize)> {
     let mut list: Vec<_> = summary.changes.iter().filter(|(_, size)| size.unit == unit).collect();
     list.sort_by(|a, b| b.1.max.total_cmp(&a.1.max));
     list.truncate(SHOWN);

@@ -41,18 +41,13 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
         RunSummary::Motion(summary) => {
             // The figure first: what is wrong with a body is said there with all its causes.
             let viewed = view(folder, block)?;
-            recording(folder, Results::read(folder, *summary)?, viewed, block)
+            recording(Results::read(folder, *summary)?, viewed, block)
         }
     }
 }
 
 /// Of a recording or a synthetic walk.
-fn recording(
-    folder: &Folder<'_>,
-    results: Results,
-    viewed: Viewed,
-    block: &mut Block,
-) -> Result<Session, ResultsError> {
+fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, ResultsError> {
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let (shown, still) = still::divided(&results, &quantities);

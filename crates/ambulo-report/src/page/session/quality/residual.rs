@@ -72,11 +72,8 @@ fn note(results: &Results) -> String {
 
 /// In which times the residual means something.
 fn windows(results: &Results) -> String {
-    let spans: Vec<String> = results
-        .list("/subject/instrumented_windows_s")
-        .iter()
-        .filter_map(|span| Some(format!("{:.2} to {:.2} s", span[0].as_f64()?, span[1].as_f64()?)))
-        .collect();
+    let windows = results.summary.subject.iter().flat_map(|subject| &subject.instrumented_windows_s);
+    let spans: Vec<String> = windows.map(|[from, to]| format!("{from:.2} to {to:.2} s")).collect();
     match spans.is_empty() || results.source != PageSource::Measured {
         true => String::new(),
         false => format!(

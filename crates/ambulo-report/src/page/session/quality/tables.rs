@@ -5,7 +5,7 @@ use crate::page::contract::Table;
 use crate::page::session::cells::{Column, at_most_none, count, listed, name, number, text, unit};
 use crate::page::session::results::Results;
 use crate::page::session::words;
-use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgreement, PredictionCheck};
+use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgreement};
 use ambulo::model::Side;
 use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Size, Summary};
 
@@ -13,15 +13,15 @@ use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary
 const FAR_MM: f64 = 40.0;
 
 /// A marker and the frames in which it is missing.
-type MarkerRow<'a> = (&'a MarkerErrorSummary, usize);
+type MarkerRow = (MarkerErrorSummary, usize);
 /// What is compared, with what, and how they agree.
-type EventRow<'a> = (&'static str, &'static str, &'a EventAgreement);
+type EventRow = (&'static str, &'static str, EventAgreement);
 /// A foot, a component of its force, and how prediction and plates agree on it.
 type ForceRow = (Side, &'static str, ForceAgreement);
 /// What was changed, by how much (root mean square and largest), and the unit.
-type ChangeRow<'a> = (&'a str, [f64; 2], &'static str);
+type ChangeRow = (String, [f64; 2], &'static str);
 
-const MARKERS: [Column<MarkerRow<'_>>; 6] = [
+const MARKERS: [Column<MarkerRow>; 6] = [
     ("Marker", |(marker, _)| text(&marker.name)),
     ("RMS [mm]", |(marker, _)| number(marker.rms_mm, 1, Some([f64::NEG_INFINITY, FAR_MM]))),
     ("Largest [mm]", |(marker, _)| number(marker.max_mm, 1, None)),
@@ -38,7 +38,7 @@ const PLATES: [Column<PlateContactSummary>; 7] = [
     ("Contact", |contact| text(contact.quality.word())),
     ("Why not clean", |contact| text(&contact.reason)),
 ];
-const EVENTS: [Column<EventRow<'_>>; 8] = [
+const EVENTS: [Column<EventRow>; 8] = [
     ("Found by", |(found, ..)| text(found)),
     ("Compared with", |(_, reference, _)| text(reference)),
     ("Event", |(.., events)| text(events.kind.word())),
@@ -69,7 +69,7 @@ const MOMENTS: [Column<MomentAgreement>; 4] = [
     ("RMSE [N.m/kg]", |moment| number(Some(moment.rmse_nm_kg), 2, None)),
     ("r", |moment| number(Some(moment.r), 3, None)),
 ];
-const CHANGES: [Column<ChangeRow<'_>>; 4] = [
+const CHANGES: [Column<ChangeRow>; 4] = [
     ("Changed", |(name, ..)| text(name)),
     ("RMS", |(_, [rms, _], _)| number(Some(*rms), 2, None)),
     ("Largest", |(_, [_, largest], _)| number(Some(*largest), 2, None)),
@@ -80,13 +80,13 @@ const SEGMENTS: [Column<SegmentSummary>; 3] = [
     ("Length over the table's", |segment| number(Some(segment.factor), 3, None)),
     ("Measured by markers", |segment| text(if segment.measured { "yes" } else { "no" })),
 ];
-const ADJUSTMENT: [Column<(&String, &Size)>; 3] = [
+const ADJUSTMENT: [Column<(String, Size)>; 3] = [
     ("Angle", |(name, _)| text(name)),
     ("RMS [deg]", |(_, size)| number(Some(size.rms), 1, None)),
     ("Largest [deg]", |(_, size)| number(Some(size.largest), 1, None)),
 ];
-const TIMES: [Column<(&PredictionCheck, [f64; 2])>; 3] = [
-    ("Check", |(check, _)| name(&check.name)),
+const TIMES: [Column<(String, [f64; 2])>; 3] = [
+    ("Check", |(check, _)| name(check)),
     ("From [s]", |(_, [from, _])| number(Some(*from), 2, None)),
     ("To [s]", |(_, [_, to])| number(Some(*to), 2, None)),
 ];
@@ -105,9 +105,10 @@ pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<
     let feet = || comparison.iter().flat_map(|comparison| &comparison.feet);
     let moments = comparison.iter().flat_map(|comparison| &comparison.moments);
     let checks = prediction.iter().flat_map(|prediction| &prediction.checks);
-    let times: Vec<_> = checks.filter_map(|check| Some((check, check.time_s?))).collect();
-    let changes: Vec<ChangeRow<'_>> = consistency.iter().flat_map(changes).collect();
-    let adjustment: Vec<_> = walk.iter().filter_map(|walk| walk.adjustment_deg.as_ref()).flatten().collect();
+    let times: Vec<(String, [f64; 2])> =
+        checks.filter_map(|check| Some((check.name.to_string(), check.time_s?))).collect();
+    let changes: Vec<ChangeRow> = consistency.iter().flat_map(changes).collect();
+    let adjustment = walk.iter().filter_map(|walk| walk.adjustment_deg.clone()).flatten().collect::<Vec<_>>();
     let lengths = subject.iter().flat_map(|subject| &subject.segments);
     let tables = [
         listed(["markers", "Markers", MARKER_NOTE], &markers(results), &MARKERS),
@@ -135,23 +136,23 @@ pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<
 const MARKER_NOTE: &str = "Distance of each marker from its place on the body, the worst first. Gaps are frames without the marker; they do not count.";
 
 /// Worst first, with the frames in which the marker is missing.
-fn markers(results: &Results) -> Vec<MarkerRow<'_>> {
+fn markers(results: &Results) -> Vec<MarkerRow> {
     let errors = results.summary.subject.iter().flat_map(|subject| &subject.markers.errors);
-    let mut rows: Vec<MarkerRow<'_>> =
-        errors.map(|error| (error, results.grid.frames.saturating_sub(error.frames_seen))).collect();
-    let size = |row: &MarkerRow<'_>| row.0.rms_mm.unwrap_or(f64::INFINITY);
+    let mut rows: Vec<MarkerRow> =
+        errors.map(|error| (error.clone(), results.grid.frames.saturating_sub(error.frames_seen))).collect();
+    let size = |row: &MarkerRow| row.0.rms_mm.unwrap_or(f64::INFINITY);
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     rows
 }
 
 /// One row per source and kind of event.
-fn event_rows(results: &Results) -> Vec<EventRow<'_>> {
+fn event_rows(results: &Results) -> Vec<EventRow> {
     let listed = results.summary.subject.iter().flat_map(|subject| &subject.events);
-    let mut rows: Vec<EventRow<'_>> = listed
-        .flat_map(|entry| entry.kinds.iter().map(|kind| (entry.found.word(), entry.reference.word(), kind)))
+    let mut rows: Vec<EventRow> = listed
+        .flat_map(|entry| entry.kinds.iter().map(|kind| (entry.found.word(), entry.reference.word(), *kind)))
         .collect();
     let compared = results.summary.comparison.iter().flat_map(|comparison| &comparison.events);
-    rows.extend(compared.map(|kind| ("prediction", "plates", kind)));
+    rows.extend(compared.map(|kind| ("prediction", "plates", *kind)));
     rows
 }
 
@@ -162,9 +163,9 @@ fn components(foot: &FootAgreement) -> [ForceRow; 3] {
 }
 
 /// Coordinates, and the bodies that carry loads.
-fn changes(consistency: &ConsistencySummary) -> Vec<ChangeRow<'_>> {
+fn changes(consistency: &ConsistencySummary) -> Vec<ChangeRow> {
     let coordinates =
-        consistency.changes.iter().map(|(name, size)| (&**name, [size.rms, size.max], size.unit.symbol()));
-    let feet = consistency.feet_mm.iter().map(|(body, size)| (&**body, [size.rms, size.max], "mm"));
+        consistency.changes.iter().map(|(name, size)| (name.clone(), [size.rms, size.max], size.unit.symbol()));
+    let feet = consistency.feet_mm.iter().map(|(body, size)| (body.clone(), [size.rms, size.max], "mm"));
     coordinates.chain(feet).collect()
 }
