@@ -1,7 +1,7 @@
-//! Pictures of the documents, drawn anew from the `ambulo` command's own output: `cargo xtask figures`.
+//! Draws the pictures of the documents from the output of the `ambulo` command: `cargo xtask figures`.
 //!
-//! `ambulo forces` on the recording beside the workspace (`ambulo demo` without it) writes SVG into `target/figures`; a
-//! headless Chromium turns what the documents show into PNG in `docs/images`.
+//! `ambulo forces` (without recordings `ambulo demo`) writes SVG into `target/figures`; a headless Chromium renders the figures that
+//! the documents use as PNG in `docs/images`.
 
 use crate::workspace::{self, Walk};
 use std::fs;
@@ -10,17 +10,17 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Pictures that the documents show, by name without ending.
+/// Figures that the documents use, by name without ending.
 const PICTURES: [&str; 1] = ["moments"];
-/// Names under which Chromium is installed, in the order in which they are tried.
+/// Names of the Chromium program, in the order in which they are tried.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-/// CSS pixels in a millimetre: 96 in an inch.
+/// CSS pixels per millimetre: 96 per inch.
 const PIXELS_A_MILLIMETRE: f64 = 96.0 / 25.4;
-/// Chromium takes about a second; after this it hangs.
+/// Time limit; Chromium needs about a second.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Pause between two looks at whether Chromium has ended.
+/// Interval at which Chromium's end is checked.
 const PAUSE: Duration = Duration::from_millis(20);
-/// What of the report page is shown [CSS pixels].
+/// Window size for the report page [CSS pixels].
 const PAGE: [u32; 2] = [1400, 1000];
 /// Quiet, offline, no sandbox (containers forbid it), three dimensions in software, time to draw a page, two picture points for each unit.
 const FLAGS: [&str; 10] = [
@@ -36,7 +36,7 @@ const FLAGS: [&str; 10] = [
     "--force-device-scale-factor=2",
 ];
 
-/// Draws every picture and says where it is.
+/// Draws every picture and prints its path.
 #[expect(clippy::print_stdout, reason = "the written files are the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let browser = find_browser()?;
@@ -79,14 +79,14 @@ fn find_browser() -> Result<&'static str, String> {
     })
 }
 
-/// One SVG file as PNG.
+/// Renders an SVG file as PNG.
 fn draw_svg(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
     let at = svg.display();
     let text = fs::read_to_string(svg).map_err(|e| format!("{at}: cannot read: {e}"))?;
     draw(browser, svg, size(&text).map_err(|e| format!("{at}: {e}"))?, png)
 }
 
-/// What a browser shows of a file in a window of this size, as PNG.
+/// Takes a screenshot of a file in a browser window of this size, as PNG.
 fn draw(browser: &str, file: &Path, [width, height]: [u32; 2], png: &Path) -> Result<(), String> {
     let address = file_address(file)?;
     // A profile of its own: a running Chromium would otherwise take the request and draw nothing.
@@ -129,7 +129,7 @@ fn run_with_patience(command: &mut Command, name: &str) -> Result<(), String> {
     }
 }
 
-/// `file://` address of a file; every byte but plain letters and path signs is written as %XX.
+/// `file://` address of a file; every byte except plain letters and path signs is written as %XX.
 fn file_address(path: &Path) -> Result<String, String> {
     let path: PathBuf = path.canonicalize().map_err(|e| format!("{}: {e}", path.display()))?;
     let mut address = "file://".to_owned();

@@ -1,8 +1,8 @@
-//! Laws of the joints and of the ground forces against speed, fitted anew from normative mean curves: `cargo xtask fit-gait`.
+//! Fits the laws of joints and ground forces against speed to normative mean curves: `cargo xtask fit-gait`.
 //!
-//! Reads the tables of Schwartz, Rozumalski, Trost 2008 beside the workspace, writes `crates/ambulo/data/gait/*.toml` with
-//! the errors of the fit in their headers, and prints the errors: of the laws, and of laws made without the speed on which
-//! they are judged.
+//! Reads the tables of Schwartz, Rozumalski, Trost 2008 next to the workspace, writes `crates/ambulo/data/gait/*.toml` with
+//! the errors of the fit in their headers, and prints the errors: of the laws, and of laws fitted without the speed at which
+//! they are compared.
 
 mod errors;
 mod ground_forces;
@@ -26,7 +26,7 @@ use std::path::PathBuf;
 const FOLDER: &str = "crates/ambulo/data/gait";
 /// All five speeds.
 const ALL: [usize; 5] = [0, 1, 2, 3, 4];
-/// How far beyond the data laws of the default style may be carried: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133 and
+/// Range to which the laws of the default style may be extrapolated: 0.4 and 2.2 m/s on a leg of 0.92 m are V* = 0.133 and
 /// 0.732.
 const CARRIED: [f64; 2] = [0.039, 0.04];
 /// The same for the linear laws of the paper's style: slower still, the line of the knee's stance peak falls under that of
@@ -73,7 +73,7 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// Where the laws of a style stand.
+/// File with the laws of a style.
 fn path(style: Style) -> PathBuf {
     let name = match style {
         Style::Knots => "knots.toml",
@@ -82,12 +82,12 @@ fn path(style: Style) -> PathBuf {
     workspace::root().join(FOLDER).join(name)
 }
 
-/// Where the laws of the ground forces stand.
+/// File with the laws of the ground forces.
 fn forces_path() -> PathBuf {
     workspace::root().join(FOLDER).join("ground_forces.toml")
 }
 
-/// A whole file: source, how it was fitted, errors, laws.
+/// Text of a file: source, fit, errors, laws.
 fn file_text(style: Style, tables: &[Curves], errors: &str) -> Result<String, String> {
     let fit = match style {
         Style::Knots => FIT,
@@ -121,7 +121,7 @@ fn style_text(style: Style, tables: &[Curves], used: &[usize]) -> Result<String,
     Ok(text)
 }
 
-/// Support against cycle, both in leg times √(L/g): a straight line through five speeds.
+/// Stance time against cycle time, both divided by √(L/g): a straight line through five speeds.
 fn write_support(text: &mut String) -> Result<(), String> {
     let cycles = CADENCES.map(|cadence| 2.0 / cadence);
     let supports: Vec<f64> = normative::foot_off()?.iter().zip(cycles).map(|(share, cycle)| share * cycle).collect();

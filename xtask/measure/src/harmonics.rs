@@ -1,8 +1,8 @@
-//! A periodic curve as its first twelve harmonics.
+//! Represents a periodic curve by its first twelve harmonics.
 //!
-//! Means of 2 % samples are smooth to about the twelfth harmonic (literature.md 1.3); beyond it a second derivative is
-//! noise. The tables' 0 % and 100 % differ by up to 0.5°, because they are means over all cycles' ends: the straight line
-//! between the two ends is taken out first, so that nothing jumps.
+//! Mean curves sampled at 2 % are smooth up to about the twelfth harmonic (literature.md 1.3); above, a second derivative is
+//! noise. Values at 0 % and 100 % differ by up to 0.5° in the tables, which average the ends of all cycles; the straight line
+//! between both ends is subtracted first, so that the curve does not jump.
 
 use crate::normative::SAMPLES;
 use std::f64::consts::TAU;
@@ -14,12 +14,12 @@ const ORDERS: usize = 12;
 #[derive(Debug, Clone)]
 pub(crate) struct Harmonics {
     pub(crate) mean: f64,
-    /// Factors of cosine and sine, from the first order on.
+    /// Coefficients of cosine and sine, from the first harmonic.
     pub(crate) factors: Vec<[f64; 2]>,
 }
 
 impl Harmonics {
-    /// Of the samples at 0 % to 100 %.
+    /// Fits the samples at 0 % to 100 %.
     pub(crate) fn of(samples: &[f64]) -> Harmonics {
         let count = SAMPLES - 1;
         let drift = samples[count] - samples[0];

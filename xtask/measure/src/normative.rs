@@ -1,4 +1,4 @@
-//! Curves of Schwartz, Rozumalski, Trost 2008, as the tables beside the workspace have them.
+//! Curves of Schwartz, Rozumalski, Trost 2008, read from the tables next to the workspace.
 
 use crate::workspace;
 use std::fs;
@@ -43,7 +43,7 @@ impl Sheet {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Band {
     pub(crate) mean: Vec<f64>,
-    /// Some columns of the tables have it with a minus, where mean less and mean plus deviation changed places.
+    /// In some columns of the tables it is negative, because mean minus and mean plus deviation are exchanged.
     pub(crate) sd: Vec<f64>,
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn curves(sheet: Sheet, quantity: &str) -> Result<Curves, String> {
     Ok(bands(sheet, quantity)?.map(|band| band.mean))
 }
 
-/// Mean curves of a quantity in two laboratories, children at the speed they chose: Pinzone, Schwartz, Thomason, Baker 2014.
+/// Mean curves of a quantity in two laboratories, children at self-selected speed: Pinzone, Schwartz, Thomason, Baker 2014.
 pub(crate) fn two_laboratories(quantity: &str) -> Result<[Vec<f64>; 2], String> {
     const FILE: &str = "pinzone2014.csv";
     let mut means: [Vec<f64>; 2] = Default::default();
@@ -103,12 +103,12 @@ pub(crate) fn foot_off() -> Result<[f64; 5], String> {
     event("Ipsilateral Foot Off")
 }
 
-/// An event of the cycle [share of it] at five speeds.
+/// Time of an event at five speeds [share of the cycle].
 pub(crate) fn event(name: &str) -> Result<[f64; 5], String> {
     Ok(event_band(name)?.0)
 }
 
-/// Mean and standard deviation of an event of the cycle [share of it] at five speeds; the table has the deviations with a minus.
+/// Mean and standard deviation of an event's time at five speeds [share of the cycle]; the table has negative deviations.
 pub(crate) fn event_band(name: &str) -> Result<([f64; 5], [f64; 5]), String> {
     const FILE: &str = "schwartz2008_cycle_events.csv";
     let text = read(FILE)?;

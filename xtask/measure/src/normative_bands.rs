@@ -1,4 +1,4 @@
-//! Normative bands for page and figures, made into `crates/ambulo-report/data/normative/schwartz2008.toml`.
+//! Writes the normative bands of the page and the figures: `crates/ambulo-report/data/normative/schwartz2008.toml`.
 
 use crate::normative::{self, Band, Sheet};
 use crate::workspace;
@@ -23,7 +23,7 @@ const HEADER: &str = "\
 # of it is known here).
 ";
 
-/// Name in the program, and table with the source's name.
+/// Name in the program; table and name in the source.
 const QUANTITIES: [(&str, Sheet, &str); 20] = [
     ("pelvis_tilt_angle", Sheet::Angles, "Pelvic Ant/Posterior Tilt"),
     ("pelvis_obliquity_angle", Sheet::Angles, "Pelvic Up/Down Obliquity"),
@@ -47,7 +47,7 @@ const QUANTITIES: [(&str, Sheet, &str); 20] = [
     ("ground_force_fore_aft", Sheet::Forces, "Anterior/Posterior"),
 ];
 
-/// Name in the program, and the source's.
+/// Name in the program; name in the source.
 const EVENTS: [(&str, &str); 4] = [
     ("foot_off", "Ipsilateral Foot Off"),
     ("opposite_foot_off", "Opposite Foot Off"),
@@ -85,7 +85,7 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", values.iter().map(|x| rounded(*x)).collect::<Vec<_>>().join(","))
 }
 
-/// Three digits, not more than four behind the point.
+/// A number with three significant digits and at most four decimals.
 fn rounded(x: f64) -> String {
     let decimals = match x.abs() {
         large if large >= 100.0 => 0,

@@ -1,6 +1,6 @@
 //! Reads NumPy `.npz` archives: a ZIP file of `.npy` arrays, stored or deflated.
 //!
-//! The peers' reference data (`frames.npz`, `tau_pinocchio.npz`) come in this format; see `peers`.
+//! The reference data of other engines (`frames.npz`, `tau_pinocchio.npz`) have this format; see `peers`.
 //!
 //! | code      | meaning                                                                     |
 //! |-----------|-----------------------------------------------------------------------------|
@@ -182,7 +182,7 @@ fn row_major<T: Clone>(values: Vec<T>, shape: &[usize], fortran: bool) -> Vec<T>
     (0..values.len()).map(|i| values[column_major_offset(i, shape)].clone()).collect()
 }
 
-/// Where a column-major file keeps the element that is number `row_major` in row-major order.
+/// Position in a column-major file of the element with index `row_major` in row-major order.
 fn column_major_offset(row_major: usize, shape: &[usize]) -> usize {
     let (mut left, mut index) = (row_major, vec![0; shape.len()]);
     for axis in (0..shape.len()).rev() {

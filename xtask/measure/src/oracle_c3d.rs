@@ -1,8 +1,8 @@
-//! Our C3D reader beside ezc3d, file by file: `cargo xtask oracle-c3d [FOLDER] [--env DIR]`.
+//! Compares our C3D reader with ezc3d, file by file: `cargo xtask oracle-c3d [FOLDER] [--env DIR]`.
 //!
 //! Reads every C3D file below the folder (without one: the recordings) with both and prints the largest differences of
-//! coordinates and samples, and of the forces of plates. ezc3d is a Python package; SGI files it refuses. Fails if numbers of points, frames or
-//! channels differ, if a number that both have differs, or if we refuse what ezc3d reads.
+//! coordinates, samples and plate forces. ezc3d is a Python package; it does not read SGI files. Fails if numbers of points, frames or
+//! channels differ, if a number in both differs, or if we reject a file that ezc3d reads.
 
 mod plates;
 
@@ -16,9 +16,9 @@ use std::{fs, iter};
 
 /// Folder of the peers' virtual environments, when `--env` is not given.
 const ENV_VARIABLE: &str = "AMBULO_PEERS_ENV";
-/// What runs in Python, relative to the workspace root.
+/// The Python script, relative to the workspace root.
 const SCRIPT: &str = "xtask/measure/peers/c3d_ezc3d.py";
-/// Allowed difference, as part of the largest number beside it: ezc3d multiplies some numbers as 32-bit reals.
+/// Allowed difference relative to the largest number in the same row: ezc3d multiplies some numbers as 32-bit reals.
 const TOLERANCE: f64 = 1e-6;
 
 /// Where the files and ezc3d are.
@@ -28,7 +28,7 @@ struct Settings {
     env: Option<PathBuf>,
 }
 
-/// What ezc3d says about one file.
+/// What ezc3d reads from one file.
 #[derive(Debug, PartialEq)]
 enum Oracle {
     Refused(String),
@@ -39,15 +39,15 @@ enum Oracle {
 /// Two rows of numbers compared.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 struct Comparison {
-    /// Largest difference of what both have.
+    /// Largest difference of numbers in both rows.
     difference: f64,
-    /// Largest of their numbers.
+    /// Largest number in either row.
     largest: f64,
-    /// Numbers that only one of them has.
+    /// Count of numbers in only one of the rows.
     one_sided: usize,
 }
 
-/// The command.
+/// Runs the command.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(crate) fn run(args: &[String]) -> Result<(), String> {
     let settings = parse(args)?;
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &[String]) -> Result<(), String> {
         return Err(format!("{}: no C3D file in it or below", settings.folder.display()));
     }
     let (version, oracles) = ask(&settings, &files)?;
-    println!("ambulo-formats beside ezc3d {version}: largest differences\n");
+    println!("ambulo-formats compared with ezc3d {version}: largest differences\n");
     println!(
         "{:<28} {:>6} {:>7} {:>8} {:>12} {:>12} {:>10} {:>10}  notes",
         "file", "points", "frames", "channels", "positions", "samples", "force [N]", "CoP [mm]"
@@ -206,7 +206,7 @@ fn compare(name: &str, record: &C3d, blocks: &BTreeMap<String, (usize, Vec<f64>)
     (format!("{row}  {}", notes.trim_end_matches("; ")), fine)
 }
 
-/// Rows beside rows. An error says how their shapes differ.
+/// Compares rows with rows. The error describes how their shapes differ.
 fn compare_rows(ours: &[&[f64]], theirs: Option<&(usize, Vec<f64>)>) -> Result<Comparison, String> {
     let (columns, numbers) = theirs.ok_or("not in ezc3d's blocks")?;
     let length = ours.first().map_or(0, |row| row.len());

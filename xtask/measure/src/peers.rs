@@ -1,10 +1,10 @@
-//! Inverse dynamics of other engines, timed in the same run as ours: `cargo xtask peers [--env DIR] [--scripts DIR]`.
+//! Times inverse dynamics of other engines in the same run as ours: `cargo xtask peers [--env DIR] [--scripts DIR]`.
 //!
 //! The model (16 segments, 37 degrees of freedom), the motion (1000 frames, base at rest) and the C and C++ programs
-//! are in the scripts folder; its README says how to install each peer. A peer that is not there is listed with a hint.
+//! are in the scripts folder; its README explains how to install each peer. A missing peer is listed with a hint.
 //!
-//! A time is CPU time of the thread for one frame, in microseconds, the median of 31 to 41 passes over all frames. Compare only
-//! times of one run: between runs the same program moved by up to 30 %. All programs are built with `-O3 -march=native`.
+//! Times are CPU time of the thread per frame [us], the median of 31 to 41 passes over all frames. Compare only times of one
+//! run: between runs, the same program varied by up to 30 %. All programs are built with `-O3 -march=native`.
 
 use crate::npz;
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ pub(crate) enum Task {
     Forward,
     /// Joint-space inertia matrix.
     MassMatrix,
-    /// Motion to joint torques by a loop written for this one model: no engine, but the floor under any engine.
+    /// Motion to joint torques by a loop written for this model only: a lower bound for any engine.
     Floor,
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct PeerTiming {
     pub(crate) outcome: Outcome,
 }
 
-/// What became of one program.
+/// Result of one program.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
     /// It ran.
@@ -152,7 +152,7 @@ const PROGRAMS: [Program; 3] = [
     },
 ];
 
-/// The command: measures every peer and prints the table. Fails on wrong arguments or when an installed peer is broken.
+/// Measures every peer and prints the table. Fails on wrong arguments or when an installed peer is broken.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(crate) fn run(args: &[String]) -> Result<(), String> {
     let timings = measure(&parse(args)?);
@@ -188,7 +188,7 @@ pub(crate) fn table(timings: &[PeerTiming]) -> String {
     text
 }
 
-/// The peer with the shortest time of inverse dynamics, and that time in microseconds: what ours is compared with.
+/// The peer with the shortest time of inverse dynamics, and that time [us]; ours is compared with it.
 pub(crate) fn fastest(timings: &[PeerTiming]) -> Option<(&str, f64)> {
     let inverse = timings.iter().filter(|t| t.task == Task::Inverse);
     let measured = inverse.filter_map(|t| Some((t.name.as_str(), t.median_us()?)));
@@ -209,7 +209,7 @@ fn parse(args: &[String]) -> Result<Settings, String> {
     Ok(settings)
 }
 
-/// Rows of one program: measured, or all of them with the same reason why not.
+/// Rows of one program: measured, or each with the same reason for its absence.
 fn program_rows(program: &Program, settings: &Settings) -> Vec<PeerTiming> {
     let name = versioned_name(program, settings);
     let ready = find_source(program, settings).and_then(|source| Ok((source, (program.command)(settings)?)));
@@ -376,7 +376,7 @@ fn pinocchio(settings: &Settings) -> Result<Build, String> {
     Ok(Build { compiler: compiler("g++")?, flags })
 }
 
-/// Our own Newton-Euler loop in C++, the floor under any engine on this machine; it needs no peer.
+/// Our own Newton-Euler loop in C++, a lower bound for any engine on this machine; it needs no peer.
 fn floor_loop(_: &Settings) -> Result<Build, String> {
     Ok(Build { compiler: compiler("g++")?, flags: vec!["-ffast-math".to_owned(), "-std=c++17".to_owned()] })
 }
@@ -410,7 +410,7 @@ fn versioned_name(program: &Program, settings: &Settings) -> String {
     version.map_or_else(|| program.peer.to_owned(), |version| format!("{} {version}", program.peer))
 }
 
-/// First entry of `folder`, by name, that fits.
+/// First entry of `folder`, by name, that matches.
 fn entry(folder: &Path, fits: impl Fn(&str) -> bool) -> Option<PathBuf> {
     let names = fs::read_dir(folder).ok()?.flatten().filter(|e| fits(&e.file_name().to_string_lossy()));
     names.map(|e| e.path()).min()

@@ -1,4 +1,4 @@
-//! Other engines in forward simulation, timed and checked in the same run as ours:
+//! Times and checks forward simulation of other engines in the same run as ours:
 //! `cargo xtask simulators [--env DIR] [--data DIR] [--duration SECONDS] [--budget SECONDS] [--golden FILE]`.
 //!
 //! | scene  | size               | what                                                                             |
@@ -11,26 +11,26 @@
 //!
 //! | key                                           | meaning                                                         |
 //! |-----------------------------------------------|-----------------------------------------------------------------|
-//! | `peer`, `version`, `scene`, `size`, `setting` | what ran; `solver_settings` says it in full                     |
+//! | `peer`, `version`, `scene`, `size`, `setting` | what ran; `solver_settings` has the details                     |
 //! | `median_us`, `p10_us`, `p90_us`               | CPU time of the thread for one step [us]                        |
 //! | `steps`                                       | steps done: the duration, or what the budget allowed            |
-//! | `constraint_error_worst_m`, `.._last_m`       | points of a joint, apart [m]; 0 where joints are coordinates    |
-//! | `diverged`                                    | a state was not finite; MuJoCo then starts anew and goes on     |
+//! | `constraint_error_worst_m`, `.._last_m`       | distance of points that a joint joins [m]; 0 for coordinates    |
+//! | `diverged`                                    | a state was not finite; MuJoCo then restarts and continues      |
 //! | `energy_change_j`                             | chain, ladder: energy at the end minus at the start [J]         |
 //! | `contact_force_n`, `weight_n`                 | human: upward force, mean over the last tenth; its weight [N]   |
 //! | `pelvis_height_m`, `contacts`                 | human, at the end; below 0.9 m it sank or fell                  |
 //! | `penetration_worst_m`, `.._last_m`            | human: deepest sphere [m], in all and over the last tenth       |
-//! | `slip_m_per_s`, `creep_m`                     | human, last tenth: fastest sticking contact, longest way of one |
-//! | `solver_iterations`                           | human, last tenth: mean for a step                              |
-//! | `error`                                       | instead of all results: the engine does not take this scene     |
+//! | `slip_m_per_s`, `creep_m`                     | human, last tenth: fastest sticking contact, longest path of one|
+//! | `solver_iterations`                           | human, last tenth: mean per step                                |
+//! | `error`                                       | instead of all results: the engine does not support this scene  |
 //!
-//! `null` stands for what is not finite, or was not there: slip and creep when no contact stuck. A frictionless chain or
-//! ladder keeps its energy, so its change is the error of the motion as a whole.
+//! `null` means not finite, or not available: slip and creep if no contact stuck. A frictionless chain or ladder conserves its
+//! energy, so the change is the error of the whole motion.
 //!
 //! Everything is also written to `target/simulators.json`. With `--golden FILE` nothing is timed: MuJoCo writes
-//! accelerations and trajectories of the human without contact, and Pinocchio its accelerations beside it.
+//! accelerations and trajectories of the human without contact, and Pinocchio writes its accelerations next to them.
 //!
-//! Rapier is built with `-C target-cpu=native`, MuJoCo comes as a built library. Compare only times of one run.
+//! Rapier is built with `-C target-cpu=native`, MuJoCo is a prebuilt library. Compare only times of one run.
 
 mod flat_json;
 
@@ -77,7 +77,7 @@ impl Default for Settings {
     }
 }
 
-/// What is simulated; see the table above.
+/// A simulated scene; see the table above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scene {
     Human,
@@ -119,7 +119,7 @@ struct Cases {
     peer: Peer,
     /// A name that the peer's program knows.
     setting: &'static str,
-    /// The human has one size only, and its program tells it.
+    /// The human has only one size, which its program prints.
     sizes: &'static [usize],
 }
 
@@ -127,7 +127,7 @@ const fn cases(scene: Scene, peer: Peer, setting: &'static str, sizes: &'static 
     Cases { scene, peer, setting, sizes }
 }
 
-/// In the order of the table. Other settings than an engine's own run where they might do better.
+/// In the order of the table. Settings other than an engine's defaults run where they might do better.
 const CASES: [Cases; 21] = [
     cases(Scene::Human, Peer::MuJoCo, "Euler", &[0]),
     cases(Scene::Human, Peer::MuJoCo, "implicitfast", &[0]),
@@ -164,20 +164,20 @@ pub(crate) struct PeerTiming {
     pub(crate) outcome: Outcome,
 }
 
-/// What became of one case.
+/// Result of one case.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
     /// It ran.
     Measured(Box<Measurement>),
-    /// The engine does not take this scene.
+    /// The engine does not support this scene.
     Refused { reason: String },
-    /// The engine or the data are not here.
+    /// The engine or the data are missing.
     NotInstalled { hint: String },
     /// It is installed, but did not build, run or print what was expected.
     Failed { reason: String },
 }
 
-/// What a peer's program printed. `None`: not finite.
+/// Numbers that a peer's program printed. `None`: not finite.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measurement {
     pub(crate) version: String,
@@ -186,7 +186,7 @@ pub(crate) struct Measurement {
     pub(crate) p10_us: f64,
     pub(crate) p90_us: f64,
     pub(crate) steps: f64,
-    /// Points that a joint keeps together, apart, at worst and at the end [m].
+    /// Distance of points that a joint keeps together: largest, and at the end [m].
     pub(crate) constraint_error_m: [Option<f64>; 2],
     pub(crate) diverged: bool,
     /// Chain and ladder only [J].
@@ -247,7 +247,7 @@ pub(crate) fn command(args: &[String]) -> Result<(), String> {
     if failed == 0 { Ok(()) } else { Err(format!("{failed} of {} cases failed, see the table", timings.len())) }
 }
 
-/// Runs every case, one after the other, in a fixed order. Says on stderr which one is running.
+/// Runs every case, one after the other, in a fixed order. Prints on stderr which one is running.
 #[expect(clippy::print_stderr, reason = "minutes pass before the table is complete")]
 pub(crate) fn run(settings: &Settings) -> Vec<PeerTiming> {
     let rapier = build_rapier(settings);
@@ -357,12 +357,12 @@ fn stance_table(timings: &[PeerTiming]) -> String {
     if text.len() == empty { String::new() } else { text }
 }
 
-/// Two digits in ten characters.
+/// A number with two digits, ten characters wide.
 fn short(value: Option<f64>) -> String {
     value.map_or_else(|| format!("{:>10}", "-"), |x| format!("{x:>10.1e}"))
 }
 
-/// An array: the lines as printed, and for what did not run an object with the reason.
+/// A JSON array: the lines as printed, and an object with the reason for each case that did not run.
 fn json(timings: &[PeerTiming]) -> String {
     let object = |timing: &PeerTiming| {
         let (key, why_not) = match &timing.outcome {
@@ -420,7 +420,7 @@ fn read(line: &str) -> Result<Outcome, String> {
     })))
 }
 
-/// A number that must be there; `None` if the program found it not finite.
+/// A required number; `None` if it was not finite.
 fn finite(object: &BTreeMap<String, Value>, key: &str) -> Result<Option<f64>, String> {
     match object.get(key) {
         Some(Value::Number(number)) => Ok(Some(*number)),
@@ -486,7 +486,7 @@ fn data_file(settings: &Settings, name: &str) -> Result<PathBuf, Outcome> {
 
 // ---- golden numbers ----
 
-/// Writes MuJoCo's numbers to `file` and Pinocchio's beside it; -> what was done. MuJoCo must be there.
+/// Writes MuJoCo's numbers to `file` and Pinocchio's next to it, and returns a report. MuJoCo is required.
 fn golden(settings: &Settings, file: &Path) -> Result<String, String> {
     let reason = |outcome: Outcome| match outcome {
         Outcome::NotInstalled { hint } => format!("not installed; hint: {hint}"),

@@ -1,6 +1,6 @@
-//! Tables that read well as they are and as Markdown.
+//! Text tables that are readable in a terminal and as Markdown.
 
-/// Rows of cells under a head; the first column to the left, the others to the right.
+/// Rows of cells under a head; the first column is left-aligned, the others are right-aligned.
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
 }
@@ -12,7 +12,7 @@ impl Table {
 
     /// Adds a row; it has as many cells as the head.
     pub(crate) fn row<const N: usize>(&mut self, cells: [String; N]) {
-        debug_assert_eq!(N, self.rows[0].len(), "one cell a column");
+        debug_assert_eq!(N, self.rows[0].len(), "one cell per column");
         self.rows.push(cells.into());
     }
 
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_stand_below_their_heads() {
+    fn cells_are_aligned_with_their_heads() {
         let mut table = Table::new(&["engine", "time"]);
         table.row(["ours".to_owned(), "1 us".to_owned()]);
         assert_eq!(table.text(), "| engine | time |\n|:-------|-----:|\n| ours   | 1 us |\n");

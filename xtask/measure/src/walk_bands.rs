@@ -1,12 +1,12 @@
-//! Corrected walks against normative bands: `cargo xtask walk-bands [--write]`.
+//! Compares synthetic walks with normative bands: `cargo xtask walk-bands [--write]`.
 //!
 //! Walks of a figure at the five speeds of Schwartz, Rozumalski, Trost 2008 (equal V/√(gL)) are made consistent
 //! ([`ambulo::simulation::consistent_walk`]) and walked by the simulator on soft shoes; the last cycle is compared with the tables. A failed
 //! criterion is listed as missed and is no error. With `--write` the page goes to docs/measured/WALK_BANDS.md, its picture to docs/images.
 
 mod adjustment;
-mod asked;
 mod child_leg;
+mod criteria;
 mod curve;
 mod cycle;
 mod figure;
@@ -21,12 +21,12 @@ use child_leg::FromJoint;
 use cycle::Cycle;
 use std::fs;
 
-/// Number of free walking among the speeds.
+/// Index of free walking among the speeds.
 const FREE: usize = 2;
-/// The figure that is asked for.
+/// The main figure.
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
 
-/// Others, at free speed.
+/// Other figures, at free speed.
 const BUILDS: [Build; 8] = [
     Build { toe_joint: false, ..MAN },
     Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true },
@@ -38,28 +38,28 @@ const BUILDS: [Build; 8] = [
     Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: true },
 ];
 
-/// A walk with the band on its leg, or why there is none.
+/// A walk with the bands scaled to its leg length, or the reason for its absence.
 type Walked = Result<(Cycle, [Band; 8]), String>;
 
 /// Everything measured in one run.
 struct Results {
     machine: String,
-    /// Legs of the people behind the tables; the first joint's mean is the one used.
+    /// Leg lengths of the subjects of the tables; the mean from the first joint is used.
     legs: [FromJoint; 3],
-    /// Bands on the leg of the man, at five speeds.
+    /// Bands for the leg length of the main figure, at five speeds.
     people: [[Band; 8]; 5],
-    /// Their foot off [share of the cycle].
+    /// Foot off of the subjects [share of the cycle].
     foot_off: [f64; 5],
     man: [Cycle; 5],
-    /// Bands of free walking with other legs of the people: where from, how long [m].
+    /// Bands of free walking with other leg lengths of the subjects: source and length [m].
     other_legs: Vec<(&'static str, f64, [Band; 8])>,
-    /// Free walking against a second laboratory.
+    /// Free walking compared with a second laboratory.
     second_laboratory: String,
-    /// Walks of others.
+    /// Walks of the other figures.
     others: Vec<(Build, Walked)>,
 }
 
-/// Runs the verb.
+/// Runs the command.
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let mut write = false;

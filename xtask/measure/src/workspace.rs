@@ -1,4 +1,4 @@
-//! Where things are: the workspace, the recordings beside it, the `ambulo` command.
+//! Finds the workspace, the recordings next to it and the `ambulo` command.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,7 +7,7 @@ use std::process::Command;
 const DATA_VARIABLE: &str = "AMBULO_DATA";
 /// The same, relative to the workspace root.
 const DATA: &str = "../shared";
-/// The recording that the main job is shown and timed on: model, motion, forces and what the forces act on.
+/// Folder of the recording that is timed and drawn: model, motion, forces, and the bodies on which they act.
 const WALK: &str = "data/opensim-gait2392-subject01";
 
 /// The folder of the workspace's `Cargo.toml`.
@@ -28,7 +28,7 @@ pub(crate) fn cargo() -> Command {
     command
 }
 
-/// Files of the recording that the main job is timed on.
+/// Files of the recording that is timed and drawn.
 #[derive(Debug, Clone)]
 pub(crate) struct Walk {
     pub(crate) model: PathBuf,
@@ -60,7 +60,7 @@ impl Walk {
     }
 }
 
-/// The folder that cargo builds into: this program stands in `<target>/<profile>`.
+/// The folder that cargo builds into: this program is in `<target>/<profile>`.
 pub(crate) fn target() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();
     here.parent().and_then(Path::parent).map_or_else(|| root().join("target"), Path::to_path_buf)
@@ -75,5 +75,5 @@ pub(crate) fn build_program() -> Result<PathBuf, String> {
         return Err(format!("ambulo-cli did not build ({status}), see above"));
     }
     let program = target().join("release").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX));
-    if program.is_file() { Ok(program) } else { Err(format!("{}: not there after the build", program.display())) }
+    if program.is_file() { Ok(program) } else { Err(format!("{}: missing after the build", program.display())) }
 }

