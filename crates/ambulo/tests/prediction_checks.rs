@@ -76,8 +76,8 @@ fn line(checks: &PredictionChecks) -> String {
     checks.checks.iter().map(value).collect()
 }
 
-fn failed(checks: &PredictionChecks) -> Vec<&'static str> {
-    checks.checks.iter().filter(|check| check.passed == Some(false)).map(|check| check.name).collect()
+fn failed(checks: &PredictionChecks) -> Vec<&str> {
+    checks.checks.iter().filter(|check| check.passed == Some(false)).map(|check| &*check.name).collect()
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_hand_on_a_rail_shows() {
         }
         assert!(findings.has(FOUND), "{what}");
         let reason = checks.reasons.first().unwrap_or_else(|| panic!("{what}: a reason for the verdict"));
-        assert_eq!((reason.check, reason.unit), (Check::CenterOfPressure, "m"), "{what}");
+        assert_eq!((reason.check, &*reason.unit), (Check::CenterOfPressure, "m"), "{what}");
         assert!(reason.value.abs() > reason.limit.abs(), "{what}: {reason:?}");
     }
 }
