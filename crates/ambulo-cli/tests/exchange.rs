@@ -334,7 +334,7 @@ fn the_same_is_not_said_twice_nor_at_length() {
         bench.write(&file, c3d.write().unwrap());
     }
     let run = bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-o", "out"]).done();
-    run.says(&["44 only recorded", "and 38 more"]);
+    run.says(&["44 only in the recording", "and 38 more"]);
     assert_eq!(run.stderr.matches("ORIGIN of every plate").count(), 1, "{}", run.stderr);
     assert!(!run.stderr.contains("times)") && !run.stderr.contains("Extra9"), "{}", run.stderr);
 }

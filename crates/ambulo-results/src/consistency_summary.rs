@@ -1,6 +1,6 @@
 //! The part of `summary.json` that motions made to agree with the forces have.
 
-use ambulo::dynamics::consistency::{Consistent, RootResidual};
+use ambulo::dynamics::residual_reduction::{ReducedMotion, RootResidual};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -88,7 +88,7 @@ pub struct FootSize {
 impl ConsistencySummary {
     /// Of a motion that was changed.
     #[must_use]
-    pub fn of(consistent: &Consistent) -> ConsistencySummary {
+    pub fn of(consistent: &ReducedMotion) -> ConsistencySummary {
         let changes = consistent.changes.iter().map(|change| {
             let (scale, unit) = match change.unit {
                 "rad" => (1.0_f64.to_degrees(), ChangeUnit::Degree),

@@ -4,6 +4,7 @@ mod consistency_summary;
 mod cycle_table;
 mod files;
 mod folder;
+mod outcome;
 mod prediction_files;
 mod run_summary;
 mod scene_summary;
@@ -19,6 +20,7 @@ pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, Fo
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{OutputFile, output_files};
 pub use folder::{Folder, ResultsError, error_chain};
+pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
 pub use prediction_files::prediction_files;
 pub use run_summary::{RunSummary, summary_json};
 pub use scene_summary::{

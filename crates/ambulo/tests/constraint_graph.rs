@@ -4,7 +4,7 @@
 mod common;
 
 use ambulo::dynamics::{
-    Acting, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Method, Six,
+    ActsOn, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Method, Six,
     SolverSettings, relative_rows, solve_graph, undetermined_rows,
 };
 use ambulo::spatial::{Mat3, Vec3};
@@ -22,8 +22,8 @@ const TABLE: Vec3 = Vec3::new(1.0, 0.6, 0.7);
 fn reading(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize, solution: &GraphSolution) -> f64 {
     let terms = &graph.rows[row];
     let there = match group.on {
-        Acting::Coordinate { coordinate, .. } => solution.coordinates[coordinate],
-        Acting::Bodies { first, second } => {
+        ActsOn::Coordinate { coordinate, .. } => solution.coordinates[coordinate],
+        ActsOn::Bodies { first, second } => {
             terms.on_first.dot(&solution.motions[first])
                 + second.map_or(0.0, |s| terms.on_second.dot(&solution.motions[s]))
         }
@@ -111,7 +111,7 @@ impl Departures {
 /// Forces of rows that act on a coordinate.
 fn pushed(graph: &ConstraintGraph, coordinate: usize, lambda: &[f64]) -> f64 {
     let on = |group: &ConstraintGroup| match group.on {
-        Acting::Coordinate { coordinate: c, .. } if c == coordinate => lambda[group.rows.start],
+        ActsOn::Coordinate { coordinate: c, .. } if c == coordinate => lambda[group.rows.start],
         _ => 0.0,
     };
     graph.groups.iter().map(on).sum()
@@ -305,7 +305,7 @@ fn a_row_that_stands_twice_moves_nothing_else_and_each_bears_half() {
         let once = ladder(3, &PLANE);
         let mut twice = once.clone();
         let (group, row) = (once.groups[1].clone(), once.rows[once.groups[1].rows.start]);
-        add_rows(&mut twice, group.on, &[row], Law::HELD);
+        add_rows(&mut twice, group.on, &[row], Law::EQUALITY);
         let [one, two] = [&once, &twice].map(|graph| solved(graph, &settings(method, TIGHT, 200)).0);
         for (a, b) in one.motions.iter().zip(&two.motions) {
             assert!((a - b).norm() < 1e-9, "{method:?}");
@@ -329,7 +329,7 @@ fn rows_that_stand_twice_are_told_from_those_that_do_not() {
         assert_eq!(found(&ladder(10, &SPACE)), expected, "{method:?}");
         let mut twice = ladder(3, &PLANE);
         let (group, row) = (twice.groups[1].clone(), twice.rows[twice.groups[1].rows.start]);
-        add_rows(&mut twice, group.on, &[row], Law::HELD);
+        add_rows(&mut twice, group.on, &[row], Law::EQUALITY);
         assert_eq!(found(&twice), [2, 6], "{method:?}");
         // Three legs without friction are what it takes.
         let three: Vec<Vec3> = legs(3, 1);
@@ -345,9 +345,9 @@ fn rows_that_contradict_each_other_are_named_and_the_rest_is_solved() {
         let body = add_free(&mut graph, 2.0, Mat3::identity());
         let along = Six::ith(3, 1.0);
         let row = |target: f64| Constraint { on_first: along, on_second: Six::zeros(), target, compliance: 0.0 };
-        let on = Acting::Bodies { first: body, second: None };
-        let first = add_rows(&mut graph, on, &[row(1.0)], Law::HELD);
-        add_rows(&mut graph, on, &[row(4.0)], Law::HELD);
+        let on = ActsOn::Bodies { first: body, second: None };
+        let first = add_rows(&mut graph, on, &[row(1.0)], Law::EQUALITY);
+        add_rows(&mut graph, on, &[row(4.0)], Law::EQUALITY);
         let (solution, _) = solved(&graph, &settings(method, 1e-10, 100));
         let convergence = solution.convergence;
         assert!(!convergence.converged && convergence.residual > 0.01, "{method:?}: {convergence:?}");
@@ -370,7 +370,7 @@ fn forces_stay_within_their_bounds_and_give_way_there() {
             let body = add_free(&mut graph, 2.0, Mat3::identity());
             let on_first = Six::ith(5, 1.0);
             let row = Constraint { on_first, on_second: Six::zeros(), target, compliance: 0.0 };
-            add_rows(&mut graph, Acting::Bodies { first: body, second: None }, &[row], Law::Bounded { least, most });
+            add_rows(&mut graph, ActsOn::Bodies { first: body, second: None }, &[row], Law::Bounded { least, most });
             let (solution, _) = solved(&graph, &settings(method, TIGHT, 50));
             assert!(solution.convergence.converged, "{method:?}");
             (solution.lambda[0], solution.motions[0][5])
@@ -398,7 +398,7 @@ fn a_limit_of_a_coordinate_holds_it_and_lets_it_go_the_other_way() {
             }
             graph.efforts[0] = effort;
             let blank = Constraint { on_first: Six::zeros(), on_second: Six::zeros(), target: 0.0, compliance: 0.0 };
-            let on = Acting::Coordinate { body: 0, coordinate: 0 };
+            let on = ActsOn::Coordinate { body: 0, coordinate: 0 };
             add_rows(&mut graph, on, &[blank], Law::Bounded { least: 0.0, most: f64::INFINITY });
             let (solution, workspace) = solved(&graph, &settings(method, TIGHT, 50));
             assert!(Departures::of(&graph, &solution, &workspace).worst() < 1e-9, "{method:?}");
@@ -532,9 +532,9 @@ fn contacts_between_hinged_bodies_couple_them_as_one_row_says() {
     for method in METHODS {
         let mut held = ladder(2, &PLANE);
         let all = relative_rows([Vec3::x(), Vec3::y(), Vec3::z()], Vec3::new(0.1, 0.0, 0.2), Vec3::new(0.3, 0.0, 0.1));
-        let on = Acting::Bodies { first: 2, second: Some(4) };
+        let on = ActsOn::Bodies { first: 2, second: Some(4) };
         let mut touching = held.clone();
-        let start = add_rows(&mut held, on, &all[3..4], Law::HELD);
+        let start = add_rows(&mut held, on, &all[3..4], Law::EQUALITY);
         let (expected, _) = solved(&held, &settings(method, TIGHT, 100));
         let push = expected.lambda[start].signum();
         let turned: Vec<Constraint> = all[3..6]

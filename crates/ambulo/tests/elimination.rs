@@ -4,7 +4,7 @@
 mod common;
 
 use ambulo::dynamics::{
-    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Elimination, EliminationWorkspace, GraphSolution,
+    ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Elimination, EliminationWorkspace, GraphSolution,
     GraphWorkspace, JointReaction, Law, Link, LinkError, Offsets, Six, SolverSettings, Workspace, inverse_frame,
     relative_rows, solve_graph,
 };
@@ -49,8 +49,8 @@ fn random_graph(r: &mut Random, bodies: usize, loops: usize) -> ConstraintGraph 
                 compliance: 0.0,
             });
         }
-        let on = Acting::Bodies { first, second };
-        graph.groups.push(ConstraintGroup { on, rows: start..start + count, law: Law::HELD });
+        let on = ActsOn::Bodies { first, second };
+        graph.groups.push(ConstraintGroup { on, rows: start..start + count, law: Law::EQUALITY });
     }
     graph
 }
@@ -96,7 +96,7 @@ fn dense(graph: &ConstraintGraph) -> Vec<f64> {
         }
     }
     for group in &graph.groups {
-        let Acting::Bodies { first, second } = group.on else { panic!("bodies only") };
+        let ActsOn::Bodies { first, second } = group.on else { panic!("bodies only") };
         for row in group.rows.clone() {
             let terms = &graph.rows[row];
             for (body, j) in [(Some(first), terms.on_first), (second, terms.on_second)] {
@@ -414,13 +414,10 @@ fn links_that_are_no_forest_are_refused_in_words() {
         |links: &[Link], couplings: &[(usize, usize)]| Elimination::new(links, couplings).map(|_| ()).unwrap_err();
     let error = refusal(&[link(None, 1), link(Some(5), 1)], &[]);
     assert_eq!(error, LinkError::NoBody { body: 1, parent: 5, bodies: 2 });
-    assert_eq!(error.to_string(), "body 1 hangs on body 5; expected a number below 2");
+    assert_eq!(error.to_string(), "body 1 has body 5 as parent; expected a number below 2");
     let error = refusal(&[link(None, 1), link(Some(2), 1), link(Some(1), 1)], &[]);
     assert_eq!(error, LinkError::Circle { body: 1 });
-    assert_eq!(
-        error.to_string(),
-        "body 1 hangs on itself by way of its parents; expected trees. hint: close loops with closing rows"
-    );
+    assert_eq!(error.to_string(), "body 1 is its own ancestor; expected trees. hint: close loops with constraint rows");
     let error = refusal(&[link(None, 7)], &[]);
     assert_eq!(error.to_string(), "body 0 has 7 free directions; expected at most 6");
     let error = refusal(&[link(None, 1), link(None, 1)], &[(1, 1)]);
@@ -447,8 +444,8 @@ fn permuted(graph: &ConstraintGraph, to: &[usize]) -> ConstraintGraph {
         other.rotors.extend_from_slice(&graph.rotors[range]);
     }
     for group in &graph.groups {
-        let Acting::Bodies { first, second } = group.on else { panic!("bodies only") };
-        let on = Acting::Bodies { first: to[first], second: second.map(|s| to[s]) };
+        let ActsOn::Bodies { first, second } = group.on else { panic!("bodies only") };
+        let on = ActsOn::Bodies { first: to[first], second: second.map(|s| to[s]) };
         other.groups.push(ConstraintGroup { on, ..group.clone() });
     }
     other
@@ -512,12 +509,12 @@ fn four_bar(cut: usize) -> ConstraintGraph {
         parent = Some(place[bar]);
     }
     let on = match cut {
-        3 => Acting::Bodies { first: place[2], second: None },
-        k => Acting::Bodies { first: place[k - 1], second: Some(place[k]) },
+        3 => ActsOn::Bodies { first: place[2], second: None },
+        k => ActsOn::Bodies { first: place[k - 1], second: Some(place[k]) },
     };
     let from_second = if cut == 3 { Vec3::zeros() } else { corners[cut] - center(cut) };
     let rows = relative_rows([Vec3::x(), Vec3::y(), Vec3::z()], center(cut - 1) - corners[cut], from_second);
-    add_rows(&mut graph, on, &[rows[3], rows[5]], Law::HELD);
+    add_rows(&mut graph, on, &[rows[3], rows[5]], Law::EQUALITY);
     // In the order of bars, whoever hangs on whom.
     let mut to = [0; 3];
     place.iter().enumerate().for_each(|(bar, p)| to[*p] = bar);

@@ -6,7 +6,7 @@ mod common;
 
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::body_motion;
-use ambulo::kinematics::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
+use ambulo::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::{Body, Coordinate, CoordinateId, Drive, Function, JointAxis, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::{Mat3, Pose, Vec3};
@@ -196,25 +196,25 @@ fn clamped_ranges_hold_and_others_do_not() {
     opposite.q[knee] = -0.6;
     let markers = recorded(&model, &[bent, opposite]);
     let value = |fit: &MarkerFit, frame: usize| fit.motion.columns[knee].as_ref().unwrap()[frame];
-    let fit = |model: &Model, limits: Limits| {
+    let fit = |model: &Model, limits: JointLimits| {
         // The joint leaps by a radian in a hundredth of a second.
-        let settings = FitSettings { limits, guard: Guard::Off, ..FitSettings::default() };
+        let settings = FitSettings { limits, outliers: OutlierDetection::Off, ..FitSettings::default() };
         fit_markers(model, &markers, &settings, &mut Findings::default()).unwrap()
     };
-    let held = fit(&ranged(true), Limits::Clamped);
+    let held = fit(&ranged(true), JointLimits::Clamped);
     assert!((value(&held, 0) - 0.3).abs() < 1e-15 && (value(&held, 1) + 0.3).abs() < 1e-15, "{:?}", held.motion);
     assert!(held.converged.iter().all(|c| *c) && held.rms_m[0] > 0.001);
-    for free in [fit(&ranged(true), Limits::Off), fit(&ranged(false), Limits::Clamped)] {
+    for free in [fit(&ranged(true), JointLimits::Off), fit(&ranged(false), JointLimits::Clamped)] {
         assert!((value(&free, 0) - 0.5).abs() < 1e-8 && (value(&free, 1) + 0.6).abs() < 1e-8);
     }
-    assert!((value(&fit(&ranged(false), Limits::Ranges), 0) - 0.3).abs() < 1e-15);
+    assert!((value(&fit(&ranged(false), JointLimits::Ranges), 0) - 0.3).abs() < 1e-15);
 
     // What the limit leaves is the best: no other posture inside the range is nearer.
     let locked = with_coordinates(&model, |i, c| match i {
         i if i == knee => Coordinate { default_value: 0.3, drive: Drive::Locked, ..c.clone() },
         _ => c.clone(),
     });
-    let best = fit(&locked, Limits::Off);
+    let best = fit(&locked, JointLimits::Off);
     assert!((best.rms_m[0] - held.rms_m[0]).abs() < 1e-12, "{} and {}", best.rms_m[0], held.rms_m[0]);
 }
 

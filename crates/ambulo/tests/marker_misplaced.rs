@@ -10,7 +10,7 @@ mod marker_data;
 
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::calibration::{Calibrated, Trial, calibrate};
-use ambulo::kinematics::marker_fit::{FitSettings, Guard, Limits, MarkerFit, fit_markers};
+use ambulo::kinematics::marker_fit::{FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::motion::MarkerRecording;
 use gait_files::{Subject, everyone, turning, woman};
@@ -21,10 +21,10 @@ fn body(subject: &Subject) -> Calibrated {
     calibrate(standing, Trial::Standing, &known, &subject.person, &mut Findings::default()).unwrap()
 }
 
-fn fitted(body: &Calibrated, markers: &MarkerRecording, guard: Guard) -> (MarkerFit, Findings) {
+fn fitted(body: &Calibrated, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();
     let settings =
-        FitSettings { weights: body.weights.clone(), limits: Limits::Ranges, guard, ..FitSettings::default() };
+        FitSettings { weights: body.weights.clone(), limits: JointLimits::Ranges, outliers, ..FitSettings::default() };
     let fit = fit_markers(&body.human.model, markers, &settings, &mut findings).unwrap();
     (fit, findings)
 }
@@ -52,8 +52,8 @@ fn labels_that_glide_to_each_others_place_are_exchanged_back() {
     // In this file RNAV and RHLX bear each other's label from 2.12 s on; a curve leads both across some frames.
     let Some(subject) = turning().into_iter().next() else { return };
     let body = body(&subject);
-    let (off, _) = fitted(&body, &subject.walk.markers, Guard::Off);
-    let (on, findings) = fitted(&body, &subject.walk.markers, Guard::On);
+    let (off, _) = fitted(&body, &subject.walk.markers, OutlierDetection::Off);
+    let (on, findings) = fitted(&body, &subject.walk.markers, OutlierDetection::On);
     for name in ["RNAV", "RHLX"] {
         let [before, after] = [error_mm(&off, name), error_mm(&on, name)];
         println!("{name}: {before:.0} mm from its place, {after:.1} mm after the exchange");
@@ -68,14 +68,14 @@ fn labels_that_glide_to_each_others_place_are_exchanged_back() {
 fn labels_exchanged_throughout_are_exchanged_back() {
     let Some(subject) = woman() else { return };
     let body = body(&subject);
-    let (clean, _) = fitted(&body, &subject.walk.markers, Guard::On);
+    let (clean, _) = fitted(&body, &subject.walk.markers, OutlierDetection::On);
     for pair in [["RNAV", "RHLX"], ["RP5M", "RSTL"], ["RTIB", "RKNE"], ["LHEE", "LTOE"]] {
         let mut markers = subject.walk.markers.clone();
         let [a, b] = pair.map(|name| markers.markers.iter().position(|m| m.name == name).unwrap());
         let kept = markers.markers[a].positions.clone();
         markers.markers[a].positions = markers.markers[b].positions.clone();
         markers.markers[b].positions = kept;
-        let (fit, findings) = fitted(&body, &markers, Guard::On);
+        let (fit, findings) = fitted(&body, &markers, OutlierDetection::On);
         let worst = RIGHT_LEG.iter().map(|angle| difference(&body, angle, &clean, &fit)).fold(0.0, f64::max);
         println!("{pair:?} throughout: {worst:.1e} deg");
         let said = |f: &Finding| f.code == Code::MarkersSwap && pair.iter().all(|name| f.message.contains(name));
@@ -88,7 +88,7 @@ fn labels_exchanged_throughout_are_exchanged_back() {
 fn a_marker_that_stands_elsewhere_is_said_and_counts_little() {
     let Some(subject) = woman() else { return };
     let body = body(&subject);
-    let (clean, _) = fitted(&body, &subject.walk.markers, Guard::On);
+    let (clean, _) = fitted(&body, &subject.walk.markers, OutlierDetection::On);
     // Mirrored in another marker of the same segment, so that it stays on the body, but elsewhere.
     for [name, mirror] in [["RP5M", "RTOE"], ["RSTL", "RHEE"]] {
         let mut markers = subject.walk.markers.clone();
@@ -100,8 +100,8 @@ fn a_marker_that_stands_elsewhere_is_said_and_counts_little() {
         let worst = |fit: &MarkerFit| {
             RIGHT_LEG.map(|angle| difference(&body, angle, &clean, fit)).into_iter().fold(0.0, f64::max)
         };
-        let (off, _) = fitted(&body, &markers, Guard::Off);
-        let (on, findings) = fitted(&body, &markers, Guard::On);
+        let (off, _) = fitted(&body, &markers, OutlierDetection::Off);
+        let (on, findings) = fitted(&body, &markers, OutlierDetection::On);
         let [before, after] = [worst(&off), worst(&on)];
         println!("{name} elsewhere, {:.0} mm: {before:.2} deg, guarded {after:.2} deg", error_mm(&on, name));
         let said = |f: &Finding| f.code == Code::MarkersMisplaced && f.message.contains(name);
@@ -113,7 +113,7 @@ fn a_marker_that_stands_elsewhere_is_said_and_counts_little() {
 #[test]
 fn clean_recordings_have_no_marker_out_of_place() {
     for subject in everyone().into_iter().chain(turning().into_iter().skip(1)) {
-        let (_, findings) = fitted(&body(&subject), &subject.walk.markers, Guard::On);
+        let (_, findings) = fitted(&body(&subject), &subject.walk.markers, OutlierDetection::On);
         assert!(codes(&findings).is_empty(), "{}: {:?}", subject.name, codes(&findings));
     }
     for subject in [marker_data::rajagopal(), marker_data::gait2392()].into_iter().flatten() {

@@ -7,16 +7,16 @@ mod common;
 mod marker_data;
 
 use ambulo::findings::{Code, Findings};
-use ambulo::kinematics::marker_fit::{FitSettings, Guard, MarkerFit, fit_markers};
+use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::CoordinateKind;
 use ambulo::motion::MarkerRecording;
 use ambulo::spatial::Vec3;
 use common::random::Random;
 use marker_data::{Subject, gait2392, rajagopal};
 
-fn fitted(subject: &Subject, markers: &MarkerRecording, guard: Guard) -> (MarkerFit, Findings) {
+fn fitted(subject: &Subject, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();
-    let settings = FitSettings { guard, ..FitSettings::default() };
+    let settings = FitSettings { outliers, ..FitSettings::default() };
     let fit = fit_markers(&subject.model, markers, &settings, &mut findings).unwrap();
     (fit, findings)
 }
@@ -44,14 +44,14 @@ fn names(subject: &Subject) -> Vec<usize> {
 }
 
 fn assert_clean(label: &str, subject: &Subject) {
-    let (_, findings) = fitted(subject, &subject.markers, Guard::On);
+    let (_, findings) = fitted(subject, &subject.markers, OutlierDetection::On);
     for finding in findings.as_slice() {
         assert!(![Code::MarkersJump, Code::MarkersSwap].contains(&finding.code), "{label}: {finding}");
     }
 }
 
 fn assert_jumps_are_found(label: &str, subject: &Subject, seed: u64) {
-    let (clean, _) = fitted(subject, &subject.markers, Guard::On);
+    let (clean, _) = fitted(subject, &subject.markers, OutlierDetection::On);
     let mut r = Random::new(seed);
     let used = names(subject);
     let frames = subject.markers.frames();
@@ -66,14 +66,14 @@ fn assert_jumps_are_found(label: &str, subject: &Subject, seed: u64) {
             *p += jump;
         }
         let name = &wild.markers[marker].name;
-        let (fit, findings) = fitted(subject, &wild, Guard::On);
+        let (fit, findings) = fitted(subject, &wild, OutlierDetection::On);
         let said = findings.as_slice().iter().any(|f| f.code == Code::MarkersJump && f.message.contains(name));
         let (difference, angle) = largest_difference(subject, &clean, &fit);
         let case = format!(
             "{label} round {round}: {name} by {:.0} mm from frame {start} for {length} frames",
             1000.0 * jump.norm()
         );
-        let (off, _) = fitted(subject, &wild, Guard::Off);
+        let (off, _) = fitted(subject, &wild, OutlierDetection::Off);
         println!(
             "{case}: {difference:.3} deg at {angle}, unguarded {:.2}",
             largest_difference(subject, &clean, &off).0
@@ -91,7 +91,7 @@ fn assert_jumps_are_found(label: &str, subject: &Subject, seed: u64) {
 }
 
 fn assert_swaps_are_undone(label: &str, subject: &Subject, seed: u64) {
-    let (clean, _) = fitted(subject, &subject.markers, Guard::On);
+    let (clean, _) = fitted(subject, &subject.markers, OutlierDetection::On);
     let mut r = Random::new(seed);
     let used = names(subject);
     let frames = subject.markers.frames();
@@ -112,7 +112,7 @@ fn assert_swaps_are_undone(label: &str, subject: &Subject, seed: u64) {
             wild.markers[a].positions[frame] = wild.markers[b].positions[frame];
             wild.markers[b].positions[frame] = p;
         }
-        let (fit, findings) = fitted(subject, &wild, Guard::On);
+        let (fit, findings) = fitted(subject, &wild, OutlierDetection::On);
         let [x, y] = [a, b].map(|i| wild.markers[i].name.clone());
         let said = |f: &ambulo::findings::Finding| {
             f.message.contains(&x) && f.message.contains(&y) && f.code == Code::MarkersSwap
@@ -167,8 +167,8 @@ fn a_marker_that_is_off_in_the_first_frames_counts_as_lost_there() {
         let (mut wild, mut lost) = (subject.markers.clone(), subject.markers.clone());
         wild.markers[place].positions[..length].iter_mut().for_each(|p| *p += Vec3::new(0.05, 0.06, -0.04));
         lost.markers[place].positions[..length].fill(Vec3::repeat(f64::NAN));
-        let (fit, findings) = fitted(&subject, &wild, Guard::On);
-        let (difference, angle) = largest_difference(&subject, &fitted(&subject, &lost, Guard::On).0, &fit);
+        let (fit, findings) = fitted(&subject, &wild, OutlierDetection::On);
+        let (difference, angle) = largest_difference(&subject, &fitted(&subject, &lost, OutlierDetection::On).0, &fit);
         println!("{name} in the first {length} frames: {difference:.1e} deg at {angle} from its loss");
         assert!(findings.as_slice().iter().any(|f| f.code == Code::MarkersJump && f.message.contains(name)));
         assert!(difference < 1e-4, "{name}: {difference} deg at {angle}");
@@ -178,7 +178,7 @@ fn a_marker_that_is_off_in_the_first_frames_counts_as_lost_there() {
 #[test]
 fn labels_exchanged_from_the_first_frame_are_found() {
     let Some(subject) = rajagopal() else { return };
-    let (clean, _) = fitted(&subject, &subject.markers, Guard::On);
+    let (clean, _) = fitted(&subject, &subject.markers, OutlierDetection::On);
     for [a, b] in [["R.Heel", "R.Toe"], ["R.ASIS", "L.ASIS"], ["L.Knee", "L.SH1"]] {
         let mut wild = subject.markers.clone();
         let place = |name: &str| subject.markers.markers.iter().position(|m| m.name == name).unwrap();
@@ -186,7 +186,7 @@ fn labels_exchanged_from_the_first_frame_are_found() {
         let kept: Vec<Vec3> = wild.markers[i].positions.clone();
         wild.markers[i].positions = wild.markers[j].positions.clone();
         wild.markers[j].positions = kept;
-        let (fit, findings) = fitted(&subject, &wild, Guard::On);
+        let (fit, findings) = fitted(&subject, &wild, OutlierDetection::On);
         let (difference, angle) = largest_difference(&subject, &clean, &fit);
         println!("{a} and {b} throughout: {difference:.3} deg at {angle}");
         assert!(findings.has(Code::MarkersSwap), "{a} and {b}: {:?}", findings.as_slice());

@@ -8,7 +8,7 @@ mod marker_data;
 
 use ambulo::findings::Findings;
 use ambulo::kinematics::body_motion;
-use ambulo::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, Smoothing, fit_markers};
+use ambulo::kinematics::marker_fit::{FitError, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
 use ambulo::model::{CoordinateKind, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
@@ -40,7 +40,7 @@ fn recorded(model: &Model, step_s: f64, states: &[State]) -> MarkerRecording {
     MarkerRecording { name: "invented".into(), rate_hz: 1.0 / step_s, times, markers }
 }
 
-fn fitted(model: &Model, markers: &MarkerRecording, smoothing: Option<Smoothing>) -> MarkerFit {
+fn fitted(model: &Model, markers: &MarkerRecording, smoothing: Option<SmoothnessPrior>) -> MarkerFit {
     let settings = FitSettings { smoothing, ..FitSettings::default() };
     let fit = fit_markers(model, markers, &settings, &mut Findings::default()).unwrap();
     assert!(fit.converged.iter().all(|c| *c), "{:?}", fit.iterations);
@@ -65,7 +65,7 @@ fn the_response_of_a_slider_is_that_of_the_formula() {
     for step_s in [0.005, 0.0025] {
         let mut r = Random::new(1);
         let model = marked(&mut r, &[Kind::Slider], 4);
-        let smoothing = Smoothing { marker_noise_m: 0.001, rotation_jerk: 12.0, translation_jerk: 12.0 };
+        let smoothing = SmoothnessPrior { marker_noise_m: 0.001, rotation_jerk: 12.0, translation_jerk: 12.0 };
         let cutoff = (2.0 * smoothing.translation_jerk / smoothing.marker_noise_m).cbrt();
         for (share, expected) in [(1.0, 0.5), (0.5, 64.0 / 65.0), (2.0, 1.0 / 65.0)] {
             // Whole periods, so that a sum over them is the amplitude.
@@ -104,7 +104,7 @@ fn noise_of_markers_is_smoothed_and_motion_is_not() {
     let waves = Waves::new(&mut r, &model);
     let states: Vec<State> = (0..300).map(|i| waves.at(0.01 * f64::from(i))).collect();
     let clean = recorded(&model, 0.01, &states);
-    let plain = fitted(&model, &clean, Some(Smoothing::default()));
+    let plain = fitted(&model, &clean, Some(SmoothnessPrior::default()));
     let [bias, _] = errors(&plain, &states, 0.01);
     // A wave of 3 rad/s at a cut-off above 30 rad/s loses (3/30)⁶ of its 0.8 rad.
     assert!(bias < 1e-5, "{bias} rad");
@@ -113,7 +113,7 @@ fn noise_of_markers_is_smoothed_and_motion_is_not() {
         marker.positions.iter_mut().for_each(|p| *p += r.vector(0.0035));
     }
     let [rough, rough_bend] = errors(&fitted(&model, &noisy, None), &states, 0.01);
-    let [smooth, smooth_bend] = errors(&fitted(&model, &noisy, Some(Smoothing::default())), &states, 0.01);
+    let [smooth, smooth_bend] = errors(&fitted(&model, &noisy, Some(SmoothnessPrior::default())), &states, 0.01);
     println!(
         "frame by frame {rough:.5} rad, {rough_bend:.2} rad/s²; together {smooth:.5} rad, {smooth_bend:.2} rad/s²"
     );
@@ -131,7 +131,7 @@ fn what_no_marker_sees_follows_from_the_prior() {
         (100..120).for_each(|i| marker.positions[i] = Vec3::repeat(f64::NAN));
         (150..199).for_each(|i| marker.positions[i] = Vec3::repeat(f64::NAN));
     }
-    let fit = fitted(&model, &cut, Some(Smoothing::default()));
+    let fit = fitted(&model, &cut, Some(SmoothnessPrior::default()));
     let hinge = fit.motion.columns[6].as_ref().unwrap();
     for i in 100..120 {
         assert!((hinge[i] - states[i].q[6]).abs() < 0.01, "frame {i}: {} for {}", hinge[i], states[i].q[6]);
@@ -144,7 +144,7 @@ fn recordings_of_walking_keep_their_distances_and_lose_their_noise() {
     for (name, subject) in [("rajagopal", rajagopal()), ("gait2392", gait2392())] {
         let Some(subject) = subject else { return };
         let plain = fitted(&subject.model, &subject.markers, None);
-        let whole = fitted(&subject.model, &subject.markers, Some(Smoothing::default()));
+        let whole = fitted(&subject.model, &subject.markers, Some(SmoothnessPrior::default()));
         let mean = |fit: &MarkerFit| 1000.0 * fit.rms_m.iter().sum::<f64>() / fit.rms_m.len() as f64;
         let bends = |fit: &MarkerFit| {
             let knee = fit.motion.columns[subject.model.coordinate("knee_angle_r").unwrap().index()].as_ref().unwrap();
@@ -185,7 +185,7 @@ fn recordings_that_would_fill_the_memory_are_refused() {
         marked(&mut r, &[Kind::Free, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball], 1);
     let states = vec![State::rest(&model); 80_000];
     let markers = recorded(&model, 0.01, &states);
-    let settings = FitSettings { smoothing: Some(Smoothing::default()), ..FitSettings::default() };
+    let settings = FitSettings { smoothing: Some(SmoothnessPrior::default()), ..FitSettings::default() };
     let error = fit_markers(&model, &markers, &settings, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, FitError::TooLong { frames: 80_000, unknowns: 24, .. }), "{error}");
 }

@@ -1,7 +1,7 @@
 //! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, markers.
 //!
-//! Numbers are written so that they read back the same, to the last bit; but for orientations of frames, which are written as
-//! angles and come back to rounding.
+//! Numbers are written such that they read back to the same bits, except orientations of frames, which are written as
+//! angles and read back to rounding.
 
 use super::write_function::function;
 use super::{
@@ -11,14 +11,14 @@ use super::{
 use crate::error::{Error, quoted};
 use crate::xml::escaped;
 
-/// The layout that is written.
+/// Document version of the layout that is written.
 const VERSION: u32 = 40000;
 
 impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// What this writer does not know: constraints but couplers of coordinates; numbers that are not finite.
+    /// Constraints other than couplers of coordinates; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
@@ -55,7 +55,7 @@ pub(super) fn element(depth: usize, tag: &str, text: &str) -> String {
     format!("{}<{tag}>{}</{tag}>\n", "\t".repeat(depth), escaped(text))
 }
 
-/// An element with a name around others.
+/// Writes a named element around others.
 pub(super) fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
     let indent = "\t".repeat(depth);
     format!("{indent}<{tag} name=\"{}\">\n{content}{indent}</{tag}>\n", escaped(name))
@@ -137,7 +137,7 @@ fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
 
 /// Body-fixed X-Y-Z angles of a rotation, R = Rx(a) Ry(b) Rz(c) [rad].
 fn angles(r: &[[f64; 3]; 3]) -> [f64; 3] {
-    // Against -0, which is a number of its own in text.
+    // Turns -0 into 0, which is different as text.
     let plain = |angle: f64| angle + 0.0;
     let b = r[0][2].clamp(-1.0, 1.0).asin();
     [plain((-r[1][2]).atan2(r[2][2])), plain(b), plain((-r[0][1]).atan2(r[0][0]))]
@@ -151,7 +151,7 @@ fn axis(number: usize, axis: &OsimAxis) -> Result<String, Error> {
     Ok(holder(6, "TransformAxis", NAMES.get(number).copied().unwrap_or_default(), &content))
 }
 
-/// `dependent = scale · function(independent)`: the reader puts the factor around the function, here it is taken off again.
+/// `dependent = scale · function(independent)`: the reader wraps the function in the factor; here it is unwrapped.
 fn constraint(constraint: &OsimConstraint) -> Result<String, Error> {
     let (name, independent, dependent, held) = match constraint {
         OsimConstraint::CoordinateCoupler { name, independent, dependent, function, .. } => {
@@ -161,7 +161,7 @@ fn constraint(constraint: &OsimConstraint) -> Result<String, Error> {
             let found = format!("the {kind} {}", quoted(name));
             return Err(unknown(found, "couplers of coordinates"));
         }
-        // A constraint that is switched off binds nothing, and what it would bind is not known here.
+        // A constraint that is switched off has no effect, and its type is not known here.
         OsimConstraint::Off { .. } => return Ok(String::new()),
     };
     let (scale, held) = match held {

@@ -1,13 +1,13 @@
-//! Functions of one coordinate in the words of OpenSim 4.
+//! Functions of one coordinate in the syntax of OpenSim 4.
 
 use super::write::{element, group, holder, numbers, unknown};
 use super::{Knots, OsimFunction};
 use crate::error::Error;
 
-/// The deepest nesting that the reader takes.
+/// The deepest nesting that the reader accepts.
 const DEEPEST: usize = super::function::DEEPEST;
 
-/// The element of a function, indented by `depth`; without a `name` where its holder has one.
+/// The element of a function, indented by `depth`; without a `name` if its parent has one.
 pub(super) fn function(depth: usize, name: &str, function: &OsimFunction) -> Result<String, Error> {
     nested(depth, name, function, 0)
 }

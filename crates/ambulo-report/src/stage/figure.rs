@@ -63,7 +63,7 @@ impl Stage {
             }
         }
         if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
-            stage.torques = torque::torques(&model, &moments, &angles, summary.mass_kg);
+            stage.torques = torque::torques(&model, &moments, summary.mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
         stage.put_soles_on_the_floor(&model, summary.height_m);

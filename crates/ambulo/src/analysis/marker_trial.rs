@@ -8,11 +8,11 @@ use super::ground_agreement::PlateCoverage;
 use super::progress::{Progress, Stage, Stopped};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion};
-use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
+use crate::ground::plates::{FeetOnPlates, feet_on_plates};
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
-use crate::kinematics::marker_fit::{FitError, FitSettings, Limits, MarkerFit, fit_markers};
+use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_markers};
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
 use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
 use crate::model::{Drive, Model, Side};
@@ -163,7 +163,7 @@ pub(crate) fn follow_markers(
     };
     progress.end(Stage::Body)?;
     // What a given model clamps is its author's word; the ranges of the built-in body keep arms from winding up.
-    let limits = if subject.calibration.is_some() { Limits::Ranges } else { settings.limits };
+    let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
     let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
     if subject.calibration.is_some() {
@@ -251,7 +251,7 @@ impl BodyInMotion {
     /// What the plates did to the feet; nothing if the body has no feet.
     #[must_use]
     pub fn plate_forces(&self) -> Vec<ForceRecording> {
-        foot_bodies(&self.subject.model).map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
+        self.subject.model.anatomy().feet().map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::recording::{Analysis, Mass, MassSource, Settings};
 use super::residual::residual_within;
-use crate::dynamics::consistency::{ConsistencyError, ConsistencySettings, Consistent, make_consistent};
+use crate::dynamics::residual_reduction::{
+    ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
+};
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::Findings;
 use crate::model::Model;
@@ -25,23 +27,23 @@ const FILTER_REACH_PERIODS: f64 = 0.5;
 /// Returns the analysis of the changed motion and body, and how they were changed.
 ///
 /// # Errors
-/// A motion without forces, a window that is too short: see [`ConsistencyError`].
+/// A motion without forces, a window that is too short: see [`ResidualReductionError`].
 pub fn reduce_residual(
     model: &Model,
     analysis: Analysis,
     settings: &Settings,
     adjustable: Adjustable,
     findings: &mut Findings,
-) -> Result<(Analysis, Consistent), ConsistencyError> {
+) -> Result<(Analysis, ReducedMotion), ResidualReductionError> {
     let loads = analysis.ground.loads();
     let body = adjustable == Adjustable::MotionAndBody;
-    let asked = ConsistencySettings {
+    let asked = ResidualReductionSettings {
         within: inside(analysis.trajectory.grid(), settings),
         adjust_mass: body,
         adjust_trunk_center: body,
-        ..ConsistencySettings::default()
+        ..ResidualReductionSettings::default()
     };
-    let done = make_consistent(model, &analysis.trajectory, &loads, &asked, findings)?;
+    let done = reduce_residuals(model, &analysis.trajectory, &loads, &asked, findings)?;
     let [from, to] = done.window_s;
     let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
     let forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);

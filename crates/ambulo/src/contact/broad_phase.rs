@@ -1,15 +1,15 @@
-//! Which pairs of shapes may touch at all: sweep and prune.
+//! Finds the pairs of shapes whose bounding boxes overlap: sweep and prune.
 //!
-//! Boxes that overlap do so along every axis. Sorted by their low ends along the axis on which the boxes' middles
-//! spread most, each box needs to be compared only with those that begin before it ends.
+//! Overlapping boxes overlap along every axis. The boxes are sorted by their low ends along the axis on which their middles
+//! spread most; each box is then compared only with those that begin before it ends.
 //!
 //! Source: Baraff 1992, "Dynamic simulation of non-penetrating rigid bodies" (unverified page), for the sweep.
-//! Cost: n log n for the sort, and the number of pairs that overlap along that axis.
+//! Cost: n log n for the sort, plus the number of pairs that overlap along that axis.
 //! Pinned by: tests/contact_geometry.rs
 
 use crate::spatial::Vec3;
 
-/// Replaces `out` by the pairs (i, j), i < j, sorted, whose boxes (low and high corner [m]) overlap or touch and that
+/// Fills `out` with the sorted pairs (i, j), i < j, whose boxes (low and high corner [m]) overlap or touch and that
 /// `may_touch` allows. A shape without a box, such as a half-space, is paired with all others.
 pub fn candidate_pairs(
     boxes: &[Option<(Vec3, Vec3)>],
@@ -27,7 +27,7 @@ pub fn candidate_pairs(
     for (i, bounds) in boxes.iter().enumerate() {
         match bounds {
             Some((low, high)) => sorted.push((i, *low, *high)),
-            // Two shapes without a box meet here twice; the second one pairs them.
+            // Two shapes without a box meet here twice; only the second time pairs them.
             None => {
                 (0..boxes.len()).filter(|j| *j < i || boxes[*j].is_some()).filter(|j| *j != i).for_each(|j| push(i, j))
             }
@@ -48,7 +48,7 @@ pub fn candidate_pairs(
     out.sort_unstable();
 }
 
-/// The axis along which the variance of the boxes' middles is largest.
+/// The axis along which the middles of the boxes have the largest variance.
 fn axis_of_greatest_spread(boxes: &[(usize, Vec3, Vec3)]) -> usize {
     let count = boxes.len().max(1) as f64;
     let mean = boxes.iter().map(|(_, low, high)| low + high).sum::<Vec3>() / count;

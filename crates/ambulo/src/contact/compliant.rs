@@ -1,39 +1,38 @@
-//! Soft contact of a sphere and a plane: Hertz' spring, Hunt and Crossley's damping, friction smoothed over slip.
+//! Compliant contact of a sphere and a plane: Hertz spring, Hunt-Crossley damping, friction smoothed over the slip speed.
 //!
 //!   k = E^(2/3) / 2
 //!   F_h = 4/3 k √(R k) (d² + ε)^(3/4)
 //!   F_n = F_h (1 + 3/2 c d') · (tanh(b_v (d' + 1/(3/2 c))) + 1)/2 · (tanh(b_d d) + 1)/2
-//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip, or, without its corner,
+//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip, or, without the corner at v_t,
 //!   F_t = F_n [ μ_d v/√(v² + v_t²) + μ_v v ]
 //!
 //! | code                  | symbol | unit   | meaning                                                           |
 //! | `stiffness`           | E      | N/m²   | plane-strain modulus                                              |
-//! | `dissipation`         | c      | s/m    | c d' is the share of damping in the force, over 3/2               |
+//! | `dissipation`         | c      | s/m    | 3/2 c d' is the ratio of damping to spring force                  |
 //! | `static_friction`     | μ_s    | 1      | reached at v = v_t                                                |
 //! | `dynamic_friction`    | μ_d    | 1      | at slip far above v_t                                             |
 //! | `viscous_friction`    | μ_v    | s/m    | grows with slip                                                   |
 //! | `transition_velocity` | v_t    | m/s    | below it, friction falls with slip to zero                        |
-//! | `depth_offset`        | ε      | m²     | rounds off the spring at d = 0                                    |
-//! | `depth_slope`         | b_d    | 1/m    | how steeply the force comes in with depth                         |
-//! | `rate_slope`          | b_v    | s/m    | how steeply it goes where the surfaces part faster than 1/(3/2 c) |
+//! | `depth_offset`        | ε      | m²     | smooths the spring at d = 0                                       |
+//! | `depth_slope`         | b_d    | 1/m    | how steeply the force rises with depth                            |
+//! | `rate_slope`          | b_v    | s/m    | how steeply it falls when the surfaces part faster than 1/(3/2 c) |
 //! | `radius`              | R      | m      | of the sphere                                                     |
 //! | `depth`, `depth_rate` | d, d'  | m, m/s | overlap and its growth                                            |
-//! | `slip`                | v      | m/s    | velocity of the sphere's surface against the plane, along it      |
+//! | `slip`                | v      | m/s    | tangential velocity of the surface of the sphere on the plane     |
 //!
-//! As published, the law pushes a little before the surfaces meet: tanh(b_d d) leaves some force for d < 0. Here no
-//! force acts unless d > 0, and none is negative. The price is a step at d = 0 of half of F_h(0), which ε makes as
-//! large as F_h of 3.2 mm without ε: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no
-//! step.
+//! As published, the law gives a small force before the surfaces meet, because tanh(b_d d) is not -1 for d < 0. Here the force
+//! is zero unless d > 0, and never negative. The force therefore jumps at d = 0 by half of F_h(0), which is F_h without ε at
+//! 3.2 mm: 7.5 N for [`HuntCrossley::FALISSE_2022`] and R = 32 mm. With ε = 0 there is no jump.
 //!
-//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; 3dpredictsim `Contact/HCContactModel.m`. The sets of parameters
-//! name their own files.
+//! Source: opensim-core `SmoothSphereHalfSpaceForce.h`; 3dpredictsim `Contact/HCContactModel.m`. Each set of parameters names
+//! its own file.
 //! Cost: constant.
-//! Not handled: radii that change over the contact; several spheres share no load.
+//! Not handled: radii that change over the contact; load sharing between spheres.
 //! Pinned by: tests/contact_geometry.rs
 
 use crate::spatial::Vec3;
 
-/// Parameters of the law.
+/// Parameters of the Hunt-Crossley contact law; the module describes each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HuntCrossley {
     /// Plane-strain modulus E [N/m²].
@@ -54,21 +53,21 @@ pub struct HuntCrossley {
     pub depth_slope: f64,
     /// b_v [s/m].
     pub rate_slope: f64,
-    /// How friction grows with slip.
-    pub creep: Creep,
+    /// Dry friction against slip speed.
+    pub friction_curve: FrictionCurve,
 }
 
-/// How friction grows with slip.
+/// Dry friction as a function of the slip speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Creep {
+pub enum FrictionCurve {
     /// As published, with a corner at v_t.
     #[default]
     Stribeck,
-    /// v/√(v² + v_t²): smooth at every slip, which optimisation needs; μ_s plays no part.
+    /// v/√(v² + v_t²): smooth at every slip speed, as optimisation needs; μ_s is not used.
     Smooth,
 }
 
-/// A parameter that the law cannot have.
+/// A parameter out of range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{parameter} is {found} {unit}; expected a finite number, {least}")]
 pub struct HuntCrossleyError {
@@ -80,7 +79,7 @@ pub struct HuntCrossleyError {
 
 impl HuntCrossley {
     /// opencap-processing `Moco/models/LaiArnoldModified2017_contacts.osim` and PredSim `Subjects/Falisse_et_al_2022`:
-    /// six spheres a foot (four on the calcaneus, two on the toes) of 32 mm.
+    /// six spheres per foot (four on the calcaneus, two on the toes) of 32 mm.
     pub const FALISSE_2022: HuntCrossley = HuntCrossley {
         stiffness: 1e6,
         dissipation: 2.0,
@@ -92,15 +91,15 @@ impl HuntCrossley {
         depth_offset: 1e-5,
         depth_slope: 300.0,
         rate_slope: 50.0,
-        creep: Creep::Stribeck,
+        friction_curve: FrictionCurve::Stribeck,
     };
-    /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres a foot, 35 mm at the heel and 15 mm in front.
+    /// opensim-core Moco `example2DWalking/2D_gait.osim`: two spheres per foot, 35 mm at the heel and 15 mm at the forefoot.
     pub const MOCO_2D_GAIT: HuntCrossley = HuntCrossley { stiffness: 3_067_776.0, ..HuntCrossley::FALISSE_2022 };
     /// opensim-models `WalkerModel.osim`: spheres of 50 mm.
     pub const WALKER_MODEL: HuntCrossley =
         HuntCrossley { dissipation: 1.0, dynamic_friction: 0.4, viscous_friction: 0.4, ..HuntCrossley::FALISSE_2022 };
-    /// SCONE `Human0914.osim` and `H0914M_osim3.osim`: heel and toe, 30 mm. A comment in the file says 0.3 for the
-    /// dissipation that it sets to 1.
+    /// SCONE `Human0914.osim` and `H0914M_osim3.osim`: heel and toe, 30 mm. A comment in the file gives a dissipation of 0.3; the
+    /// file sets 1.
     pub const SCONE_HUMAN_0914: HuntCrossley = HuntCrossley {
         stiffness: 2e6,
         dissipation: 1.0,
@@ -111,10 +110,10 @@ impl HuntCrossley {
         ..HuntCrossley::FALISSE_2022
     };
 
-    /// The same parameters, if the law can have them.
+    /// Returns the parameters if all are in range.
     ///
     /// # Errors
-    /// The first parameter that is not finite, or is negative; the transition velocity must be above zero.
+    /// Reports the first parameter that is negative or not finite; the transition velocity must be above zero.
     pub fn checked(self) -> Result<HuntCrossley, HuntCrossleyError> {
         let all = [
             ("the stiffness", self.stiffness, "N/m²"),
@@ -157,18 +156,18 @@ impl HuntCrossley {
         let k = 0.5 * self.stiffness.powf(2.0 / 3.0);
         let hertz = 4.0 / 3.0 * k * (radius * k).sqrt() * (depth * depth + self.depth_offset).powf(0.75);
         let c = 1.5 * self.dissipation;
-        // Without dissipation there is no speed at which the surfaces part without force.
-        let held = if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { 1.0 };
-        (hertz * (1.0 + c * depth_rate) * held * step(self.depth_slope * depth)).max(0.0)
+        // Without dissipation, the force does not vanish at any speed of separation.
+        let separation = if c > 0.0 { step(self.rate_slope * (depth_rate + 1.0 / c)) } else { 1.0 };
+        (hertz * (1.0 + c * depth_rate) * separation * step(self.depth_slope * depth)).max(0.0)
     }
 
     /// |F_t| / F_n.
     fn friction_coefficient(&self, speed: f64) -> f64 {
         let v = speed / self.transition_velocity;
         let (mu_s, mu_d) = (self.static_friction, self.dynamic_friction);
-        let dry = match self.creep {
-            Creep::Stribeck => v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)),
-            Creep::Smooth => mu_d * v / (1.0 + v * v).sqrt(),
+        let dry = match self.friction_curve {
+            FrictionCurve::Stribeck => v.min(1.0) * (mu_d + 2.0 * (mu_s - mu_d) / (1.0 + v * v)),
+            FrictionCurve::Smooth => mu_d * v / (1.0 + v * v).sqrt(),
         };
         dry + self.viscous_friction * speed
     }

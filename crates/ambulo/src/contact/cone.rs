@@ -1,33 +1,32 @@
-//! Coulomb's cone: the nearest force that friction allows, and how it follows.
+//! Coulomb's friction cone: projection of a contact force onto it, with the derivative.
 //!
-//! Of a force z = (z_n, z_t), normal part first:
+//! The nearest force λ of the cone |λ_t| ≤ μ λ_n to a force z = (z_n, z_t), normal part first:
 //!
-//!   onto the cone |λ_t| ≤ μ λ_n:
-//!     |z_t| ≤ μ z_n         λ = z
-//!     μ |z_t| ≤ -z_n        λ = 0
-//!     else                  λ_n = (z_n + μ |z_t|)/(1 + μ²),  λ_t = μ λ_n ẑ
+//!   |z_t| ≤ μ z_n         λ = z
+//!   μ |z_t| ≤ -z_n        λ = 0
+//!   else                  λ_n = (z_n + μ |z_t|)/(1 + μ²),  λ_t = μ λ_n ẑ
 //!
-//! The projection is the gradient of ½ |λ|², so its slope ∂λ/∂z is symmetric and lies between 0 and 1.
+//! The projection is the gradient of ½ |λ|², so its derivative ∂λ/∂z is symmetric with eigenvalues between 0 and 1.
 
-/// A force in a contact's frame (normal, first tangent, second tangent) [N], and its slope against the force that was projected.
+/// A force projected onto the cone, in the frame of the contact (normal, first tangent, second tangent) [N].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Projection {
-    /// The nearest force of the set.
+pub struct ConeProjection {
+    /// The nearest force of the cone.
     pub force: [f64; 3],
     /// ∂force/∂z, symmetric.
     pub slope: [[f64; 3]; 3],
 }
 
-/// The nearest point of Coulomb's cone of this friction coefficient.
+/// Projects a force onto Coulomb's cone with this friction coefficient.
 #[must_use]
-pub fn onto_cone(z: [f64; 3], friction: f64) -> Projection {
+pub fn project_onto_cone(z: [f64; 3], friction: f64) -> ConeProjection {
     let [normal, x, y] = z;
     let length = (x * x + y * y).sqrt();
     if length <= friction * normal {
-        return Projection { force: z, slope: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+        return ConeProjection { force: z, slope: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
     }
     if friction * length <= -normal || length <= 0.0 {
-        return Projection { force: [0.0; 3], slope: [[0.0; 3]; 3] };
+        return ConeProjection { force: [0.0; 3], slope: [[0.0; 3]; 3] };
     }
     let (x, y) = (x / length, y / length);
     let share = 1.0 / (1.0 + friction * friction);
@@ -47,7 +46,7 @@ pub fn onto_cone(z: [f64; 3], friction: f64) -> Projection {
             slope[1 + i][1 + j] += around * across[i][j];
         }
     }
-    Projection { force: [pushed, pushed * edge[1], pushed * edge[2]], slope }
+    ConeProjection { force: [pushed, pushed * edge[1], pushed * edge[2]], slope }
 }
 
 #[cfg(test)]
@@ -61,7 +60,7 @@ mod tests {
     fn the_projection_lies_in_the_cone_and_leaves_a_rest_in_its_polar() {
         for z in FORCES {
             for friction in [0.0, 0.3, 1.5] {
-                let [n, x, y] = onto_cone(z, friction).force;
+                let [n, x, y] = project_onto_cone(z, friction).force;
                 assert!(x.hypot(y) <= friction * n + 1e-15 && n >= 0.0);
                 let rest = [z[0] - n, z[1] - x, z[2] - y];
                 // Moreau: the rest is orthogonal to the projection and lies in the polar cone, μ |r_t| ≤ -r_n.
@@ -75,12 +74,12 @@ mod tests {
     fn the_slope_is_that_of_differences() {
         let h = 1e-6;
         for z in FORCES {
-            let slope = onto_cone(z, 0.7).slope;
+            let slope = project_onto_cone(z, 0.7).slope;
             for j in 0..3 {
                 let (mut more, mut less) = (z, z);
                 more[j] += h;
                 less[j] -= h;
-                let (more, less) = (onto_cone(more, 0.7).force, onto_cone(less, 0.7).force);
+                let (more, less) = (project_onto_cone(more, 0.7).force, project_onto_cone(less, 0.7).force);
                 for i in 0..3 {
                     assert!(((more[i] - less[i]) / (2.0 * h) - slope[i][j]).abs() < 1e-8, "{z:?} {i} {j}");
                 }

@@ -1,7 +1,7 @@
-//! Where two shapes touch: points midway between their surfaces, with the normal and the gap there.
+//! Contact points of two shapes: midway between their surfaces, with normal and gap.
 //!
-//! Closed forms, with c and r centre and radius of a sphere, n the normal towards the first shape, gap = n·(p₁ - p₂)
-//! for the points p₁, p₂ of the surfaces that face each other:
+//! Closed forms, with centre c and radius r of a sphere, normal n towards the first shape, and gap = n·(p₁ - p₂) for the
+//! points p₁, p₂ of the two surfaces that face each other:
 //!
 //! | first    | second     | gap                                       | points                                     |
 //! |----------|------------|-------------------------------------------|--------------------------------------------|
@@ -9,28 +9,27 @@
 //! | sphere   | sphere     | ‖c₁ - c₂‖ - r₁ - r₂                       | 1                                          |
 //! | sphere   | capsule    | distance of c₁ from the segment - r₁ - r₂ | 1                                          |
 //! | sphere   | cuboid     | distance of c from the box - r            | 1                                          |
-//! | capsule  | half-space | n·end - r                                 | 2, one an end                              |
-//! | capsule  | capsule    | distance of the segments - r₁ - r₂        | 1; 2 where they run side by side           |
-//! | cuboid   | half-space | n·corner                                  | 8, one a corner                            |
-//! | hull     | half-space | n·corner                                  | one a corner                               |
+//! | capsule  | half-space | n·end - r                                 | 2, one per end                             |
+//! | capsule  | capsule    | distance of the segments - r₁ - r₂        | 1; 2 if they are parallel                  |
+//! | cuboid   | half-space | n·corner                                  | 8, one per corner                          |
+//! | hull     | half-space | n·corner                                  | one per corner                             |
 //!
-//! Other pairs of solids: see `separating_axis` (flat faces on flat faces), `round` (balls and capsules on flat faces)
-//! and `height_field`. Nothing is kept from one call to the next, so that a point's gap belongs to this pose and not to
-//! an earlier one.
+//! Other pairs: see `separating_axis` (flat faces on flat faces), `sphere_and_capsule` (on flat faces) and `height_field`. No
+//! state is kept between calls, so that the gap of a point belongs to this pose and not to an earlier one.
 //!
-//! Cost: constant for closed forms, which do not allocate; two solids with flat faces allocate a few lists a call, a
-//! ball on a height field one.
-//! Not handled: half-spaces and height fields among themselves touch nowhere.
+//! Cost: constant for closed forms, which do not allocate; per call, two solids with flat faces allocate a few lists, a
+//! sphere on a height field one.
+//! Not handled: contacts between half-spaces and height fields.
 //! Pinned by: tests/contact_geometry.rs
 
 use super::polytope::Polytope;
-use super::round::{self, DEEPER};
 use super::segment::{Segment, across, at_share, nearest_point, nearest_shares, shared_length};
 use super::separating_axis::{self, Touch};
 use super::shape::{Form, Shape};
+use super::sphere_and_capsule::{self, DEEPER};
 use crate::spatial::{Pose, Vec3};
 
-/// One point where two shapes touch, or nearly do.
+/// A point where two shapes touch or nearly touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
     /// Midway between the two surfaces, in the world [m].
@@ -39,8 +38,7 @@ pub struct ContactPoint {
     pub normal: Vec3,
     /// Distance of the surfaces along the normal [m]; negative where they overlap.
     pub gap: f64,
-    /// Which features of the two shapes touch here: the same from step to step while they do, and another for each
-    /// point of a pair.
+    /// Identifies the touching features of the two shapes: constant from step to step, different for each point of a pair.
     pub feature: u64,
 }
 
@@ -64,7 +62,7 @@ pub fn contacts(
     debug_assert!(known || (is_ground(first) && is_ground(second)), "{first:?} and {second:?}");
 }
 
-/// A shape where it is.
+/// A shape with its pose.
 #[derive(Clone, Copy)]
 struct Placed<'a> {
     shape: &'a Shape,
@@ -72,7 +70,7 @@ struct Placed<'a> {
     pose: &'a Pose,
 }
 
-/// Reports the points of pairs that are known in this order; false for others.
+/// Reports the contacts if this order of the pair is implemented; returns false if not.
 fn touch_in_order(first: Placed, second: Placed, reach: f64, report: &mut impl FnMut(ContactPoint)) -> bool {
     match (&first.shape.form, &second.shape.form) {
         (Form::Sphere { radius }, _) => sphere_on(first.pose.translation, *radius, second, reach, report),
@@ -97,7 +95,7 @@ fn sphere_on(center: Vec3, radius: f64, second: Placed, reach: f64, report: &mut
             report(between_balls([center, nearest_point(center, [a, b])], [radius, *other], || across(b - a), 0));
         }
         Form::Cuboid { half, .. } => report(ball_and_box(center, radius, *half, second.pose)),
-        Form::Convex { solid } => report(placed(second.pose, &round::ball_touch(solid, local, radius))),
+        Form::Convex { solid } => report(placed(second.pose, &sphere_and_capsule::ball_touch(solid, local, radius))),
         Form::HeightField { field } => {
             field.ball_touches(local, radius, reach, |t| report(placed(second.pose, &t)));
         }
@@ -118,7 +116,7 @@ fn capsule_on(ends: Segment, radius: f64, second: Placed, reach: f64, report: &m
             between_capsules([ends, others.map(|end| second.pose.place(end))], [radius, *other], report);
         }
         Form::Cuboid { solid, .. } | Form::Convex { solid } => {
-            round::capsule_touches(solid, local, radius, |t| report(placed(second.pose, &t)));
+            sphere_and_capsule::capsule_touches(solid, local, radius, |t| report(placed(second.pose, &t)));
         }
         Form::HeightField { field } => {
             field.capsule_touches(local, radius, reach, |t| report(placed(second.pose, &t)));
@@ -147,14 +145,14 @@ fn solid_on(solid: &Polytope, pose: &Pose, second: Placed, reach: f64, report: &
     true
 }
 
-/// A ball above the plane y = 0 of a frame.
+/// A sphere above the plane y = 0 of a frame.
 fn above_plane(center: Vec3, radius: f64, plane: &Pose, feature: u64) -> ContactPoint {
     let normal = plane.rotation.column(1).into_owned();
     let gap = normal.dot(&(center - plane.translation)) - radius;
     ContactPoint { point: center - normal * (radius + gap / 2.0), normal, gap, feature }
 }
 
-/// Two balls; `fallback` gives the normal where the centres coincide.
+/// Two spheres; `fallback` gives the normal if the centres coincide.
 fn between_balls(
     [c1, c2]: [Vec3; 2],
     [r1, r2]: [f64; 2],
@@ -168,7 +166,7 @@ fn between_balls(
     ContactPoint { point: c1 - normal * (r1 + gap / 2.0), normal, gap, feature }
 }
 
-/// A ball and a box. With the centre inside, the nearest face counts.
+/// A sphere and a box. If the centre is inside, the nearest face counts.
 fn ball_and_box(center: Vec3, radius: f64, half: Vec3, world_from_box: &Pose) -> ContactPoint {
     let c = world_from_box.rotation.transpose() * (center - world_from_box.translation);
     let outside = c - c.sup(&-half).inf(&half);
@@ -183,8 +181,8 @@ fn ball_and_box(center: Vec3, radius: f64, half: Vec3, world_from_box: &Pose) ->
     ContactPoint { point: center - normal * (radius + gap / 2.0), normal, gap, feature: 0 }
 }
 
-/// Two capsules: where their segments are nearest (feature 0), or, side by side, at the ends of the length that they
-/// share (features 1 and 2, along the first), and where they are nearest only if that lies deeper.
+/// Two capsules. Parallel ones touch at the ends of the length that they share (features 1 and 2, along the first); the
+/// nearest points of the segments (feature 0) are reported for other ones, or if they lie deeper.
 fn between_capsules(segments: [Segment; 2], radii: [f64; 2], report: &mut impl FnMut(ContactPoint)) {
     let [first, second] = segments;
     let (u, v) = (first[1] - first[0], second[1] - second[0]);
@@ -207,7 +205,7 @@ fn is_ground(shape: &Shape) -> bool {
     matches!(shape.form, Form::HalfSpace | Form::HeightField { .. })
 }
 
-/// A touch found in the frame of the second shape, outward from it.
+/// A contact in the frame of the second shape, with its normal outward from it, in the world.
 fn placed(world_from_second: &Pose, touch: &Touch) -> ContactPoint {
     ContactPoint {
         point: world_from_second.place(touch.point),
@@ -217,7 +215,8 @@ fn placed(world_from_second: &Pose, touch: &Touch) -> ContactPoint {
     }
 }
 
-/// One number out of four, by the finalizer of splitmix64 after each: two different fours agree with a chance of 2⁻⁶⁴.
+/// Hashes four numbers into one, with the finalizer of splitmix64 after each: two different inputs collide with a probability
+/// of 2⁻⁶⁴.
 fn mixed(parts: [u64; 4]) -> u64 {
     parts.into_iter().fold(0, |state, part| {
         let mut z = (state ^ part).wrapping_add(0x9E37_79B9_7F4A_7C15);

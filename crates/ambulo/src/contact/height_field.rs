@@ -1,21 +1,21 @@
-//! Ground given by heights on a grid, and what touches it.
+//! Height fields (ground given by heights on a grid) and their contacts.
 //!
-//! The ground is solid below the surface, which is made of triangles; it ends at the rim. What touches:
+//! The ground is solid below the surface, which is made of triangles; it ends at the rim. Contacts:
 //!
-//! | shape               | with     | where                                                                            |
+//! | shape               | with     | contact point                                                                    |
 //! |---------------------|----------|----------------------------------------------------------------------------------|
-//! | ball                | surface  | each place of least distance; below the surface, the plane of the triangle above |
-//! | corner of a solid   | triangle | over which it lies, along the triangle's normal                                  |
-//! | edge of a solid     | ridge    | where they pass each other, if the normal lies between those of both edges       |
-//! | face of a solid     | peak     | along the face's normal, if no neighbour of the peak is higher along it          |
-//! | length of a capsule | both     | the same, less the radius; the ends are balls                                    |
+//! | sphere              | surface  | each local minimum of the distance; below the surface, the plane of the triangle |
+//! | corner of a solid   | triangle | of the triangle over which it lies, along the normal of the triangle             |
+//! | edge of a solid     | ridge    | where they cross, if the normal lies between the normals of both edges           |
+//! | face of a solid     | peak     | along the normal of the face, if no neighbour of the peak is higher along it     |
+//! | length of a capsule | both     | the same, less the radius; the ends are spheres                                  |
 //!
-//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys touch nothing,
-//! so nothing that slides over flat ground meets them.
+//! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys have no contacts, so
+//! that a body that slides over flat ground does not catch on them.
 //!
-//! Source: local minima of the distance between convex pieces; derived here.
-//! Cost: cells under the shape's box times corners, edges and faces of the shape.
-//! Not handled: what stands over the rim is held by no edge there.
+//! Source: local minima of the distance between convex pieces, derived here.
+//! Cost: cells under the bounding box of the shape times its corners, edges and faces.
+//! Not handled: the rim has no contacts.
 //! Pinned by: tests/contact_geometry.rs
 
 use super::polytope::Polytope;
@@ -35,7 +35,7 @@ pub(super) struct HeightField {
     size: [f64; 2],
 }
 
-/// A triangle of the surface, with its upward normal and its number.
+/// A triangle of the surface with its upward normal and index.
 #[derive(Debug, Clone, Copy)]
 struct Triangle {
     corners: [Vec3; 3],
@@ -43,7 +43,7 @@ struct Triangle {
     number: usize,
 }
 
-/// An edge at which the surface bends down, with the normals on both sides.
+/// An edge at which the surface bends down, with the normals of both sides.
 #[derive(Debug, Clone, Copy)]
 struct Ridge {
     ends: Segment,
@@ -54,14 +54,13 @@ struct Ridge {
 /// Rows and columns of cells.
 type Cells = [RangeInclusive<usize>; 2];
 
-/// What bends by less than this sine is flat, and what is nearer than this share of a cell is the same place: heights
-/// and places round to 1e-16.
+/// Bends below this sine count as flat, and points within this share of a cell as equal; heights and points round to 1e-16.
 const FLAT: f64 = 1e-9;
-/// Sine of the angle by which a normal may lie beyond those of an edge's two faces: a box that is level on a ridge but
-/// for a few degrees touches it with both of its edges, not with the lower one alone.
+/// Sine of the angle by which a contact normal may lie outside the normals of the two faces of an edge. A box that is tilted
+/// by a few degrees on a ridge then touches it with both of its edges, not only with the lower one.
 const BESIDE: f64 = 0.05;
 
-/// At most `most` of `count` numbers from 0 on, evenly spread, both ends among them.
+/// At most `most` of `count` indices, evenly spread, including both ends.
 fn spread(count: usize, most: usize) -> Vec<usize> {
     let kept = count.min(most.max(2));
     (0..kept).map(|k| k * (count - 1) / (kept - 1)).collect()
@@ -79,7 +78,7 @@ impl HeightField {
         (Vec3::new(-x / 2.0, low, -z / 2.0), Vec3::new(x / 2.0, high, z / 2.0))
     }
 
-    /// Corners and triangles of the surface; where there are more rows or columns than `most`, of every few of them.
+    /// Corners and triangles of the surface. More than `most` rows or columns are thinned out.
     pub(super) fn surface(&self, most: usize) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let (rows, columns) = (spread(self.rows, most), spread(self.columns, most));
         let share = |i: usize, count: usize| i as f64 / (count - 1) as f64 - 0.5;
@@ -98,7 +97,7 @@ impl HeightField {
         (points, halves.collect())
     }
 
-    /// A ball, in the field's frame.
+    /// Contacts of a sphere, in the frame of the field.
     pub(super) fn ball_touches(&self, center: Vec3, radius: f64, reach: f64, mut report: impl FnMut(Touch)) {
         let touch = |outward: Vec3, distance: f64, number: usize| {
             let gap = distance - radius;
@@ -122,7 +121,7 @@ impl HeightField {
         }
         let same = FLAT * self.step()[0].max(self.step()[1]);
         for (number, (triangle, place, distance)) in near.iter().enumerate() {
-            // Another triangle that holds this place comes nearer, or has reported it already.
+            // Another triangle that contains this point is nearer, or has reported it already.
             let taken = near.iter().enumerate().any(|(other_number, (other, _, other_distance))| {
                 (*other_distance < distance - same || other_number < number && *other_distance <= distance + same)
                     && (other.nearest_point(*place) - place).norm() <= same
@@ -133,7 +132,7 @@ impl HeightField {
         }
     }
 
-    /// A capsule, in the field's frame: its ends, and its length over ridges and peaks.
+    /// Contacts of a capsule, in the frame of the field: its ends, and its length on ridges and peaks.
     pub(super) fn capsule_touches(&self, ends: Segment, radius: f64, reach: f64, mut report: impl FnMut(Touch)) {
         for (number, end) in ends.into_iter().enumerate() {
             self.ball_touches(end, radius, reach, |t| {
@@ -167,7 +166,7 @@ impl HeightField {
         }
     }
 
-    /// A solid seen from the field's frame.
+    /// Contacts of a solid, in the frame of the field.
     pub(super) fn polytope_touches(&self, solid: &Polytope, reach: f64, mut report: impl FnMut(Touch)) {
         for (number, corner) in solid.vertices.iter().enumerate() {
             if let Some(Triangle { corners: [p, ..], normal, .. }) = self.triangle_at(*corner) {
@@ -193,7 +192,7 @@ impl HeightField {
         for [i, j] in self.inner_points(low, high) {
             let peak = self.point(i, j);
             for (number, face) in solid.faces.iter().enumerate() {
-                // Only faces that look down: the ground's lowest point is no peak below their backs.
+                // Only faces that face down: under a face that faces up, the lowest point of the ground would count as a peak.
                 if face.normal.y < 0.0 && self.is_peak(i, j, -face.normal) && solid.is_over(number, peak, 0.0) {
                     let gap = face.normal.dot(&peak) - face.height;
                     let point = peak - face.normal * (gap / 2.0);
@@ -213,13 +212,13 @@ impl HeightField {
         [self.size[0] / (self.columns - 1) as f64, self.size[1] / (self.rows - 1) as f64]
     }
 
-    /// The grid's point in row i and column j.
+    /// The grid point in row i and column j.
     fn point(&self, i: usize, j: usize) -> Vec3 {
         let ([x, z], [size_x, size_z]) = (self.step(), self.size);
         Vec3::new(j as f64 * x - size_x / 2.0, self.heights[i * self.columns + j], i as f64 * z - size_z / 2.0)
     }
 
-    /// Row and column at a place, as fractions.
+    /// Row and column of a point, with fractions.
     fn grid_place(&self, point: Vec3) -> [f64; 2] {
         let ([x, z], [size_x, size_z]) = (self.step(), self.size);
         [(point.z + size_z / 2.0) / z, (point.x + size_x / 2.0) / x]
@@ -233,7 +232,7 @@ impl HeightField {
 
     fn cell_ranges(&self, low: Vec3, high: Vec3) -> Cells {
         let ([i, j], [i_end, j_end]) = (self.grid_place(low), self.grid_place(high));
-        // Numbers below zero become zero.
+        // The cast makes negative numbers zero.
         [i as usize..=(i_end as usize).min(self.rows - 2), j as usize..=(j_end as usize).min(self.columns - 2)]
     }
 
@@ -244,7 +243,7 @@ impl HeightField {
         [Triangle::new([here, down, right], number), Triangle::new([down, self.point(i + 1, j + 1), right], number + 1)]
     }
 
-    /// The triangle over or under a point; none beyond the rim.
+    /// The triangle above or below a point; `None` outside the rim.
     fn triangle_at(&self, point: Vec3) -> Option<Triangle> {
         let [row, column] = self.grid_place(point);
         let inside = |x: f64, count: usize| (0.0..=(count - 1) as f64).contains(&x);
@@ -261,7 +260,7 @@ impl HeightField {
         self.cells(low, high).flat_map(|cell| self.ridges_of(cell)).flatten()
     }
 
-    /// The diagonal of a cell, its side towards the row before, its side towards the column before.
+    /// The ridges at the diagonal of a cell and at its sides to the previous row and the previous column.
     fn ridges_of(&self, [i, j]: [usize; 2]) -> [Option<Ridge>; 3] {
         let [first, second] = self.triangles([i, j]);
         let [here, down, right] = first.corners;
@@ -275,7 +274,7 @@ impl HeightField {
         ]
     }
 
-    /// Rows and columns of the grid's points at the corners of the cells under a box, without those on the rim.
+    /// Rows and columns of the grid points at the corners of the cells under a box, without the rim.
     fn inner_points(&self, low: Vec3, high: Vec3) -> impl Iterator<Item = [usize; 2]> + use<> {
         let [rows, columns] = self.cell_ranges(low, high);
         let (last_row, last_column) = ((rows.end() + 1).min(self.rows - 2), (columns.end() + 1).min(self.columns - 2));
@@ -283,13 +282,13 @@ impl HeightField {
         (first_row..=last_row).flat_map(move |i| (first_column..=last_column).map(move |j| [i, j]))
     }
 
-    /// Whether no neighbour of an inner point of the grid lies higher along a direction, and not all as high.
+    /// Whether no neighbour of an inner grid point is higher along a direction, and at least one is lower.
     fn is_peak(&self, i: usize, j: usize, up: Vec3) -> bool {
         let peak = self.point(i, j);
         let around = [[i - 1, j], [i + 1, j], [i, j - 1], [i, j + 1], [i + 1, j - 1], [i - 1, j + 1]];
         let rises = around.map(|[i, j]| {
-            let way = self.point(i, j) - peak;
-            way.dot(&up) / way.norm()
+            let to_neighbor = self.point(i, j) - peak;
+            to_neighbor.dot(&up) / to_neighbor.norm()
         });
         rises.iter().all(|rise| *rise <= FLAT) && rises.iter().any(|rise| *rise < -FLAT)
     }
@@ -313,7 +312,7 @@ impl Triangle {
 }
 
 impl Ridge {
-    /// `None` where the surface does not bend down.
+    /// `None` if the surface does not bend down.
     fn new(ends: Segment, first: &Triangle, second: &Triangle, number: usize) -> Option<Ridge> {
         let middle = |t: &Triangle| t.corners.iter().sum::<Vec3>() / 3.0;
         let way = middle(second) - ends[0];
@@ -325,16 +324,16 @@ impl Ridge {
     }
 }
 
-/// Whether a direction lies on the short arc between two normals, or beyond by less than [`BESIDE`]; it is given across
-/// the edge where their faces meet.
+/// Whether a direction, perpendicular to the edge of two faces, lies on the short arc between their normals, or outside by less than
+/// [`BESIDE`].
 fn lies_between(outward: Vec3, [n, m]: [Vec3; 2]) -> bool {
     let turn = n.cross(&m);
     let least = -BESIDE * turn.norm();
     n.cross(&outward).dot(&turn) >= least && outward.cross(&m).dot(&turn) >= least
 }
 
-/// A ball about a point of a capsule's axis, and a point of the ground: above it or, overlapping by more than the
-/// radius, below. `None` where they coincide.
+/// Contact of a sphere about a point of a capsule's axis with a point of the ground, above it or, if they overlap by more than the
+/// radius, below. `None` if they coincide.
 fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [u64; 4]) -> Option<Touch> {
     let way = core - ground;
     let distance = way.norm().copysign(way.y);
@@ -345,7 +344,7 @@ fn core_touch(core: Vec3, ground: Vec3, radius: f64, feature: [u64; 4]) -> Optio
     Some(Touch { point: core - outward * (radius + gap / 2.0), outward, gap, feature })
 }
 
-/// Where an edge of a solid passes over or under a ridge; `None` if beyond their ends.
+/// Contact where an edge of a solid crosses a ridge; `None` if they cross beyond their ends.
 fn crossing(ridge: Segment, edge: Segment) -> Option<Touch> {
     let (u, v, way) = (ridge[1] - ridge[0], edge[1] - edge[0], edge[0] - ridge[0]);
     let cross = u.cross(&v);

@@ -1,22 +1,21 @@
-//! Where bodies touch, the Coulomb cone, rigid and compliant laws.
+//! Contact geometry and contact laws: shapes, where two shapes touch, Coulomb's friction cone, and a compliant contact force.
+
+mod shape;
 
 mod height_field;
-mod outline;
 mod polytope;
-mod shape;
+mod segment;
 
 mod broad_phase;
 mod detect;
-mod round;
-mod segment;
 mod separating_axis;
+mod sphere_and_capsule;
 
 mod compliant;
 mod cone;
 
 pub use broad_phase::candidate_pairs;
-pub use compliant::{Creep, HuntCrossley, HuntCrossleyError};
-pub use cone::{Projection, onto_cone};
+pub use compliant::{FrictionCurve, HuntCrossley, HuntCrossleyError};
+pub use cone::{ConeProjection, project_onto_cone};
 pub use detect::{ContactPoint, contacts};
-pub use outline::Outline;
-pub use shape::{Shape, ShapeError};
+pub use shape::{Outline, Shape, ShapeError};

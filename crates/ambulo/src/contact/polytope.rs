@@ -1,15 +1,16 @@
 //! Solids with flat faces: corners, planes and edges, volume and inertia.
 //!
-//! A solid is cut into tetrahedra from its middle; for one with corners 0, a, b, c of volume V = det(a, b, c)/6
+//! Integrals are sums over tetrahedra that share the middle of the solid. For a tetrahedron 0, a, b, c of volume
+//! V = det(a, b, c)/6
 //!
 //!   ∫ x dV = V (a + b + c)/4      ∫ x xᵀ dV = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ),  s = a + b + c.
 //!
-//! Source: moments of the simplex; derived here.
+//! Source: moments of the simplex, derived here.
 //! Cost: linear in corners.
 //! Pinned by: tests/contact_geometry.rs
 
-use super::shape::from_generic;
 use crate::spatial::{Mat3, Pose, Vec3};
+use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -31,7 +32,7 @@ pub(super) struct Plane {
     pub(super) height: f64,
 }
 
-/// Which vertices make which faces and edges.
+/// Vertices of faces and edges.
 #[derive(Debug)]
 pub(super) struct Net {
     /// Vertices of each face, anticlockwise seen from outside.
@@ -46,7 +47,7 @@ pub(super) struct Edge {
 }
 
 impl Polytope {
-    /// A box about the origin. Bits 0, 1, 2 of a vertex' number tell whether it lies at +x, +y, +z.
+    /// A box about the origin. Bits 0, 1, 2 of a vertex index are set for vertices at +x, +y, +z.
     pub(super) fn cuboid(half: Vec3) -> Polytope {
         let side = |bit: usize, k: usize| if bit >> k & 1 == 1 { half[k] } else { -half[k] };
         let vertices = (0..8).map(|bit| Vec3::new(side(bit, 0), side(bit, 1), side(bit, 2))).collect();
@@ -63,20 +64,23 @@ impl Polytope {
         Polytope::new(vertices, faces, corners)
     }
 
-    /// The hull that the collision library has built.
-    pub(super) fn hull(hull: &ConvexPolyhedron) -> Polytope {
-        let vertices: Vec<Vec3> = hull.points().iter().map(|p| from_generic(*p)).collect();
+    /// The convex hull of points [m], built by the collision library. `None` if that fails.
+    pub(super) fn hull(points: &[Vec3]) -> Option<Polytope> {
+        let from_library = |v: Vector| Vec3::new(v.x, v.y, v.z);
+        let given: Vec<Vector> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+        let hull = ConvexPolyhedron::from_convex_hull(&given)?;
+        let vertices: Vec<Vec3> = hull.points().iter().map(|p| from_library(*p)).collect();
         let (faces, corners) = hull
             .faces()
             .iter()
             .map(|face| {
                 let (start, count) = (face.first_vertex_or_edge as usize, face.num_vertices_or_edges as usize);
                 let corners = hull.vertices_adj_to_face()[start..start + count].iter().map(|c| *c as usize).collect();
-                let normal = from_generic(face.normal);
+                let normal = from_library(face.normal);
                 (Plane { normal, height: largest(&vertices, normal) }, corners)
             })
             .unzip();
-        Polytope::new(vertices, faces, corners)
+        Some(Polytope::new(vertices, faces, corners))
     }
 
     fn new(vertices: Vec<Vec3>, faces: Vec<Plane>, corners: Vec<Vec<usize>>) -> Polytope {
@@ -88,7 +92,7 @@ impl Polytope {
         }
         let edge = |(corners, faces): ([usize; 2], Vec<usize>)| match faces[..] {
             [a, b] => Some(Edge { corners, faces: [a, b] }),
-            _ => None, // left over from rounding in the hull; its corners still belong to faces
+            _ => None, // produced by rounding in the hull; its corners still belong to faces
         };
         let edges = faces_at.into_iter().filter_map(edge).collect();
         Polytope { vertices, faces, net: Arc::new(Net { corners, edges }) }
@@ -113,7 +117,7 @@ impl Polytope {
         (origin + center, second / volume - center * center.transpose())
     }
 
-    /// Corners of tetrahedra that fill the solid, seen from its middle, which is the fourth corner of each.
+    /// Tetrahedra that fill the solid: three corners relative to the middle, which is the fourth.
     fn tetrahedra(&self) -> impl Iterator<Item = [Vec3; 3]> {
         let origin = self.middle();
         self.net.corners.iter().flat_map(move |corners| {
@@ -126,12 +130,12 @@ impl Polytope {
         self.vertices.iter().sum::<Vec3>() / self.vertices.len() as f64
     }
 
-    /// Distance of the vertex that is furthest from `point` [m].
+    /// Distance of the furthest vertex from `point` [m].
     pub(super) fn size_from(&self, point: Vec3) -> f64 {
         self.vertices.iter().map(|v| (v - point).norm()).fold(0.0, f64::max)
     }
 
-    /// The same solid seen from another frame.
+    /// The same solid in another frame.
     pub(super) fn seen_from(&self, outer_from_inner: &Pose) -> Polytope {
         let vertices = self.vertices.iter().map(|v| outer_from_inner.place(*v)).collect();
         let faces = self
@@ -146,7 +150,7 @@ impl Polytope {
         Polytope { vertices, faces, net: Arc::clone(&self.net) }
     }
 
-    /// The face that looks most against `direction`, of those at the vertex that lies furthest against it.
+    /// Of the faces at the vertex furthest against `direction` (within `slack` [m]), the one that faces most against it.
     pub(super) fn opposing(&self, direction: Vec3, slack: f64) -> usize {
         let reached = -largest(&self.vertices, -direction) + slack;
         let mut best = (f64::MAX, 0);
@@ -159,7 +163,7 @@ impl Polytope {
         best.1
     }
 
-    /// Whether a point lies over a face: between the planes through its sides, or beyond by no more than `slack` [m].
+    /// Whether a point lies over a face: between the planes through its sides, or at most `slack` [m] outside.
     pub(super) fn is_over(&self, face: usize, point: Vec3, slack: f64) -> bool {
         let normal = self.faces[face].normal;
         sides(&self.net.corners[face]).all(|(from, to)| {
@@ -173,12 +177,12 @@ impl Polytope {
     }
 }
 
-/// How far points reach in a direction.
+/// Largest coordinate of the points along a direction.
 pub(super) fn largest(points: &[Vec3], direction: Vec3) -> f64 {
     points.iter().map(|p| p.dot(&direction)).fold(f64::MIN, f64::max)
 }
 
-/// Corners of a face with the next ones.
+/// Sides of a face: each corner with the next one.
 pub(super) fn sides(corners: &[usize]) -> impl Iterator<Item = (usize, usize)> {
     corners.iter().enumerate().map(|(i, corner)| (*corner, corners[(i + 1) % corners.len()]))
 }

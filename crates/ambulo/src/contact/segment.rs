@@ -1,19 +1,19 @@
-//! Segments: which of their points are nearest to a point or to another segment.
+//! Nearest points of segments: to a point, or to another segment.
 //!
-//! Source: the least of a quadratic over an interval or the unit square; derived here.
+//! Source: minimum of a quadratic over an interval or the unit square, derived here.
 //! Pinned by: tests/contact_geometry.rs
 
 use crate::spatial::Vec3;
 
-/// Two ends [m].
+/// The two ends [m].
 pub(super) type Segment = [Vec3; 2];
 
-/// Share of the way along a segment at which it is nearest to a point.
+/// The nearest point of a segment to a point, as a share of the length from its first end.
 pub(super) fn nearest_share(point: Vec3, [a, b]: Segment) -> f64 {
     ((point - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0)
 }
 
-/// The point at this share of the way.
+/// The point at this share of the length.
 pub(super) fn at_share([a, b]: Segment, share: f64) -> Vec3 {
     a + (b - a) * share
 }
@@ -23,8 +23,8 @@ pub(super) fn nearest_point(point: Vec3, segment: Segment) -> Vec3 {
     at_share(segment, nearest_share(point, segment))
 }
 
-/// Shares of the ways along two segments at which they are nearest: ‖a + s u - b - t v‖² least over the unit square.
-/// The inner minimum, if there is one, else the best of the four sides.
+/// The nearest points of two segments, as shares s, t of their lengths: the minimum of ‖a + s u - b - t v‖² over the unit
+/// square, inside if there is one, else on one of the four sides.
 pub(super) fn nearest_shares(first: Segment, second: Segment) -> (f64, f64) {
     let ([a, a_end], [b, b_end]) = (first, second);
     let (u, v, d) = (a_end - a, b_end - b, a - b);
@@ -48,16 +48,16 @@ pub(super) fn nearest_shares(first: Segment, second: Segment) -> (f64, f64) {
     sides.into_iter().min_by(|p, q| distance(*p).total_cmp(&distance(*q))).unwrap_or_default()
 }
 
-/// A unit vector across a direction.
+/// A unit vector perpendicular to a direction.
 pub(super) fn across(direction: Vec3) -> Vec3 {
     direction.cross(&Vec3::ith(direction.iamin(), 1.0)).normalize()
 }
 
-/// Segments at a smaller angle [rad] lie side by side. At this angle the ends of 0.4 m are 20 mm further apart than the
-/// middle.
+/// Segments at a smaller angle [rad] are treated as parallel. At this angle the ends of a length of 0.4 m are 20 mm further
+/// apart than its middle.
 const SIDE_BY_SIDE: f64 = 0.1;
 
-/// Shares of the way along `first` between which `second` lies beside it; `None` unless they lie side by side.
+/// The part of `first` that `second` runs alongside, as shares of its length. `None` unless they are nearly parallel.
 pub(super) fn shared_length(first: Segment, second: Segment) -> Option<[f64; 2]> {
     let (u, v) = (first[1] - first[0], second[1] - second[0]);
     if u.cross(&v).norm() >= SIDE_BY_SIDE * u.norm() * v.norm() {

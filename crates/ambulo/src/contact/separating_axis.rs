@@ -1,43 +1,43 @@
-//! Where two solids with flat faces touch.
+//! Contacts of two solids with flat faces, by the separating-axis theorem.
 //!
-//! Two convex solids are apart, or overlap least, along the direction that separates them most,
+//! The gap of two convex solids is their separation along the direction that separates them most,
 //!
 //!   s(n) = min over b in B of n·b - max over a in A of n·a,      gap = max over unit n of s(n).
 //!
-//! The largest s of overlapping solids belongs to the normal of a face of A, of one of B, or to the cross product of an
-//! edge of each; a pair of edges counts only where the arcs of their faces' normals cross on the unit sphere, since
-//! only those make a face of B - A. For a face, the opposing face of the other solid is cut by the planes through the
-//! sides of the first; each corner left touches the face's plane with the gap n·(v - p). For edges the one point is
-//! where they pass each other.
+//! For overlapping solids this direction is the normal of a face of A or of B, or the cross product of an edge of each. A pair
+//! of edges counts only where the arcs between the normals of their faces cross on the unit sphere, since only such pairs make
+//! a face of B - A. For a face, the opposing face of the other solid is clipped by the planes through the sides of the first;
+//! each remaining corner touches the plane of the face with the gap n·(v - p). Two edges touch in the one point where they
+//! cross.
 //!
 //! | code        | symbol | unit | meaning                                            |
 //! | `normal`    | n      | 1    | outward from the first solid, or from a face       |
 //! | `gap`       | s      | m    | negative where the solids overlap                  |
-//! | `arc`       |        | 1    | normals of the two faces at an edge                |
+//! | `arc`       |        | 1    | normals of the two faces of an edge                |
 //!
-//! Source: the separating-axis theorem; the test of arcs is that of Gregorius 2013, "The separating axis test between
-//! convex polyhedra" (unverified page), derived here from the signs of triple products.
-//! Cost: faces of one times corners of the other, and edges times edges.
-//! Not handled: solids that are apart corner to corner or corner to edge; s is then below the distance, and no point is
-//! reported unless a face lies opposite.
+//! Source: separating-axis theorem; the test of arcs follows Gregorius 2013, "The separating axis test between convex
+//! polyhedra" (unverified page), derived here from the signs of triple products.
+//! Cost: faces of one times corners of the other, plus edges times edges.
+//! Not handled: separated solids that are nearest at a corner and a corner or edge. There s is below the distance, and no
+//! point is reported unless a face lies opposite.
 //! Pinned by: tests/contact_geometry.rs
 
 use super::polytope::{Plane, Polytope, largest, sides};
 use crate::spatial::Vec3;
 
-/// Where two solids touch, in the frame of the caller.
+/// A contact of two solids, in the frame of the caller.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     /// Midway between the surfaces [m].
     pub(super) point: Vec3,
-    /// From the first solid towards the second.
+    /// Unit vector from the first solid towards the second.
     pub(super) outward: Vec3,
     pub(super) gap: f64,
-    /// Kind and numbers of the two features that touch; 64 bits on every target, since `face_touches` packs three numbers into one.
+    /// Kinds and indices of the touching features; 64 bits on every target, since `face_touches` packs three numbers into one.
     pub(super) feature: [u64; 4],
 }
 
-/// Which features separate two solids most.
+/// The features that separate two solids most.
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     FaceOfFirst(usize),
@@ -45,14 +45,15 @@ enum Axis {
     Edges(usize, usize, Vec3),
 }
 
-/// A pair of features must separate by this share of the solid's size more than the one before it in the order face of
-/// the first, face of the second, edges. Rounding (1e-16 of the size) then does not make the choice jump; a normal that
-/// is off by this share changes the gap by less.
+/// In the order face of the first, face of the second, edges, a later feature must separate by this share of the size of the
+/// solids more than an earlier one. Rounding (1e-16 of the size) then does not change the choice from step to step; a normal
+/// that is wrong by this share changes the gap by less.
 const PREFERENCE: f64 = 1e-7;
-/// Edges at a smaller angle [rad] than this have no cross product worth a name; a face separates as well to its square.
+/// Edges at a smaller angle [rad] are skipped: their cross product is inaccurate, and a face separates equally well to second
+/// order.
 const PARALLEL: f64 = 1e-4;
 
-/// Where two solids, seen from one frame, come closer than `reach` [m].
+/// Reports the contacts of two solids, given in one frame, whose gap is below `reach` [m].
 pub(super) fn touches(first: &Polytope, second: &Polytope, reach: f64, mut report: impl FnMut(Touch)) {
     match separating_axis(first, second, reach) {
         None => {}
@@ -71,7 +72,7 @@ pub(super) fn touches(first: &Polytope, second: &Polytope, reach: f64, mut repor
     }
 }
 
-/// The direction along which the solids are furthest apart; `None` if that is `reach` or more.
+/// The features along which the solids are separated most; `None` if they are `reach` or more apart.
 fn separating_axis(first: &Polytope, second: &Polytope, reach: f64) -> Option<Axis> {
     let slack = PREFERENCE * first.size_from(first.vertices[0]).min(second.size_from(second.vertices[0]));
     let (of_first, a) = best_face(first, second);
@@ -131,8 +132,8 @@ fn best_edges(first: &Polytope, second: &Polytope) -> Option<(f64, Axis)> {
     best
 }
 
-/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d on two sides of the plane of a and b, a and b
-/// on two sides of the plane of c and d, and both arcs on one half of the sphere.
+/// Whether the short arcs a-b and c-d on the unit sphere cross: c and d are on opposite sides of the plane of a and b, a and b
+/// on opposite sides of the plane of c and d, and both arcs on one half of the sphere.
 fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
     let (plane, other_plane) = (b.cross(&a), d.cross(&c));
     let (from_c, from_d) = (c.dot(&plane), d.dot(&plane));
@@ -140,21 +141,22 @@ fn arcs_cross([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> bool {
     from_c * from_d < 0.0 && from_a * from_b < 0.0 && from_c * from_b > 0.0
 }
 
-/// A corner of the face that is being cut, and the line that leads on from it.
+/// A corner of the clipped face and the line from it to the next corner.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     point: Vec3,
-    /// What made the corner: two lines, or a vertex.
+    /// Origin of the corner: two lines, or a vertex.
     origin: [usize; 2],
-    /// The line to the next corner: a side of the cut face, or a side of the cutting one.
+    /// The line to the next corner: a side of the clipped face or of the clipping face.
     line: usize,
 }
 
-/// Numbers of lines: sides of the cut face from 0, of the cutting face from here. Vertices are marked by the same.
+/// Lines are numbered from 0 for sides of the clipped face, from `CUTTING` for sides of the clipping face; `VERTEX` marks
+/// vertices.
 const CUTTING: usize = 1 << 16;
 const VERTEX: usize = 1 << 17;
 
-/// Cuts the face of `other` that opposes `face` of `solid` by the sides of the latter.
+/// Clips the face of `other` that opposes `face` of `solid` by the sides of `face`, and reports the remaining corners.
 fn face_touches(solid: &Polytope, face: usize, other: &Polytope, reach: f64, mut report: impl FnMut(Touch)) {
     let (Plane { normal, height }, corners) = (solid.faces[face], &solid.net.corners[face]);
     let slack = PREFERENCE * solid.size_from(solid.vertices[corners[0]]);
@@ -183,17 +185,17 @@ fn face_touches(solid: &Polytope, face: usize, other: &Polytope, reach: f64, mut
     }
 }
 
-/// The plane through a side of the cutting face.
+/// The plane through a side of the clipping face.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     side: usize,
     outward: Vec3,
     start: Vec3,
-    /// A corner this near to the plane [m] lies on it and is kept as it is, so that equal boxes touch in four points.
+    /// Corners within this distance of the plane [m] are kept unchanged, so that equal boxes touch in four points.
     slack: f64,
 }
 
-/// Keeps what does not lie outside of the line (Sutherland and Hodgman's cut of a polygon).
+/// Keeps the part of a polygon inside the line (Sutherland-Hodgman clipping).
 fn cut_polygon(polygon: &[Cut], line: Line, kept: &mut Vec<Cut>) {
     kept.clear();
     let number = CUTTING + line.side;
@@ -215,7 +217,7 @@ fn cut_polygon(polygon: &[Cut], line: Line, kept: &mut Vec<Cut>) {
     }
 }
 
-/// Where the lines through two edges pass each other.
+/// The contact where the lines through two edges cross.
 fn edge_touch([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2], outward: Vec3) -> Touch {
     let (u, v) = (p_end - p, q_end - q);
     let gap = outward.dot(&(q - p));

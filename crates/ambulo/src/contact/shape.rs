@@ -1,6 +1,6 @@
-//! What can touch: spheres, capsules, cuboids, half-spaces, height fields and convex hulls.
+//! Contact shapes: spheres, capsules, cuboids, half-spaces, height fields and convex hulls.
 //!
-//! A shape is described in a frame of its own; a [`Pose`] `world_from_shape` places it. Lengths in m.
+//! A shape is described in its own frame; a [`Pose`] `world_from_shape` places it. Lengths in m.
 //!
 //! Inertia of a uniform solid of mass m, C = ∫ x xᵀ dm about the mass centre, I = tr(C) 1 - C:
 //!
@@ -15,19 +15,17 @@
 //! (mass m_h) has its centre 3r/8 above its base and ∫ z² dm = m_h r²/5 about the base: shifted by l/2 this is
 //! l²/4 + 3 l r/8 + r²/5.
 //!
-//! Source: integrals of the shapes themselves; derived here.
-//! Cost: constant; a hull needs time in proportion to its faces.
+//! Source: integrals over the shapes, derived here.
+//! Cost: constant; linear in the faces of a hull.
 //! Pinned by: tests/contact_geometry.rs
 
 use super::height_field::HeightField;
 use super::polytope::Polytope;
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
-use parry3d_f64::math::Vector;
-use parry3d_f64::shape::ConvexPolyhedron;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A solid that can touch others, in a frame of its own. Cloning shares what is large.
+/// A solid that can touch others, in its own frame. Clones share large data.
 #[derive(Debug, Clone)]
 pub struct Shape {
     pub(super) form: Form,
@@ -43,61 +41,87 @@ pub(super) enum Form {
     Convex { solid: Arc<Polytope> },
 }
 
-/// Why numbers are no shape.
+/// Geometry of a shape in its own frame [m], for drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outline {
+    /// All points within `radius` of a segment; a sphere if both ends are the same.
+    Capsule {
+        /// Ends of the segment.
+        ends: [Vec3; 2],
+        /// Radius.
+        radius: f64,
+    },
+    /// A box about the origin.
+    Box {
+        /// Half sides.
+        half: Vec3,
+    },
+    /// Everything below the plane y = 0.
+    HalfSpace,
+    /// A triangulated surface.
+    Surface {
+        /// Corners.
+        points: Vec<Vec3>,
+        /// Indices of the corners, anticlockwise seen from outside.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+/// Why a shape is rejected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShapeError {
-    /// A length that no solid has.
+    /// A length is not finite and above zero.
     #[error("the {length} is {found} m; expected a finite number above zero")]
     Length {
-        /// Which length.
+        /// Name of the length.
         length: &'static str,
-        /// What was given [m].
+        /// Given value [m].
         found: f64,
     },
-    /// An infinite or undefined coordinate or height.
+    /// A coordinate or height is not finite.
     #[error("{what} {number} is {found}; expected finite numbers")]
     NotFinite {
-        /// What is numbered.
+        /// Kind of the item.
         what: &'static str,
-        /// Which one, from 0.
+        /// Index of the item, from 0.
         number: usize,
-        /// What was given [m].
+        /// Given value [m].
         found: String,
     },
-    /// A capsule without length.
+    /// The ends of a capsule coincide.
     #[error("the ends of the capsule are {found} m apart; expected more than zero. hint: use a sphere")]
     CoincidentEnds {
-        /// Their distance [m].
+        /// Distance of the ends [m].
         found: f64,
     },
-    /// A number of heights that fits no grid.
+    /// The number of heights does not fit the grid.
     #[error(
-        "a height field of {rows} x {columns} has {found} heights; expected rows x columns of them, at least 2 x 2"
+        "a height field of {rows} x {columns} has {found} heights; expected rows x columns heights, at least 2 x 2"
     )]
     Grid {
         /// Rows along z.
         rows: usize,
         /// Columns along x.
         columns: usize,
-        /// How many heights were given.
+        /// Number of given heights.
         found: usize,
     },
-    /// Points in a plane, on a line, or too few.
+    /// The points span no volume: too few, on a line or in a plane.
     #[error(
-        "the hull of {points} points has a volume of {volume:e} m³ within a box of {extent:e} m; expected a solid: four points or more, not in one plane"
+        "the hull of {points} points has a volume of {volume:e} m³ within a box of {extent:e} m; expected at least four points that are not in one plane"
     )]
     Flat {
-        /// How many points were given.
+        /// Number of given points.
         points: usize,
-        /// The volume of their hull [m³].
+        /// Volume of their hull [m³].
         volume: f64,
-        /// The longest side of the box around them [m].
+        /// Longest side of their bounding box [m].
         extent: f64,
     },
 }
 
-/// A hull that fills less than this share of the cube over its longest side counts as flat: a sheet of 1 m² must be
+/// A hull that fills less than this share of the cube over its longest side is rejected as flat: a sheet of 1 m² must be
 /// thicker than 1 nm. The hull algorithm rounds to 1e-16 of the extent.
 const FLAT: f64 = 1e-9;
 
@@ -148,8 +172,7 @@ impl Shape {
     /// Each cell is two triangles, split from (i, j + 1) to (i + 1, j).
     ///
     /// # Errors
-    /// Sizes that are not finite and above zero, heights that are not finite, or another number of them than the grid
-    /// has.
+    /// Sizes that are not finite and above zero, heights that are not finite, or a number of heights that does not fit the grid.
     pub fn height_field(
         rows: usize,
         columns: usize,
@@ -178,9 +201,7 @@ impl Shape {
         let (low, high) = box_around(points.iter().copied());
         let extent = if points.is_empty() { 0.0 } else { (high - low).max() };
         let flat = |volume| ShapeError::Flat { points: points.len(), volume, extent };
-        let given: Vec<Vector> = points.iter().map(|p| to_generic(*p)).collect();
-        let hull = ConvexPolyhedron::from_convex_hull(&given).ok_or_else(|| flat(0.0))?;
-        let solid = Polytope::hull(&hull);
+        let solid = Polytope::hull(points).ok_or_else(|| flat(0.0))?;
         let volume = solid.volume();
         if volume > FLAT * extent.powi(3) {
             Ok(Shape { form: Form::Convex { solid: Arc::new(solid) } })
@@ -201,7 +222,7 @@ impl Shape {
         }
     }
 
-    /// Inertia of a uniform solid of this mass [kg], in the shape's frame; `None` for half-spaces and height fields,
+    /// Inertia of a uniform solid of this mass [kg], in the shape's frame. `None` for half-spaces and height fields,
     /// and for a mass that is negative or not finite.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> Option<Inertia> {
@@ -215,8 +236,8 @@ impl Shape {
         Inertia::new(mass, center, (Mat3::identity() * spread.trace() - spread) * mass).ok()
     }
 
-    /// Lowest and highest corner [m] of the axis-aligned box around the shape placed by `world_from_shape`; `None` for
-    /// a half-space, which has none. A height field's box is that of its surface, with nothing below it.
+    /// Axis-aligned bounding box of the shape placed by `world_from_shape`: lowest and highest corner [m]. `None` for a
+    /// half-space. The box of a height field contains its surface only.
     #[must_use]
     pub fn bounding(&self, world_from_shape: &Pose) -> Option<(Vec3, Vec3)> {
         let middle_and_half = |middle: Vec3, half: Vec3| {
@@ -244,13 +265,32 @@ impl Shape {
         }
     }
 
+    /// Geometry for drawing. A height field with more than `most` rows or columns is thinned out.
+    #[must_use]
+    pub fn outline(&self, most: usize) -> Outline {
+        match &self.form {
+            Form::Sphere { radius } => Outline::Capsule { ends: [Vec3::zeros(); 2], radius: *radius },
+            Form::Capsule { ends, radius } => Outline::Capsule { ends: *ends, radius: *radius },
+            Form::Cuboid { half, .. } => Outline::Box { half: *half },
+            Form::HalfSpace => Outline::HalfSpace,
+            Form::HeightField { field } => {
+                let (points, triangles) = field.surface(most);
+                Outline::Surface { points, triangles }
+            }
+            Form::Convex { solid } => {
+                let fans = solid.net.corners.iter().flat_map(|face| fan(face));
+                Outline::Surface { points: solid.vertices.clone(), triangles: fans.collect() }
+            }
+        }
+    }
+
     /// Whether it is a sphere.
     #[must_use]
     pub fn is_sphere(&self) -> bool {
         matches!(self.form, Form::Sphere { .. })
     }
 
-    /// Radius of a sphere or a capsule [m]; `None` for the others.
+    /// Radius of a sphere or a capsule [m]; `None` for other shapes.
     #[must_use]
     pub fn radius(&self) -> Option<f64> {
         match &self.form {
@@ -258,14 +298,6 @@ impl Shape {
             _ => None,
         }
     }
-}
-
-fn to_generic(v: Vec3) -> Vector {
-    Vector::new(v.x, v.y, v.z)
-}
-
-pub(super) fn from_generic(v: Vector) -> Vec3 {
-    Vec3::new(v.x, v.y, v.z)
 }
 
 fn length(length: &'static str, found: f64) -> Result<f64, ShapeError> {
@@ -295,7 +327,7 @@ fn cylinder(r: f64, l: f64) -> f64 {
     PI * r * r * l
 }
 
-/// C / m of a capsule whose ends are `axis` apart.
+/// C / m of a capsule whose ends differ by `axis`.
 fn capsule_spread(axis: Vec3, r: f64) -> Mat3 {
     let l = axis.norm();
     let u = axis / l;
@@ -304,4 +336,57 @@ fn capsule_spread(axis: Vec3, r: f64) -> Mat3 {
     let along = share_of_cylinder * l * l / 12.0 + share_of_ball * (l * l / 4.0 + 3.0 * l * r / 8.0 + r * r / 5.0);
     let across = share_of_cylinder * r * r / 4.0 + share_of_ball * r * r / 5.0;
     Mat3::identity() * across + u * u.transpose() * (along - across)
+}
+
+/// The triangles of a face, all from its first corner.
+fn fan(face: &[usize]) -> impl Iterator<Item = [u32; 3]> {
+    let number = |corner: usize| u32::try_from(corner).unwrap_or(u32::MAX);
+    let first = face.first().copied().unwrap_or_default();
+    face.windows(2).skip(1).map(move |pair| [number(first), number(pair[0]), number(pair[1])])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surface(shape: &Shape, most: usize) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        match shape.outline(most) {
+            Outline::Surface { points, triangles } => (points, triangles),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_height_field_goes_through_its_heights_and_faces_upwards() {
+        let heights: Vec<f64> = (0..5 * 9).map(|k| f64::from(k % 9) * 0.1 + f64::from(k / 9) * 0.01).collect();
+        let field = Shape::height_field(5, 9, &heights, 8.0, 2.0).unwrap();
+        for (most, points_expected, cells) in [(100, 45, 32), (3, 9, 4)] {
+            let (points, triangles) = surface(&field, most);
+            assert_eq!((points.len(), triangles.len()), (points_expected, 2 * cells));
+            // Slopes of 0.1 along x and 0.02 along z: a plane, however it is thinned out.
+            for p in &points {
+                assert!((p.y - (0.1 * (p.x + 4.0) + 0.02 * (p.z + 1.0))).abs() < 1e-12, "{p}");
+            }
+            let area: f64 = triangles
+                .iter()
+                .map(|[a, b, c]| {
+                    let [a, b, c] = [a, b, c].map(|corner| points[*corner as usize]);
+                    let facing = (b - a).cross(&(c - a)) * 0.5;
+                    assert!(facing.y > 0.0);
+                    facing.y
+                })
+                .sum();
+            assert!((area - 16.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_hull_encloses_its_volume() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.0, 2.0, 0.3], [0.2, 0.0, 1.5], [1.1, 1.2, 1.3]];
+        let hull = Shape::convex(&corners.map(Vec3::from)).unwrap();
+        let (points, triangles) = surface(&hull, 10);
+        let at = |corner: u32| points[corner as usize];
+        let volume: f64 = triangles.iter().map(|[a, b, c]| at(*a).dot(&at(*b).cross(&at(*c))) / 6.0).sum();
+        assert!((volume - hull.volume().unwrap()).abs() < 1e-12, "{volume}");
+    }
 }

@@ -1,13 +1,34 @@
-//! Blocks of six by six numbers and the small symmetric systems of one joint.
+//! Six-vectors, 6 x 6 blocks, body inertias, and the small symmetric systems of one joint.
 //!
-//! Written out by hand over fixed sizes: a general library's 6 x 6 factorisation was measured at four times the cost.
+//! Written out for fixed sizes: the 6 x 6 factorisation of a general library took four times as long (measured).
 
-use super::constraint::Six;
-use crate::spatial::Vec3;
+use crate::spatial::{Mat3, Vec3};
 
-/// A pivot below this share of its own diagonal has vanished: sums of six products round to a few 1e-16, while rows held
-/// stiffly beside it (see `proximal`) leave it 1e-10.
+/// A motion or wrench of a body: angular part, then linear part.
+pub type Six = nalgebra::Vector6<f64>;
+
+/// A pivot below this share of its diagonal entry counts as zero: sums of six products round to a few 1e-16, while stiff rows
+/// (see `proximal`) leave a share of 1e-10.
 const VANISHED: f64 = 1e-13;
+
+/// Mass and inertia of a rigid body at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyTerms {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Inertia about the mass centre in world axes [kg.m²].
+    pub inertia: Mat3,
+}
+
+impl BodyTerms {
+    /// M a.
+    #[must_use]
+    #[inline]
+    pub fn times(&self, a: &Six) -> Six {
+        let moment = self.inertia * Vec3::new(a[0], a[1], a[2]);
+        Six::new(moment.x, moment.y, moment.z, self.mass * a[3], self.mass * a[4], self.mass * a[5])
+    }
+}
 
 /// A 6 x 6 block, row by row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +96,7 @@ impl Block {
         other
     }
 
-    /// Xᵀ B: see [`carry`], column by column.
+    /// Xᵀ B: [`carry`] applied to each column.
     #[inline(always)]
     pub(crate) fn carry_rows(&mut self, arm: &Vec3) {
         for j in 0..6 {
@@ -86,7 +107,7 @@ impl Block {
         }
     }
 
-    /// B X: the same on columns.
+    /// B X: the transposed operation, applied to each row.
     #[inline(always)]
     pub(crate) fn carry_columns(&mut self, arm: &Vec3) {
         for row in &mut self.0 {
@@ -98,7 +119,7 @@ impl Block {
     }
 }
 
-/// Xᵀ f: a wrench at the child's mass centre, seen at the parent's; `arm` leads from the parent's to the child's.
+/// Xᵀ f: moves a wrench from the child's mass centre to the parent's; `arm` points from the parent's to the child's.
 #[inline(always)]
 pub(crate) fn carry(f: &Six, arm: &Vec3) -> Six {
     Six::new(
@@ -111,7 +132,7 @@ pub(crate) fn carry(f: &Six, arm: &Vec3) -> Six {
     )
 }
 
-/// X a: a motion of the parent, seen at the child's mass centre: v + ω × arm.
+/// X a: the motion of the parent at the child's mass centre, v + ω × arm.
 #[inline(always)]
 pub(crate) fn transport(a: &Six, arm: &Vec3) -> Six {
     Six::new(
@@ -124,8 +145,8 @@ pub(crate) fn transport(a: &Six, arm: &Vec3) -> Six {
     )
 }
 
-/// L D Lᵀ of a symmetric matrix of `rows.len()` ≤ 6 rows, in place: unit L below the diagonal, 1/D on it. Pivots that vanish
-/// are switched off (1/D = 0), as are those up to `least`; their number is returned.
+/// Factors a symmetric matrix of `rows.len()` ≤ 6 rows as L D Lᵀ in place: unit L below the diagonal, 1/D on it. Zero pivots and
+/// pivots up to `least` are disabled (1/D = 0); returns their number.
 #[inline(always)]
 pub(crate) fn factor_small(rows: &mut [[f64; 6]], least: &[f64; 6]) -> usize {
     let size = rows.len();
@@ -153,7 +174,7 @@ pub(crate) fn factor_small(rows: &mut [[f64; 6]], least: &[f64; 6]) -> usize {
     off
 }
 
-/// Solves with what [`factor_small`] left.
+/// Solves with the result of [`factor_small`].
 #[inline(always)]
 pub(crate) fn solve_small(rows: &[[f64; 6]], x: &mut [f64]) {
     let size = rows.len();

@@ -1,104 +1,105 @@
-//! Motions and constraint forces of a graph with loops and contacts by conjugate gradient: the solver of the 1997 paper.
+//! Conjugate gradient for constraint graphs: motions and constraint forces by the solver of the 1997 paper.
 //!
-//! Trees are solved exactly; what closes loops or touches is refined. With a(λ) = A⁻¹ (b + Jᵀ λ), one tree solve, rows
-//! u = J a(λ) - c and the rows that hold, the forces are where
+//! Trees are solved exactly; the forces of loop closures and contacts are refined iteratively. With a(λ) = A⁻¹ (b + Jᵀ λ), one
+//! tree solve, and the active rows u = J a(λ) - c, the forces minimise
 //!
 //!   f(λ) = ½ λᵀ (W + R) λ - λᵀ (c - J a(0))        W = J A⁻¹ Jᵀ, R the compliances
 //!
-//! is least, since its gradient is the departure u + R λ. From r = -(u + R λ), p = r:
+//! because its gradient is the departure u + R λ. Starting with r = -(u + R λ), p = r:
 //!
 //!   α = rᵀ r / pᵀ (W + R) p        λ += α p        r' = r - α (W + R) p
 //!   β = max(0, r'ᵀ (r' - r) / rᵀ r)                p := r' + β p
 //!
-//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière; f is a quadratic, so
-//! in exact numbers r'ᵀ r = 0, it is Fletcher's and Reeves's r'ᵀ r' / rᵀ r, and both are the linear method of Hestenes and
-//! Stiefel. Rounded, β = 0 restarts where the directions have ceased to be conjugate. All p are in the range of W: redundant
-//! rows get the forces nearest to the guess, without one the least-squares forces. A p that W maps to nothing is a set of
-//! forces that moves nothing and yet is asked for something: rows contradict each other. It is taken out of r, the rest is
-//! solved on, and `converged` stays false; rows get the force along p that a compliance of 1/ρ would give (as with
+//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière. Since f is quadratic,
+//! r'ᵀ r = 0 in exact arithmetic, so that β equals r'ᵀ r' / rᵀ r of Fletcher and Reeves, and both are the linear method of
+//! Hestenes and Stiefel. With rounding, β = 0 restarts when directions are no longer conjugate. All p are in the range of W, so
+//! that redundant rows get the forces nearest to the guess, or the least-squares forces without a guess. If W p = 0, the forces
+//! p move nothing although r has a part along them: rows contradict each other. That part is removed from r, the rest is
+//! solved, and `converged` stays false; the rows get the force along p that a compliance of 1/ρ would give (as in
 //! [`super::proximal`]).
 //!
-//! Contacts and bounds are an active set around it (section 3.3 of the paper): a row at its bound is out while its departure
-//! pushes further out; a contact whose force would pull is opened and all is solved again; one that closes is back in. Beyond
-//! the cone a sticking contact slips, with friction r = μ λ_n of the force before along d opposite to slip; where friction
-//! would help the slip, it sticks. While it slips, λ_t = r d + s e with e across: at the solution u_t = -κ r d, and turning
-//! with the slip, to first order, is a row along e of compliance κ = |u_t| / r. If a bound was met on the way, f along the
-//! way decides how far to go.
+//! Contacts and bounds are handled by an active set (section 3.3 of the paper). A row at its bound is inactive while its
+//! departure points further out. A contact whose force would pull is opened and the system solved again; a contact that closes
+//! is added. A sticking contact beyond the cone slips, with friction r = μ λ_n of the previous force along d opposite to the
+//! slip; it sticks if friction would support the slip. While it slips, λ_t = r d + s e with e perpendicular to d: at the
+//! solution u_t = -κ r d, and to first order the turning of the slip direction is a row along e of compliance κ = |u_t| / r. If
+//! a bound is reached on the way, the length of the step is that which minimises f.
 //!
-//! Rows with a compliance are scaled by 1/√(1 + R/W), so that they need no rounds of their own.
+//! Compliant rows are scaled by 1/√(1 + R/W), so that they need no additional rounds.
 //!
-//! | code      | symbol | unit          | shape     |
-//! | `lambda`  | λ      | N.m, N        | one a row |
-//! | `left`    | r      | as the motion | one a row |
-//! | `toward`  | p      | N.m, N        | one a row |
-//! | `applied` | (W+R)p | as the motion | one a row |
+//! | code      | symbol | unit          | shape       |
+//! | `lambda`  | λ      | N.m, N        | one per row |
+//! | `left`    | r      | as the motion | one per row |
+//! | `toward`  | p      | N.m, N        | one per row |
+//! | `applied` | (W+R)p | as the motion | one per row |
 //!
 //! Source: Faure, Debunne, Cani, Multon 1997, sections 3.1 and 3.3 (which names Fletcher-Reeves-Polak-Ribière after Press
 //! et al. 1992, unverified page). The equations are derived above.
-//! Cost: one factorisation of the trees; one tree solve an iteration.
+//! Cost: one factorisation of the trees; one tree solve per iteration.
+//! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
 
-use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
-use super::departure::Departures;
+use super::block::Six;
+use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
+use super::departure::{Departures, stiffness};
 use super::elimination::Offsets;
-use super::proximal::stiffness;
-use super::solve::Problem;
+use super::problem::Problem;
 
-/// pᵀ W p below this share of pᵀ p times the rows' largest mobility is none: sums over a tree round to some 1e-15.
+/// pᵀ W p below this share of pᵀ p times the largest mobility counts as zero: sums over a tree round to about 1e-15.
 const NO_CURVATURE: f64 = 1e-13;
-/// Within one active set, until the departure has fallen to this share: the set is likely to change.
+/// One active set is solved only until the departure has fallen to this share, because the set is likely to change.
 const SHARE: f64 = 1e-2;
-/// Friction this close to the cone's edge is on it.
+/// Relative distance from the surface of the cone within which friction counts as being on it.
 const EDGE: f64 = 1e-10;
-/// Friction that slip turns by less than this in units of its own mobility does not turn.
+/// Slip speed, in units of friction times mobility, above which the direction of friction is fixed.
 const RIGID: f64 = 1e12;
-/// Slope of f at the end of the way, as a share of that at its start, beyond which the way was too long.
+/// Slope of f at the end of a step, as a share of that at its start, above which the step was too long.
 const OVERSHOOT: f64 = 0.1;
-/// A way this short is compared with another one.
+/// A shorter step is compared with the alternative step.
 const SHORT: f64 = 0.5;
-/// A round that leaves more than this share of the departure has come to nothing.
+/// A round that leaves more than this share of the departure has failed.
 const STUCK: f64 = 0.9;
-/// Share of a random probe, times the rows' mobility, that W may still make of what is left of it.
+/// Tolerance of the null-space probe: size of W r relative to r and the largest mobility.
 const PROBE_SHARE: f64 = 1e-10;
-/// Displacements need only undo drift: share of what was asked that may be left.
+/// Relative tolerance of displacements, which only correct drift.
 const DISPLACEMENT_SHARE: f64 = 1e-6;
 
-/// Scratch of the method.
+/// Scratch memory of the method.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ConjugateWorkspace {
-    /// What each group's rows do now.
-    states: Vec<State>,
+    /// The active set: which forces of each group are sought.
+    states: Vec<Sought>,
     left: Vec<f64>,
     last_left: Vec<f64>,
     toward: Vec<f64>,
     applied: Vec<f64>,
-    /// The change of λ that a round arrives at.
+    /// The change of λ computed in a round.
     change: Vec<f64>,
-    /// What of `left` no force can bring about.
+    /// The part of `left` that no force can produce.
     null: Vec<f64>,
-    /// Forces to be tried, and what they lead to.
+    /// Trial forces, with their rows, motions and coordinates.
     forces: Vec<f64>,
     u: Vec<f64>,
     motions: Vec<Six>,
     coordinates: Vec<f64>,
 }
 
-/// Which forces of a group are sought.
+/// The forces of a group that are unknown in the current active set.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum State {
-    /// Each of up to six rows, or not.
+enum Sought {
+    /// For each of up to six rows, whether it is active.
     Rows([bool; 6]),
-    /// Normal, and within the plane of friction.
+    /// Whether the normal force is active, and the state of friction.
     Contact { pushes: bool, friction: Friction },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Friction {
-    /// As it is.
+    /// Fixed at its current value.
     Given,
-    /// Whatever keeps the point.
+    /// Both components are unknown.
     Sticks,
-    /// On the cone along `along`, turning across it with a compliance.
+    /// On the cone along `along`, with a compliant component perpendicular to it.
     Slips { along: [f64; 2], compliance: f64 },
 }
 
@@ -137,8 +138,8 @@ pub(super) fn project(
     coordinates.clone_from(&workspace.coordinates);
 }
 
-/// Takes from `rows` what forces of the rows that hold can bring about. Rows that do not hold, and those that yield, become
-/// zero. Conjugate residuals: r - W y is least, and what is left of r is what W maps to nothing.
+/// Removes from `rows` the part that forces of active rows can produce; inactive and compliant rows become zero. Conjugate
+/// residuals minimise |r - W y|; what remains of r is in the null space of W.
 ///
 ///   α = rᵀ W r / |W p|²          r' = r - α W p          β = r'ᵀ W r' / rᵀ W r          W p := W r' + β W p
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut ConjugateWorkspace, rows: &mut [f64]) {
@@ -148,7 +149,7 @@ pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut Conjugate
     rounds.reduce(Field::Left);
     rounds.w.toward.copy_from_slice(&rounds.w.left);
     rounds.apply();
-    // W r, and W p as it goes along.
+    // W r and W p.
     rounds.w.null.copy_from_slice(&rounds.w.applied);
     rounds.w.last_left.copy_from_slice(&rounds.w.applied);
     let mut bend = dot(&rounds.w.left, &rounds.w.null);
@@ -194,7 +195,7 @@ impl ConjugateWorkspace {
             list.resize(rows, 0.0);
         }
         self.states.clear();
-        self.states.resize(graph.groups.len(), State::Rows([false; 6]));
+        self.states.resize(graph.groups.len(), Sought::Rows([false; 6]));
     }
 }
 
@@ -202,9 +203,9 @@ struct Rounds<'p, 'a> {
     graph: &'a ConstraintGraph,
     problem: &'p mut Problem<'a>,
     w: &'p mut ConjugateWorkspace,
-    /// Rows that hold were asked for what no force can bring about.
+    /// Active rows contradict each other.
     contradicted: bool,
-    /// Active sets so far.
+    /// Number of active sets so far.
     rounds: usize,
 }
 
@@ -215,7 +216,7 @@ impl Rounds<'_, '_> {
         *convergence = Convergence { factorizations: 1, iterations: 1, ..Convergence::default() };
         self.graph.groups.iter().for_each(|group| confine(group, lambda));
         self.w.forces.copy_from_slice(lambda);
-        self.animate();
+        self.solve_motion();
         motions.clone_from(&self.w.motions);
         coordinates.clone_from(&self.w.coordinates);
         self.problem.departures.read(self.graph, motions, coordinates);
@@ -231,7 +232,7 @@ impl Rounds<'_, '_> {
             }
             last = convergence.residual;
             self.round(lambda, convergence);
-            self.go(motions, coordinates, lambda, convergence);
+            self.advance(motions, coordinates, lambda, convergence);
             self.rounds += 1;
             convergence.iterations += 1;
         }
@@ -242,7 +243,7 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// One active set: the forces that it calls for, confined to what laws allow, and the motion under them.
+    /// One active set: computes its forces, confines them to their laws, and computes the motion under them.
     fn round(&mut self, lambda: &[f64], convergence: &mut Convergence) {
         self.choose(lambda);
         for group in &self.graph.groups {
@@ -252,21 +253,21 @@ impl Rounds<'_, '_> {
         }
         let Departures { scale, .. } = *self.problem.departures;
         let enough = 0.5 * self.problem.settings.tolerance;
-        let share = if self.graph.groups.iter().all(|g| g.law == Law::HELD) { 0.0 } else { SHARE };
+        let share = if self.graph.groups.iter().all(|g| g.law == Law::EQUALITY) { 0.0 } else { SHARE };
         self.descend(scale * enough.max(share * convergence.residual), convergence);
         if self.contradicted {
-            self.ride(lambda);
+            self.follow_null(lambda);
         }
         for (force, (l, change)) in self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)) {
             *force = l + change;
         }
         self.confine_forces(lambda);
-        self.animate();
+        self.solve_motion();
         self.read_forces();
     }
 
-    /// Along forces that move nothing, f falls without end unless a bound is met: then that row is the one to let go.
-    fn ride(&mut self, lambda: &[f64]) {
+    /// Along forces that move nothing, f falls without limit unless a bound is reached; then that row becomes inactive.
+    fn follow_null(&mut self, lambda: &[f64]) {
         self.w.forces.iter_mut().zip(lambda.iter().zip(&self.w.change)).for_each(|(f, (l, c))| *f = l + c);
         let t = self.reach(&self.w.forces, &self.w.null);
         if t.is_finite() {
@@ -275,7 +276,7 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// How far `from` can go along `way` until a force that is sought meets its bound.
+    /// The largest step from `from` along `way` before an active force reaches its bound.
     fn reach(&self, from: &[f64], way: &[f64]) -> f64 {
         let mut reach = f64::INFINITY;
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
@@ -296,14 +297,14 @@ impl Rounds<'_, '_> {
     fn confine_forces(&mut self, lambda: &[f64]) {
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
             confine(group, &mut self.w.forces);
-            if let State::Contact { friction: Friction::Slips { along, .. }, .. } = state {
+            if let Sought::Contact { friction: Friction::Slips { along, .. }, .. } = state {
                 let turn = &self.w.change[group.rows.start + 1..];
-                rub_fully(group, lambda, *along, [turn[0], turn[1]], &mut self.w.forces);
+                fill_friction(group, lambda, *along, [turn[0], turn[1]], &mut self.w.forces);
             }
         }
     }
 
-    /// u under the forces tried.
+    /// u under the trial forces.
     fn read_forces(&mut self) {
         for group in &self.graph.groups {
             for row in group.rows.clone() {
@@ -313,9 +314,15 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// On the way from λ to the forces tried: all of it, or to where f is least. Where that is not far, straight to the first
-    /// bound met on the way to what the active set calls for, if that lowers f by more. Motions are affine in forces.
-    fn go(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64], convergence: &mut Convergence) {
+    /// Moves λ towards the trial forces: all the way, or to the minimum of f. If that is a short step, moves instead straight to
+    /// the first bound on the way to the unconfined forces, if that lowers f more. Motions are affine in the forces.
+    fn advance(
+        &mut self,
+        motions: &mut [Six],
+        coordinates: &mut [f64],
+        lambda: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
         let (here, there) = self.slopes(lambda);
         let mut s = if here < 0.0 && there > OVERSHOOT * here.abs() { here / (here - there) } else { 1.0 };
         if s < SHORT {
@@ -326,7 +333,7 @@ impl Rounds<'_, '_> {
                     *force = l + t * change;
                 }
                 self.graph.groups.iter().for_each(|group| confine(group, &mut self.w.forces));
-                self.animate();
+                self.solve_motion();
                 self.read_forces();
                 convergence.iterations += 1;
                 s = 1.0;
@@ -339,7 +346,7 @@ impl Rounds<'_, '_> {
         motions.iter_mut().zip(&self.w.motions).for_each(|(x, y)| *x += (y - *x) * s);
     }
 
-    /// Slopes of f on the way from λ to the forces tried, at its ends.
+    /// Slopes of f at both ends of the way from λ to the trial forces.
     fn slopes(&self, lambda: &[f64]) -> (f64, f64) {
         let (mut here, mut there) = (0.0, 0.0);
         for group in &self.graph.groups {
@@ -364,7 +371,7 @@ impl Rounds<'_, '_> {
         u + compliance(self.graph, group, row) * lambda[row]
     }
 
-    /// Which forces are sought, from where λ stands within its bounds and where the rows would push it.
+    /// Chooses the active set from the position of λ within its bounds and the direction of the departures.
     fn choose(&mut self, lambda: &[f64]) {
         for (number, group) in self.graph.groups.iter().enumerate() {
             let start = group.rows.start;
@@ -377,29 +384,30 @@ impl Rounds<'_, '_> {
                 Law::Bounded { least, most } => {
                     let mut free = [false; 6];
                     group.rows.clone().for_each(|row| free[row - start] = inside(row, least, most));
-                    State::Rows(free)
+                    Sought::Rows(free)
                 }
                 Law::Contact { friction, bound } => {
                     let pushes = inside(start, 0.0, bound);
-                    let friction =
-                        if self.rounds == 0 && pushes && friction > 0.0 && lambda[start + 1..start + 3] == [0.0; 2] {
-                            Friction::Sticks
-                        } else {
-                            let slipped = matches!(
-                                self.w.states[number],
-                                State::Contact { friction: Friction::Slips { .. }, .. }
-                            );
-                            let ut = [u[start + 1], u[start + 2]];
-                            let w = self.problem.departures.mobility[start + 1];
-                            rub(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
-                        };
-                    State::Contact { pushes, friction }
+                    let friction = if self.rounds == 0
+                        && pushes
+                        && friction > 0.0
+                        && lambda[start + 1..start + 3] == [0.0; 2]
+                    {
+                        Friction::Sticks
+                    } else {
+                        let slipped =
+                            matches!(self.w.states[number], Sought::Contact { friction: Friction::Slips { .. }, .. });
+                        let ut = [u[start + 1], u[start + 2]];
+                        let w = self.problem.departures.mobility[start + 1];
+                        friction_state(friction * lambda[start], [lambda[start + 1], lambda[start + 2]], ut, slipped, w)
+                    };
+                    Sought::Contact { pushes, friction }
                 }
             };
         }
     }
 
-    /// From `left`, the change of λ that carries it below `enough`.
+    /// Conjugate gradient: the change of λ that reduces `left` below `enough`.
     fn descend(&mut self, enough: f64, convergence: &mut Convergence) {
         let most = self.problem.departures.mobility.iter().fold(0.0_f64, |m, w| m.max(*w));
         self.contradicted = false;
@@ -430,7 +438,7 @@ impl Rounds<'_, '_> {
         self.expand(Field::Change);
     }
 
-    /// `toward` moves nothing: no force brings about what `left` has along it, and `change` needs nothing along it.
+    /// `toward` moves nothing: removes the part of `left` and of `change` along it.
     fn set_aside(&mut self) {
         self.contradicted = true;
         let ConjugateWorkspace { left, toward, change, null, .. } = &mut *self.w;
@@ -462,10 +470,10 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// The compliance of a row that is sought: its own; of a slipping contact, that of turning.
-    fn yields(&self, group: &ConstraintGroup, state: &State, row: usize) -> f64 {
+    /// Compliance of an active row; for a slipping contact that of the slip direction.
+    fn yields(&self, group: &ConstraintGroup, state: &Sought, row: usize) -> f64 {
         match state {
-            State::Contact { friction: Friction::Slips { compliance, .. }, .. } if row > group.rows.start => {
+            Sought::Contact { friction: Friction::Slips { compliance, .. }, .. } if row > group.rows.start => {
                 *compliance
             }
             _ => compliance(self.graph, group, row),
@@ -473,16 +481,16 @@ impl Rounds<'_, '_> {
     }
 
     /// 1/√(1 + R/W).
-    fn measure(&self, group: &ConstraintGroup, state: &State, row: usize) -> f64 {
+    fn measure(&self, group: &ConstraintGroup, state: &Sought, row: usize) -> f64 {
         1.0 / (1.0 + self.yields(group, state, row) / self.problem.departures.mobility[row]).sqrt()
     }
 
-    /// Readings of rows to those of what is sought.
+    /// Maps rows to the unknown forces.
     fn reduce(&mut self, field: Field) {
         let mut x = std::mem::take(field.of(self.w));
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
             let start = group.rows.start;
-            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+            if let Sought::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
                 x[start + 1] = x1 * x[start + 2] - x2 * x[start + 1];
             }
             for row in group.rows.clone() {
@@ -492,7 +500,7 @@ impl Rounds<'_, '_> {
         *field.of(self.w) = x;
     }
 
-    /// What is sought to forces of rows: the transpose of [`Self::reduce`].
+    /// Maps unknown forces to forces of rows: the transpose of [`Self::reduce`].
     fn expand(&mut self, field: Field) {
         let mut x = std::mem::take(field.of(self.w));
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
@@ -500,14 +508,14 @@ impl Rounds<'_, '_> {
             for row in group.rows.clone() {
                 x[row] *= if state.seeks(row - start) { self.measure(group, state, row) } else { 0.0 };
             }
-            if let State::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
+            if let Sought::Contact { friction: Friction::Slips { along: [x1, x2], .. }, .. } = state {
                 (x[start + 1], x[start + 2]) = (-x2 * x[start + 1], x1 * x[start + 1]);
             }
         }
         *field.of(self.w) = x;
     }
 
-    /// The largest departure left, without the scaling.
+    /// The largest remaining departure, without the scaling.
     fn worst_left(&self) -> f64 {
         let mut worst = 0.0_f64;
         for (group, state) in self.graph.groups.iter().zip(&self.w.states) {
@@ -519,7 +527,7 @@ impl Rounds<'_, '_> {
     }
 
     /// Motion under the known wrenches and `forces`.
-    fn animate(&mut self) {
+    fn solve_motion(&mut self) {
         self.w.motions.clone_from(&self.graph.wrenches);
         self.w.coordinates.clone_from(&self.graph.efforts);
         self.tree_solve(Offsets::Prescribed);
@@ -542,20 +550,20 @@ impl Rounds<'_, '_> {
     }
 }
 
-impl State {
-    /// Whether the force of the group's row of this number is sought.
+impl Sought {
+    /// Whether the force of this row of the group is unknown.
     fn seeks(&self, number: usize) -> bool {
         match self {
-            State::Rows(free) => free[number],
-            State::Contact { pushes, .. } if number == 0 => *pushes,
-            State::Contact { friction: Friction::Given, .. } => false,
-            State::Contact { friction: Friction::Sticks, .. } => true,
-            State::Contact { friction: Friction::Slips { .. }, .. } => number == 1,
+            Sought::Rows(free) => free[number],
+            Sought::Contact { pushes, .. } if number == 0 => *pushes,
+            Sought::Contact { friction: Friction::Given, .. } => false,
+            Sought::Contact { friction: Friction::Sticks, .. } => true,
+            Sought::Contact { friction: Friction::Slips { .. }, .. } => number == 1,
         }
     }
 }
 
-/// Vectors that are reduced or expanded.
+/// The vectors of the workspace that are reduced or expanded.
 #[derive(Debug, Clone, Copy)]
 enum Field {
     Left,
@@ -575,7 +583,7 @@ impl Field {
     }
 }
 
-/// R of a row; friction is rigid.
+/// R of a row; friction has none.
 fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f64 {
     match group.law {
         Law::Contact { .. } if row > group.rows.start => 0.0,
@@ -583,9 +591,9 @@ fn compliance(graph: &ConstraintGraph, group: &ConstraintGroup, row: usize) -> f
     }
 }
 
-/// Sticks within the cone, and on it where friction would help the slip. Without friction yet, whether it will slip is judged
-/// by the friction that the point alone would need.
-fn rub(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
+/// State of friction: sticking inside the cone, and on it if friction would support the slip. Without friction so far, it slips if
+/// the friction that this point alone would need exceeds the limit.
+fn friction_state(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) -> Friction {
     let length = force[0].hypot(force[1]);
     if radius <= 0.0 {
         return Friction::Given;
@@ -607,7 +615,7 @@ fn rub(radius: f64, force: [f64; 2], u: [f64; 2], slipped: bool, mobility: f64) 
     Friction::Slips { along: [force[0] / length, force[1] / length], compliance: -power / (length * radius) }
 }
 
-/// Forces of one group that its law allows, nearest in the normal first.
+/// Confines the forces of one group to its law, the normal force first.
 fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
     let start = group.rows.start;
     match group.law {
@@ -626,8 +634,8 @@ fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
     }
 }
 
-/// Friction of a slipping contact, as large as it can be: along r d + s e.
-fn rub_fully(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f64; 2], lambda: &mut [f64]) {
+/// Sets the friction of a slipping contact to its limit, along r d + s e.
+fn fill_friction(group: &ConstraintGroup, before: &[f64], along: [f64; 2], turn: [f64; 2], lambda: &mut [f64]) {
     let Law::Contact { friction, .. } = group.law else { return };
     let start = group.rows.start;
     let radius = friction * before[start];

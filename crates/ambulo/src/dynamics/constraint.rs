@@ -1,78 +1,76 @@
-//! Scalar constraints between bodies, and the graph of everything that acts at one instant.
+//! Scalar constraints between bodies, and the graph of bodies, joints, constraints and loads at one instant.
 //!
-//! A row asks of the motions a = (α, a_c) of two bodies, angular part before linear, at the mass centres, in world axes,
-//! that the departure
+//! A row constrains the motions a = (α, a_c) of two bodies (angular part before linear, at the mass centres, in world axes):
+//! the quantity
 //!
 //!   u = j_first · a_first + j_second · a_second + R λ - target
 //!
-//! vanish, or as its law says. Its multiplier λ is the generalised force that keeps it: the wrench j_first λ on the first
-//! body and j_second λ on the second (Faure, Debunne, Cani, Multon 1997, section 3.1). R is the compliance: zero for a rigid
+//! must vanish, or obey the law of the row. The multiplier λ is the constraint force: it acts as the wrench j_first λ on the
+//! first body and j_second λ on the second (Faure, Debunne, Cani, Multon 1997, section 3.1). R is the compliance: zero for a rigid
 //! row. The unknown motion may be accelerations, velocities (then λ is an impulse) or displacements.
 //!
-//! Joints that form trees are not rows but [`Link`]s; rows close loops, hold contacts and limit coordinates.
+//! Joints that form trees are [`Link`]s, not rows. Rows close loops, and describe contacts and limits of coordinates.
 
-use super::elimination::{Link, LinkTerms};
-use crate::spatial::{Mat3, Vec3};
+use super::block::{BodyTerms, Six, carry};
+use super::elimination_order::{Link, LinkTerms};
+use crate::spatial::Vec3;
 use std::ops::Range;
 
-/// Six numbers, angular part before linear.
-pub type Six = nalgebra::Vector6<f64>;
-
-/// One scalar row.
+/// One scalar constraint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constraint {
-    /// On the first body's motion.
+    /// Coefficients of the first body's motion.
     pub on_first: Six,
-    /// On the second body's motion; without meaning where that is ground.
+    /// Coefficients of the second body's motion; unused if that is ground.
     pub on_second: Six,
-    /// What the two add up to.
+    /// Required value of the sum.
     pub target: f64,
-    /// R ≥ 0: how much the row yields per unit of force.
+    /// Compliance R ≥ 0: deviation per unit of force.
     pub compliance: f64,
 }
 
-/// Rows of one closing joint, contact or limit.
+/// The rows of one loop closure, contact or limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstraintGroup {
-    /// What the rows act on.
-    pub on: Acting,
-    /// Which rows, among all.
+    /// Bodies or coordinate that the rows act on.
+    pub on: ActsOn,
+    /// Indices of the rows.
     pub rows: Range<usize>,
-    /// What forces they may bring up.
+    /// Which constraint forces are allowed.
     pub law: Law,
 }
 
-/// What rows act on.
+/// Bodies or coordinate that a group of rows acts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Acting {
+pub enum ActsOn {
     /// Two bodies, or a body and ground.
     Bodies {
-        /// The first.
+        /// The first body.
         first: usize,
-        /// The second; `None` is ground.
+        /// The second body; `None` is ground.
         second: Option<usize>,
     },
-    /// One coordinate of a joint: the one row reads its motion q.
+    /// One coordinate of a joint; the group has one row, which reads the motion q of the coordinate.
     Coordinate {
-        /// The body that hangs on the joint.
+        /// The child body of the joint.
         body: usize,
-        /// The coordinate, among all.
+        /// Index of the coordinate.
         coordinate: usize,
     },
 }
 
-/// What forces rows may bring up.
+/// Which constraint forces rows may produce.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
-    /// u = 0 while λ lies within [least, most]; u > 0 only at λ = least, u < 0 only at λ = most. In each row. With infinite
-    /// bounds the row holds; with `least` zero it only pushes, as a lower limit does.
+    /// For each row: u = 0 while λ is inside [least, most]; u > 0 only at λ = least, u < 0 only at λ = most. Infinite bounds make
+    /// an equality; `least` = 0 makes a row that only pushes, such as a lower limit.
     Bounded {
         /// Least force [N, N.m], or impulse.
         least: f64,
         /// Largest force [N, N.m], or impulse.
         most: f64,
     },
-    /// Three rows, normal first: u_n ≥ 0, λ_n ≥ 0, one of them zero; |λ_t| ≤ μ λ_n, and where it slips, λ_t = -μ λ_n u_t/|u_t|
+    /// Three rows, normal first: u_n ≥ 0, λ_n ≥ 0, one of them zero; |λ_t| ≤ μ λ_n, and while slipping λ_t = -μ λ_n u_t/|u_t|
     /// (Coulomb's cone, not a pyramid).
     Contact {
         /// Coefficient of friction μ.
@@ -83,43 +81,24 @@ pub enum Law {
 }
 
 impl Law {
-    /// u = 0, whatever force it takes.
-    pub const HELD: Law = Law::Bounded { least: f64::NEG_INFINITY, most: f64::INFINITY };
+    /// u = 0 with a force of any size.
+    pub const EQUALITY: Law = Law::Bounded { least: f64::NEG_INFINITY, most: f64::INFINITY };
 }
 
-/// A rigid body as the solver sees it at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyTerms {
-    /// Mass [kg].
-    pub mass: f64,
-    /// Inertia about the mass centre in world axes [kg.m²].
-    pub inertia: Mat3,
-}
-
-impl BodyTerms {
-    /// M a.
-    #[must_use]
-    #[inline]
-    pub fn times(&self, a: &Six) -> Six {
-        let moment = self.inertia * Vec3::new(a[0], a[1], a[2]);
-        Six::new(moment.x, moment.y, moment.z, self.mass * a[3], self.mass * a[4], self.mass * a[5])
-    }
-}
-
-/// Bodies, joints, rows and what acts, at one instant.
+/// Bodies, joints, constraints and loads at one instant.
 #[derive(Debug, Clone, Default)]
 pub struct ConstraintGraph {
-    /// How each body is held.
+    /// Parent and freedom of each body.
     pub links: Vec<Link>,
-    /// Each body's inertia.
+    /// Mass and inertia of each body.
     pub bodies: Vec<BodyTerms>,
-    /// The joints' geometry.
+    /// Geometry of the joints.
     pub terms: LinkTerms,
-    /// Right side b, one a body: known wrenches [N.m, N], or momenta with known impulses.
+    /// Right side b, one per body: known wrenches [N.m, N], or momenta plus known impulses.
     pub wrenches: Vec<Six>,
-    /// Efforts along the joints' free directions, one a coordinate [N.m or N].
+    /// Efforts along the free directions of the joints, one per coordinate [N.m or N].
     pub efforts: Vec<f64>,
-    /// Inertia added to coordinates: rotors, and springs and dampers taken implicitly [kg.m² or kg].
+    /// Inertia added to coordinates: rotors, and implicit springs and dampers [kg.m² or kg].
     pub rotors: Vec<f64>,
     /// Groups of rows.
     pub groups: Vec<ConstraintGroup>,
@@ -127,38 +106,38 @@ pub struct ConstraintGraph {
     pub rows: Vec<Constraint>,
 }
 
-/// How far a solver came. Redundant rows do no harm and are not counted here; [`undetermined_rows`](super::undetermined_rows)
-/// finds them at the price of a few tree solves.
+/// Convergence of a solver. Redundant rows are not counted here; [`undetermined_rows`](super::undetermined_rows) finds them with a
+/// few tree solves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Convergence {
-    /// Tree solves.
+    /// Number of tree solves.
     pub iterations: usize,
-    /// Factorisations.
+    /// Number of factorisations.
     pub factorizations: usize,
     /// Largest departure of a row from its law, as a share of the largest departure that rows would have without any
     /// constraint force.
     pub residual: f64,
     /// Whether the residual is within the tolerance.
     pub converged: bool,
-    /// The row that departs most; none without rows.
+    /// The row with the largest departure; `None` without rows.
     pub worst: Option<usize>,
 }
 
-/// The motion and the multipliers, one vector each.
+/// Solution of a constraint graph: motions and multipliers.
 #[derive(Debug, Clone, Default)]
 pub struct GraphSolution {
-    /// Motions, one a body.
+    /// Motions, one per body.
     pub motions: Vec<Six>,
-    /// Motions along the joints' free directions, one a coordinate.
+    /// Motions along the joints' free directions, one per coordinate.
     pub coordinates: Vec<f64>,
-    /// Multipliers, one a row.
+    /// Multipliers, one per row.
     pub lambda: Vec<f64>,
-    /// How far the solver came.
+    /// Convergence of the solver.
     pub convergence: Convergence,
 }
 
 impl ConstraintGraph {
-    /// Forgets all rows, bodies and joints; keeps the memory.
+    /// Removes all rows, bodies and joints; keeps the allocated memory.
     pub fn clear(&mut self) {
         self.links.clear();
         self.bodies.clear();
@@ -172,19 +151,19 @@ impl ConstraintGraph {
         self.rows.clear();
     }
 
-    /// What the rows of a group make of a motion: J a, without compliance or target.
+    /// Value of a row for a motion: J a, without compliance and target.
     #[inline]
     pub(crate) fn reading(&self, group: &ConstraintGroup, row: usize, motions: &[Six], coordinates: &[f64]) -> f64 {
         match group.on {
-            Acting::Coordinate { coordinate, .. } => coordinates[coordinate],
-            Acting::Bodies { first, second } => {
+            ActsOn::Coordinate { coordinate, .. } => coordinates[coordinate],
+            ActsOn::Bodies { first, second } => {
                 let row = &self.rows[row];
                 row.on_first.dot(&motions[first]) + second.map_or(0.0, |s| row.on_second.dot(&motions[s]))
             }
         }
     }
 
-    /// The same, with the sum of the magnitudes that it adds up.
+    /// Value of a row, and the sum of the magnitudes of its terms.
     #[inline]
     pub(crate) fn reading_and_terms(
         &self,
@@ -194,7 +173,7 @@ impl ConstraintGraph {
         coordinates: &[f64],
     ) -> (f64, f64) {
         let sum = self.reading(group, row, motions, coordinates);
-        let Acting::Bodies { first, second } = group.on else { return (sum, sum.abs()) };
+        let ActsOn::Bodies { first, second } = group.on else { return (sum, sum.abs()) };
         let terms = |j: &Six, a: &Six| (0..6).map(|k| (j[k] * a[k]).abs()).sum::<f64>();
         let row = &self.rows[row];
         let of_second = second.map_or(0.0, |s| terms(&row.on_second, &motions[s]));
@@ -205,8 +184,8 @@ impl ConstraintGraph {
     pub(crate) fn push(&self, lambda: &[f64], wrenches: &mut [Six], efforts: &mut [f64]) {
         for group in &self.groups {
             match group.on {
-                Acting::Coordinate { coordinate, .. } => efforts[coordinate] += lambda[group.rows.start],
-                Acting::Bodies { first, second } => {
+                ActsOn::Coordinate { coordinate, .. } => efforts[coordinate] += lambda[group.rows.start],
+                ActsOn::Bodies { first, second } => {
                     for row in group.rows.clone() {
                         wrenches[first].axpy(lambda[row], &self.rows[row].on_first, 1.0);
                         if let Some(second) = second {
@@ -218,8 +197,8 @@ impl ConstraintGraph {
         }
     }
 
-    /// The wrench of each joint on its body, at the body's mass centre [N.m, N]: M a - b - Jᵀ λ of the body and of all that
-    /// hangs on it. Along a free direction it is the effort, but for the solver's residual.
+    /// Wrench of each joint on its body, at the mass centre of the body [N.m, N]: the sum of M a - b - Jᵀ λ over the body and its
+    /// descendants. Along a free direction it is the effort, up to the residual of the solver.
     #[must_use]
     pub fn joint_wrenches(&self, outwards: &[(usize, Option<usize>)], solution: &GraphSolution) -> Vec<Six> {
         let mut wrenches = Vec::new();
@@ -227,7 +206,7 @@ impl ConstraintGraph {
         wrenches
     }
 
-    /// The same, into memory at hand.
+    /// [`Self::joint_wrenches`] into existing memory.
     pub(crate) fn read_joint_wrenches(
         &self,
         outwards: &[(usize, Option<usize>)],
@@ -238,7 +217,7 @@ impl ConstraintGraph {
         let acting = self.bodies.iter().zip(&solution.motions).zip(&self.wrenches);
         wrenches.extend(acting.map(|((body, a), b)| body.times(a) - b));
         for group in &self.groups {
-            let Acting::Bodies { first, second } = group.on else { continue };
+            let ActsOn::Bodies { first, second } = group.on else { continue };
             for row in group.rows.clone() {
                 wrenches[first].axpy(-solution.lambda[row], &self.rows[row].on_first, 1.0);
                 if let Some(second) = second {
@@ -248,14 +227,14 @@ impl ConstraintGraph {
         }
         for &(body, parent) in outwards.iter().rev() {
             if let Some(parent) = parent {
-                let carried = super::block::carry(&wrenches[body], &self.terms.arm[body]);
+                let carried = carry(&wrenches[body], &self.terms.arm[body]);
                 wrenches[parent] += carried;
             }
         }
     }
 
-    /// Whether the row's own length of motion is angular or linear plays no part: the inverse inertia that an
-    /// unconstrained body, or a pair, shows to a row [1/kg or 1/(kg.m²)]; from the mean of its principal moments.
+    /// Mobility of a row [1/kg or 1/(kg.m²)]: its motion per unit of force if its bodies were free, with the mean of their principal
+    /// moments of inertia.
     pub(crate) fn mobility(&self, group: &ConstraintGroup, row: usize) -> f64 {
         let of_body = |body: usize, j: &Six| {
             let terms = &self.bodies[body];
@@ -266,12 +245,12 @@ impl ConstraintGraph {
             share(linear, terms.mass) + share(angular, mean)
         };
         match group.on {
-            Acting::Coordinate { body, coordinate } => {
+            ActsOn::Coordinate { body, coordinate } => {
                 let s = &self.terms.directions[coordinate];
                 let inertia = s.dot(&self.bodies[body].times(s)) + self.rotors[coordinate];
                 if inertia > 0.0 { 1.0 / inertia } else { 0.0 }
             }
-            Acting::Bodies { first, second } => {
+            ActsOn::Bodies { first, second } => {
                 let row = &self.rows[row];
                 of_body(first, &row.on_first) + second.map_or(0.0, |s| of_body(s, &row.on_second))
             }
@@ -279,14 +258,14 @@ impl ConstraintGraph {
     }
 }
 
-/// The six rows of the relative motion of two bodies at a point: angular velocity of the first in the second along each of
-/// `axes`, then the velocity of the first's point against the second's along each of them. Targets are zero.
+/// The six rows of the motion of one body relative to another at a point: angular velocity along each of `axes`, then velocity
+/// of the point along each of them. Targets are zero.
 ///
-/// `to_first` leads from the point to the first's mass centre, `from_second` from the second's mass centre to the point, world
+/// `to_first` points from the point to the first mass centre, `from_second` from the second mass centre to the point, in world
 /// axes [m].
 ///
-/// The velocity of the point on the first is v + ω × (-to_first), so e · that = e · v + (-to_first × e) · ω; on the second it
-/// is v + ω × from_second.
+/// The point of the first body moves at v + ω × (-to_first), whose component along e is e · v + (-to_first × e) · ω; the point
+/// of the second moves at v + ω × from_second.
 #[must_use]
 pub fn relative_rows(axes: [Vec3; 3], to_first: Vec3, from_second: Vec3) -> [Constraint; 6] {
     let six = |angular: Vec3, linear: Vec3| Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z);

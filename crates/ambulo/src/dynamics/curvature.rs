@@ -1,15 +1,16 @@
-//! Forces that laws confine, and how stiffly they answer to motion.
+//! The projection of constraint forces on their laws, and its derivative.
 //!
 //!   λ = Π_K( (λ° - ρ (J a - c)) / (1 + ρ R) )          H = -∂λ/∂(J a)
 //!
-//! For a row, Π clamps; for the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|) across z.
-//! See [`super::proximal`] for symbols.
+//! For a row, Π clamps. For the friction of a contact, it shortens z = λ° - ρ u to the radius r, and H is ρ (r / |z|) across z.
+//! Symbols as in [`super::proximal`].
 
 use super::block::Block;
-use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, Law};
-use super::elimination::{Elimination, EliminationWorkspace};
+use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, Law};
+use super::elimination::EliminationWorkspace;
+use super::elimination_order::Elimination;
 
-/// H of a group: 3 x 3 for a contact; for other laws the diagonal, on up to six rows.
+/// H of a group: 3 x 3 for a contact; diagonal, for up to six rows, for other laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Curvature {
     Diagonal([f64; 6]),
@@ -26,7 +27,7 @@ impl Curvature {
         matches!(self, Curvature::Contact { normal, sticks: false, .. } if *normal > 0.0)
     }
 
-    /// Whether the same rows hold, and the same contacts stick.
+    /// Whether the same rows are active and the same contacts stick.
     pub(super) fn holds_alike(&self, other: &Curvature) -> bool {
         match (self, other) {
             (Curvature::Diagonal(one), Curvature::Diagonal(two)) => {
@@ -41,7 +42,7 @@ impl Curvature {
     }
 }
 
-/// The map from readings to forces.
+/// The map from rows u to forces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Proximal<'a> {
     pub(super) graph: &'a ConstraintGraph,
@@ -51,7 +52,7 @@ pub(super) struct Proximal<'a> {
 }
 
 impl Proximal<'_> {
-    /// λ of one group and its H, for friction of this radius.
+    /// λ and H of one group, for friction of this radius.
     #[inline]
     pub(super) fn project(
         &self,
@@ -85,14 +86,14 @@ impl Proximal<'_> {
                 lambda[start] = force;
                 let z = [1, 2].map(|k| self.center[start + k] - self.rho * u(start + k));
                 let sticks = radius > 0.0 && z[0].hypot(z[1]) <= radius;
-                let (forces, tangential) = rub(z, radius, self.rho, sticks);
+                let (forces, tangential) = friction(z, radius, self.rho, sticks);
                 (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
                 Curvature::Contact { normal, tangential, sticks }
             }
         }
     }
 
-    /// The same as if the rows that hold by `before` held whatever their force, and the others did not; those keep theirs.
+    /// λ and H with the active set of `before`: active rows are equalities, the others keep their forces.
     pub(super) fn extend(
         &self,
         group: &ConstraintGroup,
@@ -117,14 +118,14 @@ impl Proximal<'_> {
                     (lambda[start], normal) = self.held(start, u[start]);
                 }
                 let z = [1, 2].map(|k| self.center[start + k] - self.rho * u[start + k]);
-                let (forces, tangential) = rub(z, radius, self.rho, sticks);
+                let (forces, tangential) = friction(z, radius, self.rho, sticks);
                 (lambda[start + 1], lambda[start + 2]) = (forces[0], forces[1]);
                 Curvature::Contact { normal, tangential, sticks }
             }
         }
     }
 
-    /// Forces of the rows that hold by `before`, whatever their laws; the others keep theirs.
+    /// Forces of the rows that are active in `before`, without bounds; the others keep theirs.
     pub(super) fn hold(&self, group: &ConstraintGroup, u: &[f64], before: &Curvature, lambda: &mut [f64]) {
         let start = group.rows.start;
         for row in group.rows.clone() {
@@ -139,14 +140,14 @@ impl Proximal<'_> {
         }
     }
 
-    /// Force and stiffness of a row within its bounds.
+    /// Force and stiffness of a row inside its bounds.
     fn held(&self, row: usize, u: f64) -> (f64, f64) {
         let soft = 1.0 + self.rho * self.graph.rows[row].compliance;
         ((self.center[row] - self.rho * u) / soft, self.rho / soft)
     }
 }
 
-/// H of rows of their own.
+/// Diagonal H of a group.
 pub(super) fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Curvature {
     let mut values = [0.0; 6];
     for (value, row) in values.iter_mut().zip(group.rows.clone()) {
@@ -155,8 +156,8 @@ pub(super) fn diagonal(group: &ConstraintGroup, h: impl Fn(usize) -> f64) -> Cur
     Curvature::Diagonal(values)
 }
 
-/// Friction for z = λ° - ρ u, and its curvature; z itself where it sticks.
-fn rub(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64; 3]) {
+/// Friction for z = λ° - ρ u, and its curvature; z itself if the contact sticks.
+fn friction(z: [f64; 2], radius: f64, rho: f64, sticks: bool) -> ([f64; 2], [f64; 3]) {
     if sticks {
         return (z, [rho, 0.0, rho]);
     }
@@ -180,13 +181,13 @@ pub(super) fn add_group(
 ) {
     let start = group.rows.start;
     let (first, second) = match group.on {
-        Acting::Coordinate { body, coordinate } => {
+        ActsOn::Coordinate { body, coordinate } => {
             if let Curvature::Diagonal(h) = curvature {
                 factors.add_to_coordinate(elimination, coordinate, body, h[0]);
             }
             return;
         }
-        Acting::Bodies { first, second } => (first, second),
+        ActsOn::Bodies { first, second } => (first, second),
     };
     let mut add = |m: usize, n: usize, h: f64| {
         if h == 0.0 {

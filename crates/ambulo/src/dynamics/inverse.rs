@@ -1,28 +1,27 @@
-//! Inverse dynamics: from a motion and the known loads to the forces in every joint.
+//! Inverse dynamics: computes the force and moment in every joint from a motion and the known loads.
 //!
-//! Newton and Euler for each body in absolute quantities, then one sweep from the leaves to the root. For body i with
-//! mass centre c and joint centre J:
+//! The Newton-Euler equations of each body in absolute quantities, then one sweep from the leaves to the root. For body i
+//! with mass centre c and joint centre J:
 //!
 //!   f_i = m (a - g) - Σ f_load + Σ_children f_j
 //!   n_c = I α + ω × I ω - Σ (n_load + (p - c) × f_load) + Σ_children (n_j + (J_j - c) × f_j)
 //!   n_i = n_c + (c - J) × f_i
 //!
-//! (f_i, n_i) is what the parent does to body i at J. Its generalised forces are τ = Σ_axes (dθ/dq) a · n_i for
-//! rotations and (dd/dq) e · f_i for translations: each joint's share of the power is τ q̇. At the root, which nothing
-//! holds, (f, n) is the residual: what the measured loads and the motion disagree by.
+//! (f_i, n_i) is the wrench of the parent on body i at J. Its generalised forces are τ = Σ_axes (dθ/dq) a · n_i for
+//! rotations and (dd/dq) e · f_i for translations, so that a coordinate's share of the power is τ q̇. At the root, which is
+//! free, (f, n) is the residual: the disagreement between the measured loads and the motion.
 //!
 //! | code       | symbol | unit        | meaning                                              |
 //! | `force`    | f_i    | N           | of the parent on the body, world axes                |
 //! | `moment`   | n_i    | N.m         | about the joint centre, world axes                   |
 //! | `tau`      | τ      | N.m or N    | generalised force of a coordinate                    |
 //!
-//! Source: Luh, Walker, Paul 1980, "On-line computational scheme for mechanical manipulators", in world instead of body
-//! axes (unverified page); OpenSim's sign convention for generalised forces (`InverseDynamicsSolver`).
-//! Cost: linear in bodies; see `cargo xtask bench`.
+//! Source: Luh, Walker, Paul 1980, "On-line computational scheme for mechanical manipulators" (unverified page), here in
+//! world instead of body axes; signs of generalised forces as in OpenSim (`InverseDynamicsSolver`).
+//! Cost: linear in bodies; measured by `cargo xtask bench`.
 //! Pinned by: tests/independent.rs (recursive Newton-Euler in joint coordinates), tests/identities.rs,
 //! tests/opensim_parity.rs
 
-use super::load::{BodyLoad, LoadSeries};
 use crate::kinematics::lanes::{Lanes, M3, V3};
 use crate::kinematics::plan::{Plan, Segment};
 use crate::kinematics::sweep::{self, Scratch};
@@ -31,10 +30,10 @@ use crate::model::{BodyId, Model};
 use crate::spatial::{Vec3, Wrench};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Frames that are computed side by side: eight doubles fill the widest vector register in use (512 bits).
+/// Number of frames computed together: eight doubles fill the widest vector register in use (512 bits).
 const SIDE_BY_SIDE: usize = 8;
 
-/// Scratch for one model. Made once; nothing is allocated per frame afterwards.
+/// Scratch memory of inverse dynamics for one model. Made once; later calls allocate nothing per frame.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     plan: Plan,
@@ -43,34 +42,56 @@ pub struct Workspace {
     many: Kernel<SIDE_BY_SIDE>,
 }
 
-/// Forces of one frame, borrowed from the workspace.
+/// Joint forces and body motions of one frame, borrowed from the workspace.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameForces<'a> {
     plan: &'a Plan,
     kernel: &'a Kernel<1>,
 }
 
-/// What a joint carries at one instant.
+/// Force and moment in a joint at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointReaction {
     /// Joint centre in the world [m]: the origin of the joint frame on the child.
     pub center: Vec3,
-    /// Of the parent on the child: force [N], moment about the joint centre [N.m], world axes.
+    /// Wrench of the parent on the child: force [N], moment about the joint centre [N.m], world axes.
     pub wrench: Wrench,
 }
 
-/// Forces of a whole trajectory.
+/// Result of inverse dynamics over a trajectory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forces {
-    /// Generalised forces: one column a coordinate [N.m or N], one entry a frame.
+    /// Generalised forces [N.m or N]: one column per coordinate, one entry per frame.
     pub generalized: Vec<Vec<f64>>,
-    /// Power that each coordinate's force delivers [W]: one column a coordinate.
+    /// Power of each generalised force [W]: one column per coordinate.
     pub powers: Vec<Vec<f64>>,
-    /// What each body's joint carries: one column a body.
+    /// Reaction in the joint of each body: one column per body.
     pub reactions: Vec<Vec<JointReaction>>,
 }
 
-/// A load on N frames side by side.
+/// A known load on a body at one instant (ground reaction, device), in world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyLoad {
+    /// The loaded body.
+    pub body: BodyId,
+    /// Point of application, in the world [m].
+    pub point: Vec3,
+    /// Force [N] and moment about `point` [N.m].
+    pub wrench: Wrench,
+}
+
+/// A known load on a body over the frames of a trajectory, in world axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadSeries {
+    /// The loaded body.
+    pub body: BodyId,
+    /// Point of application, in the world [m], one entry per frame.
+    pub points: Vec<Vec3>,
+    /// Force [N] and moment about the point [N.m], one entry per frame.
+    pub wrenches: Vec<Wrench>,
+}
+
+/// A load in N frames.
 #[derive(Debug, Clone, Copy)]
 struct LoadLanes<const N: usize> {
     body: usize,
@@ -79,7 +100,7 @@ struct LoadLanes<const N: usize> {
     moment: V3<N>,
 }
 
-/// All that N frames side by side need and yield.
+/// Scratch and results of N frames.
 #[derive(Debug, Clone)]
 struct Kernel<const N: usize> {
     scratch: Scratch<N>,
@@ -90,8 +111,16 @@ struct Kernel<const N: usize> {
     power: Vec<[f64; N]>,
 }
 
+impl LoadSeries {
+    /// The load at one frame.
+    #[must_use]
+    pub fn at(&self, frame: usize) -> BodyLoad {
+        BodyLoad { body: self.body, point: self.points[frame], wrench: self.wrenches[frame] }
+    }
+}
+
 impl Workspace {
-    /// Scratch for this model.
+    /// Allocates the scratch memory for a model.
     #[must_use]
     pub fn new(model: &Model) -> Workspace {
         let plan = Plan::new(model);
@@ -100,10 +129,10 @@ impl Workspace {
     }
 }
 
-/// Inverse dynamics of one frame: generalised forces, reactions and body motions, read from the answer.
+/// Inverse dynamics of one frame. The result gives generalised forces, joint reactions and body motions.
 ///
 /// # Panics
-/// If a slice of `posture` has another length than the model has coordinates.
+/// If the length of a slice of `posture` differs from the number of coordinates.
 pub fn inverse_frame<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, loads: &[BodyLoad]) -> FrameForces<'w> {
     let Workspace { plan, arch, one: kernel, .. } = workspace;
     kernel.loads.clear();
@@ -118,8 +147,8 @@ pub fn inverse_frame<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, loa
     FrameForces { plan, kernel }
 }
 
-/// Generalised forces of all frames, several frames side by side; `store(coordinate, first_frame, values)` receives
-/// them in runs of at most eight. This is the form without allocation; [`inverse`] collects everything.
+/// Generalised forces of all frames, without allocation: `store(coordinate, first_frame, values)` receives them in runs of at
+/// most eight frames. [`inverse`] collects all results instead.
 pub fn inverse_frames(
     workspace: &mut Workspace,
     trajectory: &Trajectory,
@@ -139,7 +168,7 @@ pub fn inverse_frames(
     }
 }
 
-/// Inverse dynamics of a whole trajectory under the given loads (one entry a frame each).
+/// Inverse dynamics of a whole trajectory under the given loads, each with one entry per frame.
 #[must_use]
 pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     let Workspace { plan, arch, many: kernel, .. } = workspace;
@@ -166,14 +195,14 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
     forces
 }
 
-/// Generalised forces of wrenches that joints are known to carry, one coordinate each [N.m or N]: the last step of
-/// [`inverse_frame`] alone. `wrenches` has one entry a body: of its parent on it, at its mass centre, world axes.
+/// Projects known joint wrenches on the coordinates: one generalised force per coordinate [N.m or N]. This is the last step
+/// of [`inverse_frame`] alone. `wrenches` has one entry per body: of its parent on it, at its mass centre, world axes.
 ///
 /// # Panics
-/// If a slice of `posture` has another length than the model has coordinates, or `wrenches` than it has bodies.
+/// If the length of a slice of `posture` differs from the number of coordinates, or that of `wrenches` from the number of bodies.
 pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, wrenches: &[Wrench]) -> &'w [f64] {
     let Workspace { plan, one: kernel, .. } = workspace;
-    assert_eq!(wrenches.len(), plan.segments.len(), "one wrench a body");
+    assert_eq!(wrenches.len(), plan.segments.len(), "one wrench per body");
     kernel.scratch.load_posture(posture);
     sweep::forward(plan, &mut kernel.scratch);
     kernel.tau.fill([0.0; 1]);
@@ -186,19 +215,19 @@ pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, 
 }
 
 impl FrameForces<'_> {
-    /// Generalised forces [N.m or N], one a coordinate.
+    /// Generalised forces [N.m or N], one per coordinate.
     #[must_use]
     pub fn generalized(&self) -> &[f64] {
         self.kernel.tau.as_flattened()
     }
 
-    /// What the joint of a body carries.
+    /// Reaction in the joint of a body.
     #[must_use]
     pub fn reaction(&self, body: BodyId) -> JointReaction {
         self.kernel.reaction(body.index(), 0)
     }
 
-    /// How a body moves.
+    /// Pose, velocity and acceleration of a body.
     #[must_use]
     pub fn body_motion(&self, body: BodyId) -> BodyMotion {
         self.kernel.scratch.body_motion(self.plan, body, 0)
@@ -218,7 +247,7 @@ impl<const N: usize> Kernel<N> {
         }
     }
 
-    /// Leaves to root: forces, moments and their projection on the coordinates.
+    /// Leaves to root: forces, moments and their projections on the coordinates.
     #[inline(always)]
     fn backward(&mut self, plan: &Plan) {
         for (i, segment) in plan.segments.iter().enumerate() {
@@ -244,7 +273,7 @@ impl<const N: usize> Kernel<N> {
         }
     }
 
-    /// τ of one joint's coordinates.
+    /// τ of the coordinates of one joint.
     #[inline(always)]
     fn project(&mut self, plan: &Plan, segment: &Segment, index: usize, force: V3<N>, moment: V3<N>) {
         if let Some(spherical) = &segment.spherical {
@@ -278,8 +307,8 @@ impl<const N: usize> Kernel<N> {
         }
     }
 
-    /// τ times the speed that it is dual to, into `power`: the coordinate's rate, or for ball-like joints the angular
-    /// velocity about F's axes.
+    /// Fills `power` with τ times its conjugate speed: the rate of the coordinate, or for ball-like joints the angular velocity
+    /// about the axes of F.
     fn fill_powers(&mut self, plan: &Plan) {
         for (power, (tau, rate)) in self.power.iter_mut().zip(self.tau.iter().zip(&self.scratch.qd)) {
             *power = (Lanes(*tau) * Lanes(*rate)).0;
@@ -302,7 +331,7 @@ impl Kernel<SIDE_BY_SIDE> {
         arch.dispatch(Solve { plan, kernel: self });
     }
 
-    /// Takes the coordinates of eight frames; past the end the last frame is repeated.
+    /// Loads the coordinates of eight frames; beyond the end the last frame is repeated.
     #[inline(always)]
     fn gather(&mut self, trajectory: &Trajectory, first: usize) {
         let Scratch { q, qd, qdd, .. } = &mut self.scratch;
@@ -340,7 +369,7 @@ fn take(lanes: &mut [f64; SIDE_BY_SIDE], series: &[f64], first: usize) {
     }
 }
 
-/// The two sweeps, compiled once for each generation of vector instructions and chosen at run time.
+/// The two sweeps, compiled for each generation of vector instructions and selected at run time.
 struct Solve<'a, const N: usize> {
     plan: &'a Plan,
     kernel: &'a mut Kernel<N>,
@@ -356,7 +385,7 @@ impl<const N: usize> WithSimd for Solve<'_, N> {
     }
 }
 
-/// What the body's own motion asks for: m (a - g) and I α + ω × I ω about the mass centre.
+/// Wrench that the motion of a body requires: m (a - g), and I α + ω × I ω about the mass centre.
 #[inline(always)]
 fn inertial<const N: usize>(plan: &Plan, segment: &Segment, i: usize, s: &Scratch<N>) -> (V3<N>, V3<N>) {
     let state = &s.states[i + 1];

@@ -1,23 +1,23 @@
-//! Fixed points reached in fewer rounds: Anderson's mixing of the last three.
+//! Anderson mixing: reaches the fixed point of a map in fewer iterations.
 //!
 //! Of a map x -> g(x), the last inputs x_j and outputs g_j are known, newest first. With f = g - x, the weights θ that
-//! make f_0 - Σ θ_j (f_0 - f_j) least give the next input g_0 - Σ θ_j (g_0 - g_j). Of a linear map in as many dimensions
-//! as there are earlier rounds this is the fixed point.
+//! minimise |f_0 - Σ θ_j (f_0 - f_j)| give the next input g_0 - Σ θ_j (g_0 - g_j). For a linear map with at most as many
+//! dimensions as earlier iterations, this is the fixed point.
 //!
-//! Friction needs it: its radius follows the normal force, and a box that slides on its legs leans on them by two angles.
+//! Used for friction: its bound follows the normal forces, which for a box that slides on legs depend on two angles.
 //!
 //! Source: Anderson 1965, "Iterative procedures for nonlinear integral equations" (unverified); the equations are above.
 
-/// Earlier rounds kept.
+/// Number of earlier iterations kept.
 const DEPTH: usize = 2;
-/// A direction whose part aside from the others is below this share of itself brings nothing new.
-const NEW: f64 = 1e-8;
+/// Relative tolerance of linear dependence between iterations.
+const INDEPENDENT: f64 = 1e-8;
 
-/// The last rounds, newest first.
+/// The last iterations, newest first.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Mixing {
+pub(super) struct AndersonMixing {
     rounds: [Round; DEPTH + 1],
-    /// Differences between rounds, each made perpendicular to the one before.
+    /// Differences between iterations, each orthogonal to those before.
     basis: [Round; DEPTH],
     left: Vec<f64>,
     count: usize,
@@ -30,8 +30,8 @@ struct Round {
     output: Vec<f64>,
 }
 
-impl Mixing {
-    /// The map is another one now.
+impl AndersonMixing {
+    /// Forgets the earlier iterations, because the map has changed.
     pub(super) fn forget(&mut self) {
         self.count = 0;
     }
@@ -46,7 +46,7 @@ impl Mixing {
         self.left.clone_from(&newest.change);
         let mut used = 0;
         for round in earlier.iter().take(self.count) {
-            // Of f_0 - f_j and g_0 - g_j, what is aside from those before (Gram and Schmidt).
+            // The parts of f_0 - f_j and g_0 - g_j orthogonal to those before (Gram-Schmidt).
             let (before, rest) = self.basis.split_at_mut(used);
             let own = &mut rest[0];
             set_difference(&mut own.change, &newest.change, &round.change);
@@ -58,7 +58,7 @@ impl Mixing {
                 subtract(share, &other.output, &mut own.output);
             }
             let squares = dot(&own.change, &own.change);
-            if squares > NEW * NEW * whole {
+            if squares > INDEPENDENT * INDEPENDENT * whole {
                 let share = dot(&own.change, &self.left) / squares;
                 subtract(share, &own.change, &mut self.left);
                 subtract(share, &own.output, output);

@@ -1,32 +1,41 @@
-//! Forces from motion, and motion from forces.
+//! Inverse dynamics (forces from motion) and constrained dynamics (motion from forces).
+//!
+//! [`inverse()`] computes the joint forces of a recorded motion. [`solve_graph`] computes the motion and the constraint forces of
+//! jointed bodies with closed loops, contacts and friction, as each step of the simulator needs them. [`residual_reduction`]
+//! changes a recorded motion so that it agrees with measured ground forces.
 
-mod best;
-mod block;
-mod carried;
-mod conjugate_gradient;
-pub mod consistency;
-mod constraint;
-mod curvature;
-mod departure;
-mod elimination;
 mod inverse;
-mod line_search;
-mod load;
+mod roots;
+
+mod block;
+mod elimination;
+mod elimination_order;
+
+mod constraint;
+mod departure;
+mod lumped;
+mod problem;
+
+mod conjugate_gradient;
+mod curvature;
 mod mixing;
 mod proximal;
 mod relaxed;
-mod roots;
 mod solve;
 
+pub mod residual_reduction;
+
+pub use block::{BodyTerms, Six};
 pub use constraint::{
-    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six,
-    relative_rows,
+    ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, relative_rows,
 };
-pub use elimination::{Elimination, EliminationWorkspace, Link, LinkError, LinkTerms, Offsets};
+pub use elimination::{EliminationWorkspace, Offsets};
+pub use elimination_order::{Elimination, Link, LinkError, LinkTerms};
 pub use inverse::{
-    Forces, FrameForces, JointReaction, Workspace, inverse, inverse_frame, inverse_frames, project_wrenches,
+    BodyLoad, Forces, FrameForces, JointReaction, LoadSeries, Workspace, inverse, inverse_frame, inverse_frames,
+    project_wrenches,
 };
-pub use load::{BodyLoad, LoadSeries};
+pub use problem::{Method, SolverSettings};
 pub(crate) use roots::Roots;
-pub use solve::{GraphWorkspace, Method, SolverSettings, solve_graph, undetermined_rows};
+pub use solve::{GraphWorkspace, solve_graph, undetermined_rows};
 pub(crate) use solve::{project_displacements, project_placed};

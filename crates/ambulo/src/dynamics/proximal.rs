@@ -1,79 +1,76 @@
-//! Motions and constraint forces of a graph with loops and contacts: Newton steps on an augmented Lagrangian.
+//! Newton's method for constraint graphs: motions and constraint forces by Newton steps on an augmented Lagrangian.
 //!
-//! With A the inertias on the trees' own coordinates, rows u = J a + R λ - c and laws that confine the forces to a set K:
+//! With the inertias A in the coordinates of the trees, rows u = J a + R λ - c and laws that confine the forces to a set K:
 //!
 //!   λ = Π_K( (λ° - ρ (J a - c)) / (1 + ρ R) )                                                     (1)
 //!   A a = b + Jᵀ λ                                                                                 (2)
 //!
-//! λ° is the last estimate. A Newton step on (2) with (1) put in solves (A + Jᵀ H J) Δ = b + Jᵀ λ - A a, where H = -∂λ/∂(J a) is
-//! at most 3 x 3 for each contact and diagonal else: rows on one body only add to that body's block, rows between two
-//! bodies couple them, and [`Elimination`] does the rest. When (2) holds, λ° := λ; the departure of rigid rows then falls by
-//! 1/(1 + ρ W) each time, W = J A⁻¹ Jᵀ. Redundant rows do no harm: starting at λ° = 0 every λ° stays in the range of J, so the
-//! forces of a table on four legs are the least-squares ones.
+//! λ° is the last estimate. A Newton step on (2) with (1) inserted solves (A + Jᵀ H J) Δ = b + Jᵀ λ - A a, where H = -∂λ/∂(J a) is
+//! 3 x 3 for a contact and diagonal otherwise. Rows on one body add to the block of that body, rows between two bodies couple
+//! them; the system is solved by `elimination`. When (2) holds, λ° := λ; each such round reduces the departure of rigid rows by
+//! 1/(1 + ρ W), W = J A⁻¹ Jᵀ. Redundant rows are allowed: from λ° = 0, every λ° stays in the range of J, so that a table on
+//! four legs gets the least-squares forces.
 //!
-//! A whole step leaves (2) true of λ - H J Δ, whatever (1) then says, but for rounding, which a second, small step mends; a
-//! solution is where laws agree with those forces. If
-//! they do not, but the same rows hold as were factored, those forces are the next λ°, and ρ rises if the last rounds were
-//! slow.
+//! After a full step, λ - H J Δ satisfies (2) up to rounding, which a second, small step corrects; if these forces also satisfy
+//! the laws, the problem is solved. If they do not, but the active rows are those that were factored, these forces become the
+//! next λ°, and ρ is raised if the last rounds were slow.
 //!
-//! Coulomb's law is no gradient. The disc of friction, |λ_t| ≤ r, takes its radius r = μ λ_n from the normal force of the step
-//! before; for a fixed radius (1), (2) are the stationarity of a convex function φ, on which a line search guards each step.
-//! While the same contacts slip, [`Mixing`] foresees where the radii lead: a table that slides and turns, guessed within 1 %,
-//! takes 6 steps to 1e-10 instead of 9. Where friction moves normal forces that no motion determines (a table that slides
-//! on four legs), solutions are many, and which is found depends on the guess.
+//! Coulomb's law is not the gradient of a function. The friction disc |λ_t| ≤ r takes its radius r = μ λ_n from the normal force
+//! of the previous step; for a fixed radius, (1) and (2) are the stationarity of a convex function φ, and a line search on φ
+//! safeguards each step. While the same contacts slip, [`AndersonMixing`] extrapolates the radii: a table that slides and turns,
+//! guessed within 1 %, takes 6 steps to 1e-10 instead of 9. If friction changes normal forces that the motion does not
+//! determine (a table that slides on four legs), there are many solutions, and the result depends on the guess.
 //!
 //! | code        | symbol | unit            | shape                         |
-//! | `lambda`    | λ      | N.m, N          | one a row                     |
-//! | `center`    | λ°     | N.m, N          | one a row                     |
-//! | `u`         | J a - c |  as the motion | one a row                     |
+//! | `lambda`    | λ      | N.m, N          | one per row                   |
+//! | `center`    | λ°     | N.m, N          | one per row                   |
+//! | `u`         | J a - c |  as the motion | one per row                   |
 //! | `rho`       | ρ      | kg, kg.m²       | one number                    |
-//! | `radius`    | r      | N               | one a group                   |
-//! | `curvature` | H      | kg, kg.m²       | 3 x 3 a contact, diagonal else |
+//! | `radius`    | r      | N               | one per group                 |
+//! | `curvature` | H      | kg, kg.m²       | 3 x 3 per contact, else diagonal |
 //!
-//! A guess of the forces, as of the last step, says which contacts push and slip at first; one round is solved so, before any
-//! changes its mind. Where forces are not unique and the least-squares ones would leave a cone, the guess is carried on as far
-//! towards them as all cones allow. Slips that turn about from step to step are damped; what still does not settle goes
-//! to [`super::relaxed`].
+//! A guess of the forces, for example from the last time step, determines the initial active set, which is kept for one round.
+//! If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as far as all
+//! cones allow. Slip directions that oscillate from step to step are damped; problems that still do not converge are passed to
+//! [`super::relaxed`].
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
 //! Panagiotopoulos (unverified). The equations are derived above.
-//! Cost: one factorisation when contacts change between open, sticking and slipping; one solve else.
+//! Cost: one factorisation when contacts change between open, sticking and slipping; otherwise one solve.
+//! Long because it is one algorithm: its steps share the notation above.
 //! Pinned by: tests/constraint_graph.rs
 
-use super::best::Best;
-use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law, Six};
+use super::block::Six;
+use super::constraint::{ConstraintGraph, ConstraintGroup, Convergence, GraphSolution, Law};
 use super::curvature::{Curvature, Proximal, add_group, diagonal};
+use super::departure::{BestIterate, stiffness};
 use super::elimination::Offsets;
-use super::line_search::{inertial_slope, lowest};
-use super::mixing::Mixing;
+use super::mixing::AndersonMixing;
+use super::problem::{Problem, inertial_slope, lowest};
 use super::relaxed::{self, RelaxedWorkspace};
-use super::solve::Problem;
 
-/// ρ times the mobility of rows: large, so that two or three rounds suffice; far from 1/ε, so that the sum A + Jᵀ H J keeps
-/// the digits of A.
-pub(super) const STIFFNESS: f64 = 1e6;
-/// By how much ρ rises where rows' departures fall too slowly, and how far. At 1e9 of A nine digits of a step are lost and
-/// the next step mends them; at 1e12, pivots of A would be taken for rounding.
+/// Factor by which ρ is raised if departures fall too slowly, and its limit. At 1e9 times A, nine digits of a step are lost, which
+/// the next step corrects; at 1e12, pivots of A would be treated as rounding.
 const STIFFER: f64 = 32.0;
 const STIFFEST: f64 = 1e3;
 /// A round that leaves more than this share of the departure is slow.
 const SLOW: f64 = 0.5;
-/// A round that leaves less than this share is one of a steady approach, which can be foreseen.
+/// A round that leaves less than this share of the departure converges steadily, so that it can be extrapolated.
 const STEADY: f64 = 0.3;
-/// A round that leaves more than this share has come to nothing.
+/// A round that leaves more than this share of the departure has failed.
 const STUCK: f64 = 0.999;
-/// Where forces are not unique, those of contacts that stick are kept within this share of their cone.
+/// If forces are not unique, sticking contacts are kept within this share of their cone.
 const WITHIN: f64 = 0.95;
-/// Halvings in finding how far that allows to go.
+/// Number of halvings in the search for this limit.
 const SHARE_HALVINGS: usize = 20;
-/// After so many steps the best motion so far is kept.
+/// Number of steps after which the best iterate is kept.
 const PATIENCE: usize = 12;
-/// Newton steps that follow the convex problem.
+/// Maximum number of Newton steps after the convex problem.
 const POLISH: usize = 20;
-/// A residual that is taken for a solution where Newton's method ends without one.
+/// A residual that is accepted if Newton's method does not converge.
 const NEARLY: f64 = 1e-6;
-/// Rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row that has any mobility to speak of.
+/// Number of rounds of 1/(1 + ρ W) that leave less than 1e-12 of a row with relevant mobility.
 const ROUNDS: usize = 3;
 
 /// Scratch of Newton's method.
@@ -84,23 +81,23 @@ pub(super) struct NewtonWorkspace {
     center: Vec<f64>,
     radius: Vec<f64>,
     last_radius: Vec<f64>,
-    mixing: Mixing,
+    mixing: AndersonMixing,
     curvature: Vec<Curvature>,
     factored: Vec<Curvature>,
     step: Vec<Six>,
     step_coordinates: Vec<f64>,
-    /// λ along the line of a line search.
+    /// λ during a line search.
     trial: Vec<f64>,
-    /// Forces for which (2) held last.
+    /// The last forces that satisfied (2).
     met: Vec<f64>,
-    /// The guess.
+    /// The initial guess.
     before: Vec<f64>,
-    best: Best,
+    best: BestIterate,
     relaxed: RelaxedWorkspace,
 }
 
-/// Whether a contact has a past: more than the mark of a new one.
-fn known(group: &ConstraintGroup, before: &[f64]) -> bool {
+/// Whether a contact existed before: its force is larger than the marker value of a new one.
+fn has_past(group: &ConstraintGroup, before: &[f64]) -> bool {
     before[group.rows.start] > f64::MIN_POSITIVE
 }
 
@@ -130,13 +127,7 @@ pub(super) fn solve(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, 
         .run(solution);
 }
 
-/// ρ for rows of these mobilities.
-pub(super) fn stiffness(mobility: &[f64]) -> f64 {
-    let (least, most) = mobility.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(*x), m.max(*x)));
-    if most > 0.0 { STIFFNESS / (least * most).sqrt() } else { STIFFNESS }
-}
-
-/// See [`super::solve::project_displacements`]: one solve with the last factor.
+/// See [`super::solve::project_displacements`]: one solve with the last factorisation.
 pub(super) fn project(
     problem: &mut Problem<'_>,
     workspace: &mut NewtonWorkspace,
@@ -160,8 +151,8 @@ pub(super) fn project(
     problem.elimination.solve(&graph.terms, Offsets::Prescribed, motions, coordinates, problem.factors);
 }
 
-/// Takes from `rows` what forces of the rows that hold can bring about: r := (1 + ρ W)⁻¹ r, by
-/// r - J (A + Jᵀ H J)⁻¹ Jᵀ H r. Rows that do not hold, and those that yield, become zero.
+/// Removes from `rows` the part that forces of active rows can produce: r := (1 + ρ W)⁻¹ r, computed as
+/// r - J (A + Jᵀ H J)⁻¹ Jᵀ H r. Inactive and compliant rows become zero.
 pub(super) fn without_range(problem: &mut Problem<'_>, workspace: &mut NewtonWorkspace, rows: &mut [f64]) {
     let graph = problem.graph;
     let NewtonWorkspace { factored, trial, step, step_coordinates, .. } = workspace;
@@ -195,16 +186,15 @@ struct Newton<'p, 'a> {
     problem: &'p mut Problem<'a>,
     w: &'p mut NewtonWorkspace,
     rho: f64,
-    /// ρ at first, and the largest one that leaves digits to A.
+    /// Initial ρ, and the largest one that keeps digits of A.
     plain: f64,
     stiffest: f64,
-    /// Of the last step's forces, in units of motion.
+    /// Rounding of the forces of the last step, in units of motion.
     rounding: f64,
 }
 
 impl Newton<'_, '_> {
-    /// A whole step leaves (2) true of λ + H J Δ (`lambda`), whatever (1) says of it: if the laws agree with those forces,
-    /// all is solved. If not, but the same contacts hold, they are the next center.
+    /// Solves the problem: initial guess, first solve, Newton steps, and the convex problem if these fail.
     fn run(&mut self, solution: &mut GraphSolution) {
         let GraphSolution { motions, coordinates, lambda, convergence } = solution;
         *convergence = Convergence::default();
@@ -224,18 +214,18 @@ impl Newton<'_, '_> {
             convergence.iterations = 2;
         }
         if !self.iterate(motions, coordinates, lambda, convergence, self.problem.settings.max_iterations) {
-            self.settle_for_less(motions, coordinates, lambda, convergence);
+            self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
-            // Displacements are projected with the plain stiffness: what hardly yields to it is where loops are stretched, and
-            // would be carried far to undo little.
+            // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops, and would be
+            // moved far to correct little.
             self.rho = self.plain;
             self.guess(lambda);
             self.factor(convergence);
         }
     }
 
-    /// Newton steps from a motion and forces for which (2) holds; true when all laws are met.
+    /// Newton steps from a motion and forces that satisfy (2); returns whether all laws are satisfied.
     fn iterate(
         &mut self,
         motions: &mut [Six],
@@ -282,7 +272,7 @@ impl Newton<'_, '_> {
             if self.w.curvature != self.w.factored {
                 self.factor(convergence);
             }
-            // Slips that turn about from step to step come to rest between.
+            // Half steps damp slip directions that oscillate.
             let share = if whole && self.slips() && convergence.iterations >= PATIENCE { 0.5 } else { 1.0 };
             whole = self.newton_step(motions, coordinates, lambda, whole && alike);
             if whole && share < 1.0 {
@@ -292,7 +282,7 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Part of the last whole step undone, and of what it changed in the forces for which (2) holds.
+    /// Undoes a share of the last full step, and of its change of the forces that satisfy (2).
     fn step_back(&self, share: f64, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
         for (a, step) in motions.iter_mut().zip(&self.w.step) {
             a.axpy(-share, step, 1.0);
@@ -305,8 +295,8 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// What Newton steps could not solve: the best they came to, if that is next to a solution; else the convex problem.
-    fn settle_for_less(
+    /// After Newton steps that did not converge: the best iterate if it is nearly a solution, else the convex problem.
+    fn accept_nearest(
         &mut self,
         motions: &mut Vec<Six>,
         coordinates: &mut Vec<f64>,
@@ -317,7 +307,7 @@ impl Newton<'_, '_> {
         if slips && self.w.best.residual() > NEARLY {
             relaxed::solve(self.problem, &mut self.w.relaxed, motions, coordinates, lambda, convergence);
             self.w.best.keep(motions, coordinates, lambda, convergence);
-            // From there Newton steps may find the way.
+            // Newton steps may converge from there.
             self.rho = self.plain;
             self.guess(lambda);
             self.factor(convergence);
@@ -332,16 +322,16 @@ impl Newton<'_, '_> {
             convergence.residual = f64::INFINITY;
         }
         self.w.best.restore(motions, coordinates, lambda, convergence);
-        // Displacements are projected on what holds now.
+        // Displacements are projected on the rows that are active now.
         self.guess(lambda);
         self.factor(convergence);
     }
 
-    /// One round with everything as guessed: small forces beside large ones are not yet right after the first, and would be
-    /// taken to slip or to pull.
+    /// One round with the active set of the guess: small forces next to large ones are inaccurate after the first solve, and would be
+    /// classified as slipping or pulling.
     ///
-    /// Where forces are not unique, the first round has found the least-squares ones; they may lie outside their cones where
-    /// others do not. So λ° goes from the guess as far towards them as all cones allow.
+    /// If forces are not unique, the first solve gives the least-squares forces, which may lie outside their cones although others do
+    /// not. λ° is therefore moved from the guess towards them only as far as all cones allow.
     fn approach(&mut self, motions: &mut [Six], coordinates: &mut [f64], lambda: &mut [f64]) {
         let share = self.share_of_least_squares(lambda);
         self.problem.departures.read(self.graph, motions, coordinates);
@@ -351,7 +341,7 @@ impl Newton<'_, '_> {
                 let (past, now) = (before[row], lambda[row]);
                 center[row] = if past == 0.0 { now } else { past + share * (now - past) };
             }
-            if let (Law::Contact { friction, .. }, false) = (group.law, known(group, before)) {
+            if let (Law::Contact { friction, .. }, false) = (group.law, has_past(group, before)) {
                 let center = &mut center[group.rows.clone()];
                 center[0] = center[0].max(0.0);
                 let (length, radius) = (center[1].hypot(center[2]), WITHIN * friction * center[0]);
@@ -367,7 +357,7 @@ impl Newton<'_, '_> {
         self.newton_step(motions, coordinates, lambda, true);
     }
 
-    /// The largest share, up to all, of the way from the guess to `lambda` on which no contact that sticks leaves its cone.
+    /// The largest share (at most 1) of the way from the guess to `lambda` on which no sticking contact leaves its cone.
     fn share_of_least_squares(&self, lambda: &[f64]) -> f64 {
         let mut share = 1.0_f64;
         for (group, curvature) in self.graph.groups.iter().zip(&self.w.factored) {
@@ -376,7 +366,7 @@ impl Newton<'_, '_> {
             else {
                 continue;
             };
-            if *normal <= 0.0 || !known(group, &self.w.before) {
+            if *normal <= 0.0 || !has_past(group, &self.w.before) {
                 continue;
             }
             let start = group.rows.start;
@@ -390,7 +380,7 @@ impl Newton<'_, '_> {
             if inside(share) {
                 continue;
             }
-            // The cone is convex: by halving.
+            // The cone is convex, so bisection works.
             let (mut low, mut high) = (0.0, share);
             for _ in 0..SHARE_HALVINGS {
                 let middle = 0.5 * (low + high);
@@ -401,13 +391,13 @@ impl Newton<'_, '_> {
         share
     }
 
-    /// Curvatures by the guess: pushing contacts stick, or slip where they slipped.
+    /// Initial H from the guess: loaded contacts stick, or slip if their friction is at the limit.
     fn guess(&mut self, lambda: &[f64]) {
         for (number, group) in self.graph.groups.iter().enumerate() {
             let first = group.rows.start;
             let h = |row: usize| self.rho / (1.0 + self.rho * self.graph.rows[row].compliance);
             self.w.curvature[number] = match group.law {
-                Law::HELD => diagonal(group, h),
+                Law::EQUALITY => diagonal(group, h),
                 Law::Bounded { least, most } => {
                     diagonal(group, |row| if lambda[row] > least && lambda[row] < most { h(row) } else { 0.0 })
                 }
@@ -425,7 +415,7 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// A + Jᵀ H J, factored.
+    /// Factors A + Jᵀ H J.
     fn factor(&mut self, convergence: &mut Convergence) {
         convergence.factorizations += 1;
         self.problem.begin();
@@ -437,7 +427,8 @@ impl Newton<'_, '_> {
         elimination.factor(&graph.terms, factors);
     }
 
-    /// Without an earlier motion: b + Jᵀ (H c), and the friction of slipping contacts. λ = H c - H J a.
+    /// The first solve, without an earlier motion: right side b + Jᵀ (H c) with the friction of slipping contacts, then
+    /// λ = H c - H J a.
     fn first_solve(&mut self, motions: &mut Vec<Six>, coordinates: &mut Vec<f64>, lambda: &mut [f64]) {
         motions.clone_from(&self.graph.wrenches);
         coordinates.clone_from(&self.graph.efforts);
@@ -462,7 +453,7 @@ impl Newton<'_, '_> {
         self.follow(lambda);
     }
 
-    /// J Δ, and how far λ - H J Δ may be rounded, in units of motion: W H times the rounding of J Δ.
+    /// Computes J Δ, and the rounding of λ - H J Δ in units of motion: W H times the rounding of J Δ.
     fn read_change(&mut self, step: &[Six], coordinates: &[f64]) {
         self.rounding = 0.0;
         for group in &self.graph.groups {
@@ -494,8 +485,8 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Whether the same rows hold as in the system that was factored, the others are at the same bounds, and the same
-    /// contacts stick.
+    /// Whether the active set is that of the factored system: the same rows active, the others at the same bounds, and the same
+    /// contacts sticking.
     fn alike(&self, lambda: &[f64]) -> bool {
         let same_bound = |group: &ConstraintGroup, curvature: &Curvature| match curvature {
             Curvature::Contact { .. } => true,
@@ -508,9 +499,9 @@ impl Newton<'_, '_> {
         groups.into_iter().all(|(group, (now, then))| now.holds_alike(then) && same_bound(group, now))
     }
 
-    /// Whether the same rows fail as a round ago, and as much, however stiff: they contradict each other. If they fail nearly
-    /// as much, ρ rises: modes of a mobility far below that of single rows (a tall tower that bends: its levels' to the
-    /// fourth power) want it so.
+    /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it falls only
+    /// slowly, ρ is raised; this is needed for modes whose mobility is far below that of single rows (bending of a tall tower,
+    /// with the fourth power of the number of levels).
     fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
         let slow = residual > SLOW * *last;
         let stiff = self.rho >= self.stiffest;
@@ -526,8 +517,8 @@ impl Newton<'_, '_> {
         self.w.curvature.iter().any(Curvature::slips)
     }
 
-    /// λ° := λ for which (2) holds (`trial`); radii of slipping contacts from the last rounds; λ and H for both at the same
-    /// motion, as if the same rows went on to hold: λ° is where they hold, while λ° - ρ u has moved on by as much again.
+    /// Starts the next round: λ° := the forces that satisfy (2) (`trial`), radii of slipping contacts extrapolated from the last
+    /// rounds, and λ and H for both at the same motion with the same active set.
     fn recenter(&mut self, lambda: &mut [f64], steady: bool) {
         let slips = self.slips();
         let NewtonWorkspace { mixing, last_radius, radius, center, trial, curvature, .. } = &mut *self.w;
@@ -566,8 +557,8 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// λ by (1) and H at the present motion. A contact that begins to push has no friction for one step: what -ρ u would
-    /// allow it is many times what it will bear, opens it again, and so on without end.
+    /// λ by (1) and H at the present motion. A contact that begins to push gets no friction for one step: the friction by -ρ u
+    /// would be many times too large and open the contact again, without end.
     fn evaluate(&mut self, lambda: &mut [f64]) {
         let NewtonWorkspace { center, radius, curvature, .. } = &mut *self.w;
         let (map, u) = (Proximal { graph: self.graph, rho: self.rho, center }, &self.problem.departures.u);
@@ -576,7 +567,7 @@ impl Newton<'_, '_> {
         }
     }
 
-    /// Δ, guarded by a line search, added to the motion; true of a whole step, after which (2) holds.
+    /// Adds the Newton step Δ, shortened by a line search, to the motion. Returns whether the step was full, so that (2) holds.
     fn newton_step(
         &mut self,
         motions: &mut [Six],
@@ -601,7 +592,7 @@ impl Newton<'_, '_> {
         let (step, step_coordinates) = (std::mem::take(&mut self.w.step), std::mem::take(&mut self.w.step_coordinates));
         self.read_change(&step, &step_coordinates);
         (self.w.step, self.w.step_coordinates) = (step, step_coordinates);
-        // A step below the tolerance is whole: the line search would read rounding.
+        // A step below the tolerance is taken in full: the line search would only see rounding.
         let largest = self.w.change.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let small = largest <= self.problem.settings.tolerance * self.problem.departures.scale;
         let length = if recentered || small { 1.0 } else { self.step_length(motions, coordinates, lambda) };
@@ -618,9 +609,9 @@ impl Newton<'_, '_> {
         whole
     }
 
-    /// Where φ along Δ is least: φ'(s) = Δᵀ(A a - b) + s Δᵀ A Δ - (J Δ)ᵀ λ(s), which rises with s.
+    /// Length of the step that minimises φ along Δ.
     fn step_length(&mut self, motions: &[Six], coordinates: &[f64], lambda: &[f64]) -> f64 {
-        if self.graph.groups.iter().all(|g| g.law == Law::HELD) {
+        if self.graph.groups.iter().all(|g| g.law == Law::EQUALITY) {
             return 1.0;
         }
         let step = (&self.w.step[..], &self.w.step_coordinates[..]);

@@ -1,42 +1,42 @@
-//! Where Newton's method on Coulomb's law fails: a convex problem near it, which always has an answer.
+//! Fallback where Newton's method on Coulomb's law fails: a nearby convex problem, which always has a solution.
 //!
-//! With the slip speed held at a guess, u_n + s with s = μ |u_t| instead of u_n, Coulomb's law is the stationarity of a convex
-//! function (normal and friction together in one cone):
+//! With u_n + s instead of u_n, where s = μ |u_t| is fixed at a guess, Coulomb's law is the stationarity of a convex function,
+//! with normal force and friction in one cone:
 //!
 //!   λ = Π_cone( λ° - ρ (u + s n) )         A a = b + Jᵀ λ
 //!
-//! Newton steps with a line search always lead to its minimum. Then s follows the slip found, and λ° := λ, a few rounds. With
-//! s = 0 slipping surfaces part at μ |u_t|; at the fixed point of s the law is Coulomb's. Whatever round is the last,
-//! forces lie in their cones, work against motion, and meet (2): what Newton's method leaves unsolved in a jumble of boxes
-//! costs accuracy, which the residual states, but no energy appears.
+//! Newton steps with a line search always converge to its minimum. Then s is updated from the computed slip, λ° := λ, and the
+//! problem is solved again for a few rounds. With s = 0, slipping surfaces would separate at μ |u_t|; at the fixed point of s
+//! the law is Coulomb's. After any round, forces lie in their cones, oppose the motion, and satisfy A a = b + Jᵀ λ: an
+//! unconverged problem (a pile of boxes) loses accuracy, which the residual reports, but gains no energy.
 //!
 //! Source: De Saxcé and Feng 1998 for the shift by μ |u_t|; Anitescu 2006 for s = 0 (unverified pages).
-//! Cost: a factorisation a step.
+//! Cost: one factorisation per step.
 //! Pinned by: tests/constraint_graph.rs, tests/simulation_robustness.rs
 
-use super::constraint::{Acting, ConstraintGroup, Convergence, Law, Six};
+use super::block::Six;
+use super::constraint::{ActsOn, ConstraintGroup, Convergence, Law};
+use super::departure::stiffness;
 use super::elimination::Offsets;
-use super::line_search::{inertial_slope, lowest};
-use super::proximal::stiffness;
-use super::solve::Problem;
-use crate::contact::onto_cone;
+use super::problem::{Problem, inertial_slope, lowest};
+use crate::contact::project_onto_cone;
 
-/// ρ here, as a share of Newton's: rounds are slower, steps between cones longer.
+/// ρ relative to Newton's method: more rounds, but longer steps between cones.
 const SOFTER: f64 = 1e-2;
-/// Rounds of s and λ°.
+/// Maximum number of rounds of s and λ°.
 const ROUNDS: usize = 30;
-/// Newton steps in a round, at most.
+/// Maximum number of Newton steps per round.
 const STEPS: usize = 30;
-/// A round is over when rows change by less than this share of the scale.
+/// A round ends when rows change by less than this share of the scale.
 const STILL: f64 = 1e-8;
 
-/// Scratch.
+/// Scratch memory.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RelaxedWorkspace {
     center: Vec<f64>,
     shift: Vec<f64>,
     slip: Vec<f64>,
-    /// Forces with which (2) holds.
+    /// Forces that satisfy A a = b + Jᵀ λ.
     met: Vec<f64>,
     lambda: Vec<f64>,
     trial: Vec<f64>,
@@ -53,7 +53,7 @@ enum Slope {
     Contact([[f64; 3]; 3]),
 }
 
-/// Replaces motion and forces by those of the relaxed problem.
+/// Solves the relaxed problem and replaces motion and forces by its solution.
 pub(super) fn solve(
     problem: &mut Problem<'_>,
     w: &mut RelaxedWorkspace,
@@ -123,7 +123,7 @@ impl Relaxed<'_, '_> {
         }
     }
 
-    /// s := μ |u_t| of all contacts, of open ones too: with it they may stay open; the largest change.
+    /// Sets s := μ |u_t| of all contacts, including open ones, which may then stay open. Returns the largest change.
     fn update_shifts(&mut self) -> f64 {
         let RelaxedWorkspace { shift, slip, .. } = &mut *self.w;
         let u = &self.problem.departures.u;
@@ -157,8 +157,8 @@ impl Relaxed<'_, '_> {
         let Problem { graph, elimination, blocks, factors, .. } = &mut *self.problem;
         for (number, group) in graph.groups.iter().enumerate() {
             let slope = &self.w.slopes[number];
-            let Acting::Bodies { first, second } = group.on else {
-                if let (Acting::Coordinate { body, coordinate }, Slope::Diagonal(h)) = (group.on, slope) {
+            let ActsOn::Bodies { first, second } = group.on else {
+                if let (ActsOn::Coordinate { body, coordinate }, Slope::Diagonal(h)) = (group.on, slope) {
                     factors.add_to_coordinate(elimination, coordinate, body, h[0]);
                 }
                 continue;
@@ -183,7 +183,7 @@ impl Relaxed<'_, '_> {
         elimination.factor(&graph.terms, factors);
     }
 
-    /// One guarded Newton step; the largest change of a row.
+    /// One Newton step with line search; returns the largest change of a row.
     fn advance(&mut self, motions: &mut [Six], coordinates: &mut [f64]) -> f64 {
         let graph = self.problem.graph;
         let RelaxedWorkspace { step, step_coordinates, lambda, change, .. } = &mut *self.w;
@@ -221,7 +221,7 @@ impl Relaxed<'_, '_> {
         length * change.iter().fold(0.0, |m: f64, c| m.max(c.abs()))
     }
 
-    /// Where the convex function is least along the step.
+    /// Length of the step that minimises the convex function.
     fn step_length(&mut self, motions: &[Six], coordinates: &[f64]) -> f64 {
         let graph = self.problem.graph;
         let step = (&self.w.step[..], &self.w.step_coordinates[..]);
@@ -257,7 +257,7 @@ impl Slope {
     }
 }
 
-/// λ of one group, and its H.
+/// λ and H of one group.
 fn law(
     group: &ConstraintGroup,
     rho: f64,
@@ -284,14 +284,14 @@ fn law(
                 let lift = if k == 0 { shift } else { 0.0 };
                 (center[start + k] - rho * (u(start + k) + lift)) / soft
             });
-            let nearest = onto_cone(z, friction);
+            let nearest = project_onto_cone(z, friction);
             lambda[start..start + 3].copy_from_slice(&nearest.force);
             Slope::Contact(nearest.slope.map(|row| row.map(|s| s * rho / soft)))
         }
     }
 }
 
-/// Forces that have left their laws by rounding, or by a step that was cut, put back.
+/// Projects forces that violate their laws, by rounding or after a shortened step.
 fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
     let start = group.rows.start;
     match group.law {
@@ -299,7 +299,7 @@ fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
             group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
         }
         Law::Contact { friction, bound } => {
-            let force = onto_cone([lambda[start], lambda[start + 1], lambda[start + 2]], friction).force;
+            let force = project_onto_cone([lambda[start], lambda[start + 1], lambda[start + 2]], friction).force;
             let share = if force[0] > bound { bound / force[0] } else { 1.0 };
             (0..3).for_each(|k| lambda[start + k] = force[k] * share);
         }

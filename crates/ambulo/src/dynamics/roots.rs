@@ -1,10 +1,10 @@
-//! The joints to ground, and what a motion lacks there: the wrench that no load supplies.
+//! Residual force and moment: the wrench at the joints to ground that no load supplies.
 
 use super::inverse::JointReaction;
 use crate::model::{BodyId, Displacement, Joint, JointAxis, Model};
 use crate::spatial::{Vec3, Wrench};
 
-/// The joints to ground, and how they let move.
+/// The joints to ground and their free directions.
 #[derive(Debug, Clone)]
 pub(crate) struct Roots {
     joints: Vec<Root>,
@@ -13,7 +13,7 @@ pub(crate) struct Roots {
 #[derive(Debug, Clone)]
 struct Root {
     body: BodyId,
-    /// Where forces and moments are residual: everywhere, or along some directions.
+    /// Directions along which forces and moments are residual.
     force: Free,
     moment: Free,
 }
@@ -31,7 +31,7 @@ impl Roots {
         Roots { joints: model.body_ids().filter(is_root).map(root).collect() }
     }
 
-    /// What nothing supplies at an instant, about the first root's joint, from what the joint of each body carries.
+    /// Residual wrench at one instant, about the joint of the first root, from the reaction in the joint of each body.
     pub(crate) fn residual(&self, reaction: impl Fn(BodyId) -> JointReaction) -> Wrench {
         let mut total = Wrench::ZERO;
         let Some(first) = self.joints.first() else { return total };
@@ -48,8 +48,8 @@ impl Roots {
 }
 
 impl Root {
-    /// A joint that slides and turns about one axis keeps the rest of the motion; one that turns about several axes, or does not
-    /// slide at all, is taken as a whole.
+    /// A joint that translates and rotates about one axis (planar models) has residuals along its free directions only. For a
+    /// joint with several rotations, or without translations, the whole wrench is residual.
     fn of(body: BodyId, joint: &Joint) -> Root {
         let directions = |axes: &[JointAxis]| -> Vec<Vec3> {
             let moves = |axis: &&JointAxis| matches!(axis.displacement, Displacement::Follows(..));
@@ -72,9 +72,9 @@ impl Free {
     }
 }
 
-/// Unit vectors at right angles that span the same directions (Gram and Schmidt's method).
+/// Orthonormal vectors that span the same directions (Gram-Schmidt).
 fn square(directions: Vec<Vec3>) -> Vec<Vec3> {
-    /// Shorter than this, a direction is one of those before it.
+    /// A shorter remainder means that a direction depends on those before it.
     const SHORT: f64 = 1e-9;
     let mut axes: Vec<Vec3> = Vec::new();
     for direction in directions {

@@ -1,69 +1,41 @@
-//! Solving a constraint graph: which method, how far, and the scratch that methods share.
+//! Solves constraint graphs with a chosen method; holds the scratch memory that the methods share.
 //!
-//! [`Method::Newton`] factors trees and rows together: loops cost a little fill-in, contacts a factorisation each time
-//! that one opens, sticks or slips. [`Method::ConjugateGradient`] factors the trees alone, once, and refines the rows'
-//! forces by tree solves. Measured on ladders, tables, walls and towers in tests/constraint_graph.rs (tree solves and
-//! factorisations of both).
+//! [`Method::Newton`] factors trees and rows together: loops cost some fill-in, contacts one factorisation each time that one
+//! opens, sticks or slips. [`Method::ConjugateGradient`] factors the trees once and refines the forces of the rows by tree
+//! solves. tests/constraint_graph.rs counts the tree solves and factorisations of both on ladders, tables, walls and towers.
 
-use super::carried::Carried;
+use super::block::Six;
 use super::conjugate_gradient::{self, ConjugateWorkspace};
-use super::constraint::{Acting, ConstraintGraph, ConstraintGroup, GraphSolution, Six};
+use super::constraint::{ActsOn, ConstraintGraph, ConstraintGroup, GraphSolution};
 use super::departure::Departures;
-use super::elimination::{Elimination, EliminationWorkspace, Link, LinkError, outwards};
+use super::elimination::EliminationWorkspace;
+use super::elimination_order::{Elimination, Link, LinkError, outwards};
+use super::lumped::LumpedGraph;
+use super::problem::{Method, Problem, SolverSettings};
 use super::proximal::{self, NewtonWorkspace};
 use std::collections::BTreeMap;
 
-/// A row whose reading of a probe that nothing can balance is below this share of the probe is determined: regular rows
-/// leave 1e-12 of it, a row that stands twice one half, and one that stands k times (k-1)/k.
+/// A row is determined if less than this share of a random probe remains in it: regular rows leave 1e-12, a duplicated row
+/// leaves 1/2, and a row that occurs k times (k-1)/k.
 const UNDETERMINED: f64 = 1e-6;
 
-/// How closing rows and contacts are solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Newton steps on an augmented Lagrangian. A guess of the forces has no part in the result beyond rounding, so that
-    /// redundant rows share least-squares forces whatever came before.
-    #[default]
-    Newton,
-    /// Conjugate gradient, as in the paper. Begins at the guess; redundant rows get the forces nearest to it, which for no
-    /// guess are the least-squares ones.
-    ConjugateGradient,
-}
-
-/// How far to iterate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverSettings {
-    /// By which method.
-    pub method: Method,
-    /// Largest residual accepted; see [`Convergence::residual`](super::Convergence::residual).
-    pub tolerance: f64,
-    /// Most tree solves. Newton needs few whatever the scene; conjugate gradient up to some multiple of the number of
-    /// rows.
-    pub max_iterations: usize,
-}
-
-impl Default for SolverSettings {
-    fn default() -> Self {
-        SolverSettings { method: Method::Newton, tolerance: 1e-10, max_iterations: 100 }
-    }
-}
-
-/// Scratch of the solver. Nothing is allocated while the graph keeps its shape.
+/// Scratch memory of the solver. Nothing is allocated while the structure of the graph is unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct GraphWorkspace {
-    /// All links, and their bodies with their parents, parents first.
+    /// All links, and all bodies with their parents, parents first.
     all_links: Vec<Link>,
     outwards: Vec<(usize, Option<usize>)>,
-    carried: Carried,
-    /// Whether the graph was last solved as what its bodies carry.
-    carries: bool,
-    /// Links of the graph that is solved.
+    lumped: LumpedGraph,
+    /// Whether the last graph was solved in its lumped form.
+    is_lumped: bool,
+    /// Links of the solved graph.
     links: Vec<Link>,
     /// Bodies that each group couples.
     shape: Vec<Option<(usize, usize)>>,
     elimination: Option<Elimination>,
     /// Off-diagonal block of each group that couples two bodies, and whether it is transposed.
     blocks: Vec<Option<(usize, bool)>>,
-    /// As last solved with.
+    /// Settings of the last solution.
     settings: SolverSettings,
     pub(super) factors: EliminationWorkspace,
     pub(super) departures: Departures,
@@ -71,39 +43,15 @@ pub struct GraphWorkspace {
     conjugate: ConjugateWorkspace,
 }
 
-/// What a method works on.
-pub(super) struct Problem<'a> {
-    pub(super) graph: &'a ConstraintGraph,
-    pub(super) elimination: &'a Elimination,
-    pub(super) settings: SolverSettings,
-    pub(super) blocks: &'a [Option<(usize, bool)>],
-    pub(super) factors: &'a mut EliminationWorkspace,
-    pub(super) departures: &'a mut Departures,
-}
-
-impl Problem<'_> {
-    /// The inertias of bodies and coordinates, not yet factored.
-    pub(super) fn begin(&mut self) {
-        self.factors.begin(self.elimination, &self.graph.bodies);
-        for body in 0..self.graph.links.len() {
-            for coordinate in self.elimination.coordinates_of(body) {
-                let rotor = self.graph.rotors[coordinate];
-                self.factors.add_to_coordinate(self.elimination, coordinate, body, rotor);
-            }
-        }
-    }
-}
-
-/// Solves the graph. `solution.lambda` holds a guess of the forces, as of the last step: from it comes which contacts are
-/// first taken as pushing and which as slipping, and where conjugate gradient begins. A contact without a past gets a
-/// positive normal force and no other.
+/// Solves the graph. On entry, `solution.lambda` is a guess of the forces, for example those of the last time step: it determines
+/// which contacts are first treated as loaded and as slipping, and where conjugate gradient starts. The guess of a new contact is
+/// a positive normal force without friction.
 ///
-/// Rows whose laws contradict each other (a drive against a wall) leave
-/// [`Convergence::converged`](super::Convergence::converged) false, with the row that departs most; forces stay within their
-/// bounds.
+/// If rows contradict each other (a drive against a wall), [`Convergence::converged`](super::Convergence::converged) is false and
+/// the row with the largest departure is reported; forces stay within their bounds.
 ///
 /// # Errors
-/// A graph whose links are no forest.
+/// Links that do not form trees.
 pub fn solve_graph(
     graph: &ConstraintGraph,
     settings: &SolverSettings,
@@ -112,26 +60,26 @@ pub fn solve_graph(
 ) -> Result<(), LinkError> {
     workspace.settings = *settings;
     solution.lambda.resize(graph.rows.len(), 0.0);
-    workspace.hang(&graph.links)?;
-    let mut carried = std::mem::take(&mut workspace.carried);
-    workspace.carries = settings.method == Method::Newton && carried.take(graph, &workspace.outwards);
-    let done = if workspace.carries {
-        std::mem::swap(&mut carried.solution.lambda, &mut solution.lambda);
-        let done = workspace.solve(&carried.graph, &mut carried.solution);
-        std::mem::swap(&mut carried.solution.lambda, &mut solution.lambda);
-        carried.spread(&carried.solution.motions, &mut solution.motions);
-        solution.coordinates.clone_from(&carried.solution.coordinates);
-        solution.convergence = carried.solution.convergence;
+    workspace.order_bodies(&graph.links)?;
+    let mut lumped = std::mem::take(&mut workspace.lumped);
+    workspace.is_lumped = settings.method == Method::Newton && lumped.take(graph, &workspace.outwards);
+    let done = if workspace.is_lumped {
+        std::mem::swap(&mut lumped.solution.lambda, &mut solution.lambda);
+        let done = workspace.solve(&lumped.graph, &mut lumped.solution);
+        std::mem::swap(&mut lumped.solution.lambda, &mut solution.lambda);
+        lumped.spread(&lumped.solution.motions, &mut solution.motions);
+        solution.coordinates.clone_from(&lumped.solution.coordinates);
+        solution.convergence = lumped.solution.convergence;
         done
     } else {
         workspace.solve(graph, solution)
     };
-    workspace.carried = carried;
+    workspace.lumped = lumped;
     done
 }
 
-/// Displacements that carry the rows that hold at the last solution to `targets`, with the least mass moved: M δ = Jᵀ ν,
-/// J δ = targets, and the joints' offsets as they stand in the graph. Uses the last factor and the last method.
+/// Displacements that bring the rows active at the last solution to `targets` with the least motion of mass: M δ = Jᵀ ν,
+/// J δ = targets, with the current joint offsets of the graph. Uses the last factorisation and the last method.
 pub(crate) fn project_displacements(
     graph: &ConstraintGraph,
     targets: &[f64],
@@ -141,15 +89,15 @@ pub(crate) fn project_displacements(
 ) {
     coordinates.clear();
     coordinates.resize(graph.efforts.len(), 0.0);
-    if workspace.carries {
-        let mut carried = std::mem::take(&mut workspace.carried);
-        carried.begin_displacements(graph, &workspace.outwards, targets);
-        let Carried { graph: less, displacements, targets, .. } = &mut carried;
+    if workspace.is_lumped {
+        let mut lumped = std::mem::take(&mut workspace.lumped);
+        lumped.begin_displacements(graph, &workspace.outwards, targets);
+        let LumpedGraph { graph: less, displacements, targets, .. } = &mut lumped;
         workspace.with_problem(less, |mut problem, newton, _| {
             proximal::project(&mut problem, newton, targets, displacements, coordinates);
         });
-        carried.spread(&carried.displacements, motions);
-        workspace.carried = carried;
+        lumped.spread(&lumped.displacements, motions);
+        workspace.lumped = lumped;
         return;
     }
     motions.clear();
@@ -162,9 +110,9 @@ pub(crate) fn project_displacements(
     });
 }
 
-/// The same for bodies that have already been placed, `off` from where their motion takes them: displacements of all from
-/// the places where they are, with the least mass moved from where their motion takes them. Of a graph that was solved as
-/// what its bodies carry.
+/// [`project_displacements`] for bodies that are already placed, `off` from the positions that follow from their motion: the
+/// displacements start at the placed positions and minimise the distance from those of the motion. For graphs that were solved
+/// in lumped form.
 pub(crate) fn project_placed(
     graph: &ConstraintGraph,
     off: &[Six],
@@ -175,37 +123,36 @@ pub(crate) fn project_placed(
 ) {
     coordinates.clear();
     coordinates.resize(graph.efforts.len(), 0.0);
-    let mut carried = std::mem::take(&mut workspace.carried);
-    carried.begin_placed(graph, off);
-    let Carried { graph: less, displacements, .. } = &mut carried;
+    let mut lumped = std::mem::take(&mut workspace.lumped);
+    lumped.begin_placed(graph, off);
+    let LumpedGraph { graph: less, displacements, .. } = &mut lumped;
     workspace.with_problem(less, |mut problem, newton, _| {
         proximal::project(&mut problem, newton, targets, displacements, coordinates);
     });
-    carried.spread(&carried.displacements, motions);
-    workspace.carried = carried;
+    lumped.spread(&lumped.displacements, motions);
+    workspace.lumped = lumped;
 }
 
-/// Rows that hold at the last solution and whose forces the motion does not determine: some combination of them with
-/// others moves nothing (a flat foot on four points, a loop in the plane closed by rows for space). Uses the last factor.
+/// Active rows of the last solution whose forces the motion does not determine, because some combination of them with others
+/// moves nothing (a flat foot on four points, a planar loop closed by spatial rows). Uses the last factorisation.
 ///
-/// A probe z of random targets is asked of the rows. What no force can bring about is its part in the null space of
-/// J A⁻¹ Jᵀ; with probability one it shows in exactly the rows that the null space touches. Costs a few tree solves with
-/// Newton's method, as many as a solution with conjugate gradient.
+/// The rows get a probe z of random targets. The part of it that no force can produce lies in the null space of J A⁻¹ Jᵀ, and
+/// appears with probability one in exactly the rows that the null space involves. Costs a few tree solves with Newton's
+/// method, as many as a solution with conjugate gradient.
 #[must_use]
 pub fn undetermined_rows(graph: &ConstraintGraph, workspace: &mut GraphWorkspace) -> Vec<usize> {
     let mut left = probe(graph.rows.len());
-    let carried = std::mem::take(&mut workspace.carried);
-    let solved = if workspace.carries { &carried.graph } else { graph };
+    let lumped = std::mem::take(&mut workspace.lumped);
+    let solved = if workspace.is_lumped { &lumped.graph } else { graph };
     workspace.with_problem(solved, |mut problem, newton, conjugate| match problem.settings.method {
         Method::Newton => proximal::without_range(&mut problem, newton, &mut left),
         Method::ConjugateGradient => conjugate_gradient::without_range(&mut problem, conjugate, &mut left),
     });
-    workspace.carried = carried;
+    workspace.lumped = lumped;
     (0..left.len()).filter(|row| left[*row].abs() > UNDETERMINED).collect()
 }
 
-/// Numbers between 1/2 and 3/2 without a pattern, the same ones each time: fractions of multiples of the golden section's
-/// square, bent.
+/// Fixed pseudo-random numbers between 1/2 and 3/2: fractional parts of a quadratic in multiples of the golden ratio.
 fn probe(count: usize) -> Vec<f64> {
     let golden = 0.618_033_988_749_895;
     (0..count)
@@ -217,8 +164,8 @@ fn probe(count: usize) -> Vec<f64> {
 }
 
 impl GraphWorkspace {
-    /// Sorts out who hangs on whom, if that has changed.
-    fn hang(&mut self, links: &[Link]) -> Result<(), LinkError> {
+    /// Updates the order of the bodies if links have changed.
+    fn order_bodies(&mut self, links: &[Link]) -> Result<(), LinkError> {
         if self.all_links == links && !self.outwards.is_empty() {
             return Ok(());
         }
@@ -240,11 +187,11 @@ impl GraphWorkspace {
         Ok(())
     }
 
-    /// The elimination for this graph, made anew only if its shape has changed.
+    /// Prepares the elimination for this graph; it is rebuilt only if links or couplings have changed.
     fn prepare(&mut self, graph: &ConstraintGraph) -> Result<(), LinkError> {
         let method = self.settings.method;
         let pair = |group: &ConstraintGroup| match group.on {
-            Acting::Bodies { first, second: Some(second) } if method == Method::Newton => Some((first, second)),
+            ActsOn::Bodies { first, second: Some(second) } if method == Method::Newton => Some((first, second)),
             _ => None,
         };
         let shape = graph.groups.iter().map(pair);
@@ -271,18 +218,18 @@ impl GraphWorkspace {
         Ok(())
     }
 
-    /// Whether the last graph was solved as what its bodies carry.
-    pub(crate) fn carries(&self) -> bool {
-        self.carries
+    /// Whether the last graph was solved in its lumped form.
+    pub(crate) fn is_lumped(&self) -> bool {
+        self.is_lumped
     }
 
-    /// Bodies with their parents, parents first, as last solved.
+    /// The bodies of the last graph with their parents, parents first.
     #[must_use]
     pub fn outwards(&self) -> &[(usize, Option<usize>)] {
         &self.outwards
     }
 
-    /// Nothing happens before the first solution.
+    /// Calls `work` with the problem; does nothing before the first solution.
     fn with_problem(
         &mut self,
         graph: &ConstraintGraph,
@@ -320,9 +267,9 @@ mod tests {
         }
         let upright = Six::ith(5, 1.0);
         graph.rows.push(Constraint { on_first: upright, on_second: Six::zeros(), target: 0.0, compliance: 0.0 });
-        let on = Acting::Bodies { first: 0, second: Some(1) };
-        graph.groups.push(ConstraintGroup { on, rows: 0..3, law: Law::HELD });
-        let on = Acting::Bodies { first: 1, second: None };
+        let on = ActsOn::Bodies { first: 0, second: Some(1) };
+        graph.groups.push(ConstraintGroup { on, rows: 0..3, law: Law::EQUALITY });
+        let on = ActsOn::Bodies { first: 1, second: None };
         let pushes = Law::Bounded { least: 0.0, most: f64::INFINITY };
         graph.groups.push(ConstraintGroup { on, rows: 3..4, law: pushes });
         graph
@@ -343,14 +290,14 @@ mod tests {
             for group in &graph.groups {
                 for row in group.rows.clone() {
                     let reading = graph.reading(group, row, &motions, &coordinates);
-                    // A stiffness of 1e6, and drift that needs only be undone.
+                    // Rows have a stiffness of 1e6; drift only needs to be corrected.
                     assert!((reading - targets[row]).abs() < 1e-8, "{method:?}, row {row}: {reading}");
                 }
             }
             found.push(motions);
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
-            // Either departs from its targets by 1e-6 of them.
+            // Each method departs from its targets by 1e-6 of them.
             assert!((one - other).norm() < 1e-7, "the least mass moved is one: {:e}", (one - other).norm());
         }
     }
@@ -365,8 +312,8 @@ mod tests {
         graph.terms.offset.push(Six::new(0.02, -0.01, 0.03, 0.05, 0.01, -0.02));
         let up = Six::new(0.1, 0.2, 0.0, 0.0, 0.3, 1.0);
         graph.rows.push(Constraint { on_first: up, on_second: Six::zeros(), target: 0.1, compliance: 0.0 });
-        let on = Acting::Bodies { first: 2, second: None };
-        graph.groups.push(ConstraintGroup { on, rows: 4..5, law: Law::HELD });
+        let on = ActsOn::Bodies { first: 2, second: None };
+        graph.groups.push(ConstraintGroup { on, rows: 4..5, law: Law::EQUALITY });
         graph
     }
 
@@ -379,8 +326,8 @@ mod tests {
             let settings = SolverSettings { method, ..SolverSettings::default() };
             let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());
             solve_graph(&graph, &settings, &mut workspace, &mut solution).unwrap();
-            assert_eq!(workspace.carries(), method == Method::Newton);
-            // Offsets of the displacements are others than those of the motion.
+            assert_eq!(workspace.is_lumped(), method == Method::Newton);
+            // The displacements have other offsets than the motion.
             graph.terms.offset[2] = Six::new(0.0, 1e-4, 0.0, 2e-4, 0.0, 3e-4);
             let (mut motions, mut coordinates) = (Vec::new(), Vec::new());
             project_displacements(&graph, &targets, &mut workspace, &mut motions, &mut coordinates);
@@ -388,14 +335,14 @@ mod tests {
             graph.terms.offset[2] = carrying().terms.offset[2];
         }
         for (one, other) in found[0].iter().zip(&found[1]) {
-            // A stiffness of 1e6 of single rows leaves 1e-5 of 3 mm where rows share what moves.
+            // With a stiffness of 1e6 per row, 1e-5 of 3 mm remain where rows share a body.
             assert!((one - other).norm() < 3e-7, "{one:?} {other:?}");
         }
     }
 
     #[test]
     fn bodies_already_placed_are_shifted_as_if_they_were_not() {
-        // To first order it is the same to say where a body is off, or to have it drawn back by its joint.
+        // To first order, an offset of a placed body is equivalent to an offset prescribed by its joint.
         let mut graph = carrying();
         let targets = [0.0; 5];
         let (mut workspace, mut solution) = (GraphWorkspace::default(), GraphSolution::default());

@@ -1,17 +1,17 @@
-//! Poses, twists and accelerations of bodies at one instant.
+//! Pose, twist and acceleration of each body at one instant.
 
 use super::plan::Plan;
 use super::sweep::{self, Scratch};
-use super::trajectory::Trajectory;
+use super::trajectory::{Posture, Trajectory};
 use crate::model::{BodyId, Model};
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// How one body moves at one instant, in world axes.
+/// Pose, velocity and acceleration of one body at one instant, in world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion {
     /// `world_from_body`.
     pub pose: Pose,
-    /// Place of the mass centre [m].
+    /// Position of the mass centre [m].
     pub center: Vec3,
     /// Angular velocity [rad/s] and velocity of the mass centre [m/s].
     pub twist: Twist,
@@ -19,21 +19,10 @@ pub struct BodyMotion {
     pub acceleration: Twist,
 }
 
-/// Coordinates of a model with their rates and accelerations, in the model's order.
-#[derive(Debug, Clone, Copy)]
-pub struct Posture<'a> {
-    /// Values [rad or m].
-    pub q: &'a [f64],
-    /// Rates [rad/s or m/s].
-    pub qd: &'a [f64],
-    /// Accelerations [rad/s² or m/s²].
-    pub qdd: &'a [f64],
-}
-
-/// The motion of every body, in the model's order. Each slice of `posture` has one entry a coordinate.
+/// The motion of every body, in the order of the model. Each slice of `posture` has one entry per coordinate.
 ///
 /// # Panics
-/// If a slice has another length than the model has coordinates.
+/// If the length of a slice differs from the number of coordinates.
 #[must_use]
 pub fn body_motion(model: &Model, posture: Posture<'_>) -> Vec<BodyMotion> {
     let plan = Plan::new(model);
@@ -43,7 +32,7 @@ pub fn body_motion(model: &Model, posture: Posture<'_>) -> Vec<BodyMotion> {
     model.body_ids().map(|id| scratch.body_motion(&plan, id, 0)).collect()
 }
 
-/// Calls `visit` with the motion of every body, in the model's order, for each frame of a trajectory.
+/// Calls `visit` with the motion of every body, in the order of the model, for each frame of a trajectory.
 pub fn each_body_motion(model: &Model, trajectory: &Trajectory, mut visit: impl FnMut(usize, &[BodyMotion])) {
     let plan = Plan::new(model);
     let mut scratch = Scratch::<1>::new(&plan);
@@ -58,7 +47,7 @@ pub fn each_body_motion(model: &Model, trajectory: &Trajectory, mut visit: impl 
 }
 
 impl Scratch<1> {
-    /// Takes the coordinates of one frame.
+    /// Loads the coordinates of one frame.
     #[inline(always)]
     pub(crate) fn load_posture(&mut self, posture: Posture<'_>) {
         self.q.as_flattened_mut().copy_from_slice(posture.q);
@@ -68,7 +57,7 @@ impl Scratch<1> {
 }
 
 impl<const N: usize> Scratch<N> {
-    /// The motion of one body in one of the N frames; `forward` has run.
+    /// The motion of one body in one of the N frames, after `forward`.
     pub(crate) fn body_motion(&self, plan: &Plan, body: BodyId, lane: usize) -> BodyMotion {
         let state = &self.states[body.index() + 1];
         let joint_center = state.center.lane(lane) - state.to_center.lane(lane);

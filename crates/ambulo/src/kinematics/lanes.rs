@@ -1,8 +1,8 @@
-//! Vectors and matrices of several frames side by side.
+//! Scalars, vectors and matrices of several frames at once (one SIMD lane per frame).
 //!
-//! A [`Lanes<N>`] holds the same scalar of N frames. With N = 1 it is a plain number; with N = 8 the loops below become
-//! one vector instruction on processors that have it. The operations of a lane never touch another lane, and no fused
-//! multiply-add is used, so a frame has the same bits whichever lane and processor computed it.
+//! A [`Lanes<N>`] contains the same scalar of N frames. With N = 1 it is a plain number; with N = 8 each loop below becomes one
+//! vector instruction on processors that have it. Lanes never affect each other, and no fused multiply-add is used, so that
+//! the result of a frame is identical to the last bit on every lane and processor.
 
 use crate::spatial::{Mat3, Vec3};
 use std::array;
@@ -190,9 +190,9 @@ impl<const N: usize> M3<N> {
         M3(array::from_fn(|j| self.turn_fixed(&s.column(j).into_owned())))
     }
 
-    /// R becomes R times a rotation about axis k (0 = x) of the turned frame; yields that axis, R's column k.
+    /// Multiplies R by a rotation about its axis k (0 = x) and returns that axis, column k of R.
     ///
-    /// Columns are named by constants, not by a running index, which would force the matrix out of the registers.
+    /// Columns are selected by constants: a running index would force the matrix out of the registers.
     #[inline(always)]
     pub(crate) fn turn_about(&mut self, k: usize, sin: Lanes<N>, cos: Lanes<N>) -> V3<N> {
         match k {

@@ -1,19 +1,23 @@
-//! From coordinates to moving bodies.
+//! Kinematics: from markers to joint coordinates, and from coordinates to the motion of all bodies.
 //!
-//! A [`Trajectory`] holds every coordinate with its first two derivatives on a uniform time grid; poses, twists and
-//! accelerations of the bodies follow from it frame by frame ([`BodyMotion`]) or block by block inside
+//! A [`Trajectory`] contains every coordinate with its first two derivatives on a uniform time grid. The poses, twists and
+//! accelerations of the bodies are computed from it frame by frame ([`BodyMotion`]), or in blocks of frames inside
 //! [`crate::dynamics`].
 
-mod body_motion;
-pub mod calibration;
-pub(crate) mod lanes;
-pub mod marker_fit;
 pub(crate) mod plan;
-pub mod retarget;
-pub mod scaling;
-mod sin_cos;
-pub(crate) mod sweep;
 mod trajectory;
 
-pub use body_motion::{BodyMotion, Posture, body_motion, each_body_motion};
-pub use trajectory::{Trajectory, TrajectoryError};
+mod body_motion;
+mod clinical_angles;
+pub(crate) mod lanes;
+mod sin_cos;
+pub(crate) mod sweep;
+
+pub mod calibration;
+pub mod marker_fit;
+pub mod retarget;
+pub mod scaling;
+
+pub use body_motion::{BodyMotion, body_motion, each_body_motion};
+pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
+pub use trajectory::{Posture, Trajectory, TrajectoryError};

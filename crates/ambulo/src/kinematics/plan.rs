@@ -1,22 +1,23 @@
-//! A model prepared for the sweeps: offsets multiplied out, axes sorted by how cheaply they turn.
+//! A model prepared for fast sweeps: constant offsets are multiplied out, principal axes are recognised.
 //!
-//! The sweeps know only the joint frames M on the children: inertia, mass centre and the joints of the children are
-//! given in M's axes, so that a child offset costs nothing per frame.
+//! The sweeps use only the joint frames M on the children: inertia, mass centre and the joints of the children are given in the
+//! axes of M, so that an offset on the child costs nothing per frame.
 
 use crate::model::{Displacement, Function, Joint, JointAxis, Measure, Model};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::ops::Range;
 
-/// A rotation closer to the identity than this changes no result by a rounding error.
+/// A rotation closer to the identity than this is treated as the identity.
 const IDENTITY_TOLERANCE: f64 = 1e-15;
 
+/// A model prepared for the sweeps.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
     pub(crate) gravity: Vec3,
     pub(crate) coordinates: usize,
     pub(crate) segments: Vec<Segment>,
-    /// Segments by their distance from the root. A child that follows its parent at once would wait for the parent's
-    /// numbers to reach the cache; between siblings and cousins there is other work to do.
+    /// Segments by their depth in the tree. A child directly after its parent would wait for the results of the parent; siblings
+    /// and cousins in between keep the processor busy.
     pub(crate) outwards: Vec<usize>,
     pub(crate) axes: Vec<Axis>,
 }
@@ -33,7 +34,7 @@ pub(crate) struct Segment {
     /// Rotations, then translations, in [`Plan::axes`].
     pub(crate) rotations: Range<usize>,
     pub(crate) translations: Range<usize>,
-    /// Ball-like joints: their coordinates' forces are moments about F's axes.
+    /// For ball-like joints, whose generalised forces are moments about the axes of F.
     pub(crate) spherical: Option<Spherical>,
     /// From M's origin to the mass centre, in M axes [m].
     pub(crate) to_center: Vec3,
@@ -50,16 +51,18 @@ pub(crate) struct Segment {
 pub(crate) struct Spherical {
     /// Coordinates of the three rotations.
     pub(crate) coordinates: [usize; 3],
-    /// Half axes of the ellipsoid on which M's origin slides [m].
+    /// Half axes of the ellipsoid on which the origin of M slides [m].
     pub(crate) radii: Option<Vec3>,
 }
 
+/// One rotation or translation axis of a joint.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
     pub(crate) direction: Direction,
     pub(crate) source: Source,
 }
 
+/// Direction of an axis in the joint frame.
 #[derive(Debug, Clone)]
 pub(crate) enum Direction {
     /// Along x, y or z.
@@ -68,6 +71,7 @@ pub(crate) enum Direction {
     General(Vec3),
 }
 
+/// What determines the angle or displacement along an axis: a constant, or a function of one coordinate.
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
     Fixed(f64),
@@ -151,23 +155,29 @@ fn spherical(joint: &Joint) -> Option<Spherical> {
 impl Axis {
     fn new(axis: &JointAxis) -> Axis {
         let (direction, sign) = principal(&axis.direction);
-        let source = match &axis.displacement {
-            Displacement::Fixed(value) => Source::Fixed(sign * value),
-            Displacement::Follows(id, function) => match function.as_linear() {
-                Some((slope, intercept)) => {
-                    Source::Line { coordinate: id.index(), slope: sign * slope, intercept: sign * intercept }
-                }
-                None => Source::Curve {
-                    coordinate: id.index(),
-                    function: Function::Scaled(sign, Box::new(function.clone())),
-                },
-            },
-        };
+        let source = Source::new(&axis.displacement, sign);
         Axis { direction, source }
     }
 }
 
 impl Source {
+    /// `sign` (1 or -1) times the displacement of a joint axis.
+    pub(crate) fn new(displacement: &Displacement, sign: f64) -> Source {
+        match displacement {
+            Displacement::Fixed(value) => Source::Fixed(sign * value),
+            Displacement::Follows(id, function) => match function.as_linear() {
+                Some((slope, intercept)) => {
+                    Source::Line { coordinate: id.index(), slope: sign * slope, intercept: sign * intercept }
+                }
+                None if sign < 0.0 => Source::Curve {
+                    coordinate: id.index(),
+                    function: Function::Scaled(sign, Box::new(function.clone())),
+                },
+                None => Source::Curve { coordinate: id.index(), function: function.clone() },
+            },
+        }
+    }
+
     /// The coordinate that moves the axis.
     #[inline(always)]
     pub(crate) fn coordinate(&self) -> Option<usize> {
@@ -178,7 +188,7 @@ impl Source {
     }
 }
 
-/// A principal direction and the sign of the vector along it; any other direction as it is.
+/// A principal direction with the sign of the vector along it; any other direction unchanged.
 fn principal(direction: &Vec3) -> (Direction, f64) {
     for k in 0..3 {
         let along = direction[k];

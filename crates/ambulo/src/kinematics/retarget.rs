@@ -1,14 +1,14 @@
-//! The motion of a skeleton on the built-in body.
+//! Transfers the motion of a skeleton (animation file) to the built-in body.
 //!
-//! The body gets the skeleton's lengths: a segment of factor f has its mass centre and radii of gyration f times as far; masses
-//! stay those of the table. The joint centres of the recording and the points beside them become markers of that body, which
-//! [`fit_markers`] then follows. The floor is put where the ankles are as high as those of the body while it stands: at the
+//! The body gets the segment lengths of the skeleton: in a segment scaled by f, the mass centre and the radii of gyration are scaled
+//! by f; masses are those of the table. The joint centres of the recording, and points next to them, become markers of that body
+//! for [`fit_markers`]. The floor is placed so that the ankles are at the height of the body's ankles during stance: at the
 //! [`STANDING`] quantile of their height.
 //!
-//! Not handled: floors that are not level, shoulders that move against the trunk, hands.
+//! Not handled: uneven floors, shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs
 
-use super::marker_fit::{FitError, FitSettings, Guard, Limits, MarkerFit, fit_markers};
+use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
 use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
@@ -18,47 +18,47 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
-/// Share of the time in which an ankle is lower than while its foot stands flat: a foot that stands, which is 60 % of a
-/// cycle, is flat for about half of that, and lowest then.
+/// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with the lowest
+/// ankle, in about half of it.
 pub const STANDING: f64 = 0.1;
-/// A segment that differs more than this from the table's is told.
-const TOLD: f64 = 0.15;
+/// Relative difference of a segment length from the table above which it is reported.
+const REPORTED: f64 = 0.15;
 
-/// The motion of a skeleton on the built-in body.
+/// Result of [`retarget`].
 #[derive(Debug, Clone)]
 pub struct Retargeted {
-    /// The body with the skeleton's lengths, and with the recording's points as markers.
+    /// The body with the lengths of the skeleton and the points of the recording as markers.
     pub human: Human,
-    /// The recording, standing on the floor y = 0.
+    /// The recording, moved so that the floor is y = 0.
     pub markers: MarkerRecording,
-    /// The motion, and how far the body stays from the skeleton.
+    /// The motion, and the distances of the body from the skeleton.
     pub fit: MarkerFit,
 }
 
-/// Why a skeleton does not move the body.
+/// Why a skeleton is rejected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RetargetError {
-    /// No such body.
+    /// The body cannot be built.
     #[error(transparent)]
     Body(#[from] BuildError),
-    /// No fit.
+    /// The marker fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// Joints that no frame shows together.
+    /// Two joints that are never recorded together.
     #[error("`{a}` and `{b}` are seen together in no frame of the skeleton's motion; expected at least one")]
     Unseen {
-        /// One point.
+        /// The first point.
         a: String,
-        /// The other.
+        /// The second point.
         b: String,
     },
 }
 
-/// Puts the motion of a skeleton on the body of this build.
+/// Transfers the motion of a skeleton to a body of this build.
 ///
 /// # Errors
-/// A body of this mass and stature that no walker has, a skeleton without legs that move.
+/// Implausible mass or stature, a skeleton without moving legs: see [`RetargetError`].
 pub fn retarget(
     build: &Build,
     skeleton: &SkeletonRecording,
@@ -67,20 +67,21 @@ pub fn retarget(
     let table = full_body(build)?;
     let measured = Measured { markers: &skeleton.markers };
     let lengths = Lengths::measure(&measured, &table)?;
-    lengths.tell(&table, findings);
+    lengths.report_differences(&table, findings);
     let human = lengths.body(&measured, &table)?;
     let floor = floor(&measured, table.dimensions.ankle_height);
     let markers = raised(&skeleton.markers, -floor);
     if floor.is_finite() {
         let message = format!(
-            "the floor was put {:.3} m {} the skeleton's zero, where its ankles stand lowest",
+            "the floor was placed {:.3} m {} the origin of the skeleton, from the height of its ankles during stance",
             floor.abs(),
             if floor < 0.0 { "below" } else { "above" }
         );
         findings.report(Code::BvhFloor, message);
     }
-    // What an animation program wrote has no exchanged labels, but arms so straight that only ranges keep them from turning round.
-    let settings = FitSettings { guard: Guard::Off, limits: Limits::Ranges, ..FitSettings::default() };
+    // Animation files have no swapped labels, but arms so straight that only the ranges keep them from rotating.
+    let settings =
+        FitSettings { outliers: OutlierDetection::Off, limits: JointLimits::Ranges, ..FitSettings::default() };
     let fit = fit_markers(&human.model, &markers, &settings, findings)?;
     Ok(Retargeted { human, markers, fit })
 }
@@ -92,7 +93,7 @@ fn raised(markers: &MarkerRecording, by: f64) -> MarkerRecording {
     raised
 }
 
-/// Height of the floor in the recording's axes [m]; not a number if no ankle was seen.
+/// Height of the floor in the axes of the recording [m]; NaN if no ankle was recorded.
 fn floor(measured: &Measured<'_>, ankle_height: f64) -> f64 {
     let ankles = Side::BOTH.map(|side| measured.path(&sided("ankle", side)));
     let heights = ankles.into_iter().flatten().flatten().map(|place| place.y).filter(|y| y.is_finite());
@@ -102,7 +103,7 @@ fn floor(measured: &Measured<'_>, ankle_height: f64) -> f64 {
     lowest.map_or(f64::NAN, |lowest| lowest - ankle_height)
 }
 
-/// What the recording shows of lengths.
+/// Lengths measured in the recording.
 struct Measured<'m> {
     markers: &'m MarkerRecording,
 }
@@ -112,7 +113,7 @@ impl Measured<'_> {
         self.markers.marker(name).map(|MarkerPath { positions, .. }| positions.as_slice())
     }
 
-    /// Median distance of two points [m]; `None` if one is not in the recording or they are never seen together.
+    /// Median distance of two points [m]; `None` if one is missing or they are never recorded together.
     fn distance(&self, a: &str, b: &str) -> Option<f64> {
         let pairs = self.path(a)?.iter().zip(self.path(b)?);
         median(pairs.map(|(a, b)| (a - b).norm()))
@@ -131,7 +132,7 @@ impl Measured<'_> {
         median(lists.map(|((ar, al), (br, bl))| ((ar + al) - (br + bl)).norm() / 2.0))
     }
 
-    /// Median place of a point in the axes of the foot: forward, up, right of the ankle [m].
+    /// Median position of a point in the axes of the foot: forward, up, right of the ankle [m].
     fn in_foot(&self, point: &str, side: Side) -> Option<Vec3> {
         let ways = |name: &str| {
             let ankle = self.path(&sided("ankle", side))?;
@@ -152,7 +153,7 @@ fn sided(name: &str, side: Side) -> String {
     format!("{name}_{}", side.letter())
 }
 
-/// Lengths of a skeleton, right and left [m]; those that it lacks are the table's.
+/// Segment lengths of a skeleton, right and left [m]; missing ones are from the table.
 struct Lengths {
     hip_width: f64,
     shoulder_height: f64,
@@ -186,8 +187,8 @@ impl Lengths {
         })
     }
 
-    /// Notes what is unlike the table.
-    fn tell(&self, table: &Human, findings: &mut Findings) {
+    /// Reports lengths that differ from the table.
+    fn report_differences(&self, table: &Human, findings: &mut Findings) {
         let d = &table.dimensions;
         let mean = |pair: [f64; 2]| (pair[0] + pair[1]) / 2.0;
         let rows = [
@@ -201,16 +202,18 @@ impl Lengths {
         ];
         let unlike: Vec<String> = rows
             .iter()
-            .filter(|(_, found, usual)| (found / usual - 1.0).abs() > TOLD)
+            .filter(|(_, found, usual)| (found / usual - 1.0).abs() > REPORTED)
             .map(|(name, found, usual)| format!("{name} {found:.3} m instead of {usual:.3} m"))
             .collect();
         if !unlike.is_empty() {
-            findings
-                .report(Code::BvhLengths, format!("the skeleton is built unlike a usual body: {}", unlike.join(", ")));
+            findings.report(
+                Code::BvhLengths,
+                format!("segment lengths of the skeleton differ from a typical body: {}", unlike.join(", ")),
+            );
         }
     }
 
-    /// The table's lengths with these in their place, the mean of both sides.
+    /// The dimensions of the table with these lengths, as the mean of both sides.
     fn dimensions(&self, table: Dimensions) -> Dimensions {
         let [thigh, shank, upper_arm, forearm] =
             [self.thigh, self.shank, self.upper_arm, self.forearm].map(|pair| (pair[0] + pair[1]) / 2.0);
@@ -228,7 +231,7 @@ impl Lengths {
         }
     }
 
-    /// The table's body with these lengths.
+    /// The body of the table with these lengths.
     fn body(&self, measured: &Measured<'_>, table: &Human) -> Result<Human, RetargetError> {
         let mut fitting = Fitting { table, shapes: SegmentShape::of(table), markers: Vec::new() };
         fitting.trunk(self);
@@ -244,7 +247,7 @@ impl Lengths {
     }
 }
 
-/// A body that is given lengths and markers.
+/// A body under construction: segment shapes and markers.
 struct Fitting<'t> {
     table: &'t Human,
     shapes: Vec<SegmentShape>,
@@ -256,7 +259,7 @@ impl Fitting<'_> {
         self.table.model.body(name)
     }
 
-    /// Scales a segment and puts its joint at a place of its parent.
+    /// Scales a segment and places its joint in the parent.
     fn shape(&mut self, name: &str, factor: f64, place: Vec3) {
         if let Some(body) = self.body(name) {
             let shape = &mut self.shapes[body.index()];
@@ -317,7 +320,7 @@ impl Fitting<'_> {
             }
             return;
         };
-        // The ball of the foot stays as high as the sole asks for.
+        // The ball of the foot keeps the height above the sole.
         let factor = toe.x / d.ankle_to_ball;
         let joint = Vec3::new(toe.x, d.ball_radius * factor - d.ankle_height, 0.0);
         if let Some(calcn) = self.body(&calcn) {
@@ -343,7 +346,7 @@ impl Fitting<'_> {
     }
 }
 
-/// A distance towards a side [m].
+/// A lateral distance with the sign of the side [m].
 fn outward(side: Side, distance: f64) -> Vec3 {
     match side {
         Side::Right => Vec3::z() * distance,

@@ -1,12 +1,12 @@
 //! Sine and cosine of many angles at once.
 //!
-//! The math library's scalar sine and cosine take longer than all the rest of a frame's arithmetic, and cannot be laid
-//! side by side. Here every step is free of branches, so the loop over a slice becomes vector code.
+//! The scalar sine and cosine of the math library take longer than all other arithmetic of a frame, and cannot be vectorised.
+//! Here every step is free of branches, so that the loop over a slice becomes vector code.
 //!
 //! x = k π/2 + r with |r| ≤ π/4 (Cody and Waite: π/2 in three parts of 33 bits, so that k times the first two is exact
 //! for |k| < 2²⁰); then the polynomials of the FreeBSD math library (msun `k_sin.c`, `k_cos.c`, `e_rem_pio2.c`; Sun
 //! Microsystems 1993), and the quadrant k mod 4 swaps them and sets the signs.
-//! Error: below 1 unit in the last place of 1 for |x| ≤ 10⁵ rad (tested); larger angles take the library's way.
+//! Error: below 1 unit in the last place of 1 for |x| ≤ 10⁵ rad (tested); larger angles use the library.
 
 #![expect(clippy::excessive_precision, reason = "the constants are quoted as their source prints them")]
 
@@ -15,9 +15,9 @@ use std::f64::consts::FRAC_2_PI;
 const PI_2_HIGH: f64 = 1.570_796_326_734_125_614_17e+00;
 const PI_2_MIDDLE: f64 = 6.077_100_506_303_965_976_60e-11;
 const PI_2_LOW: f64 = 2.022_266_248_795_950_631_54e-21;
-/// Adding 1.5 · 2⁵² rounds to an integer, which then stands in the low bits.
+/// Adding 1.5 · 2⁵² rounds to an integer, which is then in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// Largest angle [rad] for which the reduction above is exact enough.
+/// Largest angle [rad] for which the reduction above is accurate enough.
 const LARGEST: f64 = 1e5;
 
 const S: [f64; 6] = [
@@ -37,7 +37,7 @@ const C: [f64; 6] = [
     -1.135_964_755_778_819_482_65e-11,
 ];
 
-/// `sin[i]`, `cos[i]` of `angle[i]` [rad]; the three slices have one length.
+/// `sin[i]`, `cos[i]` of `angle[i]` [rad]; the three slices have the same length.
 #[inline(always)]
 pub(crate) fn sin_cos(angle: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     let n = angle.len().min(sin.len()).min(cos.len());
@@ -79,7 +79,7 @@ fn sin_cos_small(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Largest error against the library over `n` angles within ±`range`.
+    /// Largest difference from the library over `n` angles within ±`range`.
     fn worst(range: f64, n: u32) -> f64 {
         let angles: Vec<f64> = (0..=n).map(|i| range * (2.0 * f64::from(i) / f64::from(n) - 1.0)).collect();
         let (mut sin, mut cos) = (vec![0.0; angles.len()], vec![0.0; angles.len()]);

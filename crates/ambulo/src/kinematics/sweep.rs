@@ -1,4 +1,4 @@
-//! Poses, twists and accelerations of all bodies, one sweep from the root outwards.
+//! Forward kinematics: poses, twists and accelerations of all bodies in one sweep from the root outwards.
 //!
 //! For a joint between parent p and child c, with r from p's mass centre to the joint centre J and s from J to c's
 //! mass centre, all in world axes:
@@ -9,7 +9,7 @@
 //!
 //! | code         | symbol     | unit          | meaning                                        |
 //! | `axes`       | aₖ, eᵢ     | -             | rotation and translation axes, world           |
-//! | `value`      | θ, d       | rad, m        | how far the child has gone along an axis       |
+//! | `value`      | θ, d       | rad, m        | angle or displacement along an axis            |
 //! | `omega`      | ω          | rad/s         | angular velocity                               |
 //! | `alpha`      | α          | rad/s²        | angular acceleration                           |
 //! | `v`, `a`     | v, a       | m/s, m/s²     | velocity and acceleration of the mass centre   |
@@ -23,7 +23,7 @@ use super::plan::{Axis, Direction, Plan, Segment, Source, Spherical};
 use super::sin_cos::sin_cos;
 use crate::spatial::{Mat3, Vec3};
 
-/// How N frames of one body move: M's axes and the mass centre.
+/// Motion of one body in N frames: axes of M and mass centre.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub(crate) struct BodyState<const N: usize> {
@@ -39,7 +39,7 @@ pub(crate) struct BodyState<const N: usize> {
     pub(crate) to_center: V3<N>,
 }
 
-/// All scratch of N frames side by side.
+/// Scratch memory of N frames.
 #[derive(Debug, Clone)]
 pub(crate) struct Scratch<const N: usize> {
     /// Coordinates, rates and accelerations, one entry each.
@@ -47,13 +47,13 @@ pub(crate) struct Scratch<const N: usize> {
     pub(crate) qd: Vec<[f64; N]>,
     pub(crate) qdd: Vec<[f64; N]>,
     pub(crate) axes: AxisStates<N>,
-    /// Ground, then one state a body.
+    /// Ground, then one state per body.
     pub(crate) states: Vec<BodyState<N>>,
-    /// Axes of F, kept for ball-like joints only.
+    /// Axes of F, for ball-like joints only.
     pub(crate) joint_frames: Vec<M3<N>>,
 }
 
-/// Per axis of the plan: how far along it the child is, and where it points.
+/// Displacement along each axis of the plan, and its direction.
 #[derive(Debug, Clone)]
 pub(crate) struct AxisStates<const N: usize> {
     value: Vec<[f64; N]>,
@@ -99,7 +99,7 @@ impl<const N: usize> Scratch<N> {
     }
 }
 
-/// Fills every body's state from `q`, `qd`, `qdd`.
+/// Computes the state of every body from `q`, `qd`, `qdd`.
 #[inline(always)]
 pub(crate) fn forward<const N: usize>(plan: &Plan, scratch: &mut Scratch<N>) {
     follow_coordinates(plan, scratch);
@@ -139,7 +139,7 @@ fn follow_coordinates<const N: usize>(plan: &Plan, scratch: &mut Scratch<N>) {
     sin_cos(s.value.as_flattened(), s.sin.as_flattened_mut(), s.cos.as_flattened_mut());
 }
 
-/// The state of one body from its parent's.
+/// Computes the state of one body from that of its parent.
 #[inline(always)]
 fn place<const N: usize>(
     plan: &Plan,
@@ -153,7 +153,7 @@ fn place<const N: usize>(
         None => parent.rotation,
         Some(offset) => parent.rotation.times_fixed(offset),
     };
-    // While the axes are still those of F: the translations.
+    // Translations, while the axes are still those of F.
     let mut to_joint = parent.rotation.turn_fixed(&segment.to_joint);
     let mut slide = [V3::ZERO; 2];
     for k in segment.translations.clone() {
@@ -201,7 +201,7 @@ fn place<const N: usize>(
     state.to_center = to_center;
 }
 
-/// Turns the frame about a rotation axis, and yields the axis in the world.
+/// Rotates the frame about an axis and returns the axis in the world.
 #[inline(always)]
 fn rotate<const N: usize>(frame: &mut M3<N>, axis: &Axis, sin: Lanes<N>, cos: Lanes<N>) -> V3<N> {
     match &axis.direction {
@@ -231,8 +231,8 @@ fn along<const N: usize>(frame: &M3<N>, axis: &Axis) -> V3<N> {
     }
 }
 
-/// Place, rate and acceleration, seen in F and given in world axes, of a point p = radii * n on an ellipsoid, n being
-/// M's z axis: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
+/// Position, velocity and acceleration relative to F, in world axes, of the point p = radii * n on an ellipsoid, where n is the
+/// z axis of M: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
 #[inline(always)]
 fn slide_on_ellipsoid<const N: usize>(
     radii: Vec3,
@@ -243,7 +243,7 @@ fn slide_on_ellipsoid<const N: usize>(
     alpha: V3<N>,
 ) -> [V3<N>; 3] {
     let relative = omega - parent.omega;
-    // The rate of the relative angular velocity as F sees it.
+    // The rate of the relative angular velocity, relative to F.
     let relative_rate = alpha - parent.alpha - parent.omega.cross(relative);
     let normal = rotation.col(2);
     let normal_rate = relative.cross(normal);
@@ -260,7 +260,7 @@ pub(crate) fn relative_omega<const N: usize>(segment: &Segment, index: usize, s:
     s.joint_frames[index].turn_back(s.states[index + 1].omega - s.states[segment.parent].omega)
 }
 
-/// Moments about F's axes that a force and a moment at M's origin amount to, for a ball-like joint.
+/// Generalised moments about the axes of F of a force and a moment at the origin of M, for a ball-like joint.
 #[inline(always)]
 pub(crate) fn spherical_moment<const N: usize>(
     spherical: &Spherical,
@@ -272,7 +272,7 @@ pub(crate) fn spherical_moment<const N: usize>(
     let frame = &s.joint_frames[index];
     let moment = frame.turn_back(moment);
     let Some(radii) = spherical.radii else { return moment };
-    // The force does work through ṗ = radii * (w × n): its share is n × (radii * f).
+    // The power of the force is f · ṗ with ṗ = radii * (w × n): its moment is n × (radii * f).
     let V3([x, y, z]) = frame.turn_back(force);
     let normal = frame.turn_back(s.states[index + 1].rotation.col(2));
     moment + normal.cross(V3([x * radii[0], y * radii[1], z * radii[2]]))

@@ -1,19 +1,29 @@
-//! Every coordinate of a model, with two derivatives, on a uniform time grid.
+//! A complete motion of a model: every coordinate with two derivatives on a uniform time grid.
 
-use super::body_motion::Posture;
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Drive, Model};
 use crate::motion::{SmoothMotion, TimeGrid};
 
-/// A complete motion of a model. Numbers are finite, couplers and locks are obeyed.
+/// A complete motion of a model. All numbers are finite; couplers and locks are obeyed.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     grid: TimeGrid,
-    /// Per coordinate: value, rate, acceleration, one entry a frame.
+    /// Per coordinate: value, rate, acceleration, one entry per frame.
     columns: Vec<[Vec<f64>; 3]>,
 }
 
-/// Why a motion is no trajectory.
+/// Coordinates of a model with their rates and accelerations at one instant, in the order of the model.
+#[derive(Debug, Clone, Copy)]
+pub struct Posture<'a> {
+    /// Values [rad or m].
+    pub q: &'a [f64],
+    /// Rates [rad/s or m/s].
+    pub qd: &'a [f64],
+    /// Accelerations [rad/s² or m/s²].
+    pub qdd: &'a [f64],
+}
+
+/// Why a motion is rejected as a trajectory.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrajectoryError {
@@ -27,26 +37,26 @@ pub enum TrajectoryError {
         /// The instant [s].
         time_s: f64,
     },
-    /// A column of the wrong length, or too few or too many columns.
+    /// A wrong number of columns or frames.
     #[error("found {found} {what}; expected {expected}")]
     Shape {
-        /// Columns or frames.
+        /// `columns` or `frames`.
         what: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many there should be.
+        /// Number expected.
         expected: usize,
     },
 }
 
-/// A recorded follower may differ from its coupler by this much before it is called a mismatch [rad or m].
+/// Largest difference between a recorded coordinate and its coupler or lock without a warning [rad or m].
 const COUPLER_TOLERANCE: f64 = 0.02;
 
 impl Trajectory {
-    /// From columns that are already complete: per coordinate its value, rate and acceleration, one entry a frame.
+    /// Makes a trajectory from complete columns: per coordinate its value, rate and acceleration, one entry per frame.
     ///
     /// # Errors
-    /// Wrong shapes, numbers that are not finite.
+    /// Wrong numbers of columns or frames, numbers that are not finite.
     pub fn new(model: &Model, grid: TimeGrid, columns: Vec<[Vec<f64>; 3]>) -> Result<Trajectory, TrajectoryError> {
         let expected = model.coordinates().len();
         if columns.len() != expected {
@@ -66,8 +76,8 @@ impl Trajectory {
         Ok(Trajectory { grid, columns })
     }
 
-    /// Completes a smoothed recording: locked, prescribed and missing coordinates get their own values, coupled ones
-    /// follow their coupler, whatever was recorded for them (a mismatch is a finding).
+    /// Completes a smoothed recording: locked, prescribed and missing coordinates get the values of the model, coupled ones follow
+    /// their coupler. A recorded column that contradicts them is not used, with a warning.
     ///
     /// # Errors
     /// Numbers that are not finite.
@@ -90,25 +100,25 @@ impl Trajectory {
         Trajectory::new(model, grid, columns)
     }
 
-    /// The instants.
+    /// The time grid.
     #[must_use]
     pub fn grid(&self) -> TimeGrid {
         self.grid
     }
 
-    /// Values of a coordinate [rad or m], one a frame.
+    /// Values of a coordinate [rad or m], one per frame.
     #[must_use]
     pub fn values(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][0]
     }
 
-    /// Rates of a coordinate [rad/s or m/s], one a frame.
+    /// Rates of a coordinate [rad/s or m/s], one per frame.
     #[must_use]
     pub fn rates(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][1]
     }
 
-    /// Accelerations of a coordinate [rad/s² or m/s²], one a frame.
+    /// Accelerations of a coordinate [rad/s² or m/s²], one per frame.
     #[must_use]
     pub fn accelerations(&self, id: CoordinateId) -> &[f64] {
         &self.columns[id.index()][2]
@@ -165,10 +175,8 @@ fn report_missing(model: &Model, motion: &SmoothMotion, findings: &mut Findings)
         .map(|(c, _)| format!("`{}` ({})", c.name, c.default_value))
         .collect();
     if !missing.is_empty() {
-        let message = format!(
-            "the recording has no column for {}; the default values in brackets are used throughout",
-            missing.join(", ")
-        );
+        let message =
+            format!("the recording has no column for {}; the default values in brackets are used", missing.join(", "));
         findings.report(Code::MotionMissingCoordinate, message);
     }
 }
@@ -189,7 +197,7 @@ fn follow(leader: &[Vec<f64>; 3], f: impl Fn(f64) -> [f64; 3]) -> [Vec<f64>; 3] 
     out
 }
 
-/// Says when a recorded column was set aside for a value that it contradicts.
+/// Warns if a recorded column contradicts the values used.
 fn report_mismatch(
     model: &Model,
     id: CoordinateId,

@@ -1,7 +1,7 @@
 //! Why a study gives no forces.
 
 use crate::analysis::{AnalysisError, MarkerTrialError, Stopped};
-use crate::dynamics::consistency::ConsistencyError;
+use crate::dynamics::residual_reduction::ResidualReductionError;
 use crate::kinematics::calibration::CalibrationError;
 use crate::kinematics::retarget::RetargetError;
 use crate::model::ModelError;
@@ -56,7 +56,7 @@ pub enum StudyError {
     },
     /// Residual reduction that is not possible.
     #[error(transparent)]
-    ResidualReduction(#[from] ConsistencyError),
+    ResidualReduction(#[from] ResidualReductionError),
     /// The observer stopped the run.
     #[error(transparent)]
     Stopped(#[from] Stopped),

@@ -5,7 +5,7 @@ use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
     Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances,
 };
-use crate::dynamics::consistency::Consistent;
+use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::predict::Prediction;
 use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::Model;
@@ -33,7 +33,7 @@ pub struct Outcome {
     /// How the body follows markers or a skeleton; `None` for coordinates and complete motions.
     pub tracking: Option<Tracking>,
     /// Residual reduction: the changed motion and body; `None` where nothing was changed.
-    pub residual_reduction: Option<Consistent>,
+    pub residual_reduction: Option<ReducedMotion>,
     /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
     pub device: Option<Vec<Vec<f64>>>,
     /// Whether a person could do this.
@@ -43,19 +43,19 @@ pub struct Outcome {
 }
 
 /// Where ground forces come from.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceOrigin {
     /// Force plates or other sensors.
     Measured,
     /// The motion itself.
     Predicted {
         /// How double support was resolved.
-        rule: String,
+        rule: &'static str,
     },
     /// A simulation of the motion.
     Simulated {
         /// How double support was resolved.
-        rule: String,
+        rule: &'static str,
     },
     /// There are none.
     None,

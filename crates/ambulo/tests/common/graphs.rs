@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use ambulo::dynamics::{
-    Acting, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Link, Method,
+    ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, GraphSolution, GraphWorkspace, Law, Link, Method,
     Six, SolverSettings, relative_rows, solve_graph,
 };
 use ambulo::spatial::{Mat3, Vec3};
@@ -59,7 +59,7 @@ pub(crate) fn add_hinged(
 }
 
 /// Adds rows as one group; the number of the first row.
-pub(crate) fn add_rows(graph: &mut ConstraintGraph, on: Acting, rows: &[Constraint], law: Law) -> usize {
+pub(crate) fn add_rows(graph: &mut ConstraintGraph, on: ActsOn, rows: &[Constraint], law: Law) -> usize {
     let start = graph.rows.len();
     graph.rows.extend_from_slice(rows);
     graph.groups.push(ConstraintGroup { on, rows: start..graph.rows.len(), law });
@@ -85,7 +85,7 @@ pub(crate) fn add_contact(
     let from_second = second.map_or(Vec3::zeros(), |(_, arm)| arm);
     let [s, t] = tangents(normal);
     let all = relative_rows([normal, s, t], -from_first, from_second);
-    let on = Acting::Bodies { first, second: second.map(|(body, _)| body) };
+    let on = ActsOn::Bodies { first, second: second.map(|(body, _)| body) };
     add_rows(graph, on, &all[3..6], Law::Contact { friction, bound: f64::INFINITY })
 }
 
@@ -133,7 +133,7 @@ pub(crate) fn ladder(loops: usize, rows: &[usize]) -> ConstraintGraph {
         let rung = add_hinged(&mut graph, Some(left), (down, 0.5 * side), axis, terms(0.7));
         let all = relative_rows([side, Vec3::z(), axis], -0.5 * side, down);
         let chosen: Vec<Constraint> = rows.iter().map(|k| all[*k]).collect();
-        add_rows(&mut graph, Acting::Bodies { first: rung, second: Some(right) }, &chosen, Law::HELD);
+        add_rows(&mut graph, ActsOn::Bodies { first: rung, second: Some(right) }, &chosen, Law::EQUALITY);
         // A push from the side, else nothing happens.
         graph.wrenches[rung][3] += 3.0;
         last = [Some(left), Some(right)];
@@ -197,13 +197,13 @@ pub(crate) fn random_contacts(r: &mut Random, most_friction: f64) -> ConstraintG
     }
     if r.chance(0.5) {
         let (first, law) = match r.below(3) {
-            0 => (r.below(bodies), Law::HELD),
+            0 => (r.below(bodies), Law::EQUALITY),
             1 => (r.below(bodies), Law::Bounded { least: 0.0, most: f64::INFINITY }),
             _ => (r.below(bodies), Law::Bounded { least: -5.0, most: 10.0 }),
         };
         let compliance = if r.chance(0.3) { r.between(0.0, 0.5) } else { 0.0 };
         let row = Constraint { on_first: random_six(r), on_second: Six::zeros(), target: r.within(5.0), compliance };
-        add_rows(&mut graph, Acting::Bodies { first, second: None }, &[row], law);
+        add_rows(&mut graph, ActsOn::Bodies { first, second: None }, &[row], law);
     }
     graph
 }

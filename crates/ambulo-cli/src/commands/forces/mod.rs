@@ -12,7 +12,7 @@ use crate::args::{Consistency, Filter, ForcesArgs, MarkerFitting};
 use crate::{Verdict, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
-use ambulo::kinematics::marker_fit::{FitSettings, Smoothing};
+use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
 use ambulo::model::{Model, from_osim, to_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window};
@@ -132,11 +132,7 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, outcome: &Outcome) -> Input {
         loads: args.loads.as_deref().map(shown),
         device: args.device.as_deref().map(shown),
         added_mass: args.add_mass.iter().map(ToString::to_string).collect(),
-        ground_source: match &outcome.prediction {
-            Some(predicted) => GroundSource::Predicted { rule: predicted.prediction.rule },
-            None if args.no_ground => GroundSource::None,
-            None => GroundSource::Measured,
-        },
+        ground_source: GroundSource::None,
     }
 }
 
@@ -181,7 +177,7 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
             longest_gap_s: args.subject.max_gap,
             smoothing: match args.subject.fit {
                 MarkerFitting::Frames => None,
-                MarkerFitting::Trajectory => Some(Smoothing::default()),
+                MarkerFitting::Trajectory => Some(SmoothnessPrior::default()),
             },
             ..defaults.marker_fit
         },

@@ -28,7 +28,7 @@ use super::taps::Taps;
 use super::unknowns::Unknowns;
 use super::weights::Weights;
 use super::{Known, PredictError};
-use crate::model::Side;
+use crate::model::BySide;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 
@@ -37,7 +37,7 @@ pub(super) struct Evidence<'a> {
     pub(super) grid: TimeGrid,
     pub(super) geometry: &'a Geometry,
     /// Half the breadth of right and left sole [m].
-    pub(super) half_widths: [f64; 2],
+    pub(super) half_widths: BySide<f64>,
     pub(super) stances: &'a [Stance],
     /// About the world's origin.
     pub(super) total: &'a [Wrench],
@@ -49,10 +49,9 @@ pub(super) struct Evidence<'a> {
 impl Evidence<'_> {
     /// The centre of pressure that is expected at a frame [m].
     pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
-        let foot = stance.side as usize;
-        let place = &self.geometry.feet[foot][frame];
+        let place = &self.geometry.feet[stance.side][frame];
         let path = || center_path(place, stance, self.grid.time(frame), self.measure, self.weights);
-        self.known.center_at(foot, frame).unwrap_or_else(path)
+        self.known.center_at(stance.side, frame).unwrap_or_else(path)
     }
 
     /// The total wrench about the mass centre.
@@ -65,7 +64,7 @@ impl Evidence<'_> {
 ///
 /// # Errors
 /// Those of the equations.
-pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result<[FootLoads; 2], PredictError> {
+pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
     let Evidence { grid, stances, measure, weights, .. } = *evidence;
     let expectations: Vec<Expectation<'_>> =
         stances.iter().map(|stance| Expectation::new(stance, stances, curves, weights, measure)).collect();
@@ -77,5 +76,5 @@ pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result
         .map(|(expectation, curves)| Samples::new(evidence, expectation, curves, taps.stride))
         .collect();
     let solution = System { evidence, unknowns: &unknowns, samples: &samples, taps: &taps }.solve()?;
-    Ok(Side::BOTH.map(|side| loads(side, evidence, &expectations, &unknowns, &solution)))
+    Ok(BySide::from_fn(|side| loads(side, evidence, &expectations, &unknowns, &solution)))
 }

@@ -1,39 +1,39 @@
-//! All frames of a recording: what is believed in each, and what was found.
+//! State of the fit in all frames of a recording: markers used, labels, postures and offsets.
 
-use super::problem::Problem;
+use super::problem::FitProblem;
 use super::solve::Outcome;
 use crate::spatial::Vec3;
 
-/// Fewer markers than this leave even one rigid body undetermined.
+/// Minimum number of markers per frame: fewer do not even determine one rigid body.
 pub(super) const FEWEST: usize = 3;
-/// At least this share of the frames shows all markers of the core, if any set of markers does.
+/// Share of the frames in which all markers of the core are visible.
 const SHARE_COMPLETE: f64 = 0.5;
 
-/// Per frame and marker: is it believed, whose path is it; per frame: the posture and how it was found.
+/// Per frame and marker: whether it is used, and from which path; per frame: posture and result of the fit.
 #[derive(Debug, Clone)]
 pub(super) struct Frames {
     markers: usize,
     unknowns: usize,
-    /// Seen by the cameras.
+    /// Recorded.
     seen: Vec<bool>,
-    /// Seen and believed.
+    /// Recorded and not an outlier.
     used: Vec<bool>,
-    /// Whose path a marker took.
+    /// Index of the path that belongs to a marker; another one where labels are swapped.
     path: Vec<usize>,
     postures: Vec<f64>,
     pub(super) outcomes: Vec<Option<Outcome>>,
-    /// Markers that are seen in the frames called complete.
+    /// Markers that a complete frame must have.
     pub(super) core: Vec<bool>,
-    /// From the model's marker to the recorded one in body axes, at the posture of the frame [m].
+    /// From the marker of the model to the recorded one, in body axes at the posture of the frame [m].
     offsets: Vec<Vec3>,
-    /// The offsets at which the frame was fitted, if not to the model's own markers [m].
+    /// The offsets used in the fit of a frame that lacks markers [m].
     targets: Vec<Vec3>,
-    /// Fitted to the model's own markers, all that are believed.
+    /// Whether the frame was fitted to the markers of the model, without offsets.
     plain: Vec<bool>,
 }
 
 impl Frames {
-    pub(super) fn new(problem: &Problem<'_>) -> Frames {
+    pub(super) fn new(problem: &FitProblem<'_>) -> Frames {
         let (frames, markers, unknowns) = (problem.frames(), problem.points.len(), problem.tree.unknowns());
         let mut seen = vec![false; frames * markers];
         for (i, path) in problem.paths.iter().enumerate() {
@@ -68,7 +68,7 @@ impl Frames {
         self.markers
     }
 
-    /// Leaves out the most rarely seen markers until half of the frames show all of the others.
+    /// Removes the least visible markers from the core until half of the frames are complete.
     pub(super) fn choose_core(&mut self) {
         self.core.fill(true);
         loop {
@@ -84,13 +84,13 @@ impl Frames {
         }
     }
 
-    /// Whether every marker of the core is believed.
+    /// Whether every marker of the core is used.
     pub(super) fn is_complete(&self, frame: usize) -> bool {
         let used = &self.used[frame * self.markers..(frame + 1) * self.markers];
         used.iter().zip(&self.core).all(|(used, core)| *used || !*core) && used.iter().any(|used| *used)
     }
 
-    /// Frames in which a marker is believed.
+    /// Number of frames in which a marker is used.
     pub(super) fn frames_used(&self, marker: usize) -> usize {
         (0..self.count()).filter(|&frame| self.is_used(frame, marker)).count()
     }
@@ -103,29 +103,29 @@ impl Frames {
         self.used[frame * self.markers + marker]
     }
 
-    /// Markers believed in a frame.
+    /// Number of markers used in a frame.
     pub(super) fn used_in(&self, frame: usize) -> usize {
         self.used[frame * self.markers..(frame + 1) * self.markers].iter().filter(|used| **used).count()
     }
 
-    /// Whose path a marker took.
+    /// Index of the path that belongs to a marker; another one where labels are swapped.
     pub(super) fn path(&self, frame: usize, marker: usize) -> usize {
         self.path[frame * self.markers + marker]
     }
 
-    /// Whose path each marker took.
+    /// Path of each marker in a frame.
     pub(super) fn paths(&self, frame: usize) -> &[usize] {
         &self.path[frame * self.markers..(frame + 1) * self.markers]
     }
 
-    /// Believes a marker or not.
-    pub(super) fn believe(&mut self, frame: usize, marker: usize, believed: bool) {
+    /// Uses or excludes a marker in a frame.
+    pub(super) fn set_used(&mut self, frame: usize, marker: usize, believed: bool) {
         let i = frame * self.markers + marker;
         let path_seen = self.seen[frame * self.markers + self.path[i]];
         self.used[i] = believed && path_seen;
     }
 
-    /// States whose path every marker took in a frame.
+    /// Sets the path of every marker in a frame.
     pub(super) fn exchange(&mut self, frame: usize, paths: &[usize]) {
         self.path[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(paths);
     }
@@ -138,28 +138,28 @@ impl Frames {
         &mut self.postures[frame * self.unknowns..(frame + 1) * self.unknowns]
     }
 
-    /// From the model's markers to the recorded ones in body axes [m]; not a number where not believed.
+    /// From the markers of the model to the recorded ones in body axes [m]; NaN if not used.
     pub(super) fn offsets(&self, frame: usize) -> &[Vec3] {
         &self.offsets[frame * self.markers..(frame + 1) * self.markers]
     }
 
-    /// Loads what is believed in a frame; returns how many markers that are.
-    pub(super) fn load(&self, frame: usize, problem: &mut Problem<'_>) -> usize {
+    /// Loads the markers used in a frame; returns their number.
+    pub(super) fn load(&self, frame: usize, problem: &mut FitProblem<'_>) -> usize {
         problem.load(frame, |i| self.is_used(frame, i), |i| self.path(frame, i))
     }
 
-    /// The offsets at which a frame was fitted that lacks markers [m]; not a number for markers left out.
+    /// The offsets used in the fit of a frame that lacks markers [m]; NaN for excluded markers.
     pub(super) fn targets(&self, frame: usize) -> &[Vec3] {
         &self.targets[frame * self.markers..(frame + 1) * self.markers]
     }
 
-    /// Notes the offsets at which a frame is fitted.
-    pub(super) fn aim(&mut self, frame: usize, offsets: &[Vec3]) {
+    /// Stores the offsets used in the fit of a frame.
+    pub(super) fn set_targets(&mut self, frame: usize, offsets: &[Vec3]) {
         self.targets[frame * self.markers..(frame + 1) * self.markers].copy_from_slice(offsets);
     }
 
-    /// Loads what is believed in a frame, and missing markers of the core where its posture has them at their offsets.
-    pub(super) fn load_as_if_seen(&self, frame: usize, problem: &mut Problem<'_>, with_missing: bool) {
+    /// Loads the markers used in a frame, and the missing markers of the core at the positions that follow from posture and offsets.
+    pub(super) fn load_as_if_seen(&self, frame: usize, problem: &mut FitProblem<'_>, with_missing: bool) {
         self.load(frame, problem);
         if self.is_plain(frame) || !with_missing || self.outcomes[frame].is_none() {
             return;
@@ -174,9 +174,8 @@ impl Frames {
         }
     }
 
-    /// Keeps the posture of a frame, at which the problem stands.
-    /// `plain` if it was fitted to the model's own markers.
-    pub(super) fn keep(&mut self, frame: usize, problem: &Problem<'_>, x: &[f64], outcome: Outcome, plain: bool) {
+    /// Stores the current posture of the problem for a frame; `plain` if it was fitted without offsets.
+    pub(super) fn keep(&mut self, frame: usize, problem: &FitProblem<'_>, x: &[f64], outcome: Outcome, plain: bool) {
         self.plain[frame] = plain;
         self.posture_mut(frame).copy_from_slice(x);
         self.outcomes[frame] = Some(outcome);
@@ -187,13 +186,13 @@ impl Frames {
         }
     }
 
-    /// Whether the frame was fitted to the model's own markers.
+    /// Whether the frame was fitted to the markers of the model, without offsets.
     pub(super) fn is_plain(&self, frame: usize) -> bool {
         self.plain[frame]
     }
 
-    /// Forgets the posture of a frame.
-    pub(super) fn lose(&mut self, frame: usize) {
+    /// Removes the posture of a frame.
+    pub(super) fn remove_posture(&mut self, frame: usize) {
         self.posture_mut(frame).fill(f64::NAN);
         self.outcomes[frame] = None;
     }

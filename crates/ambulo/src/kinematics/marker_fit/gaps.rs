@@ -1,61 +1,70 @@
-//! Frames that lack markers.
+//! Fits the frames that lack markers, and bridges coordinates that the visible markers do not determine.
 //!
-//! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that lack
-//! markers the offsets are what the posture makes of them ([`Sliding`]), and the rest goes straight from the complete frame before to the
-//! one after. The frames are fitted twice:
+//! In complete frames every marker has an offset from its place on the model, in the axes of its body. In a run of frames that
+//! lack markers, the offsets follow the posture ([`SkinMotion`]) plus a rest that is interpolated linearly between the complete
+//! frames before and after. Each frame is fitted twice:
 //!
-//! 1. to the markers that are seen, at their offsets: these agree with each other, so that one more or less moves the posture
-//!    only by what the offsets changed meanwhile. Each counts by how far its offset strays ([`Strays`]). Fitted without offsets,
-//!    the posture leaps by the pull of what is missing;
-//! 2. to the markers that are seen, as they are, and to the missing ones where the first posture has them at their offsets. So parts
-//!    of the body that miss nothing are fitted as ever, and all is continuous where the run begins and ends.
+//! 1. to the visible markers at their offsets. These agree with each other, so that a lost marker changes the posture only by
+//!    the change of the offsets meanwhile; without offsets, the posture would jump by the pull of the missing marker. The weight of
+//!    each marker follows from its drift ([`OffsetDrift`]);
+//! 2. to the visible markers as recorded, and the missing ones where the first posture has them at their offsets. Parts of the body
+//!    with all markers are then fitted as usual, and the result is continuous at both ends of the run.
 //!
-//! Between both, unknowns that the seen markers do not determine follow a curve ([`bridge`]), drawn by springs, so that a single
-//! marker of a foot still has its say. An error of one metre in each seen marker, root mean square, moves an unknown by its gain: above
-//! [`LOOSE`] the curve helps, above [`UNSEEN`] nothing is known and the curve leads across for as long as the settings allow.
+//! In between, unknowns that the visible markers do not determine are pulled by springs towards a curve across the gap
+//! ([`fill_gap`]), so that a single marker of a foot still counts. The gain of an unknown is its RMS change per metre of error in
+//! each visible marker: above [`WEAK`] the curve supports the markers; above [`UNSEEN`] the unknown is not determined, and the curve
+//! bridges it up to the length in the settings.
 //!
 //! Pinned by: tests/marker_gaps.rs
 
-use super::bridge;
 use super::frames::Frames;
-use super::problem::Problem;
-use super::sliding::Sliding;
+use super::problem::FitProblem;
+use super::skin_motion::{LEAST_DRIFT, OffsetDrift, SkinMotion};
 use super::solve::Outcome;
-use super::strays::{self, Strays};
+use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
+use std::f64::consts::TAU;
 
-/// Gain above which a curve helps [rad/m]: 5 mm make 7 degrees.
-const LOOSE: f64 = 25.0;
-/// Gain above which an unknown is not determined [rad/m]: 5 mm make 30 degrees.
+/// Gain above which a curve supports the markers [rad/m]: 5 mm cause 7 degrees.
+const WEAK: f64 = 25.0;
+/// Gain above which an unknown is not determined [rad/m]: 5 mm cause 30 degrees.
 const UNSEEN: f64 = 100.0;
-/// Both count only above this multiple of the gain in the complete frame.
+/// Both apply only above this multiple of the gain in the complete frame.
 const LOSS: f64 = 3.0;
-/// How far a marker's offset strays from a straight line in time [m].
-const STRAY: f64 = strays::LEAST;
-/// Fits of a frame at most, each with the offsets of the posture found before.
+/// How far a marker's offset drifts from a straight line in time [m].
+const DRIFT: f64 = LEAST_DRIFT;
+/// Maximum number of fits of a frame, each with the offsets of the posture before.
 const PASSES: usize = 30;
-/// The posture rests when no unknown moves by more from one to the next [rad or m].
+/// The posture has converged when no unknown moves by more from one fit to the next [rad or m].
 const REST: f64 = 1e-7;
-/// Third derivative of a joint's angle [rad/s³]: 0.3 rad at 2 Hz have 0.3 (4π)³.
+/// Third derivative of a joint angle [rad/s³]: 0.3 rad at 2 Hz give 0.3 (4π)³.
 const JERK: f64 = 600.0;
 
-/// What became of each unknown in each frame.
+/// Known values this far on both sides of a gap determine its curve [s].
+const REACH_S: f64 = 0.25;
+/// Cut-off of the curve [Hz]: the usual low-pass filter of marker data of walking.
+const CUTOFF_HZ: f64 = 6.0;
+/// Maximum number of frames solved together on each side.
+const MOST_FRAMES: usize = 4096;
+
+/// How each unknown is determined in each frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum State {
-    /// Markers determine it.
+pub(super) enum Determination {
+    /// By the markers.
     Determined,
-    /// Markers determine it badly, and a curve helps.
-    Loose,
-    /// No marker determines it, and a curve leads across.
+    /// Weakly by the markers, supported by a curve.
+    Weak,
+    /// By a curve across a gap.
     Bridged,
-    /// No marker determines it for too long, or at an end of the recording.
+    /// Not determined: a gap that is too long, or at an end of the recording.
     Gap,
 }
 
-/// Fits the frames that lack markers anew, and complete frames that were fitted otherwise. One state a frame and unknown.
-pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64) -> Vec<State> {
+/// Fits the frames that lack markers again, and complete frames that were fitted with offsets. Returns one state per frame and
+/// unknown.
+pub(super) fn refit(problem: &mut FitProblem<'_>, frames: &mut Frames, longest_s: f64) -> Vec<Determination> {
     let unknowns = problem.tree.unknowns();
-    let mut states = vec![State::Determined; frames.count() * unknowns];
+    let mut states = vec![Determination::Determined; frames.count() * unknowns];
     frames.choose_core();
     let complete: Vec<bool> = (0..frames.count()).map(|frame| frames.is_complete(frame)).collect();
     for frame in 0..frames.count() {
@@ -64,53 +73,53 @@ pub(super) fn refit(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f
         }
         refit_complete(problem, frames, frame);
     }
-    let sliding = Sliding::learn(problem, frames, &complete);
-    let mut strays = Strays::default();
-    // Weight of each marker in frames that lack some.
+    let skin = SkinMotion::learn(problem, frames, &complete);
+    let mut drifts = OffsetDrift::default();
+    // Weight of each marker in frames that lack markers.
     let mut weights = vec![0.0; frames.count() * frames.markers()];
     let mut frame = 0;
     while frame < frames.count() {
         let end = (frame..frames.count()).find(|&f| complete[f]).unwrap_or(frames.count());
         if end > frame {
-            let own = gap_weights(problem, strays.in_gap(frames, &sliding, &complete, end + 1 - frame));
+            let own = gap_weights(problem, drifts.in_gap(frames, &skin, &complete, end + 1 - frame));
             for slots in weights.chunks_mut(frames.markers()).skip(frame).take(end - frame) {
                 slots.copy_from_slice(&own);
             }
-            refit_run(problem, frames, &sliding, (frame, end), &own, &mut states);
+            refit_run(problem, frames, &skin, (frame, end), &own, &mut states);
         }
         frame = end + 1;
     }
     bridge_all(problem, frames, longest_s, &weights, &mut states);
     for frame in (0..frames.count()).filter(|&frame| !complete[frame]) {
-        if !states[frame * unknowns..(frame + 1) * unknowns].contains(&State::Gap) {
+        if !states[frame * unknowns..(frame + 1) * unknowns].contains(&Determination::Gap) {
             fit_as_if_seen(problem, frames, frame);
         }
     }
     states
 }
 
-/// The inverse square of what each marker strays, 1 for [`STRAY`]; its own weight where that is not known.
-fn gap_weights(problem: &Problem<'_>, strays: &[f64]) -> Vec<f64> {
-    let weight = |(stray, own): (&f64, &f64)| if stray.is_finite() { (STRAY / stray).powi(2) } else { *own };
-    strays.iter().zip(&problem.weights).map(weight).collect()
+/// Weight of each marker: the inverse square of its drift, 1 for [`DRIFT`]; its own weight if the drift is unknown.
+fn gap_weights(problem: &FitProblem<'_>, drifts: &[f64]) -> Vec<f64> {
+    let weight = |(drift, own): (&f64, &f64)| if drift.is_finite() { (DRIFT / drift).powi(2) } else { *own };
+    drifts.iter().zip(&problem.weights).map(weight).collect()
 }
 
-/// Loads what is believed in a frame, with these weights.
-fn load_weighted(problem: &mut Problem<'_>, frames: &Frames, frame: usize, weights: &[f64]) {
+/// Loads the markers used in a frame, with these weights.
+fn load_weighted(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, weights: &[f64]) {
     frames.load(frame, problem);
     for (loaded, weight) in problem.frame_weights.iter_mut().zip(weights).filter(|(loaded, _)| **loaded > 0.0) {
         *loaded = *weight;
     }
 }
 
-fn refit_complete(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) {
+fn refit_complete(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
     let Some(mut x) = nearby(frames, frame) else { return };
     frames.load(frame, problem);
     let outcome = problem.fit(&mut x);
     frames.keep(frame, problem, &x, outcome, true);
 }
 
-/// The posture of the frame, or of the last one before it that has one, or of the first after it.
+/// The posture of the frame, or of the last frame before it that has one, or of the first after it.
 fn nearby(frames: &Frames, frame: usize) -> Option<Vec<f64>> {
     let has = |f: &usize| frames.outcomes[*f].is_some();
     let before = (0..=frame).rev().find(has);
@@ -118,21 +127,21 @@ fn nearby(frames: &Frames, frame: usize) -> Option<Vec<f64>> {
     found.map(|f| frames.posture(f).to_vec())
 }
 
-/// Frames `start..end` lack markers of the core; those beside them do not.
+/// Fits frames `start..end`, which lack markers of the core, while the frames before and after are complete.
 fn refit_run(
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &mut Frames,
-    sliding: &Sliding,
+    skin: &SkinMotion,
     (start, end): (usize, usize),
     weights: &[f64],
-    states: &mut [State],
+    states: &mut [Determination],
 ) {
     let unknowns = problem.tree.unknowns();
     let before = start.checked_sub(1);
     let after = (end < frames.count()).then_some(end);
     let mut usual = vec![0.0; unknowns];
     let Some(reference) = before.or(after) else {
-        // No frame at all is complete: what was fitted stays.
+        // No frame is complete: the earlier fits remain.
         for frame in start..end {
             judge(problem, frames, frame, &vec![0.0; unknowns], states);
         }
@@ -146,11 +155,11 @@ fn refit_run(
     for frame in start..end {
         let Some(mut x) = nearby(frames, frame) else { continue };
         let mut outcome = None;
-        // How far markers slid depends on the posture that is sought.
+        // The offsets depend on the posture, so this is a fixed-point iteration.
         for _ in 0..PASSES {
             load_weighted(problem, frames, frame, weights);
-            interpolate_offsets(problem, frames, sliding, [before, after], (frame, &x), &mut offsets);
-            frames.aim(frame, &offsets);
+            interpolate_offsets(problem, frames, skin, [before, after], (frame, &x), &mut offsets);
+            frames.set_targets(frame, &offsets);
             let known = known_offsets(problem, frames, frame);
             let before = x.clone();
             outcome = Some(problem.fit_with_offsets(&known, &mut x));
@@ -164,12 +173,12 @@ fn refit_run(
     }
 }
 
-/// What the posture `x` makes of each marker's offset, and the rest on a straight line in time between two frames; not a number for
-/// markers without any.
+/// Offset of each marker: skin motion at the posture `x`, plus the rest, interpolated linearly between two frames. NaN for markers
+/// without offsets.
 fn interpolate_offsets(
-    problem: &Problem<'_>,
+    problem: &FitProblem<'_>,
     frames: &Frames,
-    sliding: &Sliding,
+    skin: &SkinMotion,
     ends: [Option<usize>; 2],
     (frame, x): (usize, &[f64]),
     offsets: &mut [Vec3],
@@ -177,7 +186,7 @@ fn interpolate_offsets(
     for (i, offset) in offsets.iter_mut().enumerate() {
         let at = |end: Option<usize>| {
             let end = end?;
-            let offset = frames.offsets(end)[i] - sliding.at(i, frames.posture(end)) + sliding.at(i, x);
+            let offset = frames.offsets(end)[i] - skin.at(i, frames.posture(end)) + skin.at(i, x);
             offset.iter().all(|x| x.is_finite()).then_some((problem.times[end], offset))
         };
         *offset = match (at(ends[0]), at(ends[1])) {
@@ -188,11 +197,11 @@ fn interpolate_offsets(
     }
 }
 
-fn judge(problem: &mut Problem<'_>, frames: &Frames, frame: usize, usual: &[f64], states: &mut [State]) {
+fn judge(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, usual: &[f64], states: &mut [Determination]) {
     frames.load(frame, problem);
     if frames.outcomes[frame].is_none() {
         let unknowns = usual.len();
-        states[frame * unknowns..(frame + 1) * unknowns].fill(State::Gap);
+        states[frame * unknowns..(frame + 1) * unknowns].fill(Determination::Gap);
         return;
     }
     let posture = frames.posture(frame).to_vec();
@@ -200,21 +209,28 @@ fn judge(problem: &mut Problem<'_>, frames: &Frames, frame: usize, usual: &[f64]
     judge_loaded(problem, frame, usual, states);
 }
 
-/// Notes which unknowns the markers that are loaded do not determine, at the posture of the problem.
-fn judge_loaded(problem: &mut Problem<'_>, frame: usize, usual: &[f64], states: &mut [State]) {
+/// Stores which unknowns the loaded markers do not determine at the current posture.
+fn judge_loaded(problem: &mut FitProblem<'_>, frame: usize, usual: &[f64], states: &mut [Determination]) {
     let unknowns = usual.len();
     let mut gains = vec![0.0; unknowns];
     problem.uncertainty(&mut gains);
     for (u, gain) in gains.iter().enumerate() {
         let usual = LOSS * usual[u];
-        if *gain > LOOSE.max(usual) {
-            states[frame * unknowns + u] = if *gain > UNSEEN.max(usual) { State::Gap } else { State::Loose };
+        if *gain > WEAK.max(usual) {
+            states[frame * unknowns + u] =
+                if *gain > UNSEEN.max(usual) { Determination::Gap } else { Determination::Weak };
         }
     }
 }
 
-/// Leads curves across stretches in which an unknown is badly determined, and fits those frames once more on springs.
-fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, weights: &[f64], states: &mut [State]) {
+/// Computes curves across stretches in which an unknown is badly determined, and fits those frames again with springs.
+fn bridge_all(
+    problem: &mut FitProblem<'_>,
+    frames: &mut Frames,
+    longest_s: f64,
+    weights: &[f64],
+    states: &mut [Determination],
+) {
     let markers = frames.markers();
     let (count, unknowns) = (frames.count(), problem.tree.unknowns());
     let step_s = (problem.times[count - 1] - problem.times[0]) / (count.max(2) - 1) as f64;
@@ -222,7 +238,7 @@ fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, we
     // Value and stiffness of each spring.
     let mut springs = vec![(f64::NAN, 0.0); count * unknowns];
     for u in 0..unknowns {
-        let known: Vec<bool> = (0..count).map(|f| states[f * unknowns + u] == State::Determined).collect();
+        let known: Vec<bool> = (0..count).map(|f| states[f * unknowns + u] == Determination::Determined).collect();
         if known.iter().all(|k| *k) {
             continue;
         }
@@ -231,7 +247,7 @@ fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, we
             touched[start..end].fill(true);
             let length_s = (end - start) as f64 * step_s;
             if start > 0 && end < count {
-                bridge::fill(&mut values, &known, start, end, step_s);
+                fill_gap(&mut values, &known, start, end, step_s);
             } else {
                 draw(&mut values, start, end);
             }
@@ -245,24 +261,30 @@ fn bridge_all(problem: &mut Problem<'_>, frames: &mut Frames, longest_s: f64, we
     }
 }
 
-/// Of the stretch, what is not seen for a short time is bridged.
-fn bridge_gaps(states: &mut [State], stride: usize, [start, end, count]: [usize; 3], longest_s: f64, step_s: f64) {
-    let seen: Vec<bool> = (start..end).map(|f| states[f * stride] != State::Gap).collect();
+/// Marks short gaps inside a stretch as bridged.
+fn bridge_gaps(
+    states: &mut [Determination],
+    stride: usize,
+    [start, end, count]: [usize; 3],
+    longest_s: f64,
+    step_s: f64,
+) {
+    let seen: Vec<bool> = (start..end).map(|f| states[f * stride] != Determination::Gap).collect();
     for (a, b) in stretches(&seen) {
         let inside = start + a > 0 && start + b < count;
         if inside && (b - a) as f64 * step_s <= longest_s {
-            (start + a..start + b).for_each(|f| states[f * stride] = State::Bridged);
+            (start + a..start + b).for_each(|f| states[f * stride] = Determination::Bridged);
         }
     }
 }
 
-/// Weight of a curve across a stretch [s] against markers [m²/rad²]: its error grows as that of a parabola under jerk, J (T/2)³ / 6.
+/// Weight of a curve across a stretch [s] relative to markers [m²/rad²]: its error is that of a parabola under jerk, J (T/2)³ / 6.
 fn stiffness(length_s: f64) -> f64 {
     let error = JERK * (0.5 * length_s).powi(3) / 6.0;
-    (STRAY / error).powi(2).min(1.0)
+    (DRIFT / error).powi(2).min(1.0)
 }
 
-/// Stretches without knowledge, as first frame and end.
+/// Stretches of unknown values, as first frame and end.
 fn stretches(known: &[bool]) -> Vec<(usize, usize)> {
     let mut list = Vec::new();
     let mut start = None;
@@ -279,7 +301,7 @@ fn stretches(known: &[bool]) -> Vec<(usize, usize)> {
     list
 }
 
-/// A straight line across a stretch, level at the ends of the recording: where the other unknowns find the body meanwhile.
+/// A straight line across a stretch, constant at the ends of the recording.
 fn draw(values: &mut [f64], start: usize, end: usize) {
     let before = start.checked_sub(1).map(|i| values[i]);
     let after = values.get(end).copied();
@@ -294,9 +316,9 @@ fn draw(values: &mut [f64], start: usize, end: usize) {
     }
 }
 
-/// Fits a frame with springs that draw some unknowns to their curves.
+/// Fits a frame with springs that pull some unknowns to their curves.
 fn fit_on_springs(
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &mut Frames,
     frame: usize,
     weights: &[f64],
@@ -314,8 +336,8 @@ fn fit_on_springs(
     frames.keep(frame, problem, &x, outcome, false);
 }
 
-/// The offsets of a frame that lacks markers; markers without one are left out of what is loaded.
-fn known_offsets(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> Vec<Vec3> {
+/// The offsets of a frame that lacks markers; markers without an offset are removed from the loaded ones.
+fn known_offsets(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) -> Vec<Vec3> {
     let mut offsets = frames.targets(frame).to_vec();
     for (i, offset) in offsets.iter_mut().enumerate().filter(|(_, o)| !o.iter().all(|x| x.is_finite())) {
         problem.frame_weights[i] = 0.0;
@@ -324,11 +346,59 @@ fn known_offsets(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> Ve
     offsets
 }
 
-/// Fits a frame to the markers that are seen and to the missing ones where the posture has them at their offsets.
-fn fit_as_if_seen(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize) {
+/// Fits a frame to the visible markers and to the missing ones where the posture has them at their offsets.
+fn fit_as_if_seen(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize) {
     let Some(mut x) = nearby(frames, frame) else { return };
     frames.load_as_if_seen(frame, problem, true);
     let outcome = problem.fit(&mut x);
     frames.load(frame, problem);
     frames.keep(frame, problem, &x, outcome, false);
+}
+
+/// Fills `values[start..end]` with a curve; `known` marks the known values, which exist on both sides.
+///
+/// min Σ_known (y - q)² + (ω_c Δt)⁻⁶ Σ (Δ³q)²: a discrete smoothing spline of half order three near the gap, with the response
+/// 1 / (1 + (ω/ω_c)⁶). Its differences from the last and the next known value are removed by a straight line, so that the curve is
+/// continuous at both ends.
+///
+/// Noise matters more than the model of motion: through the three last values alone, 1 mm of a marker 0.15 m from a joint causes an
+/// acceleration error of 0.007 · 100² = 70 rad/s² at 100 Hz, which is 0.2 rad in the middle of 0.15 s.
+fn fill_gap(values: &mut [f64], known: &[bool], start: usize, end: usize, step_s: f64) {
+    let reach = ((REACH_S / step_s).ceil() as usize).clamp(3, MOST_FRAMES);
+    let (first, last) = (start.saturating_sub(reach), (end + reach).min(values.len()));
+    let count = last - first;
+    let is_known = |i: usize| known[first + i] && !(start..end).contains(&(first + i));
+    let penalty = (TAU * CUTOFF_HZ * step_s).powi(-6);
+    let mut matrix = BandMatrix::zeros(count, 3);
+    let mut q = vec![0.0; count];
+    // Values are relative to the last known one, to keep digits.
+    let base = values[start - 1];
+    for i in (0..count).filter(|&i| is_known(i)) {
+        matrix.add(i, i, 1.0);
+        q[i] = values[first + i] - base;
+    }
+    const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+    for i in 0..count.saturating_sub(3) {
+        for a in 0..4 {
+            for b in 0..=a {
+                matrix.add(i + a, i + b, penalty * THIRD[a] * THIRD[b]);
+            }
+        }
+    }
+    let left = values[start - 1];
+    let right = values[end];
+    match matrix.factor().filter(|_| (0..count).filter(|&i| is_known(i)).count() > 3) {
+        Some(factor) => factor.solve(&mut q),
+        // Too little is known for a curve.
+        None => {
+            let span = (end + 1 - start) as f64;
+            (0..count).for_each(|i| q[i] = (right - left) * ((first + i + 1) as f64 - start as f64) / span);
+        }
+    }
+    let miss_left = left - base - q[start - 1 - first];
+    let miss_right = right - base - q[end - first];
+    for i in start..end {
+        let share = (i + 1 - start) as f64 / (end + 1 - start) as f64;
+        values[i] = base + q[i - first] + miss_left + share * (miss_right - miss_left);
+    }
 }

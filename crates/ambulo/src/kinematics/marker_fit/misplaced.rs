@@ -1,47 +1,48 @@
-//! Markers that are far from their places for long: labels exchanged without a leap, and markers that stand elsewhere.
+//! Markers that are far from their places for long: labels swapped without a jump, and misplaced markers.
 //!
-//! What watches leaps ([`super::sequence`]) does not see labels that were exchanged where a gap was filled by a curve, for the markers
-//! glide from place to place, nor a marker that never stood where the standing trial has it. Both show once all frames are fitted:
+//! The detection of jumps ([`super::sequence`]) misses labels that were swapped where a gap was filled by a curve, because the
+//! markers glide from place to place, and markers that were never where the standing trial has them. Both are detected after all
+//! frames are fitted:
 //!
-//! - two markers far from their places, each near the other's, have exchanged labels, if the frame fits better and both come much
-//!   nearer when they are exchanged back; while they glide, neither is believed;
-//! - a marker that over the whole recording stays far off and many times as far as its neighbours is not where it should be. It
-//!   then counts less, by the square of its neighbours' distance over its own (as a marker with that error should).
+//! - two markers far from their places, each near the place of the other, have swapped labels if the frame fits better and both come
+//!   much nearer when they are swapped back; while they glide, both are excluded;
+//! - a marker that over the whole recording is far off, and many times as far as its neighbours, is misplaced. Its weight is reduced
+//!   by the square of the ratio of its neighbours' distance to its own (the weight for that error).
 //!
 //! Pinned by: tests/marker_misplaced.rs
 
 use super::frames::Frames;
-use super::problem::Problem;
+use super::problem::FitProblem;
 
-/// A marker further than this from its place is far [m]: skin slides by 20 to 30 mm where it slides most.
+/// A marker further than this from its place is far off [m]: skin slides by at most 20 to 30 mm.
 const FAR: f64 = 0.040;
-/// Exchanged back, both must be nearer than this share of their distance.
+/// Swapped back, both markers must be nearer than this share of their distance.
 const NEARER: f64 = 0.5;
-/// Beside an exchange a marker further than this is not believed [m] for as long as a filled gap may last [s].
+/// Near a swap, markers further off than this [m] are excluded for as long as a filled gap may last [s].
 const GLIDING: f64 = 0.020;
 const GLIDE_S: f64 = 0.3;
-/// Exchanges in fewer frames than this are not looked for here.
+/// Minimum number of swapped frames.
 const FEWEST_FRAMES: usize = 5;
-/// A misplaced marker is so many times as far off as its neighbours are.
+/// A misplaced marker is this many times as far off as its neighbours.
 const TIMES: f64 = 4.0;
-/// Neighbours are the markers on the same body, or on those beside it if there are fewer than this.
+/// Neighbours are the markers on the same body; if there are fewer than this, also those on adjacent bodies.
 const NEIGHBOURS: usize = 3;
-/// Markers with less than this share of the largest weight are known to move on the body.
-const LOOSE: f64 = 0.05;
+/// Markers with less than this share of the largest weight are expected to move on the body.
+const MOVABLE: f64 = 0.05;
 const ROUNDS: usize = 6;
 
-/// A marker that is far from its place on the body throughout.
+/// A marker that is far from its place on the body in the whole recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Misplaced {
     pub(super) marker: usize,
     /// Root mean square distance from its place [m].
     pub(super) rms_m: f64,
-    /// The median of its neighbours' [m].
+    /// Median of the distances of its neighbours [m].
     pub(super) usual_m: f64,
 }
 
-/// Exchanges labels back where both markers glided to each other's place.
-pub(super) fn exchange_back(problem: &mut Problem<'_>, frames: &mut Frames) {
+/// Swaps labels back where both markers glided to the place of the other.
+pub(super) fn exchange_back(problem: &mut FitProblem<'_>, frames: &mut Frames) {
     for _ in 0..ROUNDS {
         let Some((a, b)) = most_exchanged(problem, frames) else { return };
         let exchanged: Vec<usize> =
@@ -49,12 +50,12 @@ pub(super) fn exchange_back(problem: &mut Problem<'_>, frames: &mut Frames) {
         if exchanged.is_empty() {
             return;
         }
-        disbelieve_gliding(problem, frames, &exchanged, (a, b));
+        reject_gliding(problem, frames, &exchanged, (a, b));
     }
 }
 
-/// Stands the problem in a fitted frame; whether there is one.
-fn enter(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> bool {
+/// Loads a frame and its posture; returns false if the frame is not fitted.
+fn enter(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize) -> bool {
     let is_fitted = frames.outcomes[frame].is_some();
     if is_fitted {
         frames.load(frame, problem);
@@ -63,25 +64,25 @@ fn enter(problem: &mut Problem<'_>, frames: &Frames, frame: usize) -> bool {
     is_fitted
 }
 
-/// Markers far from their places in a frame in which the problem stands.
-fn far(problem: &Problem<'_>) -> Vec<usize> {
+/// Markers far from their places in the loaded frame.
+fn far(problem: &FitProblem<'_>) -> Vec<usize> {
     (0..problem.points.len()).filter(|&i| is_firm(problem, i) && problem.distance(i) > FAR).collect()
 }
 
-/// Whether a marker is loaded and known to stay on its body.
-fn is_firm(problem: &Problem<'_>, marker: usize) -> bool {
+/// Whether a marker is loaded and not expected to move on its body.
+fn is_firm(problem: &FitProblem<'_>, marker: usize) -> bool {
     let largest = problem.weights.iter().copied().fold(0.0, f64::max);
-    problem.frame_weights[marker] > 0.0 && problem.weights[marker] > LOOSE * largest
+    problem.frame_weights[marker] > 0.0 && problem.weights[marker] > MOVABLE * largest
 }
 
-/// Whether two far markers are each nearer to the other's place.
-fn are_exchanged(problem: &Problem<'_>, a: usize, b: usize) -> bool {
+/// Whether two markers are each much nearer to the place of the other.
+fn are_exchanged(problem: &FitProblem<'_>, a: usize, b: usize) -> bool {
     let to = |marker: usize, place: usize| problem.offset(place, &problem.positions[marker]).norm();
     to(b, a) < NEARER * problem.distance(a) && to(a, b) < NEARER * problem.distance(b)
 }
 
-/// The pair that stands exchanged in most frames.
-fn most_exchanged(problem: &mut Problem<'_>, frames: &Frames) -> Option<(usize, usize)> {
+/// The pair that is swapped in most frames.
+fn most_exchanged(problem: &mut FitProblem<'_>, frames: &Frames) -> Option<(usize, usize)> {
     let mut counts = std::collections::BTreeMap::<(usize, usize), usize>::new();
     for frame in 0..frames.count() {
         if !enter(problem, frames, frame) {
@@ -101,8 +102,8 @@ fn most_exchanged(problem: &mut Problem<'_>, frames: &Frames) -> Option<(usize, 
         .map(|(pair, _)| pair)
 }
 
-/// Exchanges two labels in a frame if that brings both near and lowers the cost; whether it did.
-fn exchange_in(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize, (a, b): (usize, usize)) -> bool {
+/// Swaps two labels in a frame if that brings both near and lowers the cost; returns whether it did.
+fn exchange_in(problem: &mut FitProblem<'_>, frames: &mut Frames, frame: usize, (a, b): (usize, usize)) -> bool {
     if !enter(problem, frames, frame) {
         return false;
     }
@@ -129,8 +130,8 @@ fn exchange_in(problem: &mut Problem<'_>, frames: &mut Frames, frame: usize, (a,
     false
 }
 
-/// Near exchanged frames, markers that are at neither place are not believed.
-fn disbelieve_gliding(problem: &mut Problem<'_>, frames: &mut Frames, exchanged: &[usize], (a, b): (usize, usize)) {
+/// Near swapped frames, excludes markers that are at neither place.
+fn reject_gliding(problem: &mut FitProblem<'_>, frames: &mut Frames, exchanged: &[usize], (a, b): (usize, usize)) {
     let reach = problem.times.windows(2).next().map_or(0, |t| (GLIDE_S / (t[1] - t[0])).ceil() as usize);
     for frame in 0..frames.count() {
         let next = exchanged.partition_point(|&f| f < frame);
@@ -140,12 +141,12 @@ fn disbelieve_gliding(problem: &mut Problem<'_>, frames: &mut Frames, exchanged:
             continue;
         }
         let off: Vec<usize> = [a, b].into_iter().filter(|&i| problem.distance(i) > GLIDING).collect();
-        off.iter().for_each(|&i| frames.believe(frame, i, false));
+        off.iter().for_each(|&i| frames.set_used(frame, i, false));
     }
 }
 
-/// Lowers the weights of markers that stand elsewhere, the furthest first, and fits again.
-pub(super) fn weigh_less(problem: &mut Problem<'_>, frames: &mut Frames) -> Vec<Misplaced> {
+/// Reduces the weights of misplaced markers, the furthest first, and fits again.
+pub(super) fn reduce_weights(problem: &mut FitProblem<'_>, frames: &mut Frames) -> Vec<Misplaced> {
     let mut found: Vec<Misplaced> = Vec::new();
     for _ in 0..ROUNDS {
         let rms = distances(problem, frames);
@@ -165,8 +166,8 @@ pub(super) fn weigh_less(problem: &mut Problem<'_>, frames: &mut Frames) -> Vec<
     found
 }
 
-/// Root mean square distance of each marker from its place in frames that are fitted to the places [m].
-fn distances(problem: &mut Problem<'_>, frames: &Frames) -> Vec<f64> {
+/// RMS distance of each marker from its place, over the frames fitted without offsets [m].
+fn distances(problem: &mut FitProblem<'_>, frames: &Frames) -> Vec<f64> {
     let mut sums = vec![(0.0, 0_usize); frames.markers()];
     for frame in 0..frames.count() {
         if !frames.is_plain(frame) || !enter(problem, frames, frame) {
@@ -179,9 +180,9 @@ fn distances(problem: &mut Problem<'_>, frames: &Frames) -> Vec<f64> {
     sums.into_iter().map(|(sum, count)| (sum / count as f64).sqrt()).collect()
 }
 
-fn misplaced(problem: &Problem<'_>, rms: &[f64], marker: usize) -> Option<Misplaced> {
+fn misplaced(problem: &FitProblem<'_>, rms: &[f64], marker: usize) -> Option<Misplaced> {
     let largest = problem.weights.iter().copied().fold(0.0, f64::max);
-    let firm = |i: &usize| problem.weights[*i] > LOOSE * largest && rms[*i].is_finite();
+    let firm = |i: &usize| problem.weights[*i] > MOVABLE * largest && rms[*i].is_finite();
     if rms[marker].is_nan() || rms[marker] < FAR || !firm(&marker) {
         return None;
     }

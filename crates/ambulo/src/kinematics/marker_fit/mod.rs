@@ -1,65 +1,65 @@
-//! Markers to coordinates: the posture of the model that brings its markers closest to the recorded ones, frame by frame or
-//! all frames together.
+//! Marker fit (inverse kinematics): the posture of a model that brings its markers closest to the recorded ones, frame by frame
+//! or in all frames together.
 //!
-//! q(t) = argmin Σ w |m(t) - p(q)|²    inside the ranges of the coordinates
+//! q(t) = argmin Σ w |m(t) - p(q)|²    within the ranges of the coordinates
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
 //! | `positions` | m, recorded marker | m |
-//! | `points` | p, the model's marker | m |
+//! | `points` | p, marker of the model | m |
 //! | `weights` | w | 1 |
 //! | `x` | q, free coordinates that move a marker | rad, m |
 //!
-//! The model's markers never stand exactly where those of the person do, so that a marker pulls the posture even while it
-//! fits best; when it vanishes, the pull does too and the posture leaps. Frames that lack markers are therefore fitted with each
-//! marker at its offset, interpolated from the complete frames around (`gaps`). Coordinates that no seen marker determines
-//! are bridged up to a stated length and are not a number beyond it.
+//! The markers of a model are never exactly where those of the person are, so that each marker pulls on the posture even at the
+//! best fit. When a marker is lost, its pull is lost too, and the posture would jump. Frames that lack markers are therefore
+//! fitted with each marker at its offset, interpolated from the complete frames around them (`gaps`). Coordinates that the
+//! visible markers do not determine are bridged up to a maximum length, and are NaN in longer gaps.
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
-//! Cost: some 10 µs a step, three or four steps a frame; `cargo xtask bench-markers`.
-//! Not handled: markers fixed to ground; weights that change in time.
+//! Cost: about 10 µs per step, three or four steps per frame; `cargo xtask bench-markers`.
+//! Not handled: markers fixed to ground; weights that vary in time.
 //! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs, tests/marker_smoothing.rs
 
-mod bridge;
-mod cholesky;
-mod followed;
-mod frames;
-mod gaps;
-mod misplaced;
+mod result;
+mod settings;
+
 mod normal;
 mod problem;
-mod report;
-mod result;
-pub(crate) mod rows;
-mod sequence;
-mod settings;
-mod sliding;
-mod smoothing;
 mod solve;
-mod start;
-mod strays;
 mod tree;
 
-pub use result::{FitError, MarkerError, MarkerFit};
-pub use settings::{FitSettings, Guard, Limits, Smoothing};
+mod frames;
+mod sequence;
+mod start;
+
+mod gaps;
+mod misplaced;
+mod skin_motion;
+mod smoothing;
+
+mod report;
+pub(crate) mod rows;
+
+pub use result::{FitError, MarkerFit, MarkerResidual};
+pub use settings::{FitSettings, JointLimits, OutlierDetection, SmoothnessPrior};
 
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::motion::MarkerRecording;
 use frames::{FEWEST, Frames};
-use problem::Problem;
+use problem::FitProblem;
 
-/// Fits a model to recorded markers, both in world axes. Markers that only one of them has are noted.
+/// Fits a model to recorded markers, both in world axes. Markers that only one of them has are reported as a note.
 ///
 /// # Errors
-/// No common marker, nothing that the markers could determine, settings out of range: see [`FitError`].
+/// No common marker, no coordinate that the markers determine, settings out of range: see [`FitError`].
 pub fn fit_markers(
     model: &Model,
     markers: &MarkerRecording,
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<MarkerFit, FitError> {
-    let mut problem = Problem::new(model, markers, settings, findings)?;
+    let mut problem = FitProblem::new(model, markers, settings, findings)?;
     if settings.smoothing.is_some() {
         smoothing::check(problem.frames(), problem.tree.unknowns())?;
     }
@@ -71,11 +71,11 @@ pub fn fit_markers(
     }
     let default: Vec<f64> =
         (0..problem.tree.unknowns()).map(|u| model.coordinates()[problem.tree.coordinate(u)].default_value).collect();
-    sequence::run(&mut problem, &mut frames, settings.guard, &default);
+    sequence::run(&mut problem, &mut frames, settings.outliers, &default);
     let mut elsewhere = Vec::new();
-    if settings.guard == Guard::On {
+    if settings.outliers == OutlierDetection::On {
         misplaced::exchange_back(&mut problem, &mut frames);
-        elsewhere = misplaced::weigh_less(&mut problem, &mut frames);
+        elsewhere = misplaced::reduce_weights(&mut problem, &mut frames);
     }
     let states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
     if let Some(smoothing) = settings.smoothing {

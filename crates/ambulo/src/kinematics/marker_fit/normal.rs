@@ -1,16 +1,16 @@
-//! The normal equations of one frame: JᵀWJ and JᵀW(m - p).
+//! The normal equations of one frame, JᵀWJ and JᵀW(m - p), and small dense Cholesky factors.
 //!
-//! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) the
-//! generalised force of springs w that pull the markers to where they were seen. So both are gathered as in the composite rigid-body
-//! method: mass, first moment and second moment of the weights add up from the leaves to the root, and the entry of two columns
-//! is one twist times the momentum of the other. J is never formed. A body without a weight costs nothing.
+//! JᵀWJ is the joint-space mass matrix of a body whose only masses are the weights w at the markers, and JᵀW(m - p) is the
+//! generalised force of springs of stiffness w that pull the markers to the recorded positions. Both are therefore assembled by
+//! the composite-rigid-body method: mass, first and second moment of the weights are summed from the leaves to the root, and the
+//! entry of two columns is the twist of one times the momentum of the other. J is never formed; bodies without weights are free.
 //!
-//! Half the second derivative of the cost is JᵀWJ - Σ f·∂²p, with f = w (m - p). An axis a carries the axis b further out with it,
-//! ∂²p/∂a∂b = ω_a × (v_b + ω_b × x), so
+//! Half the second derivative of the cost is JᵀWJ - Σ f·∂²p, with f = w (m - p). An axis a moves every axis b further out,
+//! ∂²p/∂a∂b = ω_a × (v_b + ω_b × x), so that
 //!
 //!   Σ f·∂²p = F·(ω_a × v_b) + ω_aᵀ X ω_b - tr X ω_a·ω_b,      X = Σ x fᵀ
 //!
-//! Left out are the second derivatives of the joints' own curves: they slow the iteration, its end is the same.
+//! The second derivatives of the functions of the joints are omitted: this slows the iteration, but does not change its result.
 //!
 //! | code       | symbol                | unit |
 //! | `mass`     | Σ w                   | 1    |
@@ -20,23 +20,23 @@
 //! | `moment`   | Σ x × w (m - p)       | m²   |
 //! | `spread`   | X = Σ x w (m - p)ᵀ    | m²   |
 //!
-//! x is the marker's place from the reference point.
+//! where x is the position of the marker relative to the reference point.
 //!
 //! Source: R. Featherstone 2008, Rigid Body Dynamics Algorithms, section 6.2 (composite-rigid-body algorithm) (unverified).
-//! Cost: each column times the columns between it and the root.
+//! Cost: number of pairs of a column with a column between it and the root.
 //! Pinned by: tests/marker_fit.rs
 
-use super::tree::Tree;
+use super::tree::MarkerTree;
 use crate::spatial::{Mat3, Vec3};
 
-/// A marker that is fitted: the node that carries it, and its place in that body's frame [m].
+/// A fitted marker: the node that carries it, and its place in the frame of that body [m].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub(super) node: usize,
     pub(super) place: Vec3,
 }
 
-/// What the cameras say of one frame: one target and one weight a point. A weight of zero: not seen.
+/// Targets of one frame: one recorded position and one weight per point. The weight of a missing marker is zero.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Targets<'a> {
     pub(super) points: &'a [Point],
@@ -85,8 +85,8 @@ pub(super) struct Normal {
     composites: Vec<Composite>,
 }
 
-/// Σ w |m - p|² at the posture of the tree.
-pub(super) fn cost(tree: &Tree, targets: &Targets<'_>) -> f64 {
+/// Σ w |m - p|² at the current posture.
+pub(super) fn cost(tree: &MarkerTree, targets: &Targets<'_>) -> f64 {
     let mut sum = 0.0;
     for (i, point) in targets.points.iter().enumerate() {
         let weight = targets.weights[i];
@@ -98,7 +98,7 @@ pub(super) fn cost(tree: &Tree, targets: &Targets<'_>) -> f64 {
 }
 
 impl Normal {
-    pub(super) fn new(tree: &Tree) -> Normal {
+    pub(super) fn new(tree: &MarkerTree) -> Normal {
         let n = tree.unknowns();
         Normal {
             n,
@@ -109,8 +109,8 @@ impl Normal {
         }
     }
 
-    /// Gathers both at the posture of the tree.
-    pub(super) fn gather(&mut self, tree: &Tree, targets: &Targets<'_>) {
+    /// Assembles the equations at the current posture.
+    pub(super) fn gather(&mut self, tree: &MarkerTree, targets: &Targets<'_>) {
         self.matrix.fill(0.0);
         self.curvature.fill(0.0);
         self.right.fill(0.0);
@@ -127,7 +127,7 @@ impl Normal {
         }
     }
 
-    fn add_markers(&mut self, tree: &Tree, targets: &Targets<'_>) {
+    fn add_markers(&mut self, tree: &MarkerTree, targets: &Targets<'_>) {
         for (i, point) in targets.points.iter().enumerate() {
             let w = targets.weights[i];
             if w > 0.0 {
@@ -145,8 +145,8 @@ impl Normal {
         }
     }
 
-    /// The rows of a node's own columns against themselves and all columns on the way to the root.
-    fn project(&mut self, tree: &Tree, node: usize, c: &Composite) {
+    /// Adds the products of the columns of a node with each other and with all columns towards the root.
+    fn project(&mut self, tree: &MarkerTree, node: usize, c: &Composite) {
         let trace = c.spread.trace();
         let own = tree.columns(node);
         for (k, column) in own.iter().enumerate() {
@@ -172,11 +172,61 @@ impl Normal {
         }
     }
 
-    /// Two columns that are not the same one; one unknown may stand in both.
+    /// Adds the product of two different columns, which may belong to one unknown.
     fn add(&mut self, a: usize, b: usize, product: f64, bends: f64) {
         let times = if a == b { 2.0 } else { 1.0 };
         let entry = a.max(b) * self.n + a.min(b);
         self.matrix[entry] += times * product;
         self.curvature[entry] += times * bends;
+    }
+}
+
+/// Replaces the lower half of `a` (rows of `n`) by L of A = L Lᵀ. Returns false if the matrix is not positive definite.
+pub(super) fn cholesky_factor(a: &mut [f64], n: usize) -> bool {
+    for i in 0..n {
+        let (above, row) = a.split_at_mut(i * n);
+        for j in 0..i {
+            let other = &above[j * n..j * n + j + 1];
+            let sum: f64 = row[..j].iter().zip(other).map(|(x, y)| x * y).sum();
+            row[j] = (row[j] - sum) / other[j];
+        }
+        let square: f64 = row[..i].iter().map(|x| x * x).sum();
+        let pivot = row[i] - square;
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        row[i] = pivot.sqrt();
+    }
+    true
+}
+
+/// Solves L Lᵀ x = b in place.
+pub(super) fn cholesky_solve(l: &[f64], n: usize, x: &mut [f64]) {
+    for i in 0..n {
+        let known: f64 = l[i * n..i * n + i].iter().zip(x.iter()).map(|(a, b)| a * b).sum();
+        x[i] = (x[i] - known) / l[i * n + i];
+    }
+    for i in (0..n).rev() {
+        x[i] /= l[i * n + i];
+        let value = x[i];
+        for (x, a) in x[..i].iter_mut().zip(&l[i * n..i * n + i]) {
+            *x -= a * value;
+        }
+    }
+}
+
+/// The diagonal of (L Lᵀ)⁻¹; `scratch` has n numbers.
+pub(super) fn cholesky_inverse_diagonal(l: &[f64], n: usize, scratch: &mut [f64], diagonal: &mut [f64]) {
+    for k in 0..n {
+        // Entry k of A⁻¹ eₖ is |L⁻¹ eₖ|².
+        scratch.fill(0.0);
+        scratch[k] = 1.0;
+        let mut square = 0.0;
+        for i in k..n {
+            let known: f64 = l[i * n + k..i * n + i].iter().zip(&scratch[k..i]).map(|(a, b)| a * b).sum();
+            scratch[i] = (scratch[i] - known) / l[i * n + i];
+            square += scratch[i] * scratch[i];
+        }
+        diagonal[k] = square;
     }
 }

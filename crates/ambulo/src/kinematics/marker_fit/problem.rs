@@ -1,27 +1,27 @@
-//! One recording and one model, brought together: which markers are fitted, with what weight, on which part of the body.
+//! A marker fit of one model to one recording: the fitted markers, their weights, and the part of the model that carries them.
 
 use super::normal::{Point, Targets, cost};
 use super::result::FitError;
-use super::settings::{FitSettings, Limits};
+use super::settings::{FitSettings, JointLimits};
 use super::solve::{Bounds, Outcome, Solver};
-use super::tree::Tree;
+use super::tree::MarkerTree;
 use crate::findings::{Code, Findings};
 use crate::model::{Drive, Function, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 
-/// Names listed in a message at most.
+/// Maximum number of names in an error message.
 const MOST_NAMES: usize = 20;
-/// ... and in a finding, which is no list to work through.
+/// Maximum number of names in a note.
 const FEW_NAMES: usize = 6;
 
-/// Everything that the fit of any frame needs, and its scratch.
+/// Data and scratch memory of the fits of all frames.
 #[derive(Debug, Clone)]
-pub(super) struct Problem<'a> {
-    pub(super) tree: Tree,
+pub(super) struct FitProblem<'a> {
+    pub(super) tree: MarkerTree,
     pub(super) solver: Solver,
     pub(super) bounds: Bounds,
-    /// The model's markers.
+    /// The markers of the model.
     pub(super) points: Vec<Point>,
     /// The recorded markers, in the same order.
     pub(super) paths: Vec<&'a MarkerPath>,
@@ -29,23 +29,23 @@ pub(super) struct Problem<'a> {
     pub(super) times: &'a [f64],
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
-    /// Scratch: the markers shifted by offsets, targets and weights of one frame.
+    /// Scratch: shifted markers, positions and weights of one frame.
     shifted: Vec<Point>,
     pub(super) positions: Vec<Vec3>,
     pub(super) frame_weights: Vec<f64>,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> FitProblem<'a> {
     pub(super) fn new(
         model: &Model,
         recording: &'a MarkerRecording,
         settings: &FitSettings,
         findings: &mut Findings,
-    ) -> Result<Problem<'a>, FitError> {
+    ) -> Result<FitProblem<'a>, FitError> {
         check_settings(settings)?;
         let common = common_markers(model, recording, settings, findings)?;
         let bodies: Vec<_> = common.iter().map(|c| c.body).collect();
-        let (tree, nodes) = Tree::new(model, &bodies);
+        let (tree, nodes) = MarkerTree::new(model, &bodies);
         if tree.unknowns() == 0 {
             let markers = listed(common.iter().map(|c| c.path.name.as_str()));
             return Err(FitError::NothingToFit { model: model.name().to_owned(), markers });
@@ -55,7 +55,7 @@ impl<'a> Problem<'a> {
             Drive::Prescribed(function) => Some((i, function.clone())),
             _ => None,
         });
-        Ok(Problem {
+        Ok(FitProblem {
             solver: Solver::new(&tree),
             bounds: bounds(model, &tree, settings.limits),
             shifted: points.clone(),
@@ -75,8 +75,8 @@ impl<'a> Problem<'a> {
         self.times.len()
     }
 
-    /// Takes the recorded positions of a frame; `used` says which markers are believed, `exchanged` whose path a marker
-    /// took in this frame. Returns how many there are.
+    /// Loads the recorded positions of a frame. `used` selects markers, `exchanged` is the path that belongs to a marker in this
+    /// frame. Returns the number of loaded markers.
     pub(super) fn load(
         &mut self,
         frame: usize,
@@ -102,20 +102,20 @@ impl<'a> Problem<'a> {
         count
     }
 
-    /// Gives the coordinates that are functions of time their values.
+    /// Sets the coordinates that are functions of time.
     pub(super) fn enter(&mut self, frame: usize) {
         for (coordinate, function) in &self.prescribed {
             self.tree.give(*coordinate, function.at(self.times[frame])[0]);
         }
     }
 
-    /// Fits what was loaded to the model's own markers.
+    /// Fits the loaded markers to the markers of the model.
     pub(super) fn fit(&mut self, x: &mut [f64]) -> Outcome {
         let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
         self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
     }
 
-    /// Fits what was loaded to markers shifted by offsets in their bodies' axes [m].
+    /// Fits the loaded markers to markers of the model that are shifted by offsets in the axes of their bodies [m].
     pub(super) fn fit_with_offsets(&mut self, offsets: &[Vec3], x: &mut [f64]) -> Outcome {
         for ((shifted, point), offset) in self.shifted.iter_mut().zip(&self.points).zip(offsets) {
             shifted.place = point.place + offset;
@@ -124,32 +124,32 @@ impl<'a> Problem<'a> {
         self.solver.fit(&mut self.tree, &targets, &self.bounds, x)
     }
 
-    /// How far a metre of error in each marker that was loaded would move each unknown [rad/m or m/m].
+    /// Change of each unknown per metre of error in the loaded markers [rad/m or m/m].
     pub(super) fn uncertainty(&mut self, sensitivity: &mut [f64]) {
         let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
         self.solver.uncertainty(&self.tree, &targets, sensitivity);
     }
 
-    /// Puts the model into a posture.
+    /// Puts the model into a posture; returns the cost of the loaded markers.
     pub(super) fn pose_at(&mut self, x: &[f64]) -> f64 {
         self.tree.pose_at(x);
         let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
         cost(&self.tree, &targets)
     }
 
-    /// From the model's marker to a position, in its body's axes [m].
+    /// Offset of a position from the marker of the model, in the axes of its body [m].
     pub(super) fn offset(&self, marker: usize, position: &Vec3) -> Vec3 {
         let pose = self.tree.pose(self.points[marker].node);
         pose.rotation.tr_mul(&(position - pose.translation)) - self.points[marker].place
     }
 
-    /// Where a marker stands that is shifted by an offset in its body's axes, at the posture of the tree [m].
+    /// Position of a marker shifted by an offset in the axes of its body, at the current posture [m].
     pub(super) fn place(&self, marker: usize, offset: &Vec3) -> Vec3 {
         let point = self.points[marker];
         self.tree.pose(point.node).place(point.place + offset)
     }
 
-    /// From the model's marker to its recorded position at the posture of the tree, in world axes [m].
+    /// Distance of the recorded position from the marker of the model at the current posture [m].
     pub(super) fn distance(&self, marker: usize) -> f64 {
         let pose = self.tree.pose(self.points[marker].node);
         (self.positions[marker] - pose.place(self.points[marker].place)).norm()
@@ -190,7 +190,7 @@ struct Common<'a> {
     weight: f64,
 }
 
-/// Markers of the recording that the model has on a body, in the recording's order.
+/// The common markers of model and recording, in the order of the recording.
 fn common_markers<'a>(
     model: &Model,
     recording: &'a MarkerRecording,
@@ -247,13 +247,13 @@ fn report_uncommon(
         "{common} of {} markers of `{}` are on the model and are fitted{}{}",
         recording.markers.len(),
         recording.name,
-        part("recorded", only_recorded),
+        part("in the recording", only_recorded),
         part("on the model", only_model)
     );
     findings.report(Code::MarkersUncommon, message);
 }
 
-/// Names in one line; the rest counted when there are very many.
+/// Names in one line; very long lists are shortened.
 pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     first(names, MOST_NAMES)
 }
@@ -267,17 +267,17 @@ fn first<'a>(names: impl Iterator<Item = &'a str>, most: usize) -> String {
     }
 }
 
-/// Where a body is in the world is no limit of a joint: a person may turn around more often than a root's range foresees.
-fn bounds(model: &Model, tree: &Tree, limits: Limits) -> Bounds {
+/// Ranges of the unknowns. Joints to ground have none: a person may turn around more often than the range of the root allows.
+fn bounds(model: &Model, tree: &MarkerTree, limits: JointLimits) -> Bounds {
     let mut bounds = Bounds::none(tree.unknowns());
     let on_ground = model.bodies().iter().filter(|b| b.joint.parent.is_none());
     let places: Vec<usize> = on_ground.flat_map(|b| b.joint.coordinates()).map(|id| id.index()).collect();
     for unknown in (0..tree.unknowns()).filter(|&u| !places.contains(&tree.coordinate(u))) {
         let coordinate = &model.coordinates()[tree.coordinate(unknown)];
         let obeyed = match limits {
-            Limits::Off => false,
-            Limits::Clamped => coordinate.clamped,
-            Limits::Ranges => true,
+            JointLimits::Off => false,
+            JointLimits::Clamped => coordinate.clamped,
+            JointLimits::Ranges => true,
         };
         if let (true, Some([low, high])) = (obeyed, coordinate.range)
             && low <= high

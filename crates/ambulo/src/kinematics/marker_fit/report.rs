@@ -1,25 +1,25 @@
-//! The fit as a recording of coordinates with the markers' distances, and what a person should know of it.
+//! Builds the result of the fit, and reports missing, excluded, swapped and misplaced markers and gaps of coordinates.
 
-use super::followed::followed;
 use super::frames::Frames;
-use super::gaps::State;
+use super::gaps::Determination;
 use super::misplaced::Misplaced;
-use super::problem::{Problem, listed};
-use super::result::{MarkerError, MarkerFit};
+use super::problem::{FitProblem, listed};
+use super::result::{MarkerFit, MarkerResidual};
 use crate::findings::{Code, Findings};
 use crate::model::{Drive, Model};
 use crate::motion::{MarkerRecording, Motion};
+use crate::spatial::Vec3;
 
-/// Stretches of time listed in a message at most.
+/// Maximum number of time spans in a message.
 const MOST_SPANS: usize = 6;
 
-/// The postures as a recording of coordinates, and the markers' distances.
+/// The result of the fit: coordinates, distances and the corrected markers.
 pub(super) fn fit(
     model: &Model,
     recording: &MarkerRecording,
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &Frames,
-    states: &[State],
+    states: &[Determination],
 ) -> MarkerFit {
     let count = frames.count();
     let leaders = leaders(model, problem);
@@ -32,7 +32,7 @@ pub(super) fn fit(
         problem.pose_at(frames.posture(frame));
         let states = &states[frame * problem.tree.unknowns()..(frame + 1) * problem.tree.unknowns()];
         for ((column, value), leader) in columns.iter_mut().zip(problem.tree.values()).zip(&leaders) {
-            let is_gap = matches!(leader, Leader::Unknown(u) if states[*u] == State::Gap);
+            let is_gap = matches!(leader, Leader::Unknown(u) if states[*u] == Determination::Gap);
             if let (Some(column), false) = (column, is_gap) {
                 column[frame] = *value;
             }
@@ -50,18 +50,18 @@ pub(super) fn fit(
     }
 }
 
-/// What decides a coordinate.
+/// What determines a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Leader {
-    /// No marker moves it.
+    /// Nothing: it moves no marker.
     Nothing,
-    /// The model itself: a lock, a function of time.
+    /// The model: a lock or a function of time.
     Model,
-    /// An unknown, its own or its coupler's.
+    /// An unknown: its own, or that of its coupler.
     Unknown(usize),
 }
 
-fn leaders(model: &Model, problem: &Problem<'_>) -> Vec<Leader> {
+fn leaders(model: &Model, problem: &FitProblem<'_>) -> Vec<Leader> {
     let own = |c: usize| (0..problem.tree.unknowns()).find(|&u| problem.tree.coordinate(u) == c);
     let leader = |(i, drive): (usize, &Drive)| match drive {
         Drive::Free => own(i).map_or(Leader::Nothing, Leader::Unknown),
@@ -81,8 +81,8 @@ struct Distances {
     used: usize,
 }
 
-/// Adds the distances of the markers that are loaded; their root mean square.
-fn note_distances(problem: &Problem<'_>, distances: &mut [Distances]) -> f64 {
+/// Adds the distances of the loaded markers; returns their RMS.
+fn note_distances(problem: &FitProblem<'_>, distances: &mut [Distances]) -> f64 {
     let (mut sum, mut used) = (0.0, 0);
     for (i, d) in distances.iter_mut().enumerate() {
         if problem.frame_weights[i] > 0.0 {
@@ -98,9 +98,9 @@ fn note_distances(problem: &Problem<'_>, distances: &mut [Distances]) -> f64 {
 }
 
 impl Distances {
-    fn error(&self, i: usize, problem: &Problem<'_>, frames: &Frames) -> MarkerError {
+    fn error(&self, i: usize, problem: &FitProblem<'_>, frames: &Frames) -> MarkerResidual {
         let seen = || (0..frames.count()).filter(|&f| frames.is_seen(f, i));
-        MarkerError {
+        MarkerResidual {
             name: problem.paths[i].name.clone(),
             rms_m: (self.square / self.used as f64).sqrt(),
             max_m: if self.used > 0 { self.most } else { f64::NAN },
@@ -110,13 +110,46 @@ impl Distances {
     }
 }
 
-/// Says which markers were missing, which were not believed and which had exchanged their labels.
-pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Findings) {
+/// The recording with swapped labels swapped back, without outliers, and with missing markers where the fitted body has them at
+/// their offsets, if the posture is known. Events and plates are detected from these markers, so that a foot is not lost with its
+/// toe marker. Markers that the model does not have are kept.
+fn followed(
+    recording: &MarkerRecording,
+    problem: &mut FitProblem<'_>,
+    frames: &Frames,
+    states: &[Determination],
+) -> MarkerRecording {
+    let mut out = recording.clone();
+    let numbers: Vec<Option<usize>> =
+        problem.paths.iter().map(|path| recording.markers.iter().position(|m| m.name == path.name)).collect();
+    let unknowns = problem.tree.unknowns();
+    for frame in 0..frames.count() {
+        let own = &states[frame * unknowns..(frame + 1) * unknowns];
+        let is_posed = frames.outcomes[frame].is_some() && !own.contains(&Determination::Gap);
+        let lacks = |i: usize| !frames.is_used(frame, i);
+        if is_posed && (0..frames.markers()).any(lacks) {
+            frames.load(frame, problem);
+            problem.pose_at(frames.posture(frame));
+        }
+        for (i, number) in numbers.iter().enumerate() {
+            let Some(number) = *number else { continue };
+            out.markers[number].positions[frame] = match frames.targets(frame)[i] {
+                _ if !lacks(i) => problem.paths[frames.path(frame, i)].positions[frame],
+                offset if is_posed && offset.iter().all(|x| x.is_finite()) => problem.place(i, &offset),
+                _ => Vec3::repeat(f64::NAN),
+            };
+        }
+    }
+    out
+}
+
+/// Reports markers that are missing, excluded or swapped.
+pub(super) fn markers(problem: &FitProblem<'_>, frames: &Frames, findings: &mut Findings) {
     let name = |i: usize| problem.paths[i].name.as_str();
     for i in 0..frames.markers() {
         let missing = spans(frames.count(), |f| !frames.is_seen(f, i));
         if !missing.is_empty() {
-            let message = format!("marker `{}` was not seen at {}", name(i), times(problem, &missing));
+            let message = format!("marker `{}` is missing at {}", name(i), times(problem, &missing));
             findings.report(Code::MarkersMissing, message);
         }
         let wild = spans(frames.count(), |f| {
@@ -125,7 +158,7 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
         });
         if !wild.is_empty() {
             let message = format!(
-                "marker `{}` left its place on the body at {}; it was left out there",
+                "marker `{}` jumped away from its place on the body at {}; it is excluded there",
                 name(i),
                 times(problem, &wild)
             );
@@ -135,7 +168,7 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
             let swapped = spans(frames.count(), |f| frames.path(f, i) == j);
             if !swapped.is_empty() {
                 let message = format!(
-                    "the markers `{}` and `{}` had exchanged labels at {}; they were exchanged back",
+                    "the markers `{}` and `{}` have swapped labels at {}; they were swapped back",
                     name(i),
                     name(j),
                     times(problem, &swapped)
@@ -146,12 +179,12 @@ pub(super) fn markers(problem: &Problem<'_>, frames: &Frames, findings: &mut Fin
     }
 }
 
-/// Says which markers stand elsewhere than they should.
-pub(super) fn misplaced(problem: &Problem<'_>, markers: &[Misplaced], findings: &mut Findings) {
+/// Reports misplaced markers.
+pub(super) fn misplaced(problem: &FitProblem<'_>, markers: &[Misplaced], findings: &mut Findings) {
     for Misplaced { marker, rms_m, usual_m } in markers {
         let name = &problem.paths[*marker].name;
         let message = format!(
-            "marker `{name}` was {:.0} mm from its place on the body throughout, those beside it {:.0} mm; it counts less by {:.0} times. hint: it stood elsewhere in the standing trial, or bears another marker's label",
+            "marker `{name}` is {:.0} mm (RMS) from its place on the body in the whole recording, its neighbours {:.0} mm; its weight was divided by {:.0}. hint: check whether it was elsewhere in the standing trial, or has the label of another marker",
             1e3 * rms_m,
             1e3 * usual_m,
             (rms_m / usual_m).powi(2)
@@ -160,28 +193,30 @@ pub(super) fn misplaced(problem: &Problem<'_>, markers: &[Misplaced], findings: 
     }
 }
 
-/// Says which coordinates no marker determined.
+/// Reports coordinates that the markers do not determine.
 pub(super) fn coordinates(
     model: &Model,
-    problem: &Problem<'_>,
+    problem: &FitProblem<'_>,
     frames: &Frames,
-    states: &[State],
+    states: &[Determination],
     longest_s: f64,
     findings: &mut Findings,
 ) {
     let unknowns = problem.tree.unknowns();
     for u in 0..unknowns {
         let name = &model.coordinates()[problem.tree.coordinate(u)].name;
-        let bridged = spans(frames.count(), |f| states[f * unknowns + u] == State::Bridged);
+        let bridged = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Bridged);
         if !bridged.is_empty() {
-            let message =
-                format!("too few markers determine `{name}` at {}; a curve leads across", times(problem, &bridged));
+            let message = format!(
+                "too few markers to determine `{name}` at {}; bridged by a smooth curve",
+                times(problem, &bridged)
+            );
             findings.report(Code::MarkersBridged, message);
         }
-        let gaps = spans(frames.count(), |f| states[f * unknowns + u] == State::Gap);
+        let gaps = spans(frames.count(), |f| states[f * unknowns + u] == Determination::Gap);
         if !gaps.is_empty() {
             let message = format!(
-                "too few markers determine `{name}` at {}; it has no value there (stretches up to {longest_s} s inside the recording are bridged)",
+                "too few markers to determine `{name}` at {}; it has no value there (only gaps of up to {longest_s} s inside the recording are bridged)",
                 times(problem, &gaps)
             );
             findings.report(Code::MarkersGap, message);
@@ -189,7 +224,7 @@ pub(super) fn coordinates(
     }
 }
 
-/// Runs of frames, as first and last frame.
+/// Spans of frames, as first and last frame.
 fn spans(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
     let mut list: Vec<[usize; 2]> = Vec::new();
     for frame in (0..count).filter(|&frame| holds(frame)) {
@@ -201,7 +236,7 @@ fn spans(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
     list
 }
 
-fn times(problem: &Problem<'_>, spans: &[[usize; 2]]) -> String {
+fn times(problem: &FitProblem<'_>, spans: &[[usize; 2]]) -> String {
     let frames: usize = spans.iter().map(|[a, b]| b + 1 - a).sum();
     let one = |[a, b]: &[usize; 2]| format!("{:.3}-{:.3} s", problem.times[*a], problem.times[*b]);
     let shown: Vec<String> = spans.iter().take(MOST_SPANS).map(one).collect();

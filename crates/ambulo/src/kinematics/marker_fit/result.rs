@@ -1,38 +1,37 @@
-//! What the fit gives, and why it may give nothing.
+//! Result and errors of the marker fit.
 
 use crate::motion::{MarkerRecording, Motion};
 
-/// Coordinates that bring the model's markers closest to the recorded ones.
+/// Result of [`fit_markers`](super::fit_markers): coordinates, and the remaining distances of the markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerFit {
-    /// The coordinates; not a number where no seen marker determines them. Coordinates that no marker of the recording
-    /// moves have no column.
+    /// The coordinates; NaN where no visible marker determines them. Coordinates that move no recorded marker have no column.
     pub motion: Motion,
-    /// Distances of the markers that were used, in the order of the recording.
-    pub errors: Vec<MarkerError>,
-    /// Root mean square of the distances of the markers used in each frame [m]; not a number where none was seen.
+    /// Distances of the fitted markers, in the order of the recording.
+    pub errors: Vec<MarkerResidual>,
+    /// RMS distance of the markers used in each frame [m]; NaN if none was visible.
     pub rms_m: Vec<f64>,
-    /// The recording as the body followed it: exchanged labels put back, markers that were not believed left out, missing ones where
-    /// the body has them, as far as its posture is known.
+    /// The recording after correction: swapped labels are swapped back, outliers are removed, and missing markers are where the
+    /// fitted body has them, as far as its posture is known. Events and plates are detected from these markers.
     pub followed: MarkerRecording,
-    /// Steps of the iteration in each frame.
+    /// Iterations in each frame.
     pub iterations: Vec<usize>,
-    /// Whether the iteration came to rest in each frame.
+    /// Whether the iteration converged in each frame.
     pub converged: Vec<bool>,
 }
 
-/// How far one marker stayed from its place on the model.
+/// Distance of one recorded marker from its place on the fitted model.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MarkerError {
+pub struct MarkerResidual {
     /// Name of the marker.
     pub name: String,
-    /// Root mean square over the frames in which it was used [m]; not a number if in none.
+    /// RMS distance over the frames in which it was used [m]; NaN if in none.
     pub rms_m: f64,
-    /// Largest distance in a frame in which it was used [m]; not a number if in none.
+    /// Largest distance in these frames [m]; NaN if in none.
     pub max_m: f64,
-    /// Frames in which it was seen.
+    /// Frames in which it was visible.
     pub seen: usize,
-    /// Frames in which it was seen but not believed.
+    /// Frames in which it was visible but excluded as an outlier.
     pub down_weighted: usize,
 }
 
@@ -40,9 +39,9 @@ pub struct MarkerError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// Not one marker of the model was recorded.
+    /// The recording has no marker of the model.
     #[error(
-        "the model `{model}` and the recording `{recording}` have no marker in common; the model has {model_markers}; the recording has {recorded}. hint: choose a marker set whose names are those of the recording, or rename"
+        "the model `{model}` and the recording `{recording}` have no marker in common; the model has {model_markers}; the recording has {recorded}. hint: choose a marker set with the names of the recording, or rename the markers"
     )]
     NoCommonMarker {
         /// Name of the model.
@@ -54,12 +53,12 @@ pub enum FitError {
         /// The recorded markers.
         recorded: String,
     },
-    /// No coordinate that the markers move.
+    /// The markers determine no coordinate.
     #[error("no free coordinate of the model `{model}` moves any of the markers {markers}; expected at least one")]
     NothingToFit {
         /// Name of the model.
         model: String,
-        /// The markers in common.
+        /// The common markers.
         markers: String,
     },
     /// Too few markers in every frame.
@@ -69,41 +68,41 @@ pub enum FitError {
     TooFewMarkers {
         /// Name of the recording.
         recording: String,
-        /// The most that any frame has.
+        /// Largest number of common markers in a frame.
         most: usize,
-        /// Markers in common.
+        /// Number of common markers.
         common: usize,
     },
-    /// A setting that is no number, or out of range.
+    /// A setting is out of range.
     #[error("the setting `{setting}` is {found}; expected {expected}")]
     Setting {
-        /// The setting.
+        /// Name of the setting.
         setting: String,
-        /// Its value.
+        /// Given value.
         found: f64,
-        /// What was allowed.
+        /// Allowed values.
         expected: &'static str,
     },
-    /// A marker with as many positions as there are no instants.
-    #[error("marker `{marker}` has {found} positions; expected {expected}, one an instant")]
+    /// The number of positions of a marker differs from the number of frames.
+    #[error("marker `{marker}` has {found} positions; expected {expected}, one per frame")]
     Frames {
         /// The marker.
         marker: String,
         /// Number of positions.
         found: usize,
-        /// Number of instants.
+        /// Number of frames.
         expected: usize,
     },
-    /// More numbers than are kept in memory at once.
+    /// A fit of all frames together would need too much memory.
     #[error(
-        "{frames} frames of {unknowns} coordinates are too many to fit together; expected at most {most} frames. hint: cut the recording, or fit without smoothing"
+        "{frames} frames of {unknowns} coordinates are too many for a fit of all frames together; expected at most {most} frames. hint: use a shorter part of the recording, or fit frame by frame"
     )]
     TooLong {
         /// Number of frames.
         frames: usize,
-        /// Coordinates a frame.
+        /// Coordinates per frame.
         unknowns: usize,
-        /// Most frames for so many coordinates.
+        /// Maximum number of frames.
         most: usize,
     },
 }

@@ -1,31 +1,31 @@
-//! Markers of one instant as rows of a least-squares problem that has other unknowns too.
+//! Residuals and derivatives of the markers of one instant, for least-squares problems with additional unknowns.
 
-use super::problem::Problem;
+use super::problem::FitProblem;
 use super::result::FitError;
 use super::settings::FitSettings;
-use super::tree::Tree;
+use super::tree::MarkerTree;
 use crate::findings::Findings;
 use crate::model::Model;
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
 
-/// The markers that a model shares with the first frame of a recording.
+/// The common markers of a model and the first frame of a recording.
 #[derive(Debug, Clone)]
 pub(crate) struct MarkerRows {
-    tree: Tree,
+    tree: MarkerTree,
     points: Vec<super::normal::Point>,
     positions: Vec<Vec3>,
-    /// p - m, one a marker [m].
+    /// p - m, one per marker [m].
     residuals: Vec<Vec3>,
     numbers: Vec<usize>,
     derivatives: Vec<Vec3>,
 }
 
-/// One marker: p - m [m], and how each unknown on its way to the root moves it [m/rad or 1].
+/// One marker: p - m [m], and its derivatives by the unknowns towards the root [m/rad or 1].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row<'a> {
+pub(crate) struct MarkerRow<'a> {
     pub(crate) residual: Vec3,
-    /// May name an unknown twice.
+    /// May contain an unknown twice.
     pub(crate) unknowns: &'a [usize],
     pub(crate) derivatives: &'a [Vec3],
 }
@@ -33,7 +33,7 @@ pub(crate) struct Row<'a> {
 impl MarkerRows {
     pub(crate) fn new(model: &Model, recording: &MarkerRecording) -> Result<MarkerRows, FitError> {
         let settings = FitSettings::default();
-        let mut problem = Problem::new(model, recording, &settings, &mut Findings::default())?;
+        let mut problem = FitProblem::new(model, recording, &settings, &mut Findings::default())?;
         problem.load(0, |_| true, |i| i);
         let seen: Vec<usize> = (0..problem.points.len()).filter(|&i| problem.frame_weights[i] > 0.0).collect();
         let mut rows = MarkerRows {
@@ -73,13 +73,13 @@ impl MarkerRows {
         }
     }
 
-    /// p - m at the posture, one a marker that was seen [m].
+    /// p - m at the current posture, one per visible marker [m].
     pub(crate) fn residuals(&self) -> &[Vec3] {
         &self.residuals
     }
 
-    /// A marker's row at the posture.
-    pub(crate) fn row(&mut self, marker: usize) -> Row<'_> {
+    /// The row of a marker at the current posture.
+    pub(crate) fn row(&mut self, marker: usize) -> MarkerRow<'_> {
         self.numbers.clear();
         self.derivatives.clear();
         let residual = self.residuals[marker];
@@ -92,7 +92,7 @@ impl MarkerRows {
             }
             next = self.tree.parent(node);
         }
-        Row { residual, unknowns: &self.numbers, derivatives: &self.derivatives }
+        MarkerRow { residual, unknowns: &self.numbers, derivatives: &self.derivatives }
     }
 }
 
@@ -191,7 +191,7 @@ mod tests {
         }
     }
 
-    /// The composite gathering gives what the rows give; without weights on some markers too.
+    /// The composite method gives the same equations as the rows, also with zero weights.
     #[test]
     fn the_normal_equations_are_those_of_the_rows() {
         use super::super::normal::{Normal, Targets};

@@ -1,74 +1,74 @@
-//! Frame after frame, each from the posture before; markers that jump or exchange their labels are found on the way.
+//! Fits frame after frame, each starting from the one before, and detects markers that jump or swap labels.
 //!
-//! A marker's offset, from the model's marker to the recorded one in the axes of its body, changes slowly: skin slides, it does
-//! not leap. A frame whose offsets leap is looked at again: it is fitted to all markers at the offsets they had in the last
-//! good frame, those that fit badly counting little (weights 1 / (1 + (r/c)²)², Geman and McClure 1987 (unverified), from the
-//! posture that the frames before foretell). What stays off by more than skin can slide is not believed until it comes back; two
-//! markers that stand each where the other is expected have exchanged their labels, and are exchanged back.
+//! The offset of a marker, from the marker of the model to the recorded one in the axes of its body, changes slowly, because skin
+//! slides but does not jump. A frame whose offsets jump is fitted again: to all markers at the offsets of the last good frame, with
+//! small weights for markers that fit badly (1 / (1 + (r/c)²)², Geman and McClure 1987 (unverified)), starting from the posture
+//! predicted by the frames before. A marker that stays off by more than skin can slide is excluded until it returns. Two markers
+//! that are each at the expected position of the other have swapped labels, and are swapped back.
 //!
 //! Pinned by: tests/marker_outliers.rs
 
 use super::frames::{FEWEST, Frames};
-use super::problem::Problem;
-use super::settings::Guard;
+use super::problem::FitProblem;
+use super::settings::OutlierDetection;
 use super::solve::Outcome;
 use super::start;
 use crate::spatial::Vec3;
 
-/// A frame is looked at again when an offset changes by more than this [m] and as fast as skin slides. A jump of 50 mm shows with
-/// at least a quarter of its size where the other markers hold the body.
+/// A frame is fitted again if an offset changes by more than this [m] plus the sliding of skin. A jump of 50 mm changes the offset
+/// by at least a quarter of its size if other markers determine the posture.
 const SUSPICIOUS: f64 = 0.010;
-/// Fastest that skin slides over bone [m/s]: 20 mm in a swing phase is 0.1; impacts are faster.
+/// Largest speed of skin over bone [m/s]: 20 mm in a swing phase is 0.1; impacts are faster.
 const SKIN_SPEED: f64 = 0.5;
-/// A marker further than this from where it is expected is not believed [m].
+/// A marker further than this from its expected position is excluded [m].
 const JUMP: f64 = 0.025;
-/// The most that sliding adds to [`JUMP`], for a marker that is not believed [m].
+/// Largest contribution of sliding to the limit, in addition to [`JUMP`] [m].
 const MOST_SLIDE: f64 = 0.010;
-/// The same for a marker that was not seen for a while [m].
+/// Largest contribution of sliding for a marker that was not visible for a while [m].
 const MOST_SLIDE_UNSEEN: f64 = 0.035;
-/// A marker that is not believed is believed again below this share of the limit.
+/// An excluded marker is used again below this share of the limit.
 const BACK: f64 = 0.8;
-/// Distance at which a marker counts a quarter while a frame is looked at again [m].
+/// Distance at which the weight of a marker is a quarter while a frame is fitted again [m].
 const SCALE: f64 = 0.020;
 const REWEIGHTINGS: usize = 10;
-/// A posture older than this [s] foretells nothing.
+/// A posture older than this [s] is not used for prediction.
 const MEMORY: f64 = 0.25;
-/// In the first frame an exchange of labels must lower both distances from above this [m] to less than half.
+/// In the first frame a swap of labels must reduce both distances from above this [m] to less than half.
 const FIRST_SWAP: f64 = 0.060;
 
-/// What is known when a frame comes.
+/// What earlier frames have shown.
 #[derive(Debug, Clone)]
-struct Memory {
+struct Tracking {
     /// The last two fitted frames.
     last: [Option<usize>; 2],
-    /// Offsets of the last frame in which each marker was believed, and the time of it [s].
+    /// Offset of each marker in the last frame in which it was used, and the time of that frame [s].
     offsets: Vec<Vec3>,
     times: Vec<f64>,
-    /// Offsets of markers that are not believed.
-    wild: Vec<Vec3>,
-    /// Last time at which each marker was seen [s].
+    /// Offsets of excluded markers.
+    rejected: Vec<Vec3>,
+    /// Time at which each marker was last visible [s].
     seen: Vec<f64>,
-    believed: Vec<bool>,
+    used: Vec<bool>,
     paths: Vec<usize>,
     x: Vec<f64>,
     trial: Vec<f64>,
     weights: Vec<f64>,
     distances: Vec<f64>,
     expected: Vec<Vec3>,
-    /// Offsets, zero where none is known.
+    /// Offsets; zero if unknown.
     usable: Vec<Vec3>,
 }
 
 /// Fits every frame that has enough markers.
-pub(super) fn run(problem: &mut Problem<'_>, frames: &mut Frames, guard: Guard, default: &[f64]) {
+pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: OutlierDetection, default: &[f64]) {
     let markers = frames.markers();
-    let mut memory = Memory {
+    let mut memory = Tracking {
         last: [None; 2],
         offsets: vec![Vec3::repeat(f64::NAN); markers],
         times: vec![f64::NEG_INFINITY; markers],
-        wild: vec![Vec3::zeros(); markers],
+        rejected: vec![Vec3::zeros(); markers],
         seen: vec![f64::NEG_INFINITY; markers],
-        believed: vec![true; markers],
+        used: vec![true; markers],
         paths: (0..markers).collect(),
         x: default.to_vec(),
         trial: default.to_vec(),
@@ -78,57 +78,57 @@ pub(super) fn run(problem: &mut Problem<'_>, frames: &mut Frames, guard: Guard, 
         usable: vec![Vec3::zeros(); markers],
     };
     for frame in 0..frames.count() {
-        fit_frame(problem, frames, &mut memory, frame, guard, default);
+        fit_frame(problem, frames, &mut memory, frame, outliers, default);
     }
-    believe_majority(frames);
+    use_majority(frames);
 }
 
-/// A marker that is off from some frame to the end, and for longer than it was believed before, was off before: what came first
-/// has no right of its own.
-fn believe_majority(frames: &mut Frames) {
+/// If a marker is excluded from some frame to the end, and for longer than it was used before, its earlier position was the wrong
+/// one: uses the later frames instead.
+fn use_majority(frames: &mut Frames) {
     for i in 0..frames.markers() {
         let is_seen = |frames: &Frames, f: usize| frames.path(f, i) == i && frames.is_seen(f, i);
         let seen = |f: &usize| is_seen(frames, *f);
         let off = (0..frames.count()).rev().filter(seen).take_while(|&f| !frames.is_used(f, i)).count();
-        let believed = (0..frames.count()).filter(seen).filter(|&f| frames.is_used(f, i)).count();
+        let used = (0..frames.count()).filter(seen).filter(|&f| frames.is_used(f, i)).count();
         for frame in 0..frames.count() {
-            if off > believed && is_seen(frames, frame) {
-                frames.believe(frame, i, !frames.is_used(frame, i));
+            if off > used && is_seen(frames, frame) {
+                frames.set_used(frame, i, !frames.is_used(frame, i));
             }
         }
     }
 }
 
 fn fit_frame(
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &mut Frames,
-    memory: &mut Memory,
+    memory: &mut Tracking,
     frame: usize,
-    guard: Guard,
+    outliers: OutlierDetection,
     default: &[f64],
 ) {
     frames.exchange(frame, &memory.paths);
     for i in 0..frames.markers() {
-        frames.believe(frame, i, memory.believed[i]);
+        frames.set_used(frame, i, memory.used[i]);
     }
     if frames.load(frame, problem) < FEWEST {
-        frames.lose(frame);
+        frames.remove_posture(frame);
         return;
     }
     let t = problem.times[frame];
-    let is_fresh = foretell(problem, frames, memory, frame);
+    let is_fresh = predict_posture(problem, frames, memory, frame);
     if !is_fresh {
-        // After a gap the last posture tells which of several sets of angles is meant.
+        // After a gap, the last posture selects one of several sets of angles.
         memory.x = match memory.last[0] {
             Some(last) => start::posture(problem, frames.posture(last)),
             None => start::posture(problem, default),
         };
-        if guard == Guard::On && memory.last[0].is_none() {
+        if outliers == OutlierDetection::On && memory.last[0].is_none() {
             exchange_in_first(problem, frames, memory, frame);
         }
     }
     let knows_offsets = memory.last[0].is_some();
-    if guard == Guard::On
+    if outliers == OutlierDetection::On
         && knows_offsets
         && let Some(outcome) = guarded(problem, frames, memory, frame, t)
     {
@@ -152,8 +152,8 @@ fn fit_frame(
     remember(frames, memory, frame, t);
 }
 
-/// Starts from where the last two frames lead, if they are recent.
-fn foretell(problem: &Problem<'_>, frames: &Frames, memory: &mut Memory, frame: usize) -> bool {
+/// Predicts the posture from the last two frames, if they are recent.
+fn predict_posture(problem: &FitProblem<'_>, frames: &Frames, memory: &mut Tracking, frame: usize) -> bool {
     let t = problem.times[frame];
     let [Some(last), before] = memory.last else { return false };
     let age = t - problem.times[last];
@@ -172,7 +172,7 @@ fn foretell(problem: &Problem<'_>, frames: &Frames, memory: &mut Memory, frame: 
     true
 }
 
-fn remember(frames: &Frames, memory: &mut Memory, frame: usize, t: f64) {
+fn remember(frames: &Frames, memory: &mut Tracking, frame: usize, t: f64) {
     memory.last = [Some(frame), memory.last[0]];
     for i in 0..frames.markers() {
         if frames.is_seen(frame, frames.path(frame, i)) {
@@ -185,8 +185,8 @@ fn remember(frames: &Frames, memory: &mut Memory, frame: usize, t: f64) {
     }
 }
 
-/// Leaves markers whose offset is not known out of what is loaded.
-fn drop_unknown(problem: &mut Problem<'_>, memory: &mut Memory) {
+/// Removes markers with unknown offsets from the loaded ones.
+fn drop_unknown(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
     for (i, offset) in memory.offsets.iter().enumerate() {
         let is_known = offset.iter().all(|x| x.is_finite());
         memory.usable[i] = if is_known { *offset } else { Vec3::zeros() };
@@ -196,29 +196,28 @@ fn drop_unknown(problem: &mut Problem<'_>, memory: &mut Memory) {
     }
 }
 
-/// How far a marker may be from where it is expected [m].
-fn limit(memory: &Memory, i: usize, t: f64) -> f64 {
+/// Largest distance of a marker from its expected position [m].
+fn limit(memory: &Tracking, i: usize, t: f64) -> f64 {
     let was_unseen = t - memory.seen[i] > 0.1;
     let most = if was_unseen { MOST_SLIDE_UNSEEN } else { MOST_SLIDE };
     JUMP + (SKIN_SPEED * (t - memory.times[i])).min(most)
 }
 
-/// Decides which markers are believed in this frame, and whose path they took. The fit, if all is as before and nothing
-/// leaps.
+/// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before and nothing jumps.
 fn guarded(
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &mut Frames,
-    memory: &mut Memory,
+    memory: &mut Tracking,
     frame: usize,
     t: f64,
 ) -> Option<Outcome> {
-    if memory.believed.iter().all(|b| *b)
+    if memory.used.iter().all(|b| *b)
         && let Some(outcome) = quiet_fit(problem, frames, memory, frame, t)
     {
         return Some(outcome);
     }
     for i in 0..frames.markers() {
-        frames.believe(frame, i, true);
+        frames.set_used(frame, i, true);
     }
     frames.load(frame, problem);
     drop_unknown(problem, memory);
@@ -226,24 +225,30 @@ fn guarded(
     exchange(problem, frames, memory, frame, t);
     for i in 0..frames.markers() {
         if memory.distances[i].is_finite() {
-            memory.believed[i] = is_believed(problem, memory, i, t);
+            memory.used[i] = is_acceptable(problem, memory, i, t);
         }
-        frames.believe(frame, i, memory.believed[i]);
+        frames.set_used(frame, i, memory.used[i]);
     }
     None
 }
 
-/// Whether a marker is near enough to where it is expected; one that was not believed must come nearer, or leap back.
-fn is_believed(problem: &Problem<'_>, memory: &mut Memory, i: usize, t: f64) -> bool {
+/// Whether a marker is near its expected position; an excluded marker must come nearer, or jump back.
+fn is_acceptable(problem: &FitProblem<'_>, memory: &mut Tracking, i: usize, t: f64) -> bool {
     let (r, limit) = (memory.distances[i], limit(memory, i, t));
     let offset = problem.offset(i, &problem.positions[i]);
-    let leapt = (offset - memory.wild[i]).norm() > JUMP;
-    memory.wild[i] = offset;
-    if memory.believed[i] { r <= limit } else { r <= BACK * limit || (leapt && r <= JUMP + MOST_SLIDE_UNSEEN) }
+    let jumped = (offset - memory.rejected[i]).norm() > JUMP;
+    memory.rejected[i] = offset;
+    if memory.used[i] { r <= limit } else { r <= BACK * limit || (jumped && r <= JUMP + MOST_SLIDE_UNSEEN) }
 }
 
-/// The fit of this frame, unless an offset changed faster than skin slides.
-fn quiet_fit(problem: &mut Problem<'_>, frames: &Frames, memory: &mut Memory, frame: usize, t: f64) -> Option<Outcome> {
+/// The fit of this frame; `None` if an offset changed faster than skin slides.
+fn quiet_fit(
+    problem: &mut FitProblem<'_>,
+    frames: &Frames,
+    memory: &mut Tracking,
+    frame: usize,
+    t: f64,
+) -> Option<Outcome> {
     let mut x = std::mem::take(&mut memory.trial);
     x.copy_from_slice(&memory.x);
     let outcome = if frames.is_complete(frame) {
@@ -263,15 +268,15 @@ fn quiet_fit(problem: &mut Problem<'_>, frames: &Frames, memory: &mut Memory, fr
     (!changed).then_some(outcome)
 }
 
-/// Fits what is loaded at the offsets of memory so that a minority of wild markers does not count, and notes each marker's
-/// distance from where it is expected.
-fn robust(problem: &mut Problem<'_>, memory: &mut Memory) {
+/// Fits the loaded markers at their last offsets with a robust weighting, and stores the distance of each marker from its expected
+/// position.
+fn robust(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
     let mut x = std::mem::take(&mut memory.x);
     memory.weights.copy_from_slice(&problem.frame_weights);
     problem.pose_at(&x);
     for k in 0..REWEIGHTINGS {
         note_distances(problem, memory);
-        // From wide to narrow, so that a posture that was foretold badly loses no marker.
+        // From wide to narrow, so that a badly predicted posture excludes no marker.
         let scale = SCALE * (4.0 * 0.5_f64.powi(k as i32)).max(1.0);
         for (i, r) in memory.distances.iter().enumerate() {
             let share = 1.0 + (r / scale).powi(2);
@@ -283,7 +288,7 @@ fn robust(problem: &mut Problem<'_>, memory: &mut Memory) {
     memory.x = x;
 }
 
-fn note_distances(problem: &Problem<'_>, memory: &mut Memory) {
+fn note_distances(problem: &FitProblem<'_>, memory: &mut Tracking) {
     for i in 0..memory.distances.len() {
         let is_loaded = memory.weights[i] > 0.0;
         memory.expected[i] = problem.place(i, &memory.usable[i]);
@@ -291,8 +296,8 @@ fn note_distances(problem: &Problem<'_>, memory: &mut Memory) {
     }
 }
 
-/// Exchanges back the labels of markers that stand each where the other is expected.
-fn exchange(problem: &Problem<'_>, frames: &mut Frames, memory: &mut Memory, frame: usize, t: f64) {
+/// Swaps back the labels of two markers that are each at the expected position of the other.
+fn exchange(problem: &FitProblem<'_>, frames: &mut Frames, memory: &mut Tracking, frame: usize, t: f64) {
     let count = frames.markers();
     for i in 0..count {
         for j in i + 1..count {
@@ -309,9 +314,9 @@ fn exchange(problem: &Problem<'_>, frames: &mut Frames, memory: &mut Memory, fra
     }
 }
 
-/// In the first frame nothing is expected; an exchange of labels shows as two markers that are far off and come near when
-/// exchanged. `x` is the fitted posture before and after.
-fn exchange_in_first(problem: &mut Problem<'_>, frames: &mut Frames, memory: &mut Memory, frame: usize) {
+/// In the first frame there are no expected positions. Two markers with swapped labels are both far off, and near when they are
+/// swapped back.
+fn exchange_in_first(problem: &mut FitProblem<'_>, frames: &mut Frames, memory: &mut Tracking, frame: usize) {
     let count = frames.markers();
     let mut x = memory.x.clone();
     problem.fit(&mut x);
@@ -340,6 +345,6 @@ fn exchange_in_first(problem: &mut Problem<'_>, frames: &mut Frames, memory: &mu
     memory.x = x;
 }
 
-fn loaded_distance(problem: &Problem<'_>, i: usize) -> f64 {
+fn loaded_distance(problem: &FitProblem<'_>, i: usize) -> f64 {
     if problem.frame_weights[i] > 0.0 { problem.distance(i) } else { f64::NAN }
 }

@@ -2,43 +2,44 @@
 //!
 //! min  Σ_t Σ_i w |m - p(q_t)|² / σ²  +  Σ_t Σ_u (Δ³q_u / (Δt³ J_u))²
 //!
-//! Newton's method on all frames at once: the markers give a block on the diagonal for each frame, the prior ties each frame to the
-//! three before it along each coordinate, so the matrix has 3 n bands for n coordinates and its Cholesky factor too. What no marker
-//! sees follows from the prior. Frames that lack markers have the missing ones where the frame-by-frame fit put them.
+//! Newton's method on all frames at once: the markers contribute a diagonal block per frame, the prior couples each frame to the three
+//! before it along each coordinate, so that the matrix and its Cholesky factor have 3 n bands for n coordinates. Coordinates that
+//! no marker determines follow from the prior. In frames that lack markers, the missing ones are where the frame-by-frame fit has
+//! them.
 //!
 //! | code    | symbol                         | unit          |
-//! | `noise` | σ, [`Smoothing::marker_noise_m`] | m           |
+//! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
 //! Source: the discrete smoothing spline of half order three (Whittaker 1923 for the penalty (unverified)); derived here.
-//! Cost: frames times 9 n³ multiplications a step; 8 bytes times frames times 3 n² of memory.
+//! Cost: frames times 9 n³ multiplications per step; 8 bytes times frames times 3 n² of memory.
 //! Pinned by: tests/marker_smoothing.rs
 
 use super::frames::Frames;
-use super::gaps::State;
+use super::gaps::Determination;
 use super::normal::{Normal, Targets, cost};
-use super::problem::Problem;
+use super::problem::FitProblem;
 use super::result::FitError;
-use super::settings::Smoothing;
+use super::settings::SmoothnessPrior;
 use super::solve::Outcome;
 use crate::model::{CoordinateKind, Model};
 use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 
-/// Numbers in the band matrix at most: 1 GB.
+/// Maximum number of entries in the band matrix: 1 GB.
 const MOST_NUMBERS: usize = 1 << 27;
 const STEPS: usize = 30;
-/// The iteration rests when no coordinate moves by more [rad or m].
+/// The iteration ends when no coordinate moves by more [rad or m].
 const SMALL_STEP: f64 = 1e-7;
 const HALVINGS: usize = 12;
-/// Weight that holds a coordinate at the end of its range.
+/// Weight that keeps a coordinate at the end of its range.
 const HELD: f64 = 1e15;
-/// Weight of a coordinate's own value, so that one which neither markers nor prior see has a pivot.
+/// Weight of the value of each coordinate, so that the matrix stays positive definite if neither markers nor prior determine it.
 const FLOOR: f64 = 1e-9;
 const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
 
-/// Positions and weights of all frames, and the prior.
-struct Whole {
+/// The least-squares problem of all frames: positions, weights and the prior.
+struct SmoothFit {
     positions: Vec<Vec3>,
     weights: Vec<f64>,
     markers: usize,
@@ -50,23 +51,23 @@ struct Whole {
     stiffness: Vec<f64>,
 }
 
-/// Refuses recordings that would fill the memory.
+/// Rejects recordings that need too much memory.
 pub(super) fn check(frames: usize, unknowns: usize) -> Result<(), FitError> {
     let most = MOST_NUMBERS / (unknowns * (3 * unknowns + 1));
     if frames > most { Err(FitError::TooLong { frames, unknowns, most }) } else { Ok(()) }
 }
 
-/// Replaces the postures of all frames by those of the whole.
+/// Fits all frames together and replaces their postures.
 pub(super) fn smooth(
     model: &Model,
-    problem: &mut Problem<'_>,
+    problem: &mut FitProblem<'_>,
     frames: &mut Frames,
-    states: &[State],
-    smoothing: Smoothing,
+    states: &[Determination],
+    smoothing: SmoothnessPrior,
 ) {
     let unknowns = problem.tree.unknowns();
     let count = frames.count();
-    let mut whole = Whole::new(model, problem, frames, states, smoothing);
+    let mut whole = SmoothFit::new(model, problem, frames, states, smoothing);
     let mut x = whole.start(frames);
     let mut normal = Normal::new(&problem.tree);
     let mut total = whole.cost(problem, &x);
@@ -90,13 +91,19 @@ pub(super) fn smooth(
     }
 }
 
-impl Whole {
-    fn new(model: &Model, problem: &mut Problem<'_>, frames: &Frames, states: &[State], smoothing: Smoothing) -> Whole {
+impl SmoothFit {
+    fn new(
+        model: &Model,
+        problem: &mut FitProblem<'_>,
+        frames: &Frames,
+        states: &[Determination],
+        smoothing: SmoothnessPrior,
+    ) -> SmoothFit {
         let (markers, unknowns, count) = (frames.markers(), problem.tree.unknowns(), frames.count());
         let mut positions = vec![Vec3::zeros(); count * markers];
         let mut weights = vec![0.0; count * markers];
         for frame in 0..count {
-            let gap = states[frame * unknowns..(frame + 1) * unknowns].contains(&State::Gap);
+            let gap = states[frame * unknowns..(frame + 1) * unknowns].contains(&Determination::Gap);
             frames.load_as_if_seen(frame, problem, !gap);
             positions[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.positions);
             weights[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.frame_weights);
@@ -109,10 +116,10 @@ impl Whole {
         };
         let stiffness = (0..unknowns).map(|u| (step_s.powi(3) * jerk(u)).powi(-2)).collect();
         let precision = smoothing.marker_noise_m.powi(-2);
-        Whole { positions, weights, markers, unknowns, frames: count, precision, stiffness }
+        SmoothFit { positions, weights, markers, unknowns, frames: count, precision, stiffness }
     }
 
-    /// Postures of the frame-by-frame fit, a missing one as in the frame before.
+    /// Postures of the frame-by-frame fit; missing ones are copied from the frame before.
     fn start(&self, frames: &Frames) -> Vec<f64> {
         let mut x: Vec<f64> = (0..self.frames).flat_map(|frame| frames.posture(frame).to_vec()).collect();
         let n = self.unknowns;
@@ -129,18 +136,18 @@ impl Whole {
         x
     }
 
-    fn targets<'t>(&'t self, problem: &'t Problem<'_>, frame: usize) -> Targets<'t> {
+    fn targets<'t>(&'t self, problem: &'t FitProblem<'_>, frame: usize) -> Targets<'t> {
         let own = frame * self.markers..(frame + 1) * self.markers;
         Targets { points: &problem.points, positions: &self.positions[own.clone()], weights: &self.weights[own] }
     }
 
-    /// Puts the model into a frame's posture at its time.
-    fn pose(&self, problem: &mut Problem<'_>, frame: usize, x: &[f64]) {
+    /// Puts the model into the posture of a frame.
+    fn pose(&self, problem: &mut FitProblem<'_>, frame: usize, x: &[f64]) {
         problem.enter(frame);
         problem.tree.pose_at(&x[frame * self.unknowns..(frame + 1) * self.unknowns]);
     }
 
-    fn cost(&self, problem: &mut Problem<'_>, x: &[f64]) -> f64 {
+    fn cost(&self, problem: &mut FitProblem<'_>, x: &[f64]) -> f64 {
         let mut sum = 0.0;
         for frame in 0..self.frames {
             self.pose(problem, frame, x);
@@ -160,12 +167,12 @@ impl Whole {
         })
     }
 
-    /// Newton's step, or Gauss's where the second derivatives are not positive.
-    fn step(&mut self, problem: &mut Problem<'_>, normal: &mut Normal, x: &[f64]) -> Option<Vec<f64>> {
+    /// The Newton step, or the Gauss-Newton step if the matrix is not positive definite.
+    fn step(&mut self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64]) -> Option<Vec<f64>> {
         self.solve(problem, normal, x, 1.0).or_else(|| self.solve(problem, normal, x, 0.0))
     }
 
-    fn solve(&self, problem: &mut Problem<'_>, normal: &mut Normal, x: &[f64], curvature: f64) -> Option<Vec<f64>> {
+    fn solve(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], curvature: f64) -> Option<Vec<f64>> {
         let n = self.unknowns;
         let mut matrix = BandMatrix::zeros(self.frames * n, 3 * n);
         let mut right = vec![0.0; self.frames * n];
@@ -197,8 +204,8 @@ impl Whole {
         right.iter().all(|s| s.is_finite()).then_some(right)
     }
 
-    /// Coordinates at the end of their range that are pushed outwards stay.
-    fn hold(&self, problem: &Problem<'_>, x: &[f64], matrix: &mut BandMatrix, right: &mut [f64]) {
+    /// Keeps coordinates at the end of their range if they are pushed outwards.
+    fn hold(&self, problem: &FitProblem<'_>, x: &[f64], matrix: &mut BandMatrix, right: &mut [f64]) {
         for (i, push) in right.iter_mut().enumerate() {
             let u = i % self.unknowns;
             let (low, high) = (problem.bounds.low[u], problem.bounds.high[u]);
@@ -209,8 +216,8 @@ impl Whole {
         }
     }
 
-    /// As far along the step as lowers the cost.
-    fn walk(&self, problem: &mut Problem<'_>, x: &[f64], step: &[f64], total: f64) -> Option<(Vec<f64>, f64)> {
+    /// Shortens the step until it lowers the cost.
+    fn walk(&self, problem: &mut FitProblem<'_>, x: &[f64], step: &[f64], total: f64) -> Option<(Vec<f64>, f64)> {
         let mut share = 1.0;
         for _ in 0..HALVINGS {
             let mut next: Vec<f64> = x.iter().zip(step).map(|(x, s)| x + share * s).collect();

@@ -1,29 +1,29 @@
-//! One frame fitted: Σ w |m - p(q)|² made least inside the ranges of the coordinates.
+//! The fit of one frame: minimises Σ w |m - p(q)|² within the ranges of the coordinates.
 //!
-//! Newton's step, with the second derivatives of the markers' places; where that does not help, Gauss's and Newton's from the
-//! normal equations, damped after Levenberg and Marquardt. Steps are projected on the ranges: unknowns that lie at an end and are pushed outwards leave the equations for that step (Bertsekas 1982, SIAM J. Control
-//! Optim. 20:221, the projected Newton method; unverified). Optional springs hold unknowns near a value.
+//! Newton's method with the second derivatives of the marker positions; if a step fails, Gauss-Newton steps with
+//! Levenberg-Marquardt damping. Steps are projected on the ranges: unknowns at the end of their range that are pushed outwards
+//! are excluded for that step (projected Newton method, Bertsekas 1982, SIAM J. Control Optim. 20:221; unverified). Optional
+//! springs pull unknowns towards a value.
 //!
-//! Markers stay some 10 mm off the model, at levers of 30 mm (wrist) to 300 mm: without the second derivatives the error falls by
-//! distance over lever a step, 0.4 at the wrist, and a frame of a full body took 11 steps; with them it takes 4.
+//! Markers are about 10 mm off the model, at levers of 30 mm (wrist) to 300 mm. Without second derivatives each step reduces the
+//! error by the ratio of distance to lever, 0.4 at the wrist, and a frame of a full body took 11 steps; with them it takes 4.
 //!
 //! Pinned by: tests/marker_fit.rs
 
-use super::cholesky;
-use super::normal::{Normal, Targets, cost};
-use super::tree::Tree;
+use super::normal::{Normal, Targets, cholesky_factor, cholesky_inverse_diagonal, cholesky_solve, cost};
+use super::tree::MarkerTree;
 
-/// The iteration rests when no unknown moves by more [rad or m].
+/// The iteration ends when no unknown moves by more [rad or m].
 const SMALL_STEP: f64 = 1e-7;
-/// Steps at most from a posture that is near.
+/// Maximum number of steps.
 pub(super) const STEPS: usize = 60;
-/// Damping of directions that no marker sees, as a share of the largest diagonal entry: they stay where they are.
+/// Damping of directions that no marker determines, as a share of the largest diagonal entry; they do not move.
 const FLOOR: f64 = 1e-12;
 const FIRST_DAMPING: f64 = 1e-4;
 const MOST_DAMPING: f64 = 1e8;
-/// No unknown moves further in one step [rad or m]: where markers hardly see a direction, its step means nothing.
+/// Longest step of an unknown [rad or m]: steps along weakly determined directions are not meaningful.
 const LONGEST_STEP: f64 = 0.7;
-/// A cost counts as not higher if it is higher by no more than rounding.
+/// Relative increase of the cost that counts as rounding.
 const ROUNDING: f64 = 1e-14;
 
 /// Ranges and springs of the unknowns.
@@ -31,10 +31,10 @@ const ROUNDING: f64 = 1e-14;
 pub(super) struct Bounds {
     pub(super) low: Vec<f64>,
     pub(super) high: Vec<f64>,
-    /// Stiffness of springs to `anchor`, in weights times m² a rad² (or weights): zero for none.
+    /// Stiffness of the springs to `anchor`, in weights times m² per rad² (or weights); zero for none.
     pub(super) stiffness: Vec<f64>,
     pub(super) anchor: Vec<f64>,
-    /// Unknowns that do not move.
+    /// Unknowns that are kept fixed.
     pub(super) held: Vec<bool>,
 }
 
@@ -54,7 +54,7 @@ impl Bounds {
         self.stiffness.iter().zip(&self.anchor).zip(x).map(|((k, a), x)| k * (x - a) * (x - a)).sum()
     }
 
-    /// Moves values into the ranges.
+    /// Clamps values to the ranges.
     pub(super) fn project(&self, x: &mut [f64]) {
         for ((x, low), high) in x.iter_mut().zip(&self.low).zip(&self.high) {
             *x = x.clamp(*low, *high);
@@ -62,16 +62,16 @@ impl Bounds {
     }
 }
 
-/// How the fit of one frame went.
+/// Result of the fit of one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outcome {
-    /// Σ w |m - p|², springs not counted.
+    /// Σ w |m - p|², without springs.
     pub(super) cost: f64,
     pub(super) steps: usize,
     pub(super) converged: bool,
 }
 
-/// Scratch of fits; nothing is allocated after [`Solver::new`].
+/// Scratch memory of fits; nothing is allocated after [`Solver::new`].
 #[derive(Debug, Clone)]
 pub(super) struct Solver {
     normal: Normal,
@@ -83,7 +83,7 @@ pub(super) struct Solver {
 }
 
 impl Solver {
-    pub(super) fn new(tree: &Tree) -> Solver {
+    pub(super) fn new(tree: &MarkerTree) -> Solver {
         let n = tree.unknowns();
         let zeros = || vec![0.0; n];
         Solver {
@@ -96,8 +96,14 @@ impl Solver {
         }
     }
 
-    /// Improves `x` until it rests; the tree is left at that posture.
-    pub(super) fn fit(&mut self, tree: &mut Tree, targets: &Targets<'_>, bounds: &Bounds, x: &mut [f64]) -> Outcome {
+    /// Iterates from `x` to convergence; leaves the tree at the final posture.
+    pub(super) fn fit(
+        &mut self,
+        tree: &mut MarkerTree,
+        targets: &Targets<'_>,
+        bounds: &Bounds,
+        x: &mut [f64],
+    ) -> Outcome {
         bounds.project(x);
         tree.pose_at(x);
         let mut markers = cost(tree, targets);
@@ -120,7 +126,7 @@ impl Solver {
         Outcome { cost: markers, steps, converged: false }
     }
 
-    fn gather(&mut self, tree: &Tree, targets: &Targets<'_>, bounds: &Bounds, x: &[f64]) {
+    fn gather(&mut self, tree: &MarkerTree, targets: &Targets<'_>, bounds: &Bounds, x: &[f64]) {
         let n = x.len();
         self.normal.gather(tree, targets);
         for i in 0..n {
@@ -134,11 +140,11 @@ impl Solver {
         }
     }
 
-    /// Takes a step that does not raise the cost: the new cost of the markers and the longest move. `None` if there is no
-    /// such step: the posture is the best that numbers can tell.
+    /// Takes a step that does not raise the cost; returns the new cost of the markers and the largest move. `None` if there is no
+    /// such step: the posture is optimal up to rounding.
     fn step(
         &mut self,
-        tree: &mut Tree,
+        tree: &mut MarkerTree,
         targets: &Targets<'_>,
         bounds: &Bounds,
         x: &mut [f64],
@@ -175,7 +181,7 @@ impl Solver {
         }
     }
 
-    /// The damped step of the unknowns that are not fixed.
+    /// Computes the damped step of the unknowns that are not fixed. Returns false if the matrix is not positive definite.
     fn solve(&mut self, damping: f64, newton: bool) -> bool {
         let n = self.step.len();
         self.factor.copy_from_slice(&self.normal.matrix);
@@ -194,10 +200,10 @@ impl Solver {
             self.factor[i * n + i] = 1.0;
             self.step[i] = 0.0;
         }
-        if !cholesky::factor(&mut self.factor, n) {
+        if !cholesky_factor(&mut self.factor, n) {
             return false;
         }
-        cholesky::solve(&self.factor, n, &mut self.step);
+        cholesky_solve(&self.factor, n, &mut self.step);
         let longest = self.step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         if longest > LONGEST_STEP {
             self.step.iter_mut().for_each(|x| *x *= LONGEST_STEP / longest);
@@ -205,9 +211,9 @@ impl Solver {
         longest.is_finite()
     }
 
-    /// How far one unit of error in each marker would move each unknown, root mean square, at the posture of the tree:
-    /// the roots of the diagonal of (JᵀWJ)⁻¹ for weights of one. Infinite where no marker sees the unknown.
-    pub(super) fn uncertainty(&mut self, tree: &Tree, targets: &Targets<'_>, sensitivity: &mut [f64]) {
+    /// RMS change of each unknown per unit of error in each marker, at the current posture: the square roots of the diagonal of
+    /// (JᵀWJ)⁻¹ for unit weights. Infinite if no marker determines the unknown.
+    pub(super) fn uncertainty(&mut self, tree: &MarkerTree, targets: &Targets<'_>, sensitivity: &mut [f64]) {
         let n = self.step.len();
         self.normal.gather(tree, targets);
         let largest = (0..n).map(|i| self.normal.matrix[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
@@ -215,11 +221,11 @@ impl Solver {
             self.normal.matrix[i * n + i] += FLOOR * largest;
         }
         self.factor.copy_from_slice(&self.normal.matrix);
-        if !cholesky::factor(&mut self.factor, n) {
+        if !cholesky_factor(&mut self.factor, n) {
             sensitivity.fill(f64::INFINITY);
             return;
         }
-        cholesky::inverse_diagonal(&self.factor, n, &mut self.scratch, sensitivity);
+        cholesky_inverse_diagonal(&self.factor, n, &mut self.scratch, sensitivity);
         for value in sensitivity.iter_mut() {
             *value = value.sqrt();
         }

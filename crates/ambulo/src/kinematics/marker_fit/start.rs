@@ -1,26 +1,26 @@
-//! A posture from nowhere: the first frame, and frames after long gaps.
+//! Initial posture for the first frame and for frames after long gaps.
 //!
-//! The body in its default posture is laid on the markers as one rigid piece, from each of the turns by 90 degrees that the
-//! root's angles can make; the best of these are fitted in full, and where that stays far off, once more joint by joint from
-//! the root outwards. The closest posture wins.
+//! The model in its default posture is fitted to the markers as one rigid body, starting from all rotations of the root by
+//! multiples of 90 degrees. The best results are fitted in full and, if the distances stay large, again joint by joint from the
+//! root outwards. The posture with the lowest cost is used.
 //!
 //! Pinned by: tests/marker_fit.rs (recordings turned about the vertical, random postures)
 
-use super::problem::Problem;
+use super::problem::FitProblem;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How many rigid placements are fitted in full.
+/// Number of rigid placements that are fitted in full.
 const CANDIDATES: usize = 3;
-/// Root angles that are turned, at most: an orientation has three.
+/// Maximum number of root angles that are varied: an orientation has three.
 const MOST_ANGLES: usize = 3;
-/// A fit with a root mean square distance above this [m] may have the wrong posture.
+/// A fit with an RMS distance above this [m] may have a wrong posture.
 const FAR: f64 = 0.04;
-/// Costs that differ by less than this share are those of one placement.
+/// Placements whose costs differ by less than this share are the same.
 const SAME: f64 = 1e-6;
 const TURNS: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
 
-/// The posture that brings the model closest to the markers that were loaded, and its cost.
-pub(super) fn posture(problem: &mut Problem<'_>, default: &[f64]) -> Vec<f64> {
+/// The posture that brings the model closest to the loaded markers.
+pub(super) fn posture(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<f64> {
     let total: f64 = problem.frame_weights.iter().sum();
     let is_far = |cost: f64| cost > FAR * FAR * total;
     let mut best = (f64::INFINITY, default.to_vec());
@@ -46,8 +46,8 @@ pub(super) fn posture(problem: &mut Problem<'_>, default: &[f64]) -> Vec<f64> {
     best.1
 }
 
-/// The body laid on the markers as one piece, best first.
-fn placements(problem: &mut Problem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
+/// Postures with the model placed as one rigid body, best first.
+fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     problem.pose_at(default);
     let root: Vec<_> = (0..problem.tree.node_count())
         .filter(|&node| problem.tree.parent(node).is_none())
@@ -72,8 +72,8 @@ fn placements(problem: &mut Problem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     }
     problem.bounds.held = held;
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Turns that lead to the same place are one candidate: three angles have two sets of values for one orientation, of
-    // which that nearer to the default posture is meant.
+    // Starts that lead to the same placement are one candidate. Three angles have two sets of values for an orientation; the one
+    // nearer to the default posture is used.
     let far = |x: &[f64]| x.iter().zip(default).map(|(x, d)| (x - d) * (x - d)).sum::<f64>();
     found.dedup_by(|later, earlier| {
         let same = (later.0 - earlier.0).abs() <= SAME * earlier.0.abs();
@@ -85,8 +85,8 @@ fn placements(problem: &mut Problem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     found.into_iter().take(CANDIDATES).map(|(_, x)| x).collect()
 }
 
-/// Fits joint by joint from the root, each to the markers of the body that it carries.
-fn outwards(problem: &mut Problem<'_>, x: &mut [f64]) {
+/// Fits joint by joint from the root outwards, each to the markers of its own body.
+fn outwards(problem: &mut FitProblem<'_>, x: &mut [f64]) {
     let held = problem.bounds.held.clone();
     let weights = problem.frame_weights.clone();
     for node in 0..problem.tree.node_count() {
@@ -120,8 +120,8 @@ fn outwards(problem: &mut Problem<'_>, x: &mut [f64]) {
     problem.frame_weights = weights;
 }
 
-/// Takes whole turns out of the root's angles, where the posture stays the same.
-fn wrap(problem: &mut Problem<'_>, default: &[f64], x: &mut [f64]) {
+/// Removes full turns from angles if the posture stays the same.
+fn wrap(problem: &mut FitProblem<'_>, default: &[f64], x: &mut [f64]) {
     let cost = problem.pose_at(x);
     for i in 0..x.len() {
         let turns = ((x[i] - default[i]) / (2.0 * PI)).round();

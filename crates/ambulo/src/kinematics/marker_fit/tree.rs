@@ -1,27 +1,23 @@
-//! The part of a model that carries tracked markers, prepared for repeated fits: where every marker is, and how each
-//! unknown moves it.
+//! The part of a model that carries markers, prepared for repeated fits: positions of the markers and their derivatives by the
+//! unknowns.
 //!
-//! A column is the twist that an unknown coordinate gives to a body at its own joint, and so to everything that body
-//! carries: with M the joint's moving origin, a the direction of a rotation axis in world axes and f' the slope with which
-//! the axis follows the unknown (couplers chain-ruled),
+//! A column is the twist that an unknown gives to a body through its own joint, and to all bodies further out. With the moving
+//! origin M of the joint, the direction a of a rotation axis in world axes and the slope f' of the axis by the unknown (by the
+//! chain rule through couplers),
 //!
 //!   angular part  ω = Σ f' a,      velocity of the point of the body at the reference point  v = Σ f' a × (ref - M) + Σ f' d
 //!
-//! d being the directions of translations, and on an ellipsoid radii ∘ (a × z) in F's axes. A marker at p then moves at
+//! where d are the directions of translations; on an ellipsoid d is radii ∘ (a × z) in the axes of F. A marker at p then moves at
 //! v + ω × (p - ref).
+//!
+//! The axes are those of [`plan`](crate::kinematics::plan). The nodes are not: a fit needs body frames and columns of the bodies
+//! with markers only, the sweeps need joint frames relative to mass centres, with velocities, of all bodies.
 //!
 //! Pinned by: tests/marker_fit.rs (derivatives against finite differences, random models of all joint kinds)
 
-use crate::model::{BodyId, Displacement, Drive, Function, Joint, Measure, Model};
+use crate::kinematics::plan::Source;
+use crate::model::{BodyId, Drive, Function, Joint, JointAxis, Measure, Model};
 use crate::spatial::{Mat3, Pose, Vec3};
-
-/// What stands between an axis and the number that moves it.
-#[derive(Debug, Clone)]
-enum Source {
-    Fixed(f64),
-    Line { coordinate: usize, slope: f64, intercept: f64 },
-    Curve { coordinate: usize, function: Function },
-}
 
 #[derive(Debug, Clone)]
 struct Axis {
@@ -31,7 +27,7 @@ struct Axis {
     column: Option<usize>,
 }
 
-/// A body that carries tracked markers, or carries one that does.
+/// A body that has fitted markers, or a descendant with some.
 #[derive(Debug, Clone)]
 struct Node {
     parent: Option<usize>,
@@ -40,23 +36,23 @@ struct Node {
     rotations: Vec<Axis>,
     translations: Vec<Axis>,
     ellipsoid: Option<Vec3>,
-    /// Its columns, in [`Tree::columns`].
+    /// Its columns, in [`MarkerTree::columns`].
     first_column: usize,
     end_column: usize,
 }
 
-/// One coordinate of the model as the fit sees it.
+/// How a coordinate gets its value in the fit.
 #[derive(Debug, Clone)]
 enum Follower {
-    /// Takes the value that the caller gives: unknown, locked or prescribed.
+    /// Set by the caller: unknown, locked or prescribed.
     Given,
     /// A function of another coordinate.
     Follows(usize, Function),
 }
 
-/// The twist that an unknown gives to what hangs at one joint.
+/// The twist per unit of an unknown of the bodies beyond one joint.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column {
+pub(super) struct TwistColumn {
     pub(super) unknown: usize,
     /// Whether an axis of rotation contributes.
     pub(super) turns: bool,
@@ -65,18 +61,18 @@ pub(super) struct Column {
     pub(super) linear: Vec3,
 }
 
-/// Model prepared for fits of certain markers, and the state of one posture.
+/// A model prepared for fits of certain markers, with the state of one posture.
 #[derive(Debug, Clone)]
-pub(super) struct Tree {
+pub(super) struct MarkerTree {
     nodes: Vec<Node>,
     followers: Vec<Follower>,
     /// Coordinate of each unknown.
     unknowns: Vec<usize>,
     /// Unknown of each coordinate, its own or its leader's.
     unknown_of: Vec<Option<usize>>,
-    /// Of each coordinate: how fast it follows its unknown at this posture.
+    /// Derivative of each coordinate by its unknown at this posture.
     rates: Vec<f64>,
-    columns: Vec<Column>,
+    columns: Vec<TwistColumn>,
     poses: Vec<Pose>,
     joint_frames: Vec<Pose>,
     /// Values of all coordinates at this posture.
@@ -84,10 +80,10 @@ pub(super) struct Tree {
     reference: Vec3,
 }
 
-impl Tree {
-    /// For markers on these bodies. Unknown are the free coordinates that move one of them. The second list says which node
-    /// each of the bodies became.
-    pub(super) fn new(model: &Model, tracked: &[BodyId]) -> (Tree, Vec<usize>) {
+impl MarkerTree {
+    /// Prepares a model for markers on these bodies; the unknowns are the free coordinates that move one of them. The second list
+    /// is the node of each of the bodies.
+    pub(super) fn new(model: &Model, tracked: &[BodyId]) -> (MarkerTree, Vec<usize>) {
         let mut wanted = vec![false; model.bodies().len()];
         for body in tracked {
             let mut next = Some(*body);
@@ -96,7 +92,7 @@ impl Tree {
                 next = model.bodies()[id.index()].joint.parent;
             }
         }
-        let mut tree = Tree::empty(model);
+        let mut tree = MarkerTree::empty(model);
         tree.number_unknowns(model, &wanted);
         let mut node_of = vec![usize::MAX; wanted.len()];
         for (i, body) in model.bodies().iter().enumerate().filter(|(i, _)| wanted[*i]) {
@@ -108,13 +104,13 @@ impl Tree {
         (tree, nodes)
     }
 
-    fn empty(model: &Model) -> Tree {
+    fn empty(model: &Model) -> MarkerTree {
         let follower = |drive: &Drive| match drive {
             Drive::Coupled(leader, function) => Follower::Follows(leader.index(), function.clone()),
             _ => Follower::Given,
         };
         let count = model.coordinates().len();
-        Tree {
+        MarkerTree {
             nodes: Vec::new(),
             followers: model.coordinates().iter().map(|c| follower(&c.drive)).collect(),
             unknowns: Vec::new(),
@@ -128,7 +124,7 @@ impl Tree {
         }
     }
 
-    /// Numbers the free coordinates that move a wanted body, in the model's order.
+    /// Numbers the free coordinates that move a wanted body, in the order of the model.
     fn number_unknowns(&mut self, model: &Model, wanted: &[bool]) {
         let mut moves = vec![false; self.q.len()];
         for (body, _) in model.bodies().iter().zip(wanted).filter(|(_, wanted)| **wanted) {
@@ -154,16 +150,10 @@ impl Tree {
 
     fn push(&mut self, joint: &Joint, parent: Option<usize>) {
         let first_column = self.columns.len();
-        let mut axes = |list: &[crate::model::JointAxis]| -> Vec<Axis> {
+        let mut axes = |list: &[JointAxis]| -> Vec<Axis> {
             list.iter()
                 .map(|axis| {
-                    let source = match &axis.displacement {
-                        Displacement::Fixed(value) => Source::Fixed(*value),
-                        Displacement::Follows(id, function) => match function.as_linear() {
-                            Some((slope, intercept)) => Source::Line { coordinate: id.index(), slope, intercept },
-                            None => Source::Curve { coordinate: id.index(), function: function.clone() },
-                        },
-                    };
+                    let source = Source::new(&axis.displacement, 1.0);
                     let unknown = source.coordinate().and_then(|c| self.unknown_of[c]);
                     let column = unknown.map(|unknown| column_of(&mut self.columns, first_column, unknown));
                     Axis { direction: axis.direction, source, column }
@@ -201,18 +191,18 @@ impl Tree {
         self.unknowns[unknown]
     }
 
-    /// Bodies that matter, parents first.
+    /// Number of nodes, which are ordered parents first.
     pub(super) fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The node that carries this one.
+    /// The parent of a node.
     pub(super) fn parent(&self, node: usize) -> Option<usize> {
         self.nodes[node].parent
     }
 
-    /// The columns at a node's own joint.
-    pub(super) fn columns(&self, node: usize) -> &[Column] {
+    /// The columns of the joint of a node.
+    pub(super) fn columns(&self, node: usize) -> &[TwistColumn] {
         &self.columns[self.nodes[node].first_column..self.nodes[node].end_column]
     }
 
@@ -221,27 +211,27 @@ impl Tree {
         &self.poses[node]
     }
 
-    /// Values of all coordinates at this posture; followers as their coupler has them.
+    /// Values of all coordinates at this posture, including coupled ones.
     pub(super) fn values(&self) -> &[f64] {
         &self.q
     }
 
-    /// Sets a coordinate that is given: locked or prescribed.
+    /// Sets a locked or prescribed coordinate.
     pub(super) fn give(&mut self, coordinate: usize, value: f64) {
         self.q[coordinate] = value;
     }
 
-    /// The point about which columns are given.
+    /// The reference point of the columns.
     pub(super) fn reference(&self) -> Vec3 {
         self.reference
     }
 
-    /// Chooses the point about which columns are given: near the markers, so that digits are not lost.
+    /// Sets the reference point of the columns: near the markers, to keep digits.
     pub(super) fn refer_to(&mut self, point: Vec3) {
         self.reference = point;
     }
 
-    /// Puts the body into a posture: one value an unknown.
+    /// Puts the model into a posture: one value per unknown.
     pub(super) fn pose_at(&mut self, x: &[f64]) {
         for (&coordinate, &value) in self.unknowns.iter().zip(x) {
             self.q[coordinate] = value;
@@ -267,13 +257,13 @@ impl Tree {
         let mut rotation = world_from_f.rotation;
         let mut turned = [(None, Vec3::zeros(), 0.0); 3];
         for (axis, slot) in node.rotations.iter().zip(&mut turned) {
-            let (angle, slope) = axis.source.at(&self.q, &self.rates);
+            let (angle, slope) = displacement(&axis.source, &self.q, &self.rates);
             *slot = (axis.column, rotation * axis.direction, slope);
             rotation *= turn(&axis.direction, angle);
         }
         let mut origin = world_from_f.translation;
         for axis in &node.translations {
-            let (distance, slope) = axis.source.at(&self.q, &self.rates);
+            let (distance, slope) = displacement(&axis.source, &self.q, &self.rates);
             let direction = world_from_f.rotation * axis.direction;
             origin += direction * distance;
             if let Some(column) = axis.column {
@@ -301,37 +291,28 @@ impl Tree {
     }
 }
 
-/// The column of this unknown among those from `first`, added if there is none.
-fn column_of(columns: &mut Vec<Column>, first: usize, unknown: usize) -> usize {
+/// The column of this unknown among those from `first`; added if missing.
+fn column_of(columns: &mut Vec<TwistColumn>, first: usize, unknown: usize) -> usize {
     let found = columns[first..].iter().position(|c| c.unknown == unknown);
     found.map_or_else(
         || {
-            columns.push(Column { unknown, turns: false, angular: Vec3::zeros(), linear: Vec3::zeros() });
+            columns.push(TwistColumn { unknown, turns: false, angular: Vec3::zeros(), linear: Vec3::zeros() });
             columns.len() - 1
         },
         |k| first + k,
     )
 }
 
-impl Source {
-    fn coordinate(&self) -> Option<usize> {
-        match self {
-            Source::Fixed(_) => None,
-            Source::Line { coordinate, .. } | Source::Curve { coordinate, .. } => Some(*coordinate),
+/// Angle or displacement of an axis, and its slope by the unknown.
+fn displacement(source: &Source, q: &[f64], rates: &[f64]) -> (f64, f64) {
+    match source {
+        Source::Fixed(value) => (*value, 0.0),
+        Source::Line { coordinate, slope, intercept } => {
+            (slope * q[*coordinate] + intercept, slope * rates[*coordinate])
         }
-    }
-
-    /// Angle or distance, and its slope by the unknown.
-    fn at(&self, q: &[f64], rates: &[f64]) -> (f64, f64) {
-        match self {
-            Source::Fixed(value) => (*value, 0.0),
-            Source::Line { coordinate, slope, intercept } => {
-                (slope * q[*coordinate] + intercept, slope * rates[*coordinate])
-            }
-            Source::Curve { coordinate, function } => {
-                let [value, slope, _] = function.at(q[*coordinate]);
-                (value, slope * rates[*coordinate])
-            }
+        Source::Curve { coordinate, function } => {
+            let [value, slope, _] = function.at(q[*coordinate]);
+            (value, slope * rates[*coordinate])
         }
     }
 }

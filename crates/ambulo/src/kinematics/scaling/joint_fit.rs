@@ -26,8 +26,8 @@
 use super::ScalingError;
 use super::standing::{MovedMarker, at_rest, complete, with_markers_placed};
 use crate::findings::Findings;
-use crate::kinematics::marker_fit::rows::{MarkerRows, Row};
-use crate::kinematics::marker_fit::{FitSettings, Guard, fit_markers};
+use crate::kinematics::marker_fit::rows::{MarkerRow, MarkerRows};
+use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::MarkerRecording;
 use crate::numerics::{NormalEquations, Residuals, minimise};
@@ -85,7 +85,7 @@ pub fn fit_size(
     findings: &mut Findings,
 ) -> Result<SizedModel, ScalingError> {
     let standing = at_rest(standing, findings);
-    let fit_settings = FitSettings { guard: Guard::Off, ..FitSettings::default() };
+    let fit_settings = FitSettings { outliers: OutlierDetection::Off, ..FitSettings::default() };
     let start = fit_markers(model, &standing, &fit_settings, findings)?;
     let mut problem = Problem::new(model, &standing, &start.motion.columns)?;
     let mut z = problem.start.clone();
@@ -275,7 +275,7 @@ impl Residuals for Problem<'_> {
         let mut numbers: Vec<usize> = Vec::new();
         let mut slopes: [Vec<f64>; 3] = Default::default();
         for i in 0..rows.residuals().len() {
-            let Row { residual, unknowns, derivatives } = rows.row(i);
+            let MarkerRow { residual, unknowns, derivatives } = rows.row(i);
             numbers.clear();
             numbers.extend_from_slice(unknowns);
             for (k, slopes) in slopes.iter_mut().enumerate() {

@@ -10,7 +10,7 @@
 use super::standing::{at_rest, complete, poses, with_markers_placed};
 use super::{ScalingError, SizedModel};
 use crate::findings::{Code, Findings};
-use crate::kinematics::marker_fit::{FitSettings, Guard, fit_markers};
+use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::model::Model;
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
@@ -121,7 +121,7 @@ pub fn size_by_measurements(
     let factors = measured_factors(model, standing, measurements, findings)?;
     let standing = at_rest(standing, &mut Findings::default());
     let scaled = model.scaled(&factors, mass)?;
-    let settings = FitSettings { guard: Guard::Off, ..FitSettings::default() };
+    let settings = FitSettings { outliers: OutlierDetection::Off, ..FitSettings::default() };
     let before = fit_markers(model, &standing, &settings, &mut Findings::default())?;
     let fit = fit_markers(&scaled, &standing, &settings, findings)?;
     let posture = complete(&scaled, |i| Some(fit.motion.columns[i].as_ref()?[0]));

@@ -2,7 +2,8 @@
 
 use super::ScalingError;
 use crate::findings::{Code, Findings};
-use crate::kinematics::body_motion::{Posture, body_motion};
+use crate::kinematics::body_motion::body_motion;
+use crate::kinematics::trajectory::Posture;
 use crate::model::{Drive, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;

@@ -9,7 +9,6 @@ use super::{sides, words};
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Feasibility, Group, RedSpan, Table};
 use ambulo::analysis::feasibility::{Check, Closest, Reason, Verdict};
-use ambulo::model::Side;
 
 /// Panels that show what is no coordinate's, by check.
 const PANELS: [(Check, &str); 5] = [
@@ -107,9 +106,8 @@ fn panel(check: Check, quantity: &str, quantities: &[ClinicalQuantity]) -> Optio
     if let Some((_, panel)) = PANELS.iter().find(|(known, _)| *known == check) {
         return Some((*panel).to_owned());
     }
-    let stem = Side::split_name(quantity).map_or_else(|| quantity.to_owned(), |(_, stem)| stem);
     let of_coordinate = matches!(check, Check::Strength | Check::Power | Check::Range);
-    let shown = of_coordinate.then(|| words::known(&stem, quantities)).flatten()?;
+    let (shown, _) = of_coordinate.then(|| words::known(quantity, quantities)).flatten()?;
     Some(shown.id.to_owned())
 }
 
