@@ -65,6 +65,7 @@ const RESULTS: &[&str] = &[
     "grf_sd.mot",
     "external_loads.xml",
     "events.csv",
+    "clinical.csv",
     "times_and_distances.csv",
     "cycles.csv",
     "figures/kinematics.svg",

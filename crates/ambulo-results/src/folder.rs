@@ -65,6 +65,18 @@ impl Folder<'_> {
         Ok(Some(table))
     }
 
+    /// A table in CSV, if the folder has it; its numbers are finite.
+    ///
+    /// # Errors
+    /// A file that is not a table, or holds numbers that no result can be.
+    pub fn csv_table(&self, file: &str) -> Result<Option<Table>, ResultsError> {
+        let Some(bytes) = (self.file)(file) else { return Ok(None) };
+        self.refuse_binary(file, &bytes)?;
+        let (table, _) = Table::read_csv(&bytes).map_err(|error| self.refused(file, &error))?;
+        self.check_numbers(file, &table)?;
+        Ok(Some(table))
+    }
+
     /// A text file, if the folder has it, without a byte order mark.
     ///
     /// # Errors

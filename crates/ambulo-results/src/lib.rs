@@ -1,6 +1,7 @@
 //! What a run found, as types that are written to files and read back: summary, tables and file names.
 
 mod consistency_summary;
+mod convention;
 mod cycle_table;
 mod files;
 mod folder;
@@ -17,6 +18,7 @@ mod walk_summary;
 mod walking_summary;
 
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
+pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{OutputFile, output_files};
 pub use folder::{Folder, ResultsError, error_chain};
@@ -42,5 +44,7 @@ pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
 /// Name of the summary in a result folder.
 pub const SUMMARY: &str = "summary.json";
+/// Name of the table of clinical curves in a result folder.
+pub const CLINICAL: &str = "clinical.csv";
 /// Name of the table of times and distances in a result folder.
 pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";

@@ -1,6 +1,7 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
 use crate::consistency_summary::ConsistencySummary;
+use crate::convention::ConventionSummary;
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::walk_summary::WalkSummary;
@@ -48,6 +49,8 @@ pub struct Summary {
     pub frames: usize,
     /// Filters of motion and forces, in words.
     pub filter: Filters,
+    /// How angles of pelvis and hips are measured in `clinical.csv`; `null` without that file.
+    pub convention: Option<ConventionSummary>,
     /// Times and distances of the strides; `null` where no feet were seen to walk.
     pub times_and_distances: Option<WalkingSummary>,
     /// Where the ground forces come from.
@@ -301,6 +304,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         frames: grid.frames,
         filter: filters(settings),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
+        convention: None,
         times_and_distances: None,
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),

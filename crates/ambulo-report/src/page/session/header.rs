@@ -7,7 +7,7 @@ use super::strides::Stride;
 use super::way::Way;
 use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::MassSource;
-use ambulo_results::{ChangeUnit, FilterKind, FilterSummary, MassKnowledge};
+use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, MassKnowledge};
 
 /// Below this speed a body does not walk anywhere [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -34,6 +34,7 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
         Some(fact("Filter", filters(results), None)),
         changed(results),
         Some(forces(results)),
+        Some(convention(results)),
         results.summary.subject.as_ref().map(|subject| fact("Axes", subject.axes.replace("->", "→"), None)),
         Some(fact("Program", format!("Ambulo {}", results.summary.version), None)),
     ];
@@ -180,6 +181,17 @@ fn changed(results: &Results) -> Option<Fact> {
     let most: Vec<String> = [ChangeUnit::Degree, ChangeUnit::Millimetre].into_iter().filter_map(largest).collect();
     let note = (!most.is_empty()).then(|| format!("at most {}", most.join(" and ")));
     Some(fact("Motion", "changed so that it agrees with the ground forces", note))
+}
+
+/// How angles of pelvis and hips are measured.
+fn convention(results: &Results) -> Fact {
+    let value = match results.convention() {
+        Convention::Clinical => {
+            "clinical: pelvic tilt of the line through the iliac spines, hips relative to that pelvis"
+        }
+        Convention::Opensim => "OpenSim: the model's own, counted from upright standing",
+    };
+    fact("Pelvis and hip angles", value, results.summary.convention.as_ref().and_then(|used| used.reason.clone()))
 }
 
 fn forces(results: &Results) -> Fact {

@@ -2,14 +2,14 @@
 
 use super::cycles_file::{self, CycleValues};
 use super::{cycles, events};
-use crate::clinical::ClinicalNames;
+use crate::clinical::{ClinicalNames, ClinicalQuantity};
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
 use ambulo::analysis::feasibility::Check;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
-use ambulo_results::{Folder, GroundOrigin, ResultsError, Summary};
+use ambulo_results::{CLINICAL, Convention, Folder, GroundOrigin, ResultsError, Summary};
 
 /// A body in files: of recordings, of synthetic walks.
 const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
@@ -25,6 +25,8 @@ pub(super) struct Results {
     pub(super) ground: Option<Table>,
     pub(super) deviations: Option<Table>,
     pub(super) measured: Option<Table>,
+    /// `clinical.csv`.
+    pub(super) clinical: Option<Table>,
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleValues>,
     pub(super) cycles: Vec<PageCycle>,
@@ -56,6 +58,7 @@ impl Results {
             ground: table(GROUND)?,
             deviations: table(DEVIATIONS)?,
             measured: table(MEASURED)?,
+            clinical: on_instants(folder, CLINICAL, folder.csv_table(CLINICAL)?, &grid)?,
             weight_n: mass_kg * summary.gravity_m_s2,
             source: source(&summary),
             summary,
@@ -72,6 +75,19 @@ impl Results {
     /// Which coordinates measure which movements: the body's, or the usual ones without a body.
     pub(super) fn clinical_names(&self) -> ClinicalNames {
         self.body.as_ref().map_or_else(ClinicalNames::without_model, |(_, model)| ClinicalNames::of_model(model))
+    }
+
+    /// How the page measures angles of pelvis and hips.
+    pub(super) fn convention(&self) -> Convention {
+        let of_file = self.summary.convention.as_ref().filter(|_| self.clinical.is_some());
+        of_file.map_or(Convention::Opensim, |convention| convention.used)
+    }
+
+    /// A quantity over time in clinical signs and units, by its column in `clinical.csv`.
+    pub(super) fn clinical_column(&self, quantity: &ClinicalQuantity, side: Side) -> Option<(String, &[f64])> {
+        let column = quantity.clinical_column(side);
+        let values = self.clinical.as_ref()?.column(&column)?;
+        Some((column, values))
     }
 
     /// The instants as the page has them.
@@ -111,7 +127,17 @@ pub(super) const DEVIATIONS: &str = "grf_sd.mot";
 pub(super) const MEASURED: &str = "grf_measured.mot";
 
 fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, ResultsError> {
-    let Some(table) = folder.table(file)? else { return Ok(None) };
+    on_instants(folder, file, folder.table(file)?, grid)
+}
+
+/// A table whose rows are at the instants of the motion.
+fn on_instants(
+    folder: &Folder<'_>,
+    file: &str,
+    table: Option<Table>,
+    grid: &TimeGrid,
+) -> Result<Option<Table>, ResultsError> {
+    let Some(table) = table else { return Ok(None) };
     let times = table.times().unwrap_or_default();
     let near = |(i, t): (usize, &f64)| (t - grid.time(i)).abs() < 0.5 * grid.step_s;
     if times.len() == grid.frames && times.iter().enumerate().all(near) {
