@@ -37,7 +37,7 @@ fn every_quantity_has_a_band_or_a_reason() {
         let known = band(quantity.id, FREE, Convention::Opensim);
         assert_eq!(known.is_none(), BANDLESS.contains(&quantity.id), "{}", quantity.id);
         for speed in SPEEDS {
-            let Some(band) = band(quantity.id, speed) else { continue };
+            let Some(band) = band(quantity.id, speed, Convention::Opensim) else { continue };
             assert!(band.mean.len() == BAND_SAMPLES && band.sd.len() == BAND_SAMPLES && !band.outside_of_speeds);
             assert!(band.mean.iter().all(|x| x.is_finite()) && band.sd.iter().all(|sd| *sd >= 0.0), "{}", quantity.id);
             assert!(band.sd.iter().any(|sd| *sd > 0.0), "{}", quantity.id);
