@@ -11,6 +11,7 @@ mod workbench;
 use ambulo::model::Side;
 use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
+use ambulo_results::Convention;
 use std::collections::BTreeMap;
 use svg_reader::{Figure, Panel};
 use workbench::Workbench;
@@ -65,7 +66,7 @@ fn with_band(bench: &Workbench, id: &str, speed: f64) -> Vec<f64> {
     let cycles = Cycles::read(&bench.text("out/cycles.csv"));
     let mass_kg = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
     let quantity = cycles.quantities().into_iter().find(|q| q.id == id).unwrap_or_else(|| panic!("no {id}"));
-    let expected = band(id, speed).unwrap().mean;
+    let expected = band(id, speed, Convention::Opensim).unwrap().mean;
     let means = Side::BOTH.into_iter().filter_map(|side| cycles.mean(&quantity, side, mass_kg));
     means.map(|mean| correlation(&mean.iter().copied().step_by(2).collect::<Vec<f64>>(), &expected)).collect()
 }
