@@ -41,6 +41,7 @@ const FORCES: &[&str] = &[
     "crates/ambulo/src/motion",
     "crates/ambulo/src/numerics",
     "crates/ambulo/src/spatial",
+    "crates/ambulo/src/study",
     "xtask/measure/src/validate/recording.rs",
 ];
 

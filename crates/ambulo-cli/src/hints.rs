@@ -17,7 +17,9 @@ const RANGE: &str = "`--from` and `--to` choose the range";
 /// The hint for a finding.
 pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     let hint = match code {
-        Code::PlatesTwoFeet | Code::PlatesUnassigned => "`--plate 1=r` states the foot on plate 1",
+        Code::PlatesTwoFeet | Code::PlatesUnassigned => {
+            "`--plate 1=r` states the foot on plate 1; a standing trial is for `--static`"
+        }
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` state others",
         Code::LoadsFarFromFoot => "`--right` and `--left` state the bodies, where there is no loads file",
@@ -26,9 +28,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::MassUnverified => {
             "with markers, `--mass KG` or a standing trial on force plates (`--static`); recorded coordinates have the mass of their model"
         }
-        Code::GroundPredicted => {
-            "`--grf` gives measured forces, `--plate 1=r` states the foot on plate 1, `--no-ground` computes a motion without contact"
-        }
+        Code::GroundPredicted => "`--grf` gives measured forces, `--no-ground` computes a motion without contact",
         Code::WalkNotConsistent => "`--mode paper` computes the gait as it is",
         _ => return None,
     };

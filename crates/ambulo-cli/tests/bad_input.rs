@@ -83,7 +83,7 @@ fn rows_without_numbers_are_bridged_where_short_and_refused_where_long() {
     blank(100, 140).refused(&[
         "walk.mot",
         "`pelvis_tilt` has no number from 1.0000 s to 1.3900 s",
-        "hint: cut the range",
+        "hint: choose a range without the gap; `--from` and `--to`",
     ]);
     blank(0, 5).refused(&["`pelvis_tilt` has no number from 0.0000 s to 0.0400 s"]);
 }

@@ -9,7 +9,7 @@ mod svg_reader;
 mod workbench;
 
 use ambulo::model::Side;
-use ambulo_report::clinical::{ClinicalQuantity, clinical_quantities, knee_flexion_sign};
+use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
 use std::collections::BTreeMap;
 use svg_reader::{Figure, Panel};
@@ -33,19 +33,14 @@ impl Cycles {
     }
 
     fn quantities(&self) -> Vec<ClinicalQuantity> {
-        clinical_quantities(|name| self.0.keys().any(|(quantity, _, _)| quantity == name))
-    }
-
-    fn knee_sign(&self) -> f64 {
-        let angles = self.0.iter().filter(|((quantity, _, _), _)| quantity == "knee_angle_angle");
-        knee_flexion_sign(angles.flat_map(|(_, values)| values))
+        clinical_quantities(&ClinicalNames::usual(), |name| self.0.keys().any(|(quantity, _, _)| quantity == name))
     }
 
     /// The mean over a side's cycles as a panel shows it; `None` without any.
     fn mean(&self, quantity: &ClinicalQuantity, side: Side, mass_kg: f64) -> Option<Vec<f64>> {
-        let factor = quantity.factor(mass_kg, side, self.knee_sign());
+        let factor = quantity.factor(mass_kg, side);
         let of_side =
-            self.0.iter().filter(|((name, letter, _), _)| *name == quantity.column && letter == side.letter());
+            self.0.iter().filter(|((name, letter, _), _)| *name == quantity.columns[side] && letter == side.letter());
         let curves: Vec<&Vec<f64>> = of_side.map(|(_, values)| values).collect();
         let count = curves.len() as f64;
         (!curves.is_empty())
@@ -93,10 +88,13 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
             let quantity = quantities.iter().find(|q| q.id == panel.id).unwrap();
             for line in panel.lines.iter().filter(|line| line.role != "infeasible") {
                 let letter = line.side.letter().to_owned();
-                let factor = quantity.factor(mass_kg, line.side, cycles.knee_sign());
+                let factor = quantity.factor(mass_kg, line.side);
                 let expected = match line.role.as_str() {
                     "mean" => cycles.mean(quantity, line.side, mass_kg).unwrap(),
-                    _ => cycles.0[&(quantity.column.clone(), letter, line.number)].iter().map(|x| factor * x).collect(),
+                    _ => cycles.0[&(quantity.columns[line.side].clone(), letter, line.number)]
+                        .iter()
+                        .map(|x| factor * x)
+                        .collect(),
                 };
                 assert_eq!(line.points.len(), 101, "{name}, {}", panel.id);
                 for (percent, ([_, y], wanted)) in line.points.iter().zip(&expected).enumerate() {

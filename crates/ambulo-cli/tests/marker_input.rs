@@ -166,19 +166,19 @@ fn plates_are_named_as_the_file_has_them() {
         run.says(&["the ground forces are predicted from the motion"]);
         assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
     };
-    let hint = "hint: --no-ground computes";
-    predicted(plate(&all), &["nobody stands on the file's 9 force plates", hint]);
+    let hint = "`--no-ground` computes";
+    predicted(plate(&all), &["no load was measured on the file's 9 force plates", hint]);
     let trc = ["--model", "figure.osim", "--plate", "1=r"];
     forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with plates"]);
-    predicted(forces(&bench, "walk.trc", &trc[..2]), &["the file has no force plates", "hint: --grf"]);
+    predicted(forces(&bench, "walk.trc", &trc[..2]), &["the file has no force plates", "hint: `--grf`"]);
     // A person who stands with both feet on one plate.
-    let words = ["plate 1, 0.000-0.499 s: the right foot stood on it", "is for --static"];
+    let words = ["plate 1, 0.000-0.499 s: the right foot stood on it", "is for `--static`"];
     predicted(forces(&bench, "standing.c3d", &[]), &words);
     // A trial whose plates nobody hits.
     edit_c3d(&bench, "walk.c3d", "missed.c3d", |c3d| {
         c3d.channels.iter_mut().for_each(|channel| channel.samples.fill(0.0));
     });
-    predicted(forces(&bench, "missed.c3d", &STILL), &["nobody stands", hint]);
+    predicted(forces(&bench, "missed.c3d", &STILL), &["no load was measured", hint]);
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() 
     ]);
     for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
         let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
-        run.refused(&[&format!("{option} has no use beside --model"), "hint: --static FILE"]);
+        run.refused(&[&format!("{option} has no use with --model"), "hint: --static FILE"]);
     }
     for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());

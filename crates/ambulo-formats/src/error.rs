@@ -1,8 +1,8 @@
-//! What can be wrong with a file, said so that the reader can mend it.
+//! Errors and remarks of the readers: where in the file, what was found, what was expected.
 
 use std::fmt;
 
-/// Why a file could not be read. Every variant says where, what was found and what was allowed.
+/// Why a file could not be read: the place, what was found and what was expected there.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -12,17 +12,17 @@ pub enum Error {
         /// What a valid file begins with.
         expected: &'static str,
     },
-    /// A line of a text table does not read as the format asks.
+    /// A line of a text file does not follow the format.
     #[error("line {line}: found {found}; expected {expected}")]
     Line {
         /// Line number, counted from 1.
         line: usize,
-        /// What stands there, shortened.
+        /// What was found there, shortened.
         found: String,
         /// What the format allows there.
         expected: String,
     },
-    /// The file ends before the format says it may.
+    /// The file ends too early.
     #[error("line {line}: the file ends here; expected {expected}. Is it truncated?")]
     Truncated {
         /// Last line that was read, counted from 1.
@@ -30,35 +30,35 @@ pub enum Error {
         /// What was still to come.
         expected: String,
     },
-    /// The text is no well-formed XML.
+    /// The text is not well-formed XML.
     #[error("not a readable XML document: {reason}")]
     Xml {
-        /// The XML reader's own words, with row and column.
+        /// Message of the XML parser, with row and column.
         reason: String,
     },
-    /// An element of an XML document does not read as the format asks.
+    /// An element of an XML document does not follow the format.
     #[error("line {line}, element <{element}>: found {found}; expected {expected}")]
     Element {
         /// Line of the element's opening tag, counted from 1.
         line: usize,
         /// Tag, with the `name` attribute where there is one.
         element: String,
-        /// What stands there, shortened.
+        /// What was found there, shortened.
         found: String,
         /// What the format allows there.
         expected: String,
     },
-    /// A binary file holds something at a place that the format does not allow there.
+    /// A value in a binary file is not allowed at its place.
     #[error("byte {offset}: found {found}; expected {expected}")]
     Byte {
         /// Place in the file, counted from 0.
         offset: usize,
-        /// What stands there.
+        /// What was found there.
         found: String,
         /// What the format allows there.
         expected: String,
     },
-    /// A binary file ends before the format says it may.
+    /// A binary file ends too early.
     #[error("the file ends after {offset} bytes; expected {expected}. Is it truncated?")]
     CutOff {
         /// Bytes of the file.
@@ -66,37 +66,37 @@ pub enum Error {
         /// What was still to come.
         expected: String,
     },
-    /// A parameter of a C3D file does not fit what it is needed for.
+    /// A parameter of a C3D file has the wrong type, shape or value.
     #[error("parameter {parameter}: found {found}; expected {expected}")]
     Parameter {
         /// Group and name: `FORCE_PLATFORM:TYPE`.
         parameter: String,
-        /// What stands there.
+        /// What was found there.
         found: String,
         /// What is needed.
         expected: String,
     },
-    /// A record made in memory could not be written so that it reads back the same.
+    /// A record made in memory cannot be written without loss.
     #[error("not a valid record: found {found}; expected {expected}")]
     Record {
-        /// What the record holds.
+        /// What the record contains.
         found: String,
         /// What the format allows.
         expected: String,
     },
 }
 
-/// Something odd that did not stop the reading: the record is complete, but a person should know.
+/// Something unusual in a file that was read nevertheless, with the assumption that was made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
-    /// Line number counted from 1, where one line is the place.
+    /// Line number, counted from 1, if the remark is about one line.
     pub line: Option<usize>,
-    /// What was found and what was made of it.
+    /// What was found and how it was read.
     pub message: String,
 }
 
 impl Remark {
-    /// A remark on the file as a whole, or on a place that has no line.
+    /// A remark on the whole file, or on a place without a line number.
     pub(crate) fn of_file(message: impl Into<String>) -> Remark {
         Remark { line: None, message: message.into() }
     }
@@ -111,7 +111,7 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Text shortened for a message: the first 40 characters, in back quotes.
+/// Text shortened for a message: at most 40 characters, in back quotes.
 pub(crate) fn quoted(text: &str) -> String {
     const SHOWN: usize = 40;
     let trimmed = text.trim();

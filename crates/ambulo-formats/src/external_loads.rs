@@ -2,8 +2,8 @@
 //!
 //! Read: documents of OpenSim 2 and 3 (`<isDisabled>`, a `<defaults>` block) and of OpenSim 4 (`<appliesForce>`), also
 //! without the `<OpenSimDocument>` around them. Written: a document that OpenSim 4 loads.
-//! Not handled, and refused: `<PrescribedForce>`, which OpenSim 1 and early 2 had in place of `<ExternalForce>`.
-//! Not handled, and remarked: a force with a data source of its own, and a kinematics file for turning its forces.
+//! Not handled, and rejected: `<PrescribedForce>`, which OpenSim 1 and early 2 had in place of `<ExternalForce>`.
+//! Not handled, with a remark: a force with a data source of its own, and a kinematics file for turning its forces.
 //! Pinned by: tests/loads.rs, tests/malformed.rs, tests/real_files.rs
 
 use crate::error::{Error, Remark, quoted};
@@ -15,15 +15,15 @@ use roxmltree::Node;
 pub struct ExternalLoads {
     /// Name of the set.
     pub name: String,
-    /// Storage file that holds the columns, as the document writes it: mostly relative to the document.
+    /// Storage file with the columns, as written in the document: usually relative to the document.
     pub datafile: Option<String>,
     /// The forces, in the document's order.
     pub forces: Vec<ExternalForce>,
 }
 
-/// One force with its point of application and its free moment, given by columns of the data file.
+/// One force with its point of application and its free moment, given as columns of the data file.
 ///
-/// An identifier is the beginning of three column names: `ground_force_v` stands for `ground_force_vx`,
+/// An identifier is the prefix of three column names: `ground_force_v` means `ground_force_vx`,
 /// `ground_force_vy` and `ground_force_vz`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExternalForce {
@@ -48,7 +48,7 @@ pub struct ExternalForce {
 const GROUND: &str = "ground";
 
 impl ExternalForce {
-    /// A force on a body, force and point given in ground axes, in columns that share a prefix: `ground_force_r_` stands
+    /// A force on a body, force and point given in ground axes, in columns that share a prefix: `ground_force_r_` means
     /// for `ground_force_r_vx`, `ground_force_r_px`, `ground_torque_r_x` and their like.
     pub fn with_prefix(name: &str, body: &str, prefix: &str) -> ExternalForce {
         ExternalForce {
@@ -80,10 +80,10 @@ impl ExternalLoads {
             forces: read_forces(node, &mut remarks)?,
         };
         if loads.datafile.is_none() {
-            remarks.push(remark(node, "names no <datafile>; the force file must be given"));
+            remarks.push(remark(node, "names no <datafile>; the file of forces must be given separately"));
         }
         if assigned(node, "external_loads_model_kinematics_file").is_some() {
-            remarks.push(remark(node, "names a kinematics file, which is not read"));
+            remarks.push(remark(node, "names a kinematics file, which was not read"));
         }
         Ok((loads, remarks))
     }
@@ -109,7 +109,7 @@ fn find_loads<'a, 'i>(root: Node<'a, 'i>) -> Result<Node<'a, 'i>, Error> {
             let found = xml::elements(root).next().map_or("nothing".into(), |e| format!("<{}>", e.tag_name().name()));
             xml::error_at(root, found, EXPECTED)
         }),
-        other => Err(xml::error_at(root, format!("<{other}> as the outermost element"), EXPECTED)),
+        other => Err(xml::error_at(root, format!("the outermost element <{other}>"), EXPECTED)),
     }
 }
 
@@ -153,12 +153,12 @@ fn remarks_on(node: Node<'_, '_>, force: &ExternalForce) -> Vec<Remark> {
         remarks.push(remark(node, "is disabled"));
     }
     if force.force_identifier.is_none() && force.torque_identifier.is_none() {
-        remarks.push(remark(node, "has neither force nor torque columns; it does nothing"));
+        remarks.push(remark(node, "has neither force nor torque columns; it has no effect"));
     } else if force.force_identifier.is_some() && force.point_identifier.is_none() {
         remarks.push(remark(node, "has no point columns; OpenSim lets the force act at the body's origin"));
     }
     if let Some(source) = assigned(node, "data_source_name") {
-        let text = format!("names a data source {} of its own, which is not read; <datafile> counts", quoted(&source));
+        let text = format!("names its own data source {}, which was not read; <datafile> was used", quoted(&source));
         remarks.push(remark(node, &text));
     }
     remarks
@@ -174,7 +174,7 @@ fn name_of(node: Node<'_, '_>) -> String {
     node.attribute("name").unwrap_or_default().trim().to_owned()
 }
 
-/// Text of the child with this tag, comments left out; nothing where it is blank or `Unassigned`, OpenSim's word for it.
+/// Text of the child with this tag, without comments; `None` if it is blank or `Unassigned`, as OpenSim writes it.
 fn assigned(node: Node<'_, '_>, tag: &str) -> Option<String> {
     let pieces = xml::child(node, tag)?.children().filter(Node::is_text).filter_map(|piece| piece.text());
     let text: String = pieces.collect();

@@ -1,15 +1,15 @@
 //! Tables of named numeric columns: OpenSim storage (`.mot`, `.sto`) and CSV.
 //!
-//! A table says what the file says: names, numbers, and whether its header claims degrees. Which column is an angle, a
-//! force or a length is for the caller to know. Not-a-number and infinity are read as such; the caller decides.
+//! A table holds names, numbers, and whether the header states degrees. Which column is an angle, a
+//! force or a length is not known here. Not-a-number and infinity are kept.
 //!
 //! | file | read | written |
 //! |---|---|---|
-//! | storage | versions 1-3 with one number a cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
+//! | storage | versions 1-3 with one number per cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
 //! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas |
 //!
-//! Written numbers are the shortest that read back as the same bits.
-//! Not handled, and refused: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
+//! Numbers are written in the shortest form that reads back to the same bits.
+//! Not handled, and rejected: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
 //! Pinned by: tests/tables.rs, tests/malformed.rs, tests/real_files.rs
 
 mod csv;
@@ -18,12 +18,12 @@ mod storage;
 
 use crate::error::{Error, Remark, quoted};
 
-/// Named numeric columns of one length.
+/// Named numeric columns of equal length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What the header calls the table; empty where it has no name.
+    /// Name in the header; empty if there is none.
     pub name: String,
-    /// Whether the header says that angles are in degrees; `None` where it says nothing.
+    /// Whether angles are in degrees according to the header; `None` if it does not state the unit.
     pub in_degrees: Option<bool>,
     names: Vec<String>,
     data: Vec<Vec<f64>>,
@@ -31,7 +31,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table of these columns, which must have one length and names that differ.
+    /// Makes a table of columns, which must have equal lengths and different names.
     pub fn new(name: impl Into<String>, columns: Vec<(String, Vec<f64>)>) -> Result<Table, Error> {
         let (names, data): (Vec<String>, Vec<Vec<f64>>) = columns.into_iter().unzip();
         let Some(first) = data.first() else {
@@ -58,12 +58,12 @@ impl Table {
         storage::write(self)
     }
 
-    /// Reads a CSV file with a header row. Its table has no name, and says nothing about degrees.
+    /// Reads a CSV file with a header row. The table has no name and no unit of angles.
     pub fn read_csv(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
         csv::read(bytes)
     }
 
-    /// Writes CSV: a header row, then numbers, separated by commas. Name and degrees flag are not written.
+    /// Writes CSV: a header row, then numbers, separated by commas. The name and the unit of angles are not written.
     pub fn write_csv(&self) -> Vec<u8> {
         csv::write(self)
     }
@@ -73,7 +73,7 @@ impl Table {
         self.data.first().map_or(0, Vec::len)
     }
 
-    /// Column names as they stand in the file, the time column's among them.
+    /// Column names as in the file, including the time column.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -88,21 +88,21 @@ impl Table {
         self.columns().find(|(n, _)| *n == name).map(|(_, values)| values)
     }
 
-    /// Values of the first column where its name is `time`, in any case \[s\]. Every storage file has it, a CSV file may.
+    /// Values of the first column \[s\] if its name is `time`, in upper or lower case. Every storage file has it, a CSV file may.
     pub fn times(&self) -> Option<&[f64]> {
         let (name, values) = self.columns().next()?;
         name.eq_ignore_ascii_case("time").then_some(values)
     }
 
-    /// Line of the file in which this row stands, counted from 1; `None` for a table made in memory.
+    /// Line of the file with this row, counted from 1; `None` for a table made in memory.
     pub fn line_of_row(&self, row: usize) -> Option<usize> {
         self.lines.get(row).copied()
     }
 }
 
-/// The coordinate whose value a column holds, read off the column's name.
+/// The coordinate whose value a column holds, by the column's name.
 ///
-/// OpenSim writes positions and speeds side by side. To pick the positions, ask this for every column but `time`:
+/// OpenSim writes positions and speeds into one table. This function finds the positions among all columns but `time`:
 ///
 /// | column name | answer |
 /// |---|---|

@@ -11,8 +11,8 @@
 //! ```
 //!
 //! Cells are separated by tabs, so that an empty cell is a gap; a file separated by spaces is read if it has no gaps.
-//! Positions are metres in memory; a gap is three times not-a-number.
-//! Exactly 0 0 0, which some exporters write for a gap, is kept as a position and reported.
+//! Positions are metres in memory; a gap is not-a-number in all three.
+//! Positions of exactly 0 0 0, which some programs write for a gap, are kept and reported.
 //! Pinned by: tests/markers.rs, tests/malformed.rs, tests/real_files.rs
 
 mod read;
@@ -24,11 +24,11 @@ use crate::table::lines::{check_name, duplicate};
 /// One recording of markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trc {
-    /// What the first line says after `(X/Y/Z)`: mostly a file name.
+    /// Text after `(X/Y/Z)` on the first line, usually a file name.
     pub name: String,
-    /// Frames a second, as the header states them \[Hz\].
+    /// Frame rate stated in the header \[Hz\].
     pub rate_hz: f64,
-    /// Unit in which the file holds positions, and in which they will be written.
+    /// Unit of positions in the file; it is also used for writing.
     pub unit: LengthUnit,
     /// Number of the first frame in the recording from which this file was cut.
     pub orig_start_frame: i64,
@@ -38,12 +38,12 @@ pub struct Trc {
     lines: Vec<usize>,
 }
 
-/// The path of one marker.
+/// The trajectory of one marker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Marker {
-    /// Name as it stands in the file.
+    /// Name as in the file.
     pub name: String,
-    /// Position x, y, z in the laboratory's axes, one a frame \[m\]; three times not-a-number where it was not seen.
+    /// Position x, y, z in the laboratory's axes, one per frame \[m\]; not-a-number in all three where the marker is missing.
     pub positions_m: Vec<[f64; 3]>,
 }
 
@@ -62,7 +62,7 @@ impl LengthUnit {
     /// All of them.
     pub const ALL: [LengthUnit; 3] = [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre];
 
-    /// The word in the file.
+    /// Keyword in the file.
     pub fn symbol(self) -> &'static str {
         match self {
             LengthUnit::Millimetre => "mm",
@@ -71,7 +71,7 @@ impl LengthUnit {
         }
     }
 
-    /// How many of this unit make one metre.
+    /// Number of these units in one metre.
     fn per_metre(self) -> f64 {
         match self {
             LengthUnit::Millimetre => 1000.0,
@@ -84,8 +84,8 @@ impl LengthUnit {
         value / self.per_metre()
     }
 
-    /// The number that [`LengthUnit::metres`] turns into `metres`, to the bit if there is one. Product and quotient are
-    /// each rounded by half a unit in the last place, so it lies at most two such units beside the product.
+    /// The number that [`LengthUnit::metres`] converts to `metres`, to the same bits if there is one. Product and quotient are
+    /// each rounded by half a unit in the last place, so it differs from the product by at most two such units.
     fn value_of(self, metres: f64) -> f64 {
         let nearest = metres * self.per_metre();
         let (up, down) = (nearest.next_up(), nearest.next_down());
@@ -99,7 +99,7 @@ impl LengthUnit {
 impl Trc {
     /// A recording made in memory: metres, without a name, its frames numbered from 1.
     ///
-    /// `times` \[s\] are one a frame and finite; markers have names that differ and as many positions as there are times.
+    /// `times` \[s\] has one finite value per frame; markers have different names and one position per time.
     pub fn new(rate_hz: f64, times: Vec<f64>, markers: Vec<Marker>) -> Result<Trc, Error> {
         if !(rate_hz.is_finite() && rate_hz > 0.0) {
             return Err(invalid(format!("a rate of {rate_hz} Hz"), "a finite rate above zero"));
@@ -108,7 +108,7 @@ impl Trc {
             return Err(invalid(format!("time {time}"), "finite times"));
         }
         if times.is_empty() || markers.is_empty() {
-            return Err(invalid("no frame or no marker", "at least one of both"));
+            return Err(invalid("no frame or no marker", "at least one frame and one marker"));
         }
         markers.iter().try_for_each(|marker| check_marker(marker, times.len()))?;
         if let Some(twice) = duplicate(markers.iter().map(|marker| marker.name.as_str())) {
@@ -126,12 +126,12 @@ impl Trc {
 
     /// Writes a `.trc` file that OpenSim loads, positions in [`Trc::unit`]. Gaps become empty cells.
     ///
-    /// What was read from a file reads back to the same bits; positions made in memory do so in metres.
+    /// A record that was read from a file is written and read back to the same bits; positions made in memory are so in metres only.
     pub fn write(&self) -> Vec<u8> {
         write::write(self)
     }
 
-    /// The number that stands before each frame, from the file.
+    /// Number of each frame in the file.
     pub fn frames(&self) -> &[i64] {
         &self.frames
     }
@@ -151,7 +151,7 @@ impl Trc {
         self.markers.iter().find(|marker| marker.name == name)
     }
 
-    /// Line of the file in which this frame (counted from 0) stands, counted from 1; `None` for a recording made in
+    /// Line of the file with this frame (counted from 0), counted from 1; `None` for a recording made in
     /// memory.
     pub fn line_of_frame(&self, frame: usize) -> Option<usize> {
         self.lines.get(frame).copied()

@@ -1,19 +1,19 @@
-//! The few questions that the XML readers ask of a document, with errors that name line and element.
+//! Access to XML documents for the readers, with errors that name line and element.
 
 use crate::error::{Error, quoted};
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// More nodes than this is no model of a body; a full-body model has some 10,000. The bound keeps memory bounded on
+/// Largest number of nodes that is read; a full-body model has some 10,000. The limit bounds memory on
 /// hostile input.
 const NODE_LIMIT: u32 = 1_000_000;
 
-/// Parses a document. Document type definitions, and so entity bombs, are refused.
+/// Parses a document. Document type definitions are rejected, and with them entity bombs.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
     if !text.trim_start().starts_with('<') {
         let found = quoted(text.trim_start().lines().next().unwrap_or_default());
         return Err(Error::Line { line: 1, found, expected: "an XML document, which begins with `<`".into() });
     }
-    // The parser makes room for what it counts here before it looks at the limit.
+    // The parser allocates memory by these counts before it checks its limit.
     for (mark, most) in [(b'<', 2 * NODE_LIMIT as usize), (b'=', NODE_LIMIT as usize)] {
         let found = text.bytes().filter(|b| *b == mark).count();
         if found > most {
@@ -25,7 +25,7 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
     Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
 }
 
-/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old exporters wrote it.
+/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.
 pub(crate) fn decode(bytes: &[u8]) -> String {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
@@ -39,12 +39,12 @@ pub(crate) fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i
     node.children().find(|c| c.has_tag_name(tag))
 }
 
-/// Child elements, comments and text left out.
+/// Child elements, without comments and text.
 pub(crate) fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children().filter(Node::is_element)
 }
 
-/// Trimmed text of the child with this tag; nothing where the child is missing or empty.
+/// Trimmed text of the child with this tag; `None` if the child is missing or empty.
 pub(crate) fn text<'a>(node: Node<'a, '_>, tag: &str) -> Option<&'a str> {
     child(node, tag).and_then(|c| c.text()).map(str::trim).filter(|t| !t.is_empty())
 }
@@ -65,7 +65,7 @@ pub(crate) fn error_at(node: Node<'_, '_>, found: String, expected: impl Into<St
     }
 }
 
-/// The finite numbers in this element's own text.
+/// The finite numbers in this element's text.
 pub(crate) fn numbers_of(node: Node<'_, '_>) -> Result<Vec<f64>, Error> {
     node.text()
         .unwrap_or_default()
@@ -77,12 +77,12 @@ pub(crate) fn numbers_of(node: Node<'_, '_>) -> Result<Vec<f64>, Error> {
         .collect()
 }
 
-/// The numbers of the child with this tag, `None` where it is missing.
+/// The numbers of the child with this tag, `None` if it is missing.
 pub(crate) fn numbers(node: Node<'_, '_>, tag: &str) -> Result<Option<Vec<f64>>, Error> {
     child(node, tag).map(numbers_of).transpose()
 }
 
-/// One number of the child with this tag, `None` where it is missing or empty.
+/// One number of the child with this tag, `None` if it is missing or empty.
 pub(crate) fn number(node: Node<'_, '_>, tag: &str) -> Result<Option<f64>, Error> {
     let Some(values) = numbers(node, tag)? else { return Ok(None) };
     match values[..] {
@@ -92,7 +92,7 @@ pub(crate) fn number(node: Node<'_, '_>, tag: &str) -> Result<Option<f64>, Error
     }
 }
 
-/// Three numbers of the child with this tag, `None` where it is missing or empty.
+/// Three numbers of the child with this tag, `None` if it is missing or empty.
 pub(crate) fn triple(node: Node<'_, '_>, tag: &str) -> Result<Option<[f64; 3]>, Error> {
     let Some(values) = numbers(node, tag)? else { return Ok(None) };
     match values[..] {
@@ -102,7 +102,7 @@ pub(crate) fn triple(node: Node<'_, '_>, tag: &str) -> Result<Option<[f64; 3]>, 
     }
 }
 
-/// `true` or `false` of the child with this tag, `None` where it is missing or empty.
+/// `true` or `false` of the child with this tag, `None` if it is missing or empty.
 pub(crate) fn boolean(node: Node<'_, '_>, tag: &str) -> Result<Option<bool>, Error> {
     match text(node, tag) {
         None => Ok(None),
@@ -112,7 +112,7 @@ pub(crate) fn boolean(node: Node<'_, '_>, tag: &str) -> Result<Option<bool>, Err
     }
 }
 
-/// Text as XML may hold it: the five special characters as entities, control characters left out.
+/// Text escaped for XML: the five special characters as entities, control characters removed.
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -174,6 +174,6 @@ fn a_parameter_section_that_was_written_over_is_refused_with_its_place() {
     assert_eq!(
         C3d::read(&bytes).unwrap_err().to_string(),
         "byte 5771: found a parameter's name with unprintable characters, `\\x00\\x11\\x1e\\x00\\x00\\x00\\x00\\x00\\x00`; \
-         expected letters and digits; the parameter section is damaged or something was written over it"
+         expected letters and digits; the parameter section is damaged or was overwritten"
     );
 }

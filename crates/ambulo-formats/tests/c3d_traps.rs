@@ -43,7 +43,7 @@ fn the_fourth_word_of_real_files_is_sixteen_bits_in_a_real() {
     assert_close(&point.residuals, &[0.0, 1.0, 113.0, 0.5, nan, nan, 0.0]);
     assert_eq!(point.cameras, [0, 1, 0x7F, 0x80, 0, 0, 0x7F]);
     assert_close(&point.positions.iter().map(|p| p[1]).collect::<Vec<_>>(), &[2.0, 2.0, 2.0, 2.0, nan, nan, 2.0]);
-    assert_eq!(remarks, ["1 of 1 points have no name in POINT:LABELS; they are called *n"]);
+    assert_eq!(remarks, ["1 of 1 points have no name in POINT:LABELS; they were named *n"]);
     assert_eq!(point.name, "*1");
 }
 
@@ -110,7 +110,7 @@ fn a_first_frame_beyond_16_bits_is_believed_without_a_remark() {
 #[test]
 fn a_first_frame_is_taken_from_whoever_counts_the_frames_right() {
     // Two frames; the header says 5 to 6, the group TRIAL 7 to 8, or 7 to 90.
-    for (last, first, told) in [(8, 7, "7 counts"), (90, 5, "5 counts")] {
+    for (last, first, told) in [(8, 7, "7 was used"), (90, 5, "5 was used")] {
         let mut file = File::new(1, 2, 0, 0, -1.0);
         file.word(4, 5).word(5, 6).texts(1, "LABELS", &["HEEL"]).reals(&[0.0; 8]);
         file.integer(3, "ACTUAL_START_FIELD", &[2], &[7, 0]).integer(3, "ACTUAL_END_FIELD", &[2], &[last, 0]);
@@ -179,7 +179,7 @@ fn bytes_after_the_last_frame_are_told() {
     let mut file = File::new(1, 2, 0, 0, -1.0);
     file.texts(1, "LABELS", &["HEEL"]).reals(&[0.0; 8]).reals(&[1.0; 4 * 40]);
     let (record, remarks) = read(&file);
-    assert_eq!((record.frames(), remarks), (2, vec!["992 bytes follow the last frame; they are not read".to_owned()]));
+    assert_eq!((record.frames(), remarks), (2, vec!["992 bytes follow the last frame; they were not read".to_owned()]));
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn samples_without_sign_have_an_offset_without_sign() {
     assert_close(&samples(&record), &[1.0, -1.0]);
     assert_eq!(
         remarks,
-        ["ANALOG:OFFSET is 32767 and ANALOG:FORMAT is missing; samples and offsets are read without sign"]
+        ["ANALOG:OFFSET is 32767 and ANALOG:FORMAT is missing; samples and offsets were read as unsigned"]
     );
     let (record, remarks) = read(file.clone().texts(2, "FORMAT", &["UNSIGNED"]));
     assert_close(&samples(&record), &[1.0, -1.0]);
@@ -228,11 +228,11 @@ fn missing_parameters_are_remarks() {
     assert_close(&samples(&record), &[4.0, 5.0]);
     assert_eq!(record.platforms().unwrap(), []);
     let expected = [
-        "POINT:RATE is 0; the header's rate of 100 Hz counts",
-        "1 of 1 points have no name in POINT:LABELS; they are called *n",
-        "ANALOG:LABELS has 0 values for 2 channels; the rest are called *n",
-        "ANALOG:SCALE has 0 values for 2 channels; 1 is taken for the rest",
-        "ANALOG:OFFSET has 0 values for 2 channels; 0 is taken for the rest",
+        "POINT:RATE is 0; the header's rate of 100 Hz was used",
+        "1 of 1 points have no name in POINT:LABELS; they were named *n",
+        "ANALOG:LABELS has 0 values for 2 channels; the rest were named *n",
+        "ANALOG:SCALE has 0 values for 2 channels; 1 was used for the rest",
+        "ANALOG:OFFSET has 0 values for 2 channels; 0 was used for the rest",
     ];
     // A rate in the header alone is enough; a parameter that cannot be used is told.
     assert_eq!(remarks, expected[1..]);
@@ -240,7 +240,7 @@ fn missing_parameters_are_remarks() {
     assert_eq!(remarks, expected);
     assert_eq!(
         refused(file.clone().float(1, "RATE", &[], &[0.0]).real(11, 0.0)),
-        "parameter POINT:RATE: found 0 and 0 in the header; expected frames a second above zero"
+        "parameter POINT:RATE: found 0 and 0 in the header; expected a frame rate above zero"
     );
 }
 
@@ -269,7 +269,8 @@ fn analog_counts_in_conflict_are_decided_by_the_size_of_the_file() {
     file.float(2, "SCALE", &[2], &[1.0; 2]).integer(2, "OFFSET", &[2], &[0; 2]).reals(&[1.0; 400]);
     let (record, remarks) = read(&file);
     assert_eq!((record.channels.len(), record.frames()), (2, 200));
-    let said = "the header has 3 analog values a frame, 1 a channel; ANALOG:USED is 2; read 2 channels with 1 a frame";
+    let said =
+        "the header has 3 analog values per frame, 1 per channel; ANALOG:USED is 2; read 2 channels with 1 per frame";
     assert_eq!(remarks, [said]);
 }
 
@@ -364,7 +365,7 @@ fn more_events_than_times_is_a_remark() {
     file.texts(1, "LABELS", &["HEEL"]).integer(5, "USED", &[], &[3]).float(5, "TIMES", &[2, 1], &[0.0, 1.5]);
     let (record, remarks) = read(&file);
     assert_eq!(record.events.len(), 1);
-    assert_eq!(remarks, ["EVENT:USED is 3, but EVENT:TIMES has 1 events; read those"]);
+    assert_eq!(remarks, ["EVENT:USED is 3, but EVENT:TIMES has 1 events, which were read"]);
 }
 
 #[test]
@@ -420,7 +421,7 @@ fn damaged_records_are_refused_with_place_and_reason() {
     assert_eq!(
         damaged(|file| file.linked(4, b"RATE", 1, 60_000, &[4, 0])),
         format!(
-            "byte {at}: found `RATE`, whose record goes on to byte {}; expected records within the parameter section, \
+            "byte {at}: found `RATE`, whose record extends to byte {}; expected records within the parameter section, \
              which ends at byte 1024; it is damaged",
             at + 6 + 60_000
         )
@@ -474,7 +475,7 @@ fn scales_in_conflict_are_decided_by_the_size_of_the_file() {
         file.data = vec![0; bytes];
         let (record, remarks) = read(&file);
         assert_eq!((record.encoding.storage, record.frames()), (storage, 100));
-        let said = "POINT:SCALE is 0.25, the header's scale -0.5: one says integers, the other reals; read as";
+        let said = "POINT:SCALE is 0.25, the header's scale -0.5: one means integers, the other reals; read as";
         assert_eq!(remarks, [format!("{said} {storage:?} numbers")]);
     }
 }
@@ -490,7 +491,7 @@ fn data_blocks_in_conflict_or_without_sense_are_remarks() {
     bytes[16] = 0;
     let (record, remarks) = C3d::read(&bytes).unwrap();
     assert_close(&record.points[0].positions[0], &[1.0, 2.0, 3.0]);
-    assert_eq!(remarks[0].to_string(), "the data cannot begin in block 0; read from behind the parameters");
+    assert_eq!(remarks[0].to_string(), "the data cannot begin in block 0; read from the end of the parameters");
 }
 
 #[test]
@@ -499,7 +500,7 @@ fn an_unknown_processor_is_guessed_and_told() {
     bytes[515] = 1;
     let (record, remarks) = C3d::read(&bytes).unwrap();
     assert_eq!(record.encoding.processor, Processor::Intel);
-    assert_eq!(remarks[0].to_string(), "byte 515: processor 1 is none of 84, 85, 86; read as Intel");
+    assert_eq!(remarks[0].to_string(), "byte 515: processor 1 is not 84, 85 or 86; read as Intel");
 }
 
 #[test]
@@ -508,7 +509,7 @@ fn other_files_are_refused() {
     assert_eq!(error(b""), "the file is empty; expected a C3D file, whose second byte is the key 80 (0x50)");
     assert_eq!(
         error(b"PathFileType\t4"),
-        "byte 1: found key 97; expected the key 80 (0x50) of a C3D file; is this another format?"
+        "byte 1: found key 97; expected the key 80 (0x50) of a C3D file; the file may have another format"
     );
     assert_eq!(error(&[2, 80, 0]), "the file ends after 3 bytes; expected a header of 512 bytes. Is it truncated?");
     let mut bytes = File::with_words(&[0.0]).bytes();

@@ -214,7 +214,7 @@ fn what_the_format_cannot_hold_is_refused() {
     said(refused(|r| r.point_rate_hz = 0.0), "a rate of points of 0; expected a finite number above zero");
     said(refused(|r| r.points[1].positions.truncate(2)), "[2, 3, 3] positions, residuals and cameras of point `TOE`");
     said(refused(|r| r.channels[1].samples.truncate(5)), "5 samples of channel `FZ`; expected 6, 2 for each frame");
-    said(refused(|r| r.analog_rate_hz = 250.0), "250 analog samples and 100 frames a second");
+    said(refused(|r| r.analog_rate_hz = 250.0), "250 analog samples and 100 frames per second");
     said(refused(|r| r.first_frame = -3), "first frame -3");
     said(refused(|r| r.points[0].residuals[0] = 100.0), "residual 100 and cameras 0b101 of point `HEEL` in frame 0");
     said(refused(|r| r.points[0].positions[0][1] = 1e39), "00000 as a position of point `HEEL` in frame 0");
@@ -226,7 +226,7 @@ fn what_the_format_cannot_hold_is_refused() {
         "9000 as a position of point `HEEL` in frame 2",
     );
     said(refused(|r| r.channels[0].samples[3] = f64::INFINITY), "inf as sample 3 of channel `FX`");
-    said(refused(|r| r.events[2].label = "Heel strike".into()), "expected a label of at most four in the header");
+    said(refused(|r| r.events[2].label = "Heel strike".into()), "expected a label of at most four bytes in the header");
     said(refused(|r| r.points[0].name = "x".repeat(256)), "a text of 256 bytes; expected at most 255");
     said(
         refused(|r| {

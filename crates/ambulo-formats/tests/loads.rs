@@ -90,20 +90,20 @@ fn what_is_not_read_is_remarked() {
         remarks,
         [
             "line 9: <ExternalForce> `right` has no point columns; OpenSim lets the force act at the body's origin",
-            "line 9: <ExternalForce> `right` names a data source `other.sto` of its own, which is not read; <datafile> counts"
+            "line 9: <ExternalForce> `right` names its own data source `other.sto`, which was not read; <datafile> was used"
         ]
     );
     let (_, remarks) = read(&OLD.replace("ground_force_v", "").replace(" walk_grf.mot ", "Unassigned"));
     assert_eq!(
         remarks,
         [
-            "line 9: <ExternalForce> `right` has neither force nor torque columns; it does nothing",
-            "line 3: <ExternalLoads> `walk` names no <datafile>; the force file must be given"
+            "line 9: <ExternalForce> `right` has neither force nor torque columns; it has no effect",
+            "line 3: <ExternalLoads> `walk` names no <datafile>; the file of forces must be given separately"
         ]
     );
     let kinematics = "<groups/><external_loads_model_kinematics_file>ik.mot</external_loads_model_kinematics_file>";
     let (_, remarks) = read(&OLD.replace("<groups/>", kinematics));
-    assert_eq!(remarks, ["line 3: <ExternalLoads> `walk` names a kinematics file, which is not read"]);
+    assert_eq!(remarks, ["line 3: <ExternalLoads> `walk` names a kinematics file, which was not read"]);
     let (_, remarks) = read("<ExternalLoads><objects/><datafile>a.mot</datafile></ExternalLoads>");
     assert_eq!(remarks, ["line 1: <ExternalLoads> nothing holds no force"]);
 }

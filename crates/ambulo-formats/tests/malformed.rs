@@ -88,8 +88,8 @@ fn a_bad_header_value_is_named() {
     );
     assert_eq!(
         storage(STORAGE.replace("inDegrees=yes", "DataType=Vec3")),
-        "line 5: found DataType `Vec3`; expected `DataType=double`, one number a cell; \
-         export the table flattened, one column a component"
+        "line 5: found DataType `Vec3`; expected `DataType=double`, one number per cell; \
+         export the table flattened, with one column per component"
     );
 }
 
@@ -145,7 +145,8 @@ fn a_cell_that_is_no_number_is_named() {
 
 #[test]
 fn a_decimal_comma_is_named() {
-    let expected = "a number with a decimal point; the file seems to use a decimal comma, export it with a point";
+    let expected =
+        "a number with a decimal point; the file appears to use a decimal comma; export it with a decimal point";
     assert_eq!(storage(STORAGE.replace("-12.5", "-12,5")), format!("line 8: found `-12,5`; expected {expected}"));
     assert_eq!(csv("time;x\n0,5;1\n"), format!("line 2: found `0,5`; expected {expected}"));
     assert_eq!(markers(MARKERS.replace("12.5", "12,5")), format!("line 7: found `12,5`; expected {expected}"));
@@ -165,8 +166,7 @@ fn a_file_of_another_kind_is_named() {
     let message = "line 1: found UTF-16 text; expected plain or UTF-8 text; save the file again as UTF-8";
     assert_eq!((storage(&utf16), csv(&utf16), markers(&utf16)), (message.into(), message.into(), message.into()));
     assert_eq!(markers(STORAGE), "line 1: found `Coordinates`; expected `PathFileType`, as a TRC file begins");
-    let message =
-        "line 1, element <Model>: found <Model> as the outermost element; expected an <ExternalLoads> document";
+    let message = "line 1, element <Model>: found the outermost element <Model>; expected an <ExternalLoads> document";
     assert_eq!(loads("<Model/>"), message);
     assert_eq!(
         loads("<OpenSimDocument>\n<Model name=\"m\"/>\n</OpenSimDocument>"),
@@ -178,14 +178,14 @@ fn a_file_of_another_kind_is_named() {
 fn a_bad_marker_header_is_named() {
     let change = |from, to| markers(MARKERS.replacen(from, to, 1));
     assert_eq!(change("mm", "inch"), "line 3: found Units `inch`; expected `mm`, `cm` or `m`");
-    let rate = "expected frames a second, a finite number above zero";
+    let rate = "expected a frame rate in Hz, a finite number above zero";
     assert_eq!(change("\n100\t", "\n0\t"), format!("line 3: found DataRate `0`; {rate}"));
     assert_eq!(change("100\t2\t1", "100\tx\t1"), "line 3: found NumFrames `x`; expected a whole number");
     assert_eq!(change("100\t1\t2", "100\tx\t2"), {
         let line = "`100\\t100\\t2\\t1\\tmm\\t100\\tx\\t2`";
         format!("line 3: found {line}; expected a whole number for OrigDataStartFrame")
     });
-    assert_eq!(change("\t100\t1\t2", ""), "line 3: found 5 values; expected 8, one a key of the line above");
+    assert_eq!(change("\t100\t1\t2", ""), "line 3: found 5 values; expected 8, one per key of the line above");
     let keys = "`DataRate\\tCameraRate\\tNumFrames\\tNumMarkers…`";
     assert_eq!(change("Units", "Unit"), format!("line 2: found {keys}; expected a key `Units`"));
 }
@@ -206,7 +206,7 @@ fn bad_marker_names_are_named() {
 #[test]
 fn bad_marker_rows_are_named() {
     let change = |from, to| markers(MARKERS.replacen(from, to, 1));
-    let cells = "expected 5: frame, time and three a marker, tabs between them, gaps empty";
+    let cells = "expected 5: frame, time and three per marker, separated by tabs, gaps empty";
     assert_eq!(change("\t30", ""), format!("line 7: found 4 cells; {cells}"));
     assert_eq!(change("\t30", "\t30\t31"), format!("line 7: found 6 cells; {cells}"));
     assert_eq!(change("\n1\t", "\none\t"), "line 7: found `one`; expected a frame number");

@@ -41,13 +41,13 @@ fn a_bad_skeleton_is_named() {
     assert_eq!(change("ROOT Hips", "JOINT Hips"), "line 2: found `JOINT`; expected `ROOT` and a name");
     assert_eq!(change("ROOT Hips\n", "ROOT\n"), "line 2: found `ROOT` without a name; expected a name without braces");
     assert_eq!(change("JOINT Spine\n", "JOINT a}\n"), "line 6: found `a}`; expected a name without braces");
-    assert_eq!(change("Spine\n{", "Spine\n("), "line 7: found `(`; expected `{` behind the name of a joint");
+    assert_eq!(change("Spine\n{", "Spine\n("), "line 7: found `(`; expected `{` after the name of a joint");
     assert_eq!(change("JOINT", "BONE"), format!("line 6: found `BONE`; {inside}"));
     assert_eq!(change("MOTION", "}\nMOTION"), "line 16: found `}`; expected `ROOT` and a name, or `MOTION`");
     assert_eq!(change("}\n}\n}\n", "}\n}\n"), format!("line 15: found `MOTION`; {inside}"));
     assert_eq!(change("End Site\n{", "End Site"), "line 11: found `OFFSET`; expected `{` behind `End Site`");
     assert_eq!(change("OFFSET 0 4 0", "}"), "line 12: found `}`; expected `OFFSET` in an `End Site`");
-    let end = "expected `}` behind the OFFSET of an `End Site`";
+    let end = "expected `}` after the OFFSET of an `End Site`";
     assert_eq!(change("OFFSET 0 4 0\n", "OFFSET 0 4 0 1\n"), format!("line 12: found `1`; {end}"));
     assert_eq!(error("HIERARCHY\nMOTION\nFrames: 0\n"), "line 2: found `MOTION`; expected `ROOT` and a name");
 }
@@ -57,7 +57,7 @@ fn bad_offsets_and_channels_are_named() {
     let three = "expected OFFSET and three finite numbers: a number";
     assert_eq!(change("35 -4\n", "35\n"), format!("line 5: found `CHANNELS`; {three}"));
     assert_eq!(change("35 -4", "inf -4"), format!("line 4: found `inf`; {three}"));
-    let comma = "with a decimal point; the file seems to use a decimal comma, export it with a point";
+    let comma = "with a decimal point; the file appears to use a decimal comma; export it with a decimal point";
     assert_eq!(change("1.5 35", "1,5 35"), format!("line 4: found `1,5`; {three} {comma}"));
     assert_eq!(
         change("OFFSET 0 8.5 0\n", ""),
@@ -73,11 +73,11 @@ fn bad_offsets_and_channels_are_named() {
     let absurd = "found `99999999999999999999`; expected a number of channels from 0 to 6";
     assert_eq!(change("S 3", "S 99999999999999999999"), format!("line 5: {absurd}"));
     assert_eq!(change("Yposition", "Yscale"), format!("line 5: found `Yscale`; expected 3 channels: {words}"));
-    let twice = "found `Xposition`; expected channels of which none stands twice in a joint";
+    let twice = "found `Xposition`; expected different channels within a joint";
     assert_eq!(change("Yposition", "Xposition"), format!("line 5: {twice}"));
     let late = WALK.replace("CHANNELS 3 Xposition Yposition Zrotation\n", "");
     let late = late.replace("}\n}\nMOTION", "}\nCHANNELS 1 Xposition\n}\nMOTION");
-    let before = "expected `CHANNELS` of a joint before the joints that it carries";
+    let before = "expected `CHANNELS` of a joint before its child joints";
     assert_eq!(error(late), format!("line 14: found `CHANNELS`; {before}"));
 }
 
@@ -91,9 +91,9 @@ fn a_bad_motion_is_named() {
     for wrong in ["0", "-0.01", "inf", "nan", "fast"] {
         assert_eq!(change("0.01", wrong), format!("line 18: found `{wrong}`; {time}"));
     }
-    let end = "expected the end of the line behind the frame time";
+    let end = "expected the end of the line after the frame time";
     assert_eq!(change("0.01\n", "0.01 9 35 1 4\n"), format!("line 18: found `9 35 1 4`; {end}"));
-    let values = "expected 4, one a channel of the skeleton, a frame a line";
+    let values = "expected 4, one per channel of the skeleton, with one frame per line";
     assert_eq!(change("9 35 1 4", "9 35 1"), format!("line 19: found 3 values; {values}"));
     assert_eq!(change("9 35 1 4", "9 35 1 4 7"), format!("line 19: found 5 values; {values}"));
     assert_eq!(change("9 35", "9 x"), "line 19: found `x`; expected a number");
@@ -105,13 +105,13 @@ fn a_file_that_ends_early_is_truncated() {
     let cut = |from: &str| error(WALK.split(from).next().unwrap());
     let message =
         |line: usize, expected: &str| format!("line {line}: the file ends here; expected {expected}. Is it truncated?");
-    assert_eq!(cut("ROOT"), message(1, "a `ROOT`, or `MOTION` behind the last one"));
+    assert_eq!(cut("ROOT"), message(1, "a `ROOT`, or `MOTION` after the last one"));
     assert_eq!(cut("35 -4"), message(4, "three numbers after OFFSET"));
     assert_eq!(cut("3 X"), message(5, "the number of channels"));
     let words = "Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation";
     assert_eq!(cut("Yposition"), message(5, words));
     assert_eq!(cut("JOINT"), message(5, "`OFFSET`, `CHANNELS`, `JOINT`, `End Site` or `}`"));
-    assert_eq!(cut("MOTION"), message(15, "a `ROOT`, or `MOTION` behind the last one"));
+    assert_eq!(cut("MOTION"), message(15, "a `ROOT`, or `MOTION` after the last one"));
     assert_eq!(cut("Frames"), message(16, "`Frames:` and their number"));
     assert_eq!(cut("0.01"), message(18, "`Frame Time:` and seconds"));
     assert_eq!(cut(" -1 -4\n"), message(20, "the rest of a frame of 4 values"));
@@ -126,10 +126,7 @@ fn absurd_skeletons_are_refused() {
         writeln!(deep, "{keyword} a{{OFFSET 0 0 0").unwrap();
     }
     let line = MAX_DEPTH + 2;
-    assert_eq!(
-        error(deep),
-        format!("line {line}: found `JOINT`; expected joints within joints, at most {MAX_DEPTH} deep")
-    );
+    assert_eq!(error(deep), format!("line {line}: found `JOINT`; expected joints nested at most {MAX_DEPTH} deep"));
     let wide = format!("HIERARCHY\n{}", "ROOT a{OFFSET 0 0 0}\n".repeat(100_000));
     assert_eq!(error(wide), format!("line {}: found `ROOT`; expected at most {MAX_JOINTS} joints", MAX_JOINTS + 2));
 }

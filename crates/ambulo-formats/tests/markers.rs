@@ -90,7 +90,7 @@ fn a_partly_empty_position_is_a_gap_and_remarked() {
 fn positions_exactly_zero_are_kept_and_remarked() {
     let (trc, remarks) = read(&WALK.replace("12.5\t30\t-4.5", "0\t0.0\t-0").replace("191.25\t22.5\t-4", "0\t0\t0"));
     assert!(trc.markers()[1].positions_m[1].iter().all(|value| value.abs() <= 0.0));
-    let message = "line 7: 2 positions exactly 0 0 0, as some programs write a gap; kept as a position";
+    let message = "line 7: 2 positions exactly 0 0 0, which some programs write for a gap; kept as positions";
     assert_eq!(remarks, [format!("{message} (first: marker `R.Heel`)")]);
 }
 
@@ -100,7 +100,7 @@ fn counts_that_disagree_with_the_data_are_remarked() {
     let frames = "NumFrames states 3, the file has 2; read 2";
     assert_eq!(remarks, ["line 4: NumMarkers states 4, the file names 2; read 2", frames]);
     let (_, remarks) = read(WALK.replace("100\t2\t2\t", "100\t3\t2\t").trim_end());
-    assert_eq!(remarks, [format!("{frames}; the last line is not ended, so its last number may be cut")]);
+    assert_eq!(remarks, [format!("{frames}; the last line has no line end, so its last number may be truncated")]);
 }
 
 #[test]
@@ -110,7 +110,10 @@ fn a_recording_in_memory_must_be_whole() {
     let start = "not a valid record: found";
     assert_eq!(error(0.0, &[0.0], vec![]), format!("{start} a rate of 0 Hz; expected a finite rate above zero"));
     assert_eq!(error(1.0, &[f64::NAN], vec![]), format!("{start} time NaN; expected finite times"));
-    assert_eq!(error(1.0, &[], vec![]), format!("{start} no frame or no marker; expected at least one of both"));
+    assert_eq!(
+        error(1.0, &[], vec![]),
+        format!("{start} no frame or no marker; expected at least one frame and one marker")
+    );
     assert_eq!(error(1.0, &[0.0], vec![marker("A", 2)]), format!("{start} 2 positions of `A`; expected 1, as times"));
     assert_eq!(
         error(1.0, &[0.0], vec![marker("A", 1), marker("A", 1)]),

@@ -12,8 +12,11 @@ use ambulo_formats::{Error, Remark};
 use shared_data::data;
 use std::path::Path;
 
-/// The one file whose header is wrong.
-const COORDINATES_REMARK: &str = "line 9: the header states 40 columns, the file has 32; read 32";
+/// Files whose header is wrong, with the remark.
+const REMARKS: [(&str, &str); 2] = [
+    ("coordinates.sto", "line 9: the header states 40 columns, the file has 32; read 32"),
+    ("hamner-subject04-run3/grf.mot", "the header states 11621 rows, the file has 4490; read 4490"),
+];
 
 /// OpenSim tables of coordinates, forces and reference results.
 const STORAGE: &[&str] = &[
@@ -68,8 +71,8 @@ const OTHERS: &[&str] = &[
 fn read<T>(path: &Path, reader: impl Fn(&[u8]) -> Result<(T, Vec<Remark>), Error>) -> T {
     let (record, remarks) = reader(&std::fs::read(path).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let remarks: Vec<String> = remarks.iter().map(ToString::to_string).collect();
-    let known = if path.ends_with("coordinates.sto") { vec![COORDINATES_REMARK] } else { vec![] };
-    assert_eq!(remarks, known, "{}", path.display());
+    let known = REMARKS.iter().filter(|(file, _)| path.ends_with(file)).map(|(_, remark)| *remark);
+    assert_eq!(remarks, known.collect::<Vec<_>>(), "{}", path.display());
     record
 }
 

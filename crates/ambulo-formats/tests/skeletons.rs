@@ -80,7 +80,7 @@ fn frame_counts_that_disagree_with_the_data_are_remarked() {
     let (bvh, remarks) = read(&WALK.replace("Frames: 2", "Frames: 1"));
     assert_eq!((bvh.frames(), remarks), (2, vec!["`Frames:` states 1, the file has 2; read 2".into()]));
     let (_, remarks) = read(WALK.replace("Frames: 2", "Frames: 3").trim_end());
-    let cut = "the last line is not ended, so its last number may be cut";
+    let cut = "the last line has no line end, so its last number may be truncated";
     assert_eq!(remarks, [format!("`Frames:` states 3, the file has 2; read 2; {cut}")]);
 }
 
@@ -95,9 +95,9 @@ fn a_skeleton_without_frames_is_a_skeleton() {
 #[test]
 fn names_that_stand_twice_and_values_not_seen_are_remarked() {
     let (_, remarks) = read(&WALK.replace("Spine", "Hips"));
-    assert_eq!(remarks, ["two or more joints have one name (first: `Hips`)"]);
+    assert_eq!(remarks, ["two or more joints have the same name (first: `Hips`)"]);
     let (bvh, remarks) = read(&WALK.replace("9 35 -163", "9 nan -nan(ind)"));
-    assert_eq!(remarks, ["line 24: 2 values not-a-number; kept as not seen"]);
+    assert_eq!(remarks, ["line 24: 2 values not-a-number; kept as missing"]);
     assert!(bvh.frame(0).unwrap()[1].is_nan());
 }
 
@@ -113,10 +113,10 @@ fn a_motion_in_memory_must_be_whole() {
     assert_eq!(error(vec![], 1.0, &[]), format!("{start} 0 joints; expected 1 to {MAX_JOINTS}"));
     let one = || vec![joint("a", None)];
     assert_eq!(error(one(), 0.0, &[]), format!("{start} a frame time of 0 s; expected a finite time above zero"));
-    assert_eq!(error(one(), 1.0, &[vec![]]), format!("{start} a frame of 0 values; expected 1, one a channel"));
-    let numbers = "expected numbers, or not-a-number for what was not seen";
+    assert_eq!(error(one(), 1.0, &[vec![]]), format!("{start} a frame of 0 values; expected 1, one per channel"));
+    let numbers = "expected numbers, or not-a-number for missing values";
     assert_eq!(error(one(), 1.0, &[vec![f64::INFINITY]]), format!("{start} an infinite value; {numbers}"));
-    let behind = "expected each joint directly before all that it carries";
+    let behind = "expected each joint directly before its children";
     let late = vec![joint("a", None), joint("b", Some(0)), joint("c", Some(0)), joint("d", Some(1))];
     assert_eq!(error(late, 1.0, &[]), format!("{start} joint `d` not behind its parent; {behind}"));
     assert_eq!(
@@ -131,7 +131,7 @@ fn a_motion_in_memory_must_be_whole() {
     assert_eq!(error(deep, 1.0, &[]), format!("{start} joint `a` too deep; expected at most {MAX_DEPTH} deep"));
     let mut twice = one();
     twice[0].channels = vec![Channel::ALL[0]; 2];
-    let none_twice = "expected positions and rotations in x, y, z, none twice";
+    let none_twice = "expected positions and rotations in x, y, z, all different";
     assert_eq!(error(twice, 1.0, &[]), format!("{start} the channels of `a`; {none_twice}"));
     let mut far = one();
     far[0].end_sites = vec![[f64::NAN; 3]];

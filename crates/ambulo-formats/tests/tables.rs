@@ -109,7 +109,7 @@ fn the_sentence_about_angles_stands_in_for_the_key() {
     let (table, remarks) = storage(&VERSION_1.replace("endheader", "Angles are in radians.\nendheader"));
     assert_eq!(table.in_degrees, Some(true));
     let expected =
-        "`inDegrees` says degrees, but \"Angles are in radians.\" stands beside it; `inDegrees` was followed";
+        "`inDegrees` states degrees, but the header also has \"Angles are in radians.\"; `inDegrees` was used";
     assert_eq!(remarks, [expected]);
 }
 
@@ -119,7 +119,7 @@ fn counts_that_disagree_with_the_data_are_remarked() {
     let rows = "the header states 5 rows, the file has 2; read 2";
     assert_eq!(remarks, ["line 7: the header states 4 columns, the file has 3; read 3", rows]);
     let (_, remarks) = storage(VERSION_1.replace("nRows=2", "nRows=5").trim_end());
-    assert_eq!(remarks, [format!("{rows}; the last line is not ended, so its last number may be cut")]);
+    assert_eq!(remarks, [format!("{rows}; the last line has no line end, so its last number may be truncated")]);
     let (_, remarks) = storage(&VERSION_1.replace("nRows=2", "nRows=1"));
     assert_eq!(remarks, ["the header states 1 row, the file has 2; read 2"]);
 }
@@ -133,7 +133,7 @@ fn a_count_in_the_header_reserves_no_memory() {
 #[test]
 fn a_newer_storage_version_is_remarked() {
     let (_, remarks) = storage(&VERSION_1.replace("version=1", "version=9"));
-    assert_eq!(remarks, ["line 2: storage version `9`; versions 1 to 3 are known, it was read as one of them"]);
+    assert_eq!(remarks, ["line 2: storage version `9`; the known versions are 1 to 3; it was read as one of them"]);
 }
 
 #[test]

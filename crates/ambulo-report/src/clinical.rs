@@ -3,7 +3,8 @@
 //! shown = factor x number of the file, with a factor of sign, side and body mass. Signs: docs/CONVENTIONS.md, "Signs in panels"; a test
 //! reads every row of that table.
 
-use ambulo::model::Side;
+use ambulo::model::anatomy::Meaning;
+use ambulo::model::{BySide, CoordinateId, Model, Movement, Side};
 
 /// The kind of a quantity: panels of one kind stand together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +42,100 @@ impl ClinicalGroup {
     }
 }
 
-/// A quantity as it is shown: what it is called, what its signs mean, and where it stands in the files.
+/// Which coordinates of a model measure which movements, and their signs.
+#[derive(Debug, Clone)]
+pub struct ClinicalNames {
+    entries: Vec<Entry>,
+}
+
+#[derive(Debug, Clone)]
+struct Entry {
+    movement: Movement,
+    side: Option<Side>,
+    coordinate: String,
+    /// Name without the side.
+    stem: String,
+    sign: f64,
+}
+
+impl ClinicalNames {
+    /// Of a model, by its anatomy.
+    #[must_use]
+    pub fn of_model(model: &Model) -> ClinicalNames {
+        let entry = |id: CoordinateId| {
+            let Meaning { movement, side, sign } = model.anatomy().meaning(id)?;
+            let coordinate = model.coordinates()[id.index()].name.clone();
+            Some(Entry { movement, side, coordinate, stem: model.coordinate_stem(id), sign })
+        };
+        ClinicalNames { entries: model.coordinate_ids().filter_map(entry).collect() }
+    }
+
+    /// Names and signs of the built-in figures and of Gait2392.
+    #[must_use]
+    pub fn usual() -> ClinicalNames {
+        let entries = USUAL.iter().flat_map(|(movement, stem, sign)| {
+            let entry = |side: Option<Side>| Entry {
+                movement: *movement,
+                side,
+                coordinate: side.map_or_else(|| (*stem).to_owned(), |side| format!("{stem}_{}", side.letter())),
+                stem: (*stem).to_owned(),
+                sign: *sign,
+            };
+            match is_central(*movement) {
+                true => vec![entry(None)],
+                false => Side::BOTH.map(|side| entry(Some(side))).to_vec(),
+            }
+        });
+        ClinicalNames { entries: entries.collect() }
+    }
+
+    /// The usual names for files without a body. Models disagree about the sign of `knee_angle`, so it has no meaning here.
+    #[must_use]
+    pub fn without_model() -> ClinicalNames {
+        let mut names = ClinicalNames::usual();
+        names.entries.retain(|entry| entry.movement != Movement::KneeFlexion);
+        names
+    }
+
+    /// The coordinate of the pelvis or of the trunk that measures a movement.
+    #[must_use]
+    pub fn central(&self, movement: Movement) -> Option<&str> {
+        self.find(movement, Side::Right).filter(|entry| entry.side.is_none()).map(|entry| entry.coordinate.as_str())
+    }
+
+    fn find(&self, movement: Movement, side: Side) -> Option<&Entry> {
+        let side = (!is_central(movement)).then_some(side);
+        self.entries.iter().find(|entry| entry.movement == movement && entry.side == side)
+    }
+}
+
+/// Coordinates and signs of the built-in figures.
+const USUAL: [(Movement, &str, f64); 17] = [
+    (Movement::PelvisForward, "pelvis_tx", 1.0),
+    (Movement::PelvisUp, "pelvis_ty", 1.0),
+    (Movement::PelvisRight, "pelvis_tz", 1.0),
+    (Movement::PelvicTilt, "pelvis_tilt", -1.0),
+    (Movement::PelvicObliquity, "pelvis_list", -1.0),
+    (Movement::PelvicRotation, "pelvis_rotation", 1.0),
+    (Movement::TrunkLean, "lumbar_extension", -1.0),
+    (Movement::TrunkObliquity, "lumbar_bending", -1.0),
+    (Movement::TrunkRotation, "lumbar_rotation", 1.0),
+    (Movement::HipFlexion, "hip_flexion", 1.0),
+    (Movement::HipAdduction, "hip_adduction", 1.0),
+    (Movement::HipRotation, "hip_rotation", 1.0),
+    (Movement::KneeFlexion, "knee_angle", -1.0),
+    (Movement::KneeAdduction, "knee_adduction", 1.0),
+    (Movement::KneeRotation, "knee_rotation", 1.0),
+    (Movement::AnkleDorsiflexion, "ankle_angle", 1.0),
+    (Movement::SubtalarInversion, "subtalar_angle", 1.0),
+];
+
+/// Movements of pelvis and trunk.
+fn is_central(movement: Movement) -> bool {
+    movement <= Movement::PelvisRight || movement >= Movement::TrunkLean
+}
+
+/// A quantity as it is shown: its name, the meaning of its signs, and its columns in the files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClinicalQuantity {
     /// A word without blanks, the same for every model: `hip_flexion_moment`, `knee_flexion_angle`.
@@ -56,57 +150,38 @@ pub struct ClinicalQuantity {
     pub negative: &'static str,
     /// Its kind.
     pub group: ClinicalGroup,
-    /// Name in `cycles.csv`: `knee_angle_moment`.
-    pub column: String,
-    /// The coordinate without its side (`knee_angle`), as limits and tables over time know it; of ground forces their column.
-    pub coordinate: &'static str,
+    /// Names in `cycles.csv`, of the cycles of each foot: `knee_angle_moment`.
+    pub columns: BySide<String>,
+    /// The coordinates of each side, as files over time name them: `knee_angle_r`; of ground forces their name in `cycles.csv`.
+    pub coordinates: BySide<String>,
     /// A coordinate of pelvis or trunk: files over time have one column of it, for both sides.
     pub central: bool,
-    sign: Sign,
-}
-
-/// How the sign of a file's number becomes the one shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Sign {
-    /// The same on both sides: +1 or -1.
-    Both(f64),
-    /// This on the right, the opposite on the left: coordinates of pelvis and trunk, which know right and left where a panel knows its
-    /// own side and the other one.
-    Right(f64),
-    /// This times the direction of knee flexion.
-    Knee(f64),
+    /// +1 or -1: the file's number times this is the one shown.
+    signs: BySide<f64>,
 }
 
 impl ClinicalQuantity {
-    /// The number that turns the file's (deg, N.m, W, body weights) into the one shown, for the panel's `side`. `knee_flexion_sign` is
-    /// that of [`knee_flexion_sign`].
+    /// The number that turns the file's (deg, N.m, W, body weights) into the one shown, for the panel's `side`.
     #[must_use]
-    pub fn factor(&self, mass_kg: f64, side: Side, knee_flexion_sign: f64) -> f64 {
-        let sign = match (self.sign, side) {
-            (Sign::Both(sign), _) | (Sign::Right(sign), Side::Right) => sign,
-            (Sign::Right(sign), Side::Left) => -sign,
-            (Sign::Knee(sign), _) => sign * knee_flexion_sign,
-        };
+    pub fn factor(&self, mass_kg: f64, side: Side) -> f64 {
         match self.group {
-            ClinicalGroup::Moments | ClinicalGroup::Powers => sign / mass_kg,
-            ClinicalGroup::Kinematics | ClinicalGroup::Ground => sign,
+            ClinicalGroup::Moments | ClinicalGroup::Powers => self.signs[side] / mass_kg,
+            ClinicalGroup::Kinematics | ClinicalGroup::Ground => self.signs[side],
         }
+    }
+
+    /// Whether a name of `cycles.csv` is this quantity's.
+    #[must_use]
+    pub fn has_column(&self, name: &str) -> bool {
+        self.columns.values().any(|column| column == name)
     }
 }
 
 /// The quantities that a table has, in the order to be shown; `has` says whether a name stands in its column `quantity`
 /// (`cycles.csv`: `knee_angle_angle`). What a model cannot do (varus of a hinged knee) is not in the list.
 #[must_use]
-pub fn clinical_quantities(has: impl Fn(&str) -> bool) -> Vec<ClinicalQuantity> {
-    ROWS.iter().filter_map(|row| row.found(&has)).collect()
-}
-
-/// +1 if knee flexion is the positive direction of the knee's coordinate, -1 if it is the negative one: the direction in which the knee
-/// turns most. Negative in the Gait2392 family, positive in Rajagopal's. `angles` are the values of the coordinate `knee_angle` (or
-/// `knee_flexion`) in the file, of all cycles.
-pub fn knee_flexion_sign<'a>(angles: impl IntoIterator<Item = &'a f64>) -> f64 {
-    let largest = angles.into_iter().fold(0.0_f64, |m, &x| if x.abs() > m.abs() { x } else { m });
-    if largest < 0.0 { -1.0 } else { 1.0 }
+pub fn clinical_quantities(names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Vec<ClinicalQuantity> {
+    ROWS.iter().filter_map(|row| row.found(names, &has)).collect()
 }
 
 /// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters make of a constant: a joint that is
@@ -117,90 +192,126 @@ pub(crate) fn moves(unit: &str, values: &[f64]) -> bool {
     finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min) > least
 }
 
-/// The knee's coordinate in the files.
-pub const KNEE: [&str; 2] = ["knee_angle", "knee_flexion"];
-
-/// A row of the list: the same for all models but for the coordinate.
+/// A row of the list, the same for all models.
 struct Row {
     id: &'static str,
     title: &'static str,
     directions: [&'static str; 2],
     group: ClinicalGroup,
-    /// Coordinates that hold it, the first that exists counts.
-    coordinates: &'static [(&'static str, Sign)],
+    source: Source,
+}
+
+/// Where a row's numbers come from, and their sign.
+#[derive(Clone, Copy)]
+enum Source {
+    /// A movement: +1 if the movement is shown as positive.
+    Movement(Movement, f64),
+    /// The same, where the movement is that of the right side: turned over for the left one.
+    Own(Movement, f64),
+    /// A ground force, with its signs on the right and the left.
+    Ground(&'static str, [f64; 2]),
 }
 
 impl Row {
-    fn found(&self, has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
-        let column = |coordinate: &str| format!("{coordinate}{}", self.group.suffix());
-        let (coordinate, sign) = self.coordinates.iter().find(|(name, _)| has(&column(name)))?;
-        Some(ClinicalQuantity {
+    fn found(&self, names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
+        let (movement, signs) = match self.source {
+            Source::Ground(column, signs) => {
+                let column = BySide::from([column, column]).map(str::to_owned);
+                return has(&column.right).then(|| self.quantity(column.clone(), column, signs.into()));
+            }
+            Source::Movement(movement, sign) => (movement, BySide { right: sign, left: sign }),
+            Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
+        };
+        // A leg that is not there has the names of the other one.
+        let entries = BySide::from_fn(|side| names.find(movement, side).or_else(|| names.find(movement, side.other())));
+        let entries = entries.both()?;
+        let columns = entries.map(|entry| format!("{}{}", entry.stem, self.group.suffix()));
+        if !columns.values().any(|column| has(column)) {
+            return None;
+        }
+        let of_file = |side: Side| if self.group == ClinicalGroup::Powers { 1.0 } else { entries[side].sign };
+        let signs = BySide::from_fn(|side| signs[side] * of_file(side));
+        Some(self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs))
+    }
+
+    fn quantity(&self, columns: BySide<String>, coordinates: BySide<String>, signs: BySide<f64>) -> ClinicalQuantity {
+        let central = match self.source {
+            Source::Movement(movement, _) | Source::Own(movement, _) => is_central(movement),
+            Source::Ground(..) => false,
+        };
+        ClinicalQuantity {
             id: self.id,
             title: self.title,
             unit: self.group.unit(),
             positive: self.directions[0],
             negative: self.directions[1],
             group: self.group,
-            column: column(coordinate),
-            coordinate,
-            central: coordinate.starts_with("pelvis_") || coordinate.starts_with("lumbar_"),
-            sign: *sign,
-        })
+            columns,
+            coordinates,
+            central,
+            signs,
+        }
     }
 }
-
-const SAME: Sign = Sign::Both(1.0);
-const TURNED: Sign = Sign::Both(-1.0);
-/// Positive towards the right in the file, towards the own side in the panel.
-const OWN: Sign = Sign::Right(1.0);
-const OTHER: Sign = Sign::Right(-1.0);
-
-const KINEMATICS: ClinicalGroup = ClinicalGroup::Kinematics;
-const MOMENTS: ClinicalGroup = ClinicalGroup::Moments;
-const POWERS: ClinicalGroup = ClinicalGroup::Powers;
-const GROUND: ClinicalGroup = ClinicalGroup::Ground;
 
 const fn row(
     id: &'static str,
     title: &'static str,
     directions: [&'static str; 2],
     group: ClinicalGroup,
-    coordinates: &'static [(&'static str, Sign)],
+    source: Source,
 ) -> Row {
-    Row { id, title, directions, group, coordinates }
+    Row { id, title, directions, group, source }
 }
+
+const fn same(movement: Movement) -> Source {
+    Source::Movement(movement, 1.0)
+}
+
+/// Moments are internal: the muscles that work against the movement are shown as positive.
+const fn against(movement: Movement) -> Source {
+    Source::Movement(movement, -1.0)
+}
+
+/// The right side's movement, towards the panel's own side.
+const fn own(movement: Movement) -> Source {
+    Source::Own(movement, 1.0)
+}
+
+const KINEMATICS: ClinicalGroup = ClinicalGroup::Kinematics;
+const MOMENTS: ClinicalGroup = ClinicalGroup::Moments;
+const POWERS: ClinicalGroup = ClinicalGroup::Powers;
+const GROUND: ClinicalGroup = ClinicalGroup::Ground;
 
 const POWER: [&str; 2] = ["generated", "absorbed"];
 
-/// All rows. Signs of the files: docs/CONVENTIONS.md, "Signs, one row for each movement".
+/// All rows. Signs of the movements: [`Movement`]; of panels: docs/CONVENTIONS.md, "Signs in panels".
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    row("pelvis_tilt_angle", "Pelvic tilt", ["anterior", "posterior"], KINEMATICS, &[("pelvis_tilt", TURNED)]),
-    row("pelvis_obliquity_angle", "Pelvic obliquity", ["up", "down"], KINEMATICS, &[("pelvis_list", OTHER)]),
-    row("pelvis_rotation_angle", "Pelvic rotation", ["forward", "backward"], KINEMATICS, &[("pelvis_rotation", OWN)]),
-    row("hip_flexion_angle", "Hip flexion", ["flexion", "extension"], KINEMATICS, &[("hip_flexion", SAME)]),
-    row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], KINEMATICS, &[("hip_adduction", SAME), ("hip_abduction", TURNED)]),
-    row("hip_rotation_angle", "Hip rotation", ["internal", "external"], KINEMATICS, &[("hip_rotation", SAME)]),
-    row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, &[(KNEE[0], Sign::Knee(1.0)), (KNEE[1], Sign::Knee(1.0))]),
-    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, &[("knee_adduction", SAME)]),
-    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, &[("knee_rotation", SAME)]),
-    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS, ANKLE),
-    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS, &[("subtalar_angle", SAME)]),
-    row("trunk_lean_angle", "Trunk lean, to pelvis", ["forward", "backward"], KINEMATICS, &[("lumbar_extension", TURNED), ("lumbar_flexion", SAME)]),
-    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], KINEMATICS, &[("lumbar_bending", OTHER)]),
-    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], KINEMATICS, &[("lumbar_rotation", OWN)]),
-    row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, &[("hip_flexion", TURNED)]),
-    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS, &[("hip_adduction", TURNED), ("hip_abduction", SAME)]),
-    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS, &[("hip_rotation", TURNED)]),
-    row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, &[(KNEE[0], Sign::Knee(-1.0)), (KNEE[1], Sign::Knee(-1.0))]),
-    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS, &[("knee_adduction", TURNED)]),
-    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS, &[("ankle_angle", TURNED), ("ankle_flexion", TURNED), ("ankle_dorsiflexion", TURNED)]),
-    row("hip_flexion_power", "Hip power", POWER, POWERS, &[("hip_flexion", SAME)]),
-    row("knee_flexion_power", "Knee power", POWER, POWERS, &[(KNEE[0], SAME), (KNEE[1], SAME)]),
-    row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, ANKLE),
-    row("ground_force_vertical", "Vertical ground force", ["up", "down"], GROUND, &[("ground_force_vertical", SAME)]),
-    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], GROUND, &[("ground_force_fore_aft", SAME)]),
-    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], GROUND, &[("ground_force_lateral", OTHER)]),
+    row("pelvis_tilt_angle", "Pelvic tilt", ["anterior", "posterior"], KINEMATICS, same(Movement::PelvicTilt)),
+    row("pelvis_obliquity_angle", "Pelvic obliquity", ["up", "down"], KINEMATICS, own(Movement::PelvicObliquity)),
+    row("pelvis_rotation_angle", "Pelvic rotation", ["forward", "backward"], KINEMATICS, own(Movement::PelvicRotation)),
+    row("hip_flexion_angle", "Hip flexion", ["flexion", "extension"], KINEMATICS, same(Movement::HipFlexion)),
+    row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], KINEMATICS, same(Movement::HipAdduction)),
+    row("hip_rotation_angle", "Hip rotation", ["internal", "external"], KINEMATICS, same(Movement::HipRotation)),
+    row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, same(Movement::KneeFlexion)),
+    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, same(Movement::KneeAdduction)),
+    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, same(Movement::KneeRotation)),
+    row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS, same(Movement::AnkleDorsiflexion)),
+    row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS, same(Movement::SubtalarInversion)),
+    row("trunk_lean_angle", "Trunk lean, to pelvis", ["forward", "backward"], KINEMATICS, same(Movement::TrunkLean)),
+    row("trunk_obliquity_angle", "Trunk obliquity, to pelvis", ["up", "down"], KINEMATICS, own(Movement::TrunkObliquity)),
+    row("trunk_rotation_angle", "Trunk rotation, to pelvis", ["forward", "backward"], KINEMATICS, own(Movement::TrunkRotation)),
+    row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::HipFlexion)),
+    row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS, against(Movement::HipAdduction)),
+    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS, against(Movement::HipRotation)),
+    row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::KneeFlexion)),
+    row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS, against(Movement::KneeAdduction)),
+    row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS, against(Movement::AnkleDorsiflexion)),
+    row("hip_flexion_power", "Hip power", POWER, POWERS, same(Movement::HipFlexion)),
+    row("knee_flexion_power", "Knee power", POWER, POWERS, same(Movement::KneeFlexion)),
+    row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, same(Movement::AnkleDorsiflexion)),
+    row("ground_force_vertical", "Vertical ground force", ["up", "down"], GROUND, Source::Ground("ground_force_vertical", [1.0, 1.0])),
+    row("ground_force_fore_aft", "Fore-aft ground force", ["forward", "backward"], GROUND, Source::Ground("ground_force_fore_aft", [1.0, 1.0])),
+    row("ground_force_lateral", "Sideways ground force", ["medial", "lateral"], GROUND, Source::Ground("ground_force_lateral", [-1.0, 1.0])),
 ];
-
-const ANKLE: &[(&str, Sign)] = &[("ankle_angle", SAME), ("ankle_flexion", SAME), ("ankle_dorsiflexion", SAME)];

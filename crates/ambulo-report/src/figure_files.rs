@@ -1,11 +1,13 @@
 //! The figures of a run, as names and bytes.
 
+use crate::clinical::ClinicalNames;
 use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
 use ambulo::model::{Model, Side};
-use ambulo_results::{OutputFile, cycle_rows};
+use ambulo::study::Outcome;
+use ambulo_results::{OutputFile, cycle_rows, predicted_analysis};
 
 /// `figures/quality.svg` and the figures of gait cycles.
 ///
@@ -21,12 +23,25 @@ pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile
     if !rows.is_empty() {
         let figures = CycleFigures {
             rows: &rows,
+            names: &ClinicalNames::of_model(model),
             mass_kg: analysis.mass.kg,
             caption: &caption,
             marks: &marks(analysis),
             speed_dimensionless: speed_dimensionless(model, analysis),
         };
         files.extend(figures.files()?);
+    }
+    Ok(files)
+}
+
+/// Every figure of a run.
+///
+/// # Errors
+/// A figure that could not be drawn.
+pub fn outcome_figures(outcome: &Outcome) -> Result<Vec<OutputFile>, FigureError> {
+    let mut files = figure_files(&outcome.body, &outcome.analysis)?;
+    if let Some(predicted) = predicted_analysis(outcome) {
+        files.extend(prediction_figure_file(&outcome.body, &predicted)?);
     }
     Ok(files)
 }

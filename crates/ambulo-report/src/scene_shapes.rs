@@ -7,7 +7,6 @@
 use super::page::ViewShape;
 use super::stage::figure_shapes;
 use ambulo::contact::Outline;
-use ambulo::model::Side;
 use ambulo::simulation::scene::Scene;
 use ambulo::simulation::{Owner, Surface, World};
 use ambulo::spatial::{Pose, Vec3};
@@ -101,13 +100,14 @@ fn bodies(scene: &Scene) -> Vec<BodyShapes> {
         .collect();
     let mut drawn = BTreeSet::new();
     for (name, figure) in scene.figure_names().zip(&world.figures) {
-        for (described, shapes) in figure.model.bodies().iter().zip(figure_shapes(&figure.model)) {
+        for (id, shapes) in figure.model.body_ids().zip(figure_shapes(&figure.model)) {
+            let described = &figure.model.bodies()[id.index()];
             let full = format!("{name}/{}", described.name);
             let Some(number) = bodies.iter().position(|body| body.name == full) else { continue };
             drawn.insert(number);
             let body = &mut bodies[number];
             let center_from_body = Pose::at(-described.inertia.center());
-            body.side = Side::of_name(&described.name).and_then(|side| side.letter().chars().next());
+            body.side = figure.model.anatomy().body_side(id).and_then(|side| side.letter().chars().next());
             body.shapes.extend(shapes.iter().map(|shape| moved(shape, &center_from_body)));
         }
     }

@@ -1,7 +1,10 @@
 //! Every row of "Signs in panels" in docs/CONVENTIONS.md, against the signs of movements above it and the factors of the panels.
 
-use ambulo::model::Side;
-use ambulo_report::clinical::{ClinicalGroup, ClinicalQuantity, clinical_quantities, knee_flexion_sign};
+#![expect(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
+
+use ambulo::findings::Findings;
+use ambulo::model::{Model, Side};
+use ambulo_report::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use std::collections::BTreeSet;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
@@ -32,17 +35,14 @@ fn sides(word: &str) -> Vec<Side> {
 }
 
 fn all() -> Vec<ClinicalQuantity> {
-    clinical_quantities(|name| !name.contains("knee_flexion") && !name.contains("abduction"))
+    clinical_quantities(&ClinicalNames::usual(), |_| true)
 }
 
 /// Whether a coordinate grows during a movement, by the table of movements.
-fn during(movement: &str, coordinate: &str, side: Side) -> bool {
+fn during(movement: &str, coordinate: &str) -> bool {
     let movements = table("| movement | side | coordinate | sign | point | moves |");
-    let sided = format!("{coordinate}_{}", side.letter());
-    let fits = |row: &&Vec<String>| row[0] == movement && (row[2] == sided || row[2] == coordinate);
-    let row =
-        movements.iter().find(fits).unwrap_or_else(|| panic!("no movement `{movement}` of `{coordinate}`, {side}"));
-    plus(&row[3])
+    let row = movements.iter().find(|row| row[0] == movement && row[2] == coordinate);
+    plus(&row.unwrap_or_else(|| panic!("no movement `{movement}` of `{coordinate}`"))[3])
 }
 
 #[test]
@@ -54,10 +54,11 @@ fn every_panel_has_the_sign_of_its_row() {
         for side in sides(&row[1]) {
             let in_file = plus(&row[3]);
             let moves = matches!(quantity.group, ClinicalGroup::Kinematics | ClinicalGroup::Moments);
-            if moves && !ELSEWHERE.contains(&quantity.coordinate) {
-                assert_eq!(in_file, during(&row[2], quantity.coordinate, side), "{row:?}");
+            let coordinate = &quantity.coordinates[side];
+            if moves && !ELSEWHERE.iter().any(|stem| coordinate.starts_with(stem)) {
+                assert_eq!(in_file, during(&row[2], coordinate), "{row:?}");
             }
-            let factor = quantity.factor(MASS_KG, side, -1.0);
+            let factor = quantity.factor(MASS_KG, side);
             assert_eq!((factor > 0.0) == in_file, plus(&row[4]), "{row:?}, {side}: factor {factor}");
             let size = match quantity.group {
                 ClinicalGroup::Moments | ClinicalGroup::Powers => 1.0 / MASS_KG,
@@ -71,29 +72,63 @@ fn every_panel_has_the_sign_of_its_row() {
     assert_eq!(seen, expected, "every quantity has a row for both sides");
 }
 
+/// The demo's body with knees that count flexion.
+fn flexion_positive() -> Model {
+    let model = demo();
+    let mut bodies = model.bodies().to_vec();
+    for body in bodies.iter_mut().filter(|body| body.name.starts_with("tibia")) {
+        body.joint.rotations.iter_mut().for_each(|axis| axis.direction = -axis.direction);
+    }
+    Model::new("flexion", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap()
+}
+
+fn demo() -> Model {
+    let bytes = include_bytes!("../../ambulo-cli/tests/recording/figure.osim");
+    Model::from_osim(bytes, &mut Findings::default()).unwrap()
+}
+
 #[test]
 fn a_knee_that_counts_flexion_positive_shows_the_same_signs() {
-    let gait2392 = knee_flexion_sign(&[3.0, -20.0, -60.0]);
-    let rajagopal = knee_flexion_sign(&[-3.0, 20.0, 60.0]);
-    let find = |id: &str| all().into_iter().find(|q| q.id == id).unwrap();
+    let of = |model: &Model, id: &str| {
+        let names = ClinicalNames::of_model(model);
+        clinical_quantities(&names, |_| true).into_iter().find(|q| q.id == id).unwrap()
+    };
+    let (extension, flexion) = (demo(), flexion_positive());
     for side in Side::BOTH {
-        let (angle, moment) = (find("knee_flexion_angle"), find("knee_flexion_moment"));
-        assert!(angle.factor(1.0, side, gait2392) * -60.0 > 0.0 && angle.factor(1.0, side, rajagopal) * 60.0 > 0.0);
+        let factor = |model: &Model, id: &str| of(model, id).factor(1.0, side);
+        assert!(factor(&extension, "knee_flexion_angle") < 0.0 && factor(&flexion, "knee_flexion_angle") > 0.0);
         // An extensor moment drives the coordinate up in the one and down in the other.
-        assert!(moment.factor(1.0, side, gait2392) > 0.0 && moment.factor(1.0, side, rajagopal) < 0.0);
+        assert!(factor(&extension, "knee_flexion_moment") > 0.0 && factor(&flexion, "knee_flexion_moment") < 0.0);
         // Power has no such sign.
-        let power = find("knee_flexion_power");
-        assert!(power.factor(1.0, side, gait2392) > 0.0 && power.factor(1.0, side, rajagopal) > 0.0);
+        assert!(factor(&extension, "knee_flexion_power") > 0.0 && factor(&flexion, "knee_flexion_power") > 0.0);
     }
 }
 
 #[test]
 fn quantities_that_a_model_lacks_are_not_there_and_other_names_are_known() {
-    let planar = clinical_quantities(|name| ["hip_flexion_angle", "ankle_flexion_moment"].contains(&name));
-    let found: Vec<_> = planar.iter().map(|q| (q.id, q.column.as_str())).collect();
-    let expected = [("hip_flexion_angle", "hip_flexion_angle"), ("ankle_dorsiflexion_moment", "ankle_flexion_moment")];
+    let names = ClinicalNames::usual();
+    let planar = clinical_quantities(&names, |name| ["hip_flexion_angle", "ankle_angle_moment"].contains(&name));
+    let found: Vec<_> = planar.iter().map(|q| (q.id, q.columns.right.as_str())).collect();
+    let expected = [("hip_flexion_angle", "hip_flexion_angle"), ("ankle_dorsiflexion_moment", "ankle_angle_moment")];
     assert_eq!(found, expected);
-    let abduction = clinical_quantities(|name| name == "hip_abduction_angle").remove(0);
-    assert!(abduction.id == "hip_adduction_angle" && abduction.factor(1.0, Side::Left, -1.0) < 0.0);
-    assert!(clinical_quantities(|_| false).is_empty());
+    assert!(clinical_quantities(&names, |_| false).is_empty());
+    // A model may name its coordinates as it likes.
+    let model = demo();
+    let mut coordinates = model.coordinates().to_vec();
+    for coordinate in &mut coordinates {
+        coordinate.name =
+            coordinate.name.replace("ankle_angle", "ankle_flex").replace("hip_adduction", "Hueftadduktion");
+    }
+    let other = Model::new("other", model.gravity(), model.bodies().to_vec(), coordinates, Vec::new()).unwrap();
+    let of = |id: &str| {
+        clinical_quantities(&ClinicalNames::of_model(&other), |_| true).into_iter().find(|q| q.id == id).unwrap()
+    };
+    assert_eq!(of("ankle_dorsiflexion_power").columns.left, "ankle_flex_power");
+    assert_eq!(of("hip_adduction_angle").coordinates.left, "Hueftadduktion_l");
+    // Without a body nothing says which way the knee counts.
+    assert!(
+        !clinical_quantities(&ClinicalNames::without_model(), |_| true)
+            .iter()
+            .any(|q| q.id.starts_with("knee_flexion"))
+    );
 }

@@ -5,6 +5,7 @@
 mod svg_reader;
 
 use ambulo::model::Side;
+use ambulo_report::clinical::ClinicalNames;
 use ambulo_report::{CycleFigures, Mark};
 use ambulo_results::CycleRow;
 use svg_reader::{Figure, Line};
@@ -41,7 +42,14 @@ fn rows(sides: &[Side], cycles: usize) -> Vec<CycleRow> {
 }
 
 fn draw(rows: &[CycleRow], caption: &str, marks: &[Mark]) -> Vec<(String, Figure)> {
-    let figures = CycleFigures { rows, mass_kg: MASS_KG, caption, marks, speed_dimensionless: Some(0.4) };
+    let figures = CycleFigures {
+        rows,
+        names: &ClinicalNames::usual(),
+        mass_kg: MASS_KG,
+        caption,
+        marks,
+        speed_dimensionless: Some(0.4),
+    };
     let read = |file: ambulo_results::OutputFile| (file.name, Figure::read(std::str::from_utf8(&file.bytes).unwrap()));
     figures.files().unwrap().into_iter().map(read).collect()
 }
@@ -122,7 +130,14 @@ fn bands_toe_off_and_units_are_there_and_the_source_is_named() {
     assert!(moments.texts.iter().any(|text| text.contains("children") && text.contains("Schwartz")));
     // Without a speed there is no band, and that is said.
     let rows = rows(&Side::BOTH, 2);
-    let bandless = CycleFigures { rows: &rows, mass_kg: MASS_KG, caption: "", marks: &[], speed_dimensionless: None };
+    let bandless = CycleFigures {
+        rows: &rows,
+        names: &ClinicalNames::usual(),
+        mass_kg: MASS_KG,
+        caption: "",
+        marks: &[],
+        speed_dimensionless: None,
+    };
     let file = bandless.files().unwrap().remove(0);
     let figure = Figure::read(std::str::from_utf8(&file.bytes).unwrap());
     assert!(figure.panels.iter().all(|panel| panel.bands == 0));

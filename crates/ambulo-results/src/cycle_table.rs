@@ -51,11 +51,8 @@ fn row(quantity: String, unit: &'static str, cycle: &Cycle, grid: TimeGrid, seri
 
 fn coordinate_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, id: CoordinateId) -> Vec<CycleRow> {
     let coordinate = &model.coordinates()[id.index()];
-    let (side, stem) = match Side::split_name(&coordinate.name) {
-        Some((side, stem)) => (Some(side), stem),
-        None => (None, coordinate.name.clone()),
-    };
-    if side.is_some_and(|s| s != cycle.side) {
+    let stem = model.coordinate_stem(id);
+    if model.anatomy().coordinate_side(id).is_some_and(|s| s != cycle.side) {
         return Vec::new();
     }
     let grid = analysis.trajectory.grid();

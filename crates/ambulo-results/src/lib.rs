@@ -3,6 +3,7 @@
 mod consistency_summary;
 mod cycle_table;
 mod files;
+mod outcome;
 mod prediction_files;
 mod scene_summary;
 mod scene_tables;
@@ -14,6 +15,7 @@ mod walk_summary;
 pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{OutputFile, output_files};
+pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
 pub use prediction_files::prediction_files;
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,

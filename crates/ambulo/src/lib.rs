@@ -1,12 +1,80 @@
-//! Ambulo: motion in, forces out.
+//! Forces behind human walking: joint moments, powers, reactions and ground forces, computed from motion.
 //!
-//! The science of the project: a body ([`model`]), what was observed of it ([`motion`]), its poses, twists and
-//! accelerations ([`kinematics`]), the forces behind them ([`dynamics`], [`ground`]), and what a reader wants to know
-//! ([`analysis`]). This crate opens no file, reads no clock, starts no thread and prints nothing.
+//! ```text
+//! files ──> formats ──> model + motion ──> kinematics ──> dynamics ──> analysis ──> study::Outcome
+//!           bytes to    body, markers,     markers to     joint        events, cycles, body mass,
+//!           records     coordinates,       coordinates    moments,     residual forces, verdict
+//!                       force plates                      ground forces
 //!
-//! Conventions (docs/CONVENTIONS.md): SI units and radians; world x forward, y up, z right; body quantities at the
-//! centre of mass in world axes, angular part before linear; joint moments are those of the parent on the child with
-//! the sign of the model's own coordinate.
+//! gait ──> simulation   synthetic walks, and worlds of bodies stepped through time
+//! ```
+//!
+//! # Where to start
+//!
+//! | you have | start with |
+//! |---|---|
+//! | a recording: markers, coordinates of a model, a skeleton, with or without force plates | [`study::run`] |
+//! | coordinates as arrays | [`dynamics::inverse`] |
+//! | an OpenSim model | [`Model::from_osim`](model::Model::from_osim) |
+//! | a motion without force plates | [`ground::predict`] |
+//! | a motion that arrives frame by frame | [`ground::stream`] |
+//! | markers, and no body yet | [`kinematics::calibration`], [`kinematics::marker_fit`] |
+//! | a walking speed, and no recording | [`simulation::synthetic`] |
+//! | a scene of bodies, joints and contacts | [`simulation::scene`] |
+//!
+//! This crate opens no file, reads no clock, starts no thread and prints nothing: it takes bytes and numbers and returns values. What
+//! is unusual in the input is reported in [`findings::Findings`], which every function that needs it takes as an argument.
+//!
+//! # Forces from a recording
+//!
+//! Coordinates of an OpenSim model, with the forces of force plates:
+//!
+//! ```no_run
+//! use ambulo::formats::{external_loads::ExternalLoads, table::Table};
+//! use ambulo::study::{self, ForceTable, MeasuredForces, Settings, Source};
+//! use ambulo::{findings::Findings, model::Model, motion::coordinates_from_table};
+//!
+//! let mut findings = Findings::default();
+//! let model = Model::from_osim(&std::fs::read("subject.osim")?, &mut findings)?;
+//! let walk = Table::read_storage(&std::fs::read("walk.mot")?)?.0;
+//! let motion = coordinates_from_table(&model, &walk, "walk.mot", &mut findings)?;
+//! let table = Table::read_storage(&std::fs::read("grf.mot")?)?.0;
+//! let loads = Some(ExternalLoads::read(&std::fs::read("grf.xml")?)?.0);
+//! let forces = MeasuredForces::Table(ForceTable { table, loads });
+//! let source = Source::coordinates(model, motion).with_forces(forces);
+//! let outcome = study::run(&source, &Settings::default(), &mut findings)?;
+//! println!("feasible: {}, body mass {:.1} kg", outcome.verdict.feasible, outcome.analysis.mass.kg);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Inverse dynamics of arrays
+//!
+//! A person of 72.6 kg who stands still; without ground forces, the root joint carries the body weight:
+//!
+//! ```
+//! use ambulo::dynamics::{Workspace, inverse};
+//! use ambulo::kinematics::Trajectory;
+//! use ambulo::model::anthropometry::{Build, SegmentTable};
+//! use ambulo::motion::TimeGrid;
+//!
+//! let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+//! let model = build.human()?.model;
+//! let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 3 };
+//! let at_rest = [vec![0.0; 3], vec![0.0; 3], vec![0.0; 3]]; // value, rate and acceleration in 3 frames
+//! let trajectory = Trajectory::new(&model, grid, vec![at_rest; model.coordinates().len()])?;
+//! let forces = inverse(&mut Workspace::new(&model), &trajectory, &[]);
+//! let vertical = model.coordinate("pelvis_ty").ok_or("no such coordinate")?;
+//! assert!((forces.generalized[vertical.index()][0] - 72.6 * 9.80665).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! SI units and radians; world x forward, y up, z to the right; body quantities at the centre of mass in world axes, angular part
+//! before linear; joint moments act from the parent on the child, with the sign of the model's own coordinate (docs/CONVENTIONS.md).
+
+/// Readers and writers of files, so that one dependency is enough.
+pub use ambulo_formats as formats;
 
 pub mod findings;
 pub mod numerics;

@@ -14,7 +14,7 @@ use ambulo::ground::stream::{Stream, StreamSettings};
 use ambulo::kinematics::body_motion;
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{Marker, Model};
+use ambulo::model::{BySide, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Vec3, Wrench};
@@ -154,7 +154,7 @@ fn postures_of_a_walk_and_of_its_machine_allocate_nothing() {
 fn judging_an_instant_allocates_nothing() {
     let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
     let Ok(human) = build.human() else { panic!("no figure") };
-    let judge = Judge::new(&human.model, &Person::of_human(&human), &Thresholds::default(), -1.0);
+    let judge = Judge::new(&human.model, &Person::of_human(&human), &Thresholds::default());
     let state = State::rest(&human.model);
     let bodies = body_motion(&human.model, state.posture());
     let foot = FootFrame { force: Vec3::new(50.0, 300.0, 0.0), center_of_pressure: Vec3::new(0.05, -0.9, 0.0) };
@@ -164,7 +164,7 @@ fn judging_an_instant_allocates_nothing() {
         generalized: &state.qd,
         powers: &state.qd,
         bodies: &bodies,
-        feet: [Some(foot); 2],
+        feet: BySide { right: Some(foot), left: Some(foot) },
         residual: Wrench::ZERO,
         ground_velocity: Vec3::zeros(),
         ground_height: -0.9,

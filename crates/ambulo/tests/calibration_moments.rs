@@ -14,7 +14,7 @@ mod gait_files;
 use ambulo::analysis::{Analysis, Settings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::plates::{feet_on_plates, foot_bodies};
+use ambulo::ground::plates::feet_on_plates;
 use ambulo::kinematics::calibration::{Calibrated, Trial, assume_upright_trunk, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, JointLimits, fit_markers};
 use ambulo::model::Side;
@@ -52,7 +52,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
     let plates = plates_from_c3d(&subject.walk.c3d, PlateSettings::default(), &mut findings).unwrap();
     let plates: Vec<_> = plates.iter().map(|p| p.turned(&world_from_lab())).collect();
     let feet = feet_on_plates(markers, &plates, &foot_motion(markers, &mut findings), &[], &mut findings);
-    let forces = feet.recordings(&plates, foot_bodies(model).unwrap());
+    let forces = feet.recordings(&plates, model.anatomy().feet().unwrap());
     let window = Window { from_s: markers.times.first().copied(), to_s: markers.times.last().copied() };
     let settings = Settings {
         smoother: Smoother::Butterworth(motion_filter),
@@ -67,7 +67,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
 
 impl Walked {
     fn is_on_plate(&self, side: Side, t: f64) -> bool {
-        let foot = foot_bodies(&self.body.human.model).unwrap()[usize::from(side == Side::Left)];
+        let foot = self.body.human.model.anatomy().feet().unwrap()[side];
         self.forces.iter().filter(|f| f.body == foot).any(|f| {
             let next = f.times.partition_point(|x| *x < t);
             f.force.get(next).is_some_and(|force| force.y > LOADED_N)

@@ -7,8 +7,8 @@ mod marker_walk;
 
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates, foot_bodies};
-use ambulo::model::Side;
+use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
+use ambulo::model::{BodyId, BySide, Side};
 use ambulo::motion::{MarkerRecording, PlateRecording};
 use ambulo::spatial::Vec3;
 use free_bodies::{DOWN_Y, free_bodies};
@@ -62,12 +62,12 @@ fn two_feet_on_one_plate_are_seen_and_given_to_neither() {
     assert_eq!(feet.contacts.len(), 1);
     assert_eq!(feet.contacts[0].quality, ContactQuality::TwoFeet, "{feet:?}");
     assert!(findings.has(Code::PlatesTwoFeet) && findings.has(Code::PlatesNoWindow));
-    let bodies = foot_bodies(&free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)])).unwrap();
+    let bodies = two_bodies();
     assert!(feet.recordings(std::slice::from_ref(&big), bodies).is_empty());
     // A person may decide otherwise.
     let (told, _) = judge(&walk(), std::slice::from_ref(&big), &[(0, L)]);
     assert_eq!(told.contacts[0].side, Some(L));
-    assert_eq!(told.recordings(&[big], bodies)[0].body, bodies[1]);
+    assert_eq!(told.recordings(&[big], bodies)[0].body, bodies.left);
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn recordings_hold_all_that_each_plate_measured() {
     let alone = plate([place(L, 1).x - 0.2, -0.3], [place(L, 1).x + 0.3, 0.1], 0.1, &[Load::whole(L, 1)]);
     let plates = [shared, alone];
     let (feet, _) = judge(&walk(), &plates, &[(1, L)]);
-    let bodies = foot_bodies(&free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)])).unwrap();
+    let bodies = two_bodies();
     let forced: Vec<_> = feet.contacts.iter().map(|c| (c.plate, c.side, c.quality)).collect();
     assert_eq!(forced.len(), 3, "{forced:?}");
     let recordings = feet.recordings(&plates, bodies);
@@ -166,12 +166,10 @@ fn light_touches_beside_a_real_step_are_vibration() {
     assert_eq!(feet.contacts.len(), 1, "{:?}", feet.contacts);
 }
 
-#[test]
-fn feet_are_found_by_the_names_of_their_bodies() {
-    let model = free_bodies(DOWN_Y, &[("pelvis", 1.0), ("foot_l", 1.0), ("foot_r", 1.0)]);
-    let bodies = foot_bodies(&model).unwrap();
-    assert_eq!(bodies.map(|b| model.bodies()[b.index()].name.clone()), ["foot_r", "foot_l"]);
-    assert_eq!(foot_bodies(&free_bodies(DOWN_Y, &[("pelvis", 1.0)])), None);
+/// Bodies of a right and a left foot.
+fn two_bodies() -> BySide<BodyId> {
+    let ids: Vec<BodyId> = free_bodies(DOWN_Y, &[("calcn_r", 1.0), ("calcn_l", 1.0)]).body_ids().collect();
+    BySide { right: ids[0], left: ids[1] }
 }
 
 #[test]

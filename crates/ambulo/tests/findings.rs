@@ -78,7 +78,7 @@ fn findings_are_counted_and_read_back() {
     let counts: Vec<usize> = findings.as_slice().iter().map(|finding| finding.count).collect();
     assert_eq!(counts, [2, 1, 1]);
     assert_eq!(findings.as_slice()[0].to_string(), "warning: a and b");
-    assert_eq!(findings.as_slice()[3].severity(), Severity::Note);
+    assert_eq!(findings.as_slice()[2].severity(), Severity::Note);
     let written = serde_json::to_value(&findings).unwrap();
     assert_eq!(
         written[0],

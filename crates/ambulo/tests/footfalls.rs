@@ -10,6 +10,7 @@ mod footfall_trials;
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, OffSpeed, footfalls, footfalls_at};
 use ambulo::kinematics::Trajectory;
+use ambulo::model::BySide;
 use ambulo::motion::{Event, EventKind};
 use footfall_trials::{Recorded, everything};
 
@@ -152,7 +153,7 @@ fn the_wrong_foot_and_the_wrong_time_are_seen() {
         let late = mean(errors_ms(&trial.plates, &events, EventKind::Strike).into_iter().map(f64::abs));
         assert!(late > 15.0 || late.is_nan(), "{}: {late}", trial.name);
         let mut swapped = trial.clone();
-        swapped.soles.swap(0, 1);
+        swapped.soles = BySide { right: trial.soles.left, left: trial.soles.right };
         let other = errors_ms(&trial.plates, &found(&swapped, 6.0).events(), EventKind::Strike);
         // `soles` says whose foot it is: the feet's points come under the wrong names.
         assert!(other.iter().all(|e| e.is_nan() || e.abs() > 60.0), "{}: {other:?}", trial.name);

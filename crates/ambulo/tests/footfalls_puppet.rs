@@ -9,9 +9,9 @@
 
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
-use ambulo::ground::sole::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::anatomy::{Sole, SolePoint};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 
@@ -42,7 +42,7 @@ fn model() -> Model {
         body("calcn_r", 1.0),
         body("calcn_l", 1.0)
     );
-    from_osim_bytes(text.as_bytes(), &mut Findings::default()).unwrap()
+    Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }
 
 /// Share of the way, its rate and acceleration, after the share `u` of the time.
@@ -111,7 +111,7 @@ fn walk(places: [&[Vec3]; 2], belt: Vec3) -> Footfalls {
         let point = |x: f64| SolePoint { body, place: Vec3::new(x, 0.0, 0.0) };
         Sole { points: [point(-0.05), point(0.12), point(0.18)], half_width: 0.05 }
     };
-    let soles = [Some(sole("calcn_r")), Some(sole("calcn_l"))];
+    let soles = BySide { right: Some(sole("calcn_r")), left: Some(sole("calcn_l")) };
     let trajectory = Trajectory::new(&model, grid, columns).unwrap();
     footfalls(&model, &trajectory, &soles, &mut Findings::default())
 }

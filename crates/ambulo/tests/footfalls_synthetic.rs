@@ -11,10 +11,10 @@ use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
 use ambulo::ground::phases::contacts;
-use ambulo::ground::sole::Sole;
 use ambulo::kinematics::Trajectory;
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{Model, Side};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::{Event, EventKind, TimeGrid};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Mat3, Pose, Vec3};
@@ -26,13 +26,13 @@ const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 
 #[derive(Clone)]
 struct Moving {
     model: Model,
-    soles: [Option<Sole>; 2],
+    soles: BySide<Option<Sole>>,
     grid: TimeGrid,
     columns: Vec<[Vec<f64>; 3]>,
 }
 
 impl Moving {
-    fn new(model: &Model, soles: [Option<Sole>; 2], trajectory: &Trajectory) -> Moving {
+    fn new(model: &Model, soles: BySide<Option<Sole>>, trajectory: &Trajectory) -> Moving {
         let of = |id| [trajectory.values(id), trajectory.rates(id), trajectory.accelerations(id)].map(<[f64]>::to_vec);
         let columns = model.coordinate_ids().map(of).collect();
         Moving { model: model.clone(), soles, grid: trajectory.grid(), columns }
@@ -375,10 +375,10 @@ fn on_a_belt_the_world_may_be_turned_too() {
 #[test]
 fn a_foot_without_a_sole_is_left_out() {
     let mut walk = walk();
-    walk.soles[0] = None;
+    walk.soles.right = None;
     let found = walk.footfalls();
     assert!(found.of(Side::Right).next().is_none() && found.of(Side::Left).count() >= 6);
-    walk.soles[1] = None;
+    walk.soles.left = None;
     let mut findings = Findings::default();
     let trajectory = Trajectory::new(&walk.model, walk.grid, walk.columns.clone()).unwrap();
     assert!(footfalls(&walk.model, &trajectory, &walk.soles, &mut findings).falls.is_empty());

@@ -17,7 +17,7 @@ use ambulo::ground::phases::contacts;
 use ambulo::ground::predict::{Known, PredictError, PredictSettings, Prediction, predict, total_wrench};
 use ambulo::ground::{GroundForces, feet, measured};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{Model, Side};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::Vec3;
 
@@ -115,7 +115,7 @@ fn with_everything_known_the_forces_are_those_that_were_applied() {
         footfalls: Some(true_footfalls(&walk, &applied)),
         total: Some(total_wrench(&walk.human.model, &walk.trajectory)),
         right_share: Some(share),
-        centers: Some([right.center_of_pressure.clone(), left.center_of_pressure.clone()]),
+        centers: Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() }),
     };
     let vertical = |known: Known| {
         let prediction = predicted(&walk, known);
@@ -137,9 +137,9 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     let refused = |model: &Model, soles: &_, settings: &PredictSettings| {
         predict(model, &walk.trajectory, soles, settings, &mut Findings::default()).unwrap_err()
     };
-    let error = refused(model, &[soles[0], None], &PredictSettings::default());
+    let error = refused(model, &BySide { left: None, ..soles }, &PredictSettings::default());
     assert_eq!(error, PredictError::NoSole { model: model.name().to_owned(), side: Side::Left });
-    assert!(error.to_string().contains("calcn_l") && error.to_string().contains("hint:"), "{error}");
+    assert!(error.to_string().contains("left sole") && error.to_string().contains("hint:"), "{error}");
     let known = Known { right_share: Some(vec![0.5; 3]), ..Known::default() };
     let error = refused(model, &soles, &PredictSettings { known, ..PredictSettings::default() });
     assert!(error.to_string().contains("3 frames"), "{error}");
@@ -147,8 +147,9 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     for body in &mut bodies {
         body.name = body.name.replace("calcn", "hoof").replace("talus", "pastern");
     }
-    let footless = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
-    let error = refused(&footless, &soles, &PredictSettings::default());
+    let horse = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
+    assert_eq!(horse.anatomy().feet(), model.anatomy().feet(), "other names are feet all the same");
+    let error = refused(&horse, &BySide::default(), &PredictSettings::default());
     assert!(error.to_string().contains("horse") && error.to_string().contains("expected feet"), "{error}");
 }
 

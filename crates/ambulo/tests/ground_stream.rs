@@ -19,12 +19,12 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictError, PredictSettings, Prediction, predict};
-use ambulo::ground::sole::Sole;
 use ambulo::ground::stream::{Stream, StreamError, StreamFrame, StreamSettings};
 use ambulo::ground::{BodyForces, feet, measured};
 use ambulo::kinematics::Trajectory;
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{Model, Side};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{EventKind, Smoother};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
@@ -71,7 +71,7 @@ fn pushed(mut stream: Stream, frames: &[Vec<f64>]) -> Vec<StreamFrame> {
     out
 }
 
-fn whole(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Prediction {
+fn whole(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Prediction {
     predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
 }
 
@@ -251,7 +251,7 @@ fn what_cannot_be_streamed_is_refused_with_a_reason() {
     infinite[2] = f64::NEG_INFINITY;
     let error = stream.push(&infinite).unwrap_err().to_string();
     assert!(error.contains(&model.coordinates()[2].name) && error.contains("-inf in frame 0"), "{error}");
-    let mut footless = Stream::new(model.clone(), [soles[0], None], &usual).unwrap();
+    let mut footless = Stream::new(model.clone(), BySide { left: None, ..soles }, &usual).unwrap();
     let error = (0..20).find_map(|_| footless.push(&frame).err()).unwrap();
     assert!(matches!(error, StreamError::Prediction(PredictError::NoSole { side: Side::Left, .. })), "{error}");
 }

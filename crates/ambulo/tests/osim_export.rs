@@ -7,9 +7,7 @@ mod marker_data;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::{
-    Displacement, Drive, ExportError, Function, JointAxis, Model, from_osim, from_osim_bytes, to_osim,
-};
+use ambulo::model::{Displacement, Drive, ExportError, Function, JointAxis, Model, from_osim, to_osim};
 use ambulo_formats::osim::{OsimJointKind, OsimModel};
 
 fn figure(table: SegmentTable, toe_joint: bool) -> Model {
@@ -18,7 +16,7 @@ fn figure(table: SegmentTable, toe_joint: bool) -> Model {
 
 fn read_back(model: &Model) -> Model {
     let mut findings = Findings::default();
-    let read = from_osim_bytes(&to_osim(model).unwrap().write().unwrap(), &mut findings).unwrap();
+    let read = Model::from_osim(&to_osim(model).unwrap().write().unwrap(), &mut findings).unwrap();
     assert!(findings.as_slice().is_empty(), "{findings:?}");
     read
 }
@@ -97,7 +95,7 @@ fn what_the_writer_does_not_know_is_refused() {
     let still = "<TransformAxis><axis>1 0 0</axis></TransformAxis>".repeat(6);
     let end = format!("<SpatialTransform>{still}</SpatialTransform></CustomJoint>");
     let idle = document.replace("<BallJoint", "<CustomJoint").replace("</BallJoint>", &end);
-    let model = from_osim_bytes(idle.as_bytes(), &mut findings).unwrap();
+    let model = Model::from_osim(idle.as_bytes(), &mut findings).unwrap();
     let error = to_osim(&model).unwrap_err().to_string();
     assert!(error.contains("coordinate `x`: found no axis of a joint that follows it"), "{error}");
 }
@@ -134,7 +132,7 @@ fn joints_that_count_angular_velocities_read_back_as_they_were() {
         joint("BallJoint", "/bodyset/a", "b", 3, ""),
         joint("EllipsoidJoint", "/bodyset/b", "c", 3, radii),
     );
-    let written = from_osim_bytes(document.as_bytes(), &mut Findings::default()).unwrap();
+    let written = Model::from_osim(document.as_bytes(), &mut Findings::default()).unwrap();
     let read = read_back(&written);
     assert_same_models(&written, &read);
     assert_same_motions(&written, &read);
@@ -254,7 +252,7 @@ fn driven_coordinates_and_smoothed_curves_read_back_as_they_were() {
         <dependent_coordinate_name>c</dependent_coordinate_name><scale_factor>-0.7</scale_factor>
         </CoordinateCouplerConstraint></objects></ConstraintSet></Model></OpenSimDocument>"#
     );
-    let model = from_osim_bytes(document.as_bytes(), &mut Findings::default()).unwrap();
+    let model = Model::from_osim(document.as_bytes(), &mut Findings::default()).unwrap();
     let drives: Vec<_> = model.coordinates().iter().map(|c| &c.drive).collect();
     assert!(matches!(drives[..], [Drive::Prescribed(_), Drive::Locked, Drive::Coupled(..)]), "{drives:?}");
     assert_eq!(assert_same_models(&model, &read_back(&model)), 4);
@@ -278,7 +276,7 @@ fn a_joint_that_cannot_move_is_welded_where_it_stands() {
         <orientation>0.2 0.5 -0.4</orientation></PhysicalOffsetFrame></frames>
         <SpatialTransform>{axes}</SpatialTransform></CustomJoint></objects></JointSet></Model></OpenSimDocument>"#
     );
-    let model = from_osim_bytes(document.as_bytes(), &mut Findings::default()).unwrap();
+    let model = Model::from_osim(document.as_bytes(), &mut Findings::default()).unwrap();
     let written = to_osim(&model).unwrap();
     // OpenSim 4.6 ends with a segmentation fault where a custom joint has no coordinate.
     assert_eq!(written.joints[0].kind, OsimJointKind::Weld);

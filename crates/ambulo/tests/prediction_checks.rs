@@ -16,12 +16,12 @@ use ambulo::analysis::{
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictSettings, Prediction, predict};
-use ambulo::ground::sole::Sole;
 use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::Model;
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
+use ambulo::model::{BySide, Model};
 use ambulo::motion::TimeGrid;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3};
@@ -31,7 +31,7 @@ use walking_puppet::{Hand, NO_HAND, Puppet, moved, walk};
 
 const FOUND: Code = Code::PredictionNotThroughTheFeet;
 
-fn prediction(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Prediction {
+fn prediction(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Prediction {
     predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
 }
 
@@ -39,7 +39,7 @@ fn prediction(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2])
 fn checked_after(
     model: &Model,
     trajectory: &Trajectory,
-    soles: &[Option<Sole>; 2],
+    soles: &BySide<Option<Sole>>,
     carried: Option<CarriedMass>,
     change: impl Fn(&mut Prediction),
 ) -> (PredictionChecks, Findings) {
@@ -59,7 +59,7 @@ fn checked_after(
     (prediction_checks(&evidence, &mut findings), findings)
 }
 
-fn checked(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> (PredictionChecks, Findings) {
+fn checked(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> (PredictionChecks, Findings) {
     checked_after(model, trajectory, soles, None, |_| ())
 }
 

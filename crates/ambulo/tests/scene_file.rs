@@ -521,15 +521,15 @@ fn text_that_is_no_toml_is_refused_with_its_line() {
 fn an_unknown_key_is_refused_with_those_that_are_known() {
     assert_eq!(
         said("mass = 2\n", "mas = 2\n"),
-        "line 15, `body[1].mas`: this key is not known here; expected `name`, `mass`, `inertia`, `position`, `rotation`, \
+        "line 15, `body[1].mas`: unknown key; expected `name`, `mass`, `inertia`, `position`, `rotation`, \
          `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: is `mass` meant?"
     );
     assert_eq!(
         said("friction = 0.9", "frcition = 0.9"),
-        "line 6, `material.rubber.frcition`: this key is not known here; expected `law`, `friction`, `restitution`. \
+        "line 6, `material.rubber.frcition`: unknown key; expected `law`, `friction`, `restitution`. \
          hint: is `friction` meant?"
     );
-    assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: this key is not known here; expected `title`"));
+    assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: unknown key; expected `title`"));
     assert!(said("[[event]]", "[[evnt]]").ends_with("hint: is `event` meant?"));
     assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: this key"));
 }
@@ -623,7 +623,7 @@ fn steps_and_durations_above_zero_are_asked_for() {
 fn values_of_another_kind_are_refused() {
     assert_eq!(
         said("mass = 2\n", "mass = \"2\"\n"),
-        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: numbers stand without quotes; what no \
+        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: write numbers without quotes; what no \
          force moves is an [[obstacle]]"
     );
     assert_eq!(said("title = \"Good\"", "title = 5"), "line 1, `title`: found 5; expected a text in quotes");
@@ -949,7 +949,7 @@ fn built_figures_that_make_no_sense_are_refused() {
             "",
             "line 4, `figure[1].build`: the height is 165 m; expected 0.4 to 2.5 m. hint: metres",
         ),
-        (ANN, "model = \"a.osim\"", "`figure[1].model`: this key is not known here"),
+        (ANN, "model = \"a.osim\"", "`figure[1].model`: unknown key"),
         (ANN, "walk = { gait = \"trot\" }", "line 6, `figure[1].walk.gait`: found \"trot\"; expected a path that ends"),
         (ANN, "walk = { speed = 0 }", "`figure[1].walk.speed`: found 0; expected a number above zero"),
         (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),

@@ -7,7 +7,7 @@ mod shared_data;
 
 use ambulo::analysis::{Settings, analyse};
 use ambulo::findings::{Code, Findings};
-use ambulo::model::from_osim_bytes;
+use ambulo::model::Model;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
 use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;
@@ -459,7 +459,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
     });
     let mut findings = Findings::default();
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
-    let model = from_osim_bytes(&read("subject01_simbody.osim"), &mut findings).unwrap();
+    let model = Model::from_osim(&read("subject01_simbody.osim"), &mut findings).unwrap();
     let (table, _) = Table::read_storage(&read("subject01_walk1_ik.mot")).unwrap();
     let motion = coordinates_from_table(&model, &table, "recording", &mut findings).unwrap();
     let rate_hz = Some(2000.0);

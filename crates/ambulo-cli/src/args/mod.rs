@@ -18,7 +18,7 @@ use clap::{Args as ClapArgs, Parser, Subcommand};
 
 /// Forces behind human walking: motion in, forces out.
 #[derive(Debug, Parser)]
-#[command(version, about)]
+#[command(name = "ambulo", version = env!("AMBULO_VERSION"), about)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,

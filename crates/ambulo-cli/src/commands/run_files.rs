@@ -5,15 +5,10 @@ use super::stopwatch::Stopwatch;
 use crate::args::Voice;
 use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
-use ambulo::analysis::{PredictedAnalysis, Settings};
-use ambulo::findings::{Code, Findings};
-use ambulo::model::Model;
-use ambulo::study::{self, Outcome, PredictedGround, Processing, Tracking};
-use ambulo_report::{figure_files, prediction_figure_file};
-use ambulo_results::{
-    ConsistencySummary, Input, MassKnowledge, OutputFile, SubjectSummary, Summary, WalkSummary, output_files,
-    prediction_files, summary,
-};
+use ambulo::findings::Findings;
+use ambulo::study::Outcome;
+use ambulo_report::outcome_figures;
+use ambulo_results::{Input, OutputFile, Summary, WalkSummary, outcome_summary, outcome_tables};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -34,14 +29,13 @@ pub(super) struct RunFiles<'a> {
 impl RunFiles<'_> {
     /// Writes all files and reports.
     pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
-        let RunFiles { outcome, input, walk, files, read, mut findings, mut clock } = self;
-        let mut written = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
-        written.extend(figure_files(&outcome.body, &outcome.analysis)?);
-        written.extend(files_of_prediction(outcome, &mut findings));
+        let RunFiles { outcome, input, walk, files, read, findings, mut clock } = self;
+        let mut written = outcome_tables(outcome)?;
+        written.extend(outcome_figures(outcome)?);
         written.extend(files);
         files::replace_results(output, &written, read)?;
         clock.lap("write");
-        let mut summary = Summary { walk, ..summary_of(outcome, input, &findings) };
+        let mut summary = Summary { walk, ..outcome_summary(outcome, input, &findings) };
         let page = page_of_run(output, &written, &json(&summary)?);
         clock.lap("report");
         match page {
@@ -52,52 +46,6 @@ impl RunFiles<'_> {
         files::write(&output.join("summary.json"), &json(&summary)?)?;
         printer::forces(&summary, output, voice)?;
         Ok(if outcome.verdict.feasible { Verdict::Accepted } else { Verdict::Refused })
-    }
-}
-
-/// The tables and the figure that only a prediction has; a warning if they cannot be made.
-fn files_of_prediction(outcome: &Outcome, findings: &mut Findings) -> Vec<OutputFile> {
-    let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction else { return Vec::new() };
-    let (analysis, prediction, measured) = (outcome.analysis.clone(), prediction.clone(), measured.clone());
-    let predicted = PredictedAnalysis { analysis, prediction, measured };
-    tables_and_figure(&outcome.body, &predicted).unwrap_or_else(|error| {
-        let message = format!("grf_sd.mot and grf_measured.mot were not written: {error}");
-        findings.report(Code::PredictionNotWritten, message);
-        Vec::new()
-    })
-}
-
-fn tables_and_figure(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>> {
-    let mut files = prediction_files(model, predicted)?;
-    files.extend(prediction_figure_file(model, predicted)?);
-    Ok(files)
-}
-
-fn summary_of(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
-    let Processing { smoother, force_filter, window } = outcome.processing;
-    let settings = Settings { smoother, force_filter, window, rate_hz: None, instrumented: None };
-    let prediction = outcome.prediction.as_ref();
-    Summary {
-        height_m: outcome.height_m(),
-        subject: outcome.tracking.as_ref().map(subject),
-        consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
-        comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
-        prediction: prediction.map(|prediction| prediction.checks.clone()),
-        mass: match outcome.mass_knowledge {
-            study::MassKnowledge::Verified => MassKnowledge::Verified,
-            study::MassKnowledge::Unverified => MassKnowledge::Unverified,
-            study::MassKnowledge::Contradicted => MassKnowledge::Contradicted,
-        },
-        ..summary(&outcome.body, &outcome.analysis, &settings, input, findings)
-    }
-}
-
-fn subject(tracking: &Tracking) -> SubjectSummary {
-    match tracking {
-        Tracking::Markers(markers) => {
-            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
-        }
-        Tracking::Skeleton { statement, fit } => SubjectSummary::of_skeleton(statement, fit),
     }
 }
 

@@ -90,7 +90,7 @@ impl Made<'_> {
             person: Person::of_human(human),
             trajectory: trajectory.clone(),
             loads: loads.clone(),
-            rule: rule(self.order).to_owned(),
+            rule: rule(self.order),
         };
         Source::new(Recording::Complete(Box::new(made)))
     }
@@ -124,7 +124,7 @@ fn input(order: &SyntheticWalkSettings<'_>) -> Input {
         loads: None,
         device: None,
         added_mass: Vec::new(),
-        ground_source: GroundSource::Simulated { rule: rule(order) },
+        ground_source: GroundSource::None,
     }
 }
 

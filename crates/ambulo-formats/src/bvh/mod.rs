@@ -23,15 +23,15 @@
 //! 7.8 35.1 41.8 0.1 0.0 0.0  5.9 2.1 -0.2
 //! ```
 //!
-//! A file states no unit of length, no direction of up and no mass: lengths stay as they are, angles are degrees. Read are
-//! any number of roots, joints without channels and of zero length, channels in any order, keywords in any case, names with
+//! A file states no unit of length, no upward direction and no mass: lengths are kept as they are, angles are degrees. The reader accepts
+//! any number of roots, joints without channels or of zero length, channels in any order, keywords in any case, names with
 //! spaces and colons, braces on the line of the name. One line is one frame.
 //!
-//! The frame of a joint in its parent's: its place, then the rotations in the order in which the channels stand, each about
-//! the axes that the ones before have turned. The place is the offset where there are no position channels. Where there are
-//! some, most programs mean them to replace the offset (both real files of the tests do), a few to be added to it; the file does not say.
+//! The pose of a joint in its parent's frame: its position, then the rotations in the order of the channels, each about
+//! the axes turned by the rotations before it. Without position channels the position is the offset. With them,
+//! they replace the offset in most programs (and in both real files of the tests) and are added to it in a few; the file does not state which.
 //!
-//! Not handled, and refused: channels of scale, frames broken over several lines.
+//! Not handled, and rejected: channels of scale, frames broken over several lines.
 //! Source: M. Meredith, S. Maddock, Motion capture file formats explained, University of Sheffield, 2001 (unverified).
 //! Pinned by: tests/skeletons.rs, tests/malformed.rs, tests/real_files.rs
 
@@ -41,9 +41,9 @@ mod write;
 use crate::error::{Error, Remark, quoted};
 use crate::table::lines::check_name;
 
-/// More joints than this are refused: the largest hands-and-face rigs have a few hundred.
+/// Largest number of joints; the largest rigs of hands and face have a few hundred.
 pub const MAX_JOINTS: usize = 4096;
-/// Joints within joints deeper than this are refused.
+/// Deepest nesting of joints.
 pub const MAX_DEPTH: usize = 256;
 
 /// A skeleton and its motion.
@@ -56,31 +56,31 @@ pub struct Bvh {
     frames: usize,
 }
 
-/// A joint and the bone that carries it.
+/// A joint and the bone that leads to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// Name as it stands in the file.
+    /// Name as in the file.
     pub name: String,
-    /// The joint that carries this one, by its place in [`Bvh::joints`]; `None` for a root.
+    /// The parent joint, as index into [`Bvh::joints`]; `None` for a root.
     pub parent: Option<usize>,
-    /// Place in the parent's axes when all channels are zero [the file's unit of length].
+    /// Position in the parent's axes when all channels are zero [the file's unit of length].
     pub offset: [f64; 3],
-    /// What the columns of the motion mean, in the file's order; at most six, none twice.
+    /// Meaning of the joint's columns of motion, in the file's order; at most six, all different.
     pub channels: Vec<Channel>,
-    /// Ends of bones that carry no further joint, in this joint's axes [the file's unit of length]; mostly none or one.
+    /// Ends of bones without a further joint, in this joint's axes [the file's unit of length]; usually none or one.
     pub end_sites: Vec<[f64; 3]>,
 }
 
-/// What one column of the motion changes.
+/// The quantity in one column of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Channel {
-    /// Sliding or turning.
+    /// Translation or rotation.
     pub kind: ChannelKind,
-    /// Along or about which axis: 0 = x, 1 = y, 2 = z.
+    /// The axis: 0 = x, 1 = y, 2 = z.
     pub axis: usize,
 }
 
-/// Sliding or turning.
+/// Translation or rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChannelKind {
     /// A distance [the file's unit of length].
@@ -106,7 +106,7 @@ impl Channel {
         ]
     };
 
-    /// The word in the file.
+    /// Keyword in the file.
     pub fn word(self) -> &'static str {
         const WORDS: [&str; 6] = ["Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"];
         let place = Channel::ALL.iter().position(|&channel| channel == self);
@@ -117,8 +117,8 @@ impl Channel {
 impl Bvh {
     /// A motion made in memory.
     ///
-    /// Joints stand behind their parents, each directly before what it carries, as in a file. `frames` hold one value for
-    /// each channel of each joint, in order; not-a-number for what was not seen.
+    /// Each joint comes after its parent and directly before its children, as in a file. `frames` have one value for
+    /// each channel of each joint, in order; missing values are not-a-number.
     pub fn new(joints: Vec<Joint>, frame_time_s: f64, frames: &[Vec<f64>]) -> Result<Bvh, Error> {
         check_skeleton(&joints)?;
         if !is_frame_time(frame_time_s) {
@@ -126,10 +126,10 @@ impl Bvh {
         }
         let width = count_channels(&joints);
         if let Some(odd) = frames.iter().find(|frame| frame.len() != width) {
-            return Err(invalid(format!("a frame of {} values", odd.len()), format!("{width}, one a channel")));
+            return Err(invalid(format!("a frame of {} values", odd.len()), format!("{width}, one per channel")));
         }
         if frames.iter().flatten().any(|value| value.is_infinite()) {
-            return Err(invalid("an infinite value", "numbers, or not-a-number for what was not seen"));
+            return Err(invalid("an infinite value", "numbers, or not-a-number for missing values"));
         }
         if width == 0 && !frames.is_empty() {
             return Err(invalid("frames without a channel", "no frames, or joints with channels"));
@@ -147,12 +147,12 @@ impl Bvh {
         write::write(self)
     }
 
-    /// All joints, each behind its parent.
+    /// All joints, each after its parent.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }
 
-    /// Place of the first joint with exactly this name in [`Bvh::joints`].
+    /// Index of the first joint with exactly this name in [`Bvh::joints`].
     pub fn joint(&self, name: &str) -> Option<usize> {
         self.joints.iter().position(|joint| joint.name == name)
     }
@@ -172,7 +172,7 @@ impl Bvh {
         count_channels(&self.joints)
     }
 
-    /// The values of one frame (counted from 0), one a channel; `None` behind the last frame.
+    /// The values of one frame (counted from 0), one per channel; `None` after the last frame.
     pub fn frame(&self, frame: usize) -> Option<&[f64]> {
         let width = self.channels();
         if frame >= self.frames {
@@ -181,7 +181,7 @@ impl Bvh {
         self.values.get(frame * width..(frame + 1) * width)
     }
 
-    /// Which values of a frame belong to each joint: half-open ranges, one a joint.
+    /// The values of each joint within a frame: half-open ranges, one per joint.
     pub fn channel_ranges(&self) -> Vec<std::ops::Range<usize>> {
         let mut start = 0;
         let range = |joint: &Joint| {
@@ -206,7 +206,7 @@ fn check_skeleton(joints: &[Joint]) -> Result<(), Error> {
     if joints.is_empty() || joints.len() > MAX_JOINTS {
         return Err(invalid(format!("{} joints", joints.len()), format!("1 to {MAX_JOINTS}")));
     }
-    // The joints from a root to the one before, which alone can carry the next one in a file.
+    // The joints from the root to the previous one: only these can be the parent of the next joint in a file.
     let mut open: Vec<usize> = Vec::new();
     for (index, joint) in joints.iter().enumerate() {
         check_joint(joint)?;
@@ -215,14 +215,14 @@ fn check_skeleton(joints: &[Joint]) -> Result<(), Error> {
             None => open.clear(),
             Some(Some(depth)) => open.truncate(depth + 1),
             Some(None) => {
-                let found = format!("joint {} not behind its parent", quoted(&joint.name));
-                return Err(invalid(found, "each joint directly before all that it carries"));
+                let found = format!("joint {} before its parent", quoted(&joint.name));
+                return Err(invalid(found, "each joint directly before its children"));
             }
         }
         open.push(index);
         if open.len() > MAX_DEPTH {
             return Err(invalid(
-                format!("joint {} too deep", quoted(&joint.name)),
+                format!("joint {} nested too deeply", quoted(&joint.name)),
                 format!("at most {MAX_DEPTH} deep"),
             ));
         }
@@ -242,7 +242,7 @@ fn check_joint(joint: &Joint) -> Result<(), Error> {
     let known = |channel: &Channel| Channel::ALL.contains(channel);
     let twice = (1..joint.channels.len()).any(|k| joint.channels[..k].contains(&joint.channels[k]));
     if twice || !joint.channels.iter().all(known) {
-        return Err(invalid(format!("the channels of {name}"), "positions and rotations in x, y, z, none twice"));
+        return Err(invalid(format!("the channels of {name}"), "positions and rotations in x, y, z, all different"));
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Bvh, Vec<Remark>), Error> {
     let joints = read_hierarchy(&mut words)?;
     let mut remarks = Vec::new();
     if let Some(twice) = duplicate(joints.iter().map(|joint| joint.name.as_str())) {
-        let message = format!("two or more joints have one name (first: {})", quoted(twice));
+        let message = format!("two or more joints have the same name (first: {})", quoted(twice));
         remarks.push(Remark { line: None, message });
     }
     let (stated, frame_time_s) = read_motion_head(&mut words)?;
@@ -21,11 +21,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Bvh, Vec<Remark>), Error> {
     Ok((Bvh { joints, frame_time_s, values: motion.values, frames: motion.frames }, remarks))
 }
 
-/// The words of a file: between white space, braces by themselves.
+/// The words of a file, separated by white space; a brace is a word of its own.
 struct Words<'a> {
     lines: Lines<'a>,
     line: Option<Line<'a>>,
-    /// Where in the text of `line` the next word is looked for [bytes].
+    /// Where the search for the next word starts in the text of `line` [bytes].
     at: usize,
 }
 
@@ -46,7 +46,7 @@ impl Word {
 }
 
 impl Words<'_> {
-    /// The next word; the file may not end before it.
+    /// The next word, or the error that the file ends before it.
     fn next(&mut self, expected: &str) -> Result<Word, Error> {
         loop {
             if let Some(line) = &self.line {
@@ -104,7 +104,7 @@ impl Words<'_> {
             let channel = Channel::ALL.into_iter().find(|channel| word.is(channel.word()));
             let channel = channel.ok_or_else(|| word.error(format!("{number} channels: {CHANNEL_WORDS}")))?;
             if channels.contains(&channel) {
-                return Err(word.error("channels of which none stands twice in a joint"));
+                return Err(word.error("different channels within a joint"));
             }
             channels.push(channel);
         }
@@ -112,7 +112,7 @@ impl Words<'_> {
     }
 }
 
-/// A joint whose brace is open.
+/// A joint whose brace is not closed yet.
 struct Open {
     joint: usize,
     line: usize,
@@ -120,11 +120,11 @@ struct Open {
     has_channels: bool,
 }
 
-/// All roots with what they carry, up to the word `MOTION`.
+/// All roots with their descendants, up to the word `MOTION`.
 fn read_hierarchy(words: &mut Words<'_>) -> Result<Vec<Joint>, Error> {
     let mut joints: Vec<Joint> = Vec::new();
     loop {
-        let word = words.next("a `ROOT`, or `MOTION` behind the last one")?;
+        let word = words.next("a `ROOT`, or `MOTION` after the last one")?;
         if word.is("ROOT") {
             read_root(words, &word, &mut joints)?;
         } else if word.is("MOTION") && !joints.is_empty() {
@@ -147,15 +147,15 @@ fn read_root(words: &mut Words<'_>, keyword: &Word, joints: &mut Vec<Joint>) -> 
             current.has_offset = true;
             joints[joint].offset = words.offset()?;
         } else if word.is("CHANNELS") && !current.has_channels {
-            // The columns of the motion stand in the order of the words CHANNELS.
+            // Columns of motion are in the order of the CHANNELS keywords.
             if joint + 1 != joints.len() {
-                return Err(word.error("`CHANNELS` of a joint before the joints that it carries"));
+                return Err(word.error("`CHANNELS` of a joint before its child joints"));
             }
             current.has_channels = true;
             joints[joint].channels = words.channels()?;
         } else if word.is("JOINT") {
             if open.len() >= MAX_DEPTH {
-                return Err(word.error(format!("joints within joints, at most {MAX_DEPTH} deep")));
+                return Err(word.error(format!("joints nested at most {MAX_DEPTH} deep")));
             }
             open.push(begin_joint(words, &word, Some(joint), joints)?);
         } else if word.is("End") {
@@ -192,7 +192,7 @@ fn begin_joint(
         let found = if name.is_empty() { format!("{} without a name", quoted(&keyword.text)) } else { quoted(&name) };
         return Err(Error::Line { line: keyword.line, found, expected: "a name without braces".into() });
     }
-    words.keyword("{", "`{` behind the name of a joint")?;
+    words.keyword("{", "`{` after the name of a joint")?;
     joints.push(Joint { name, parent, offset: [0.0; 3], channels: vec![], end_sites: vec![] });
     Ok(Open { joint: joints.len() - 1, line: keyword.line, has_offset: false, has_channels: false })
 }
@@ -201,7 +201,7 @@ fn read_end_site(words: &mut Words<'_>) -> Result<[f64; 3], Error> {
     words.keyword("{", "`{` behind `End Site`")?;
     words.keyword("OFFSET", "`OFFSET` in an `End Site`")?;
     let offset = words.offset()?;
-    words.keyword("}", "`}` behind the OFFSET of an `End Site`")?;
+    words.keyword("}", "`}` after the OFFSET of an `End Site`")?;
     Ok(offset)
 }
 
@@ -215,7 +215,7 @@ fn read_motion_head(words: &mut Words<'_>) -> Result<(usize, f64), Error> {
     Ok((count, seconds.ok_or_else(|| time.error(expected))?))
 }
 
-/// The word behind a label, which may end with a colon, by itself or not.
+/// The word after a label; the colon may be attached to the label or be a word of its own.
 fn labelled(words: &mut Words<'_>, label: &[&str], expected: &str) -> Result<Word, Error> {
     for (k, part) in label.iter().enumerate() {
         let mut word = words.next(expected)?;
@@ -247,12 +247,12 @@ struct Motion {
     remarks: Vec<Remark>,
 }
 
-/// One line a frame, to the end of the file.
+/// One line per frame, to the end of the file.
 fn read_frames(words: Words<'_>, width: usize, stated: usize) -> Result<Motion, Error> {
     let Words { mut lines, line, at } = words;
     if let Some(line) = line.filter(|line| !line.text.get(at..).unwrap_or_default().trim().is_empty()) {
         let found = quoted(line.text.get(at..).unwrap_or_default());
-        return Err(line.error(found, "the end of the line behind the frame time"));
+        return Err(line.error(found, "the end of the line after the frame time"));
     }
     let mut motion = Motion { values: vec![], frames: 0, remarks: vec![] };
     let mut unseen: Option<(usize, usize)> = None;
@@ -272,7 +272,7 @@ fn read_frames(words: Words<'_>, width: usize, stated: usize) -> Result<Motion, 
         motion.frames += 1;
     }
     if let Some((line, count)) = unseen {
-        let message = format!("{} not-a-number; kept as not seen", counted(count, "value"));
+        let message = format!("{} not-a-number; kept as missing", counted(count, "value"));
         motion.remarks.push(Remark { line: Some(line), message });
     }
     if motion.frames != stated {
@@ -283,25 +283,25 @@ fn read_frames(words: Words<'_>, width: usize, stated: usize) -> Result<Motion, 
 
 fn frame_count_message(stated: usize, frames: usize, lines: &Lines<'_>) -> String {
     let cut = if frames < stated && !lines.last_is_ended() {
-        "; the last line is not ended, so its last number may be cut"
+        "; the last line has no line end, so its last number may be truncated"
     } else {
         ""
     };
     format!("`Frames:` states {stated}, the file has {frames}; read {frames}{cut}")
 }
 
-/// Whether the file was cut in this frame: values are missing, or the last one breaks off.
+/// Whether the file is truncated in this frame: values are missing, or the last one is incomplete.
 fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     let count = line.text.split_whitespace().count();
     let last_is_broken = || line.text.split_whitespace().last().is_some_and(|word| number(word).is_none());
     count < width || (count == width && !ended && last_is_broken())
 }
 
-/// Appends a frame; gives how many of its values are not-a-number.
+/// Appends a frame; returns how many of its values are not-a-number.
 fn read_frame(line: &Line<'_>, width: usize, values: &mut Vec<f64>) -> Result<usize, Error> {
     let count = line.text.split_whitespace().count();
     if count != width {
-        let expected = format!("{width}, one a channel of the skeleton, a frame a line");
+        let expected = format!("{width}, one per channel of the skeleton, with one frame per line");
         return Err(line.error(counted(count, "value"), expected));
     }
     let mut missing = 0;

@@ -33,7 +33,7 @@ impl Text {
         }
     }
 
-    /// A joint up to what it carries; its brace stays open.
+    /// Writes a joint up to its children; its brace stays open.
     fn joint(&mut self, joint: &Joint, depth: usize) {
         let keyword = if joint.parent.is_some() { "JOINT" } else { "ROOT" };
         self.line(depth, format_args!("{keyword} {}", joint.name));

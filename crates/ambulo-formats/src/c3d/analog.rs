@@ -4,7 +4,7 @@
 //! value = (raw - offset) · scale · general scale          ANALOG:OFFSET, SCALE, GEN_SCALE
 //! ```
 //!
-//! A frame holds its samples one after the other, all channels of the first sample first.
+//! Within a frame, all channels of the first sample come first, then those of the second, and so on.
 //! Source: C3D user guide (c3d.org), "Analog data - integer format".
 
 use super::layout::Layout;
@@ -16,40 +16,40 @@ use crate::error::Remark;
 /// One analog channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// Name as it stands in `ANALOG:LABELS`, `LABELS2` ...; `*3` for the third channel if it has none.
+    /// Name as in `ANALOG:LABELS`, `LABELS2` ...; `*3` for the third channel if it has none.
     pub name: String,
     /// Unit as in `ANALOG:UNITS`: `N`, `Nmm`, `V`; empty if the file has none.
     pub unit: String,
-    /// What `ANALOG:DESCRIPTIONS` says about it.
+    /// Text of `ANALOG:DESCRIPTIONS`.
     pub description: String,
     /// The samples in that unit: (raw - offset) · scale.
     pub samples: Vec<f64>,
-    /// Units in one step of the raw numbers, the general scale included.
+    /// Units per step of the raw numbers, including the general scale.
     pub scale: f64,
-    /// The raw number that means zero.
+    /// The raw number of zero.
     pub offset: f64,
 }
 
 impl Channel {
-    /// A channel whose raw numbers are its samples.
+    /// A channel whose raw numbers equal its samples.
     pub fn new(name: &str, unit: &str, samples: Vec<f64>) -> Channel {
         let (name, unit) = (name.into(), unit.into());
         Channel { name, unit, description: String::new(), samples, scale: 1.0, offset: 0.0 }
     }
 }
 
-/// Whether integer samples have no sign.
+/// Whether integer samples are unsigned.
 pub(super) fn unsigned(parameters: &Parameters, remarks: &mut Vec<Remark>) -> bool {
     if let Some(format) = parameters.text("ANALOG", "FORMAT").filter(|format| !format.is_empty()) {
         return format.eq_ignore_ascii_case("UNSIGNED");
     }
-    // A zero in the middle of 16 bits without sign. As numbers with sign it would lie at the end of the range.
+    // Half the range of unsigned 16-bit numbers. As a signed number it would be at the end of the range.
     let middle = |offset: &f64| [32767.0, -32768.0].iter().any(|end| (offset - end).abs() < 0.5);
     let Some(offset) = parameters.numbers("ANALOG", "OFFSET").into_iter().find(middle) else {
         return false;
     };
     let message =
-        format!("ANALOG:OFFSET is {offset} and ANALOG:FORMAT is missing; samples and offsets are read without sign");
+        format!("ANALOG:OFFSET is {offset} and ANALOG:FORMAT is missing; samples and offsets were read as unsigned");
     remarks.push(Remark::of_file(message));
     true
 }
@@ -85,7 +85,7 @@ fn raw(words: Words<'_>, at: usize, encoding: &Encoding) -> Option<f64> {
     })
 }
 
-/// ANALOG:GEN_SCALE; one where it is missing, or would make nothing of every sample.
+/// ANALOG:GEN_SCALE; 1 if it is missing, or if it would make every sample zero.
 fn general_scale(parameters: &Parameters, remarks: &mut Vec<Remark>) -> f64 {
     match parameters.number("ANALOG", "GEN_SCALE") {
         Some(scale) if scale.is_finite() && scale.abs() > 0.0 => scale,
@@ -108,9 +108,9 @@ fn named(layout: &Layout, encoding: &Encoding, parameters: &Parameters, remarks:
     for (name, count) in [("LABELS", labels.len()), ("SCALE", scales.len()), ("OFFSET", offsets.len())] {
         if count < layout.channels {
             let taken = match name {
-                "LABELS" => "the rest are called *n",
-                "SCALE" => "1 is taken for the rest",
-                _ => "0 is taken for the rest",
+                "LABELS" => "the rest were named *n",
+                "SCALE" => "1 was used for the rest",
+                _ => "0 was used for the rest",
             };
             let message = format!("ANALOG:{name} has {count} values for {} channels; {taken}", layout.channels);
             remarks.push(Remark::of_file(message));

@@ -1,37 +1,37 @@
-//! Events: instants with a name, in the group EVENT and in the header.
+//! Events: named instants, in the group EVENT and in the header.
 //!
 //! | where | what |
 //! |---|---|
-//! | EVENT:USED, LABELS, CONTEXTS, TIMES (2 a event: minutes, seconds), DESCRIPTIONS, SUBJECTS, ICON_IDS | any number |
-//! | header words 150 (key 12345), 151 (count), 153-188 (seconds), 189-197 (a byte each), 199-234 (4 letters each) | at most 18 |
+//! | EVENT:USED, LABELS, CONTEXTS, TIMES (two per event: minutes, seconds), DESCRIPTIONS, SUBJECTS, ICON_IDS | any number |
+//! | header words 150 (key 12345), 151 (count), 153-188 (seconds), 189-197 (one byte each), 199-234 (4 letters each) | at most 18 |
 //!
-//! In the group, times count as the frames do: frame 1 is at zero. In the header the first frame of the file is at zero; such
-//! times are moved. Source: C3D user guide (c3d.org), "The EVENT group", "Header events". What the byte means is told in
-//! two ways there (0 on, 1 off; and the opposite), so it is kept as it is.
+//! In the group, time zero is at frame 1. In the header it is at the first frame of the file; such
+//! times are shifted. Source: C3D user guide (c3d.org), "The EVENT group", "Header events". The meaning of the byte is stated in
+//! two ways there (0 on, 1 off; and the opposite), so the byte is kept as it is.
 
 use super::parameters::Parameters;
 use super::section::text;
 use super::words::{Processor, Words};
 use crate::error::{Error, Remark, quoted};
 
-/// An instant with a name.
+/// A named instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Event {
     /// What happens: `Foot Strike`, `Foot Off`; four letters in the header.
     pub label: String,
     /// Side or object: `Left`, `Right`, `General`; empty in the header.
     pub context: String,
-    /// When \[s\]; frame 1 is at zero.
+    /// Time \[s\]; frame 1 is at zero.
     pub time_s: f64,
-    /// Whose it is, where the file says so.
+    /// Subject of the event, if the file states it.
     pub subject: String,
-    /// What the file says about it.
+    /// Description in the file.
     pub description: String,
     /// Number of the icon with which programs show it.
     pub icon: i16,
-    /// `EVENT:GENERIC_FLAGS`, or the header's byte, which says whether programs show it.
+    /// `EVENT:GENERIC_FLAGS`, or the header's byte: whether programs show the event.
     pub flag: u8,
-    /// Where in the file it stands.
+    /// Where the file holds it.
     pub place: EventPlace,
 }
 
@@ -53,20 +53,20 @@ impl Event {
     }
 }
 
-/// Where an event stands in the file.
+/// Where a file holds an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventPlace {
     /// In the group EVENT.
     Group,
-    /// In the header. Old programs repeat here what the group has.
+    /// In the header. Old programs repeat the events of the group there.
     Header,
 }
 
-/// Word 150 says that the header has events.
+/// Key in word 150 of a header that has events.
 const EVENT_KEY: u16 = 12345;
-/// The header has room for so many.
+/// Largest number of events in the header.
 const HEADER_EVENTS: usize = 18;
-/// Bytes of the header in which the key, the count, times, flags and labels stand.
+/// Positions of the key, the count, times, flags and labels in the header [bytes].
 const KEY_AT: usize = 298;
 const COUNT_AT: usize = 300;
 const TIMES_AT: usize = 304;
@@ -85,7 +85,7 @@ fn of_group(parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<Event> {
     let times = parameters.numbers("EVENT", "TIMES");
     let used = parameters.count("EVENT", "USED").unwrap_or(times.len() / 2);
     if times.len() / 2 < used {
-        let message = format!("EVENT:USED is {used}, but EVENT:TIMES has {} events; read those", times.len() / 2);
+        let message = format!("EVENT:USED is {used}, but EVENT:TIMES has {} events, which were read", times.len() / 2);
         remarks.push(Remark::of_file(message));
     }
     let list = |name| parameters.texts("EVENT", name);
@@ -113,7 +113,7 @@ fn of_header(words: Words<'_>, start_s: f64, remarks: &mut Vec<Remark>) -> Vec<E
     }
     let count = usize::from(words.u16(COUNT_AT).unwrap_or(0));
     if count > HEADER_EVENTS {
-        let message = format!("the header states {count} events and has room for {HEADER_EVENTS}; read those");
+        let message = format!("the header states {count} events but has room for {HEADER_EVENTS}, which were read");
         remarks.push(Remark::of_file(message));
     }
     (0..count.min(HEADER_EVENTS)).filter_map(|i| header_event(words, start_s, i)).collect()
@@ -138,7 +138,7 @@ pub(super) fn write_header(
         return Ok(());
     }
     if events.len() > HEADER_EVENTS {
-        let expected = format!("at most {HEADER_EVENTS}; put the others into the group EVENT");
+        let expected = format!("at most {HEADER_EVENTS}; the group EVENT can hold the others");
         return Err(Error::Record { found: format!("{} events in the header", events.len()), expected });
     }
     put(header, KEY_AT, &processor.u16_bytes(EVENT_KEY));
@@ -150,7 +150,11 @@ pub(super) fn write_header(
         put(header, TIMES_AT + 4 * i, &bytes);
         put(header, FLAGS_AT + i, &[event.flag]);
         if event.label.len() > 4 {
-            return Err(wrong(event, format!("{} bytes", event.label.len()), "a label of at most four in the header"));
+            return Err(wrong(
+                event,
+                format!("{} bytes", event.label.len()),
+                "a label of at most four bytes in the header",
+            ));
         }
         let mut label = [b' '; 4];
         label[..event.label.len()].copy_from_slice(event.label.as_bytes());
@@ -167,7 +171,7 @@ fn wrong(event: &Event, found: String, expected: &str) -> Error {
     Error::Record { found: format!("event {} of {found}", quoted(&event.label)), expected: expected.into() }
 }
 
-/// Minutes and seconds of a time. What was read from a file comes out as it was, or as an equal sum.
+/// Minutes and seconds of a time. Values that were read from a file are kept, or written as an equal sum.
 pub(super) fn minutes_and_seconds(time_s: f64) -> [f32; 2] {
     let minutes = (time_s / 60.0).trunc();
     [minutes as f32, (time_s - 60.0 * minutes) as f32]

@@ -3,12 +3,12 @@
 //! | words (from 1) | content |
 //! |---|---|
 //! | 1 | block of the parameter section; key 0x50 |
-//! | 2, 3 | points; analog values a frame, all channels and samples together |
+//! | 2, 3 | points; analog values per frame, all channels and samples together |
 //! | 4, 5 | first and last frame, unsigned |
 //! | 6 | longest gap that was filled, in frames |
 //! | 7-8 | scale of integer points; negative: the data are reals |
-//! | 9, 10 | block of the data; analog samples a channel and frame |
-//! | 11-12 | frames a second |
+//! | 9, 10 | block of the data; analog samples per channel and frame |
+//! | 11-12 | frames per second |
 //! | 150-234 | events: key 12345, count, times, flags, labels (see `events`) |
 //!
 //! Source: C3D user guide (c3d.org), "The header section".
@@ -16,12 +16,12 @@
 use super::words::{Processor, Words};
 use crate::error::Error;
 
-/// Bytes of a block; the header is one, everything begins at one.
+/// Bytes of a block. The header is one block; each other part begins at a block.
 pub(super) const BLOCK: usize = 512;
 /// Second byte of every C3D file.
 pub(super) const KEY: u8 = 0x50;
 
-/// The header's numbers, as they stand there.
+/// The header's numbers, as in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Header {
     pub(super) points: u16,
@@ -43,7 +43,7 @@ pub(super) fn parameter_offset(bytes: &[u8]) -> Result<usize, Error> {
     let key = bytes.get(1).copied();
     if key != Some(KEY) {
         let found = key.map_or_else(|| "one byte".to_owned(), |key| format!("key {key}"));
-        let expected = "the key 80 (0x50) of a C3D file; is this another format?".to_owned();
+        let expected = "the key 80 (0x50) of a C3D file; the file may have another format".to_owned();
         return Err(Error::Byte { offset: 1, found, expected });
     }
     if bytes.len() < BLOCK {

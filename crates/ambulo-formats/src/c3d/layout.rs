@@ -1,4 +1,4 @@
-//! How many points, samples and frames the data hold, where header, parameters and size of the file may disagree.
+//! Number of points, samples and frames in the data. Header, parameters and size of the file may disagree.
 
 use super::Storage;
 use super::header::{BLOCK, Header};
@@ -8,7 +8,7 @@ use crate::error::{Error, Remark};
 /// Largest number of 16 bits.
 const WORD: usize = 65535;
 
-/// Where the data are and how a frame is built.
+/// Where the data are, and the structure of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Layout {
     pub(super) storage: Storage,
@@ -31,7 +31,7 @@ pub(super) struct Extent {
     pub(super) after_parameters: usize,
 }
 
-/// A number of frames and who says it.
+/// A number of frames and the part of the file that states it.
 #[derive(Debug, Clone, Copy)]
 struct Claim {
     who: &'static str,
@@ -58,7 +58,7 @@ impl Layout {
     }
 }
 
-/// Settles what the file holds.
+/// Decides on the content of the file.
 pub(super) fn decide(
     header: &Header,
     parameters: &Parameters,
@@ -91,8 +91,8 @@ pub(super) fn decide(
     Ok(layout)
 }
 
-/// The sign of the scale says integers (positive) or reals. Two answers, the parameter's first, where the header's sign is
-/// another.
+/// A positive scale means integers, a negative one reals. Two answers, the parameter's first, if the sign in the header
+/// differs.
 fn scales(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark>) -> Vec<f64> {
     let usable = |scale: &f64| scale.is_finite() && scale.abs() > 0.0;
     let in_header = Some(f64::from(header.scale)).filter(usable);
@@ -125,7 +125,7 @@ fn data_offset(header: &Header, parameters: &Parameters, file: &Extent, remarks:
     if block >= 3 {
         return (block - 1) * BLOCK;
     }
-    remark(remarks, format!("the data cannot begin in block {block}; read from behind the parameters"));
+    remark(remarks, format!("the data cannot begin in block {block}; read from the end of the parameters"));
     file.after_parameters
 }
 
@@ -136,23 +136,23 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     if let Some(rate) = parameter.filter(usable) {
         // Half a hundredth: both are reals of 24 bits, and headers are often rounded to two digits.
         if usable(&in_header) && (rate - in_header).abs() > 0.005 {
-            remark(remarks, format!("POINT:RATE is {rate} Hz, the header's rate {in_header} Hz; POINT:RATE counts"));
+            remark(remarks, format!("POINT:RATE is {rate} Hz, the header's rate {in_header} Hz; POINT:RATE was used"));
         }
         return Ok(rate);
     }
     if usable(&in_header) {
         if let Some(rate) = parameter {
-            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz counts"));
+            remark(remarks, format!("POINT:RATE is {rate}; the header's rate of {in_header} Hz was used"));
         }
         return Ok(in_header);
     }
     let found =
         format!("{} and {in_header} in the header", parameter.map_or("nothing".into(), |rate| rate.to_string()));
-    Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "frames a second above zero".into() })
+    Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "a frame rate above zero".into() })
 }
 
-/// What header and parameters say about the number of frames. Numbers of 16 bits that only lack the higher bits of a
-/// number which is stated elsewhere are left out: 65535 in its place, or its lower bits.
+/// The numbers of frames in header and parameters. A 16-bit number that only lacks the higher bits of a
+/// number stated elsewhere is ignored: 65535 in its place, or its lower bits.
 fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     let (start, end) = (field(parameters, "ACTUAL_START_FIELD"), field(parameters, "ACTUAL_END_FIELD"));
     let actual =
@@ -174,7 +174,7 @@ fn frame_claims(header: &Header, parameters: &Parameters) -> Vec<Claim> {
     claims.into_iter().filter_map(|(who, value)| value.map(|value| Claim { who, value })).collect()
 }
 
-/// A frame number of the group TRIAL: two words without sign, the low one first; or one number.
+/// A frame number of the group TRIAL: two unsigned words, the low one first; or one number.
 /// (The user guide multiplies the high word by 65535; two words are 65536.)
 fn field(parameters: &Parameters, name: &str) -> Option<usize> {
     wide(&parameters.get("TRIAL", name)?.counts()?)
@@ -194,7 +194,7 @@ fn long_frames(parameters: &Parameters) -> Option<usize> {
     wide(&parameters.get("POINT", "LONG_FRAMES")?.counts()?)
 }
 
-/// What [`choose_frame`] decides on.
+/// The input of [`choose_frame`].
 struct Question<'a> {
     header: &'a Header,
     parameters: &'a Parameters,
@@ -204,8 +204,8 @@ struct Question<'a> {
     room: usize,
 }
 
-/// Chooses storage, points, channels and samples so that a number of frames which somebody states fills the file; if none
-/// does, what is trusted most.
+/// Chooses storage, points, channels and samples such that one of the stated numbers of frames fills the file; if none
+/// does, the most reliable combination.
 fn choose_frame(layout: &mut Layout, question: &Question<'_>, remarks: &mut Vec<Remark>) {
     let &Question { header, parameters, scales, frames, room } = question;
     let points = distinct([Some(usize::from(header.points)), used(parameters, "POINT")]);
@@ -225,7 +225,7 @@ fn choose_frame(layout: &mut Layout, question: &Question<'_>, remarks: &mut Vec<
         *layout = *best;
     }
     if let [parameter, in_header] = scales[..] {
-        let what = "one says integers, the other reals";
+        let what = "one means integers, the other reals";
         let storage = layout.storage;
         let message =
             format!("POINT:SCALE is {parameter}, the header's scale {in_header}: {what}; read as {storage:?} numbers");
@@ -237,7 +237,7 @@ fn choose_frame(layout: &mut Layout, question: &Question<'_>, remarks: &mut Vec<
     if samples.len() > 1 {
         let used = parameters.count("ANALOG", "USED").map_or("missing".into(), |used| used.to_string());
         let message = format!(
-            "the header has {} analog values a frame, {} a channel; ANALOG:USED is {used}; read {} channels with {} a frame",
+            "the header has {} analog values per frame, {} per channel; ANALOG:USED is {used}; read {} channels with {} per frame",
             header.analog_words, header.samples_per_frame, layout.channels, layout.samples_per_frame
         );
         remark(remarks, message);
@@ -249,7 +249,7 @@ fn used(parameters: &Parameters, group: &str) -> Option<usize> {
     parameters.count(group, "USED").filter(|&used| used <= WORD)
 }
 
-/// Channels and samples a frame, most trusted first.
+/// Channels and samples per frame, the most reliable first.
 fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameters) -> Vec<(usize, usize)> {
     let words = usize::from(header.analog_words);
     let per_frame = usize::from(header.samples_per_frame);
@@ -278,13 +278,13 @@ fn sample_candidates(point_rate_hz: f64, header: &Header, parameters: &Parameter
     found
 }
 
-/// Whether so many frames end within the last block of the file.
+/// Whether this number of frames ends within the last block of the file.
 fn fills(layout: &Layout, frames: usize, room: usize) -> bool {
     let bytes = layout.frame_bytes().checked_mul(frames);
     bytes.is_some_and(|bytes| bytes <= room && room - bytes < BLOCK)
 }
 
-/// Without a frame nothing but the names says that there are points and channels: a count alone may be anything.
+/// Without frames only names show that there are points and channels: a count alone may be wrong.
 fn keep_named(layout: &mut Layout, parameters: &Parameters) {
     layout.points = layout.points.min(parameters.texts("POINT", "LABELS").len());
     layout.channels = layout.channels.min(parameters.texts("ANALOG", "LABELS").len());
@@ -313,12 +313,12 @@ fn choose_frames(layout: &Layout, room: usize, claims: &[Claim], remarks: &mut V
     }
     let rest = room - frames * layout.frame_bytes();
     if frames < available && rest >= BLOCK {
-        remark(remarks, format!("{rest} bytes follow the last frame; they are not read"));
+        remark(remarks, format!("{rest} bytes follow the last frame; they were not read"));
     }
     frames
 }
 
-/// The group TRIAL is believed where header and it differ, unless it counts other frames than were read.
+/// The group TRIAL is used if it differs from the header, unless it states another number of frames than was read.
 fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks: &mut Vec<Remark>) -> i64 {
     let in_header = usize::from(header.first_frame);
     let Some(actual) = field(parameters, "ACTUAL_START_FIELD").filter(|&actual| actual != in_header) else {
@@ -327,17 +327,17 @@ fn first_frame(header: &Header, parameters: &Parameters, frames: usize, remarks:
     let counted = field(parameters, "ACTUAL_END_FIELD").and_then(|end| end.checked_add(1)?.checked_sub(actual));
     let header_alone = header.frames() == Some(frames) && counted != Some(frames);
     let first = if header_alone { in_header } else { actual };
-    // Headers hold 16 bits: a larger number is cut off or replaced by the largest.
+    // Headers have 16 bits: a larger number is truncated or replaced by the largest.
     let explained = actual > WORD && (actual & 0xffff == in_header || in_header == WORD);
     if !explained {
         let message =
-            format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} counts");
+            format!("the first frame is {in_header} (header) or {actual} (TRIAL:ACTUAL_START_FIELD); {first} was used");
         remark(remarks, message);
     }
     i64::try_from(first).unwrap_or(i64::from(u32::MAX))
 }
 
-/// The values that are there, each once, in order.
+/// The given values, each once, in order.
 fn distinct(values: impl IntoIterator<Item = Option<usize>>) -> Vec<usize> {
     let mut found = Vec::new();
     for value in values.into_iter().flatten() {

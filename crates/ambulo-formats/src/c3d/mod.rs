@@ -8,15 +8,15 @@
 //!
 //! A block has 512 bytes. Numbers are Intel's, DEC's or SGI's ([`Processor`]), integers with a scale or reals
 //! ([`Storage`]). Where header, parameters and size of the file contradict each other, the size decides and a
-//! [`Remark`] tells both numbers. Data that are cut off are a remark too; the frames that are there are read.
+//! [`Remark`] states both numbers. A truncated file gives a remark too, and its complete frames are read.
 //!
-//! Positions stay in the file's unit and axes. A point that was not seen is three times not-a-number.
+//! Positions are kept in the file's unit and axes. A missing point is not-a-number in all three.
 //!
 //! ```
 //! use ambulo_formats::c3d::{C3d, Event, Point};
 //!
 //! let mut record = C3d::new(100.0, "mm");
-//! record.points.push(Point::new("HEEL", vec![[12.0, 30.5, 4.0], [f64::NAN; 3]])); // not seen in the second frame
+//! record.points.push(Point::new("HEEL", vec![[12.0, 30.5, 4.0], [f64::NAN; 3]])); // missing in the second frame
 //! record.events.push(Event::new("Foot Strike", "Left", 0.01));
 //! let bytes = record.write()?;
 //!
@@ -57,19 +57,19 @@ use crate::error::{Error, Remark};
 /// One recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct C3d {
-    /// How the file holds its numbers.
+    /// Encoding of the numbers in the file.
     pub encoding: Encoding,
-    /// Frames a second \[Hz\].
+    /// Frame rate \[Hz\].
     pub point_rate_hz: f64,
-    /// Unit of positions as the file has it, mostly `mm`; empty if it has none.
+    /// Unit of positions as in the file, usually `mm`; empty if there is none.
     pub point_unit: String,
     /// Number of the first frame; the recording from which this file was cut began with frame 1, at time zero.
     pub first_frame: i64,
-    /// Longest gap that was filled before the file was written, in frames, as the header has it.
+    /// Longest gap that was filled before the file was written [frames], from the header.
     pub longest_gap: u16,
-    /// Points, in the order of the file: markers, and what programs store as points (angles, forces, moments, powers).
+    /// Points, in the order of the file: markers, and quantities that programs store as points (angles, forces, moments, powers).
     pub points: Vec<Point>,
-    /// Analog samples a second \[Hz\]; zero if there are no channels. A whole multiple of [`C3d::point_rate_hz`].
+    /// Analog sample rate \[Hz\]; zero if there are no channels. A whole multiple of [`C3d::point_rate_hz`].
     pub analog_rate_hz: f64,
     /// Analog channels, in the order of the file; channel number 1 of the parameters is the first.
     pub channels: Vec<Channel>,
@@ -79,16 +79,16 @@ pub struct C3d {
     pub parameters: Parameters,
 }
 
-/// How a file holds its numbers.
+/// Encoding of the numbers in a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Encoding {
-    /// Whose numbers they are.
+    /// Processor that wrote the numbers.
     pub processor: Processor,
     /// Integers or reals.
     pub storage: Storage,
     /// Size of one step of integer positions, and of one step of residuals, in the unit of the points; above zero.
     pub point_scale: f64,
-    /// Integer samples and offsets of channels are without sign (`ANALOG:FORMAT` is `UNSIGNED`).
+    /// Integer samples and offsets of channels are unsigned (`ANALOG:FORMAT` is `UNSIGNED`).
     pub unsigned_analog: bool,
 }
 
@@ -102,7 +102,7 @@ pub enum Storage {
 }
 
 impl Default for Encoding {
-    /// Intel reals, residuals in hundredths: what programs of today write.
+    /// Intel reals, residuals in hundredths: the usual encoding of current programs.
     fn default() -> Self {
         let (processor, storage) = (Processor::Intel, Storage::Real);
         Encoding { processor, storage, point_scale: f64::from(0.01f32), unsigned_analog: false }
@@ -115,10 +115,10 @@ impl C3d {
         read::read(bytes)
     }
 
-    /// Writes a C3D file as [`C3d::encoding`] says. What was read reads back the same.
+    /// Writes a C3D file in the encoding [`C3d::encoding`]. A record that was read is written and read back without change.
     ///
-    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are made
-    /// anew. Refused is what the format cannot hold: records of different lengths, integers beyond 16 bits.
+    /// Reals hold 24 bits; integers a whole number of steps of their scale. Parameters that repeat other fields are written
+    /// from those fields. Rejected is what the format cannot hold: records of different lengths, integers beyond 16 bits.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         write::write(self)
     }
@@ -174,23 +174,23 @@ impl C3d {
         self.channels.iter().find(|channel| channel.name == name)
     }
 
-    /// Metres in one unit of the positions; `None` if the file states no unit, or one that is no length.
+    /// Metres per unit of the positions; `None` if the file states no unit, or one that is not a length.
     pub fn metres_per_unit(&self) -> Option<f64> {
         metres_per(&self.point_unit)
     }
 
-    /// The force platforms, with their places and calibrations; none if the file has none.
+    /// The force platforms, with positions and calibrations.
     pub fn platforms(&self) -> Result<Vec<Platform>, Error> {
         platform::platforms(&self.parameters, self.channels.len())
     }
 
-    /// Describes these platforms in the parameters, in place of those that are there.
+    /// Replaces the platforms that the parameters describe.
     pub fn set_platforms(&mut self, platforms: &[Platform]) {
         self.parameters.set_group(platform::group(platforms));
     }
 }
 
-/// Metres in one unit of length. Some files cut the word: `mete`.
+/// Metres in one unit of length. Some files truncate the word: `mete`.
 fn metres_per(unit: &str) -> Option<f64> {
     const INCH: f64 = 0.0254; // international inch, exact
     const FOOT: f64 = 0.3048; // international foot, exact

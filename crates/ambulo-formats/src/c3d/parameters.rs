@@ -4,11 +4,11 @@ use std::fmt;
 
 /// Everything of the parameter section, in the order of the file.
 ///
-/// Names are compared without regard to case. After reading, these are the file's own words; when a [`super::C3d`] is
-/// written, those that repeat what its other fields say (`POINT:USED`, `ANALOG:RATE`, labels, events ...) are made anew.
+/// Names are compared without regard to case. After reading, these are the file's values; when a [`super::C3d`] is
+/// written, those that repeat its other fields (`POINT:USED`, `ANALOG:RATE`, labels, events ...) are replaced.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Parameters {
-    /// The groups: `POINT`, `ANALOG`, `FORCE_PLATFORM`, `EVENT`, the manufacturer's own.
+    /// The groups: `POINT`, `ANALOG`, `FORCE_PLATFORM`, `EVENT`, and those of manufacturers.
     pub groups: Vec<Group>,
 }
 
@@ -17,9 +17,9 @@ pub struct Parameters {
 pub struct Group {
     /// Name as in the file.
     pub name: String,
-    /// What the file says about it; mostly empty.
+    /// Description in the file; usually empty.
     pub description: String,
-    /// The file asks not to change it (its name has a negative length).
+    /// Whether the group is locked (its name has a negative length).
     pub locked: bool,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
@@ -30,11 +30,11 @@ pub struct Group {
 pub struct Parameter {
     /// Name as in the file.
     pub name: String,
-    /// What the file says about it; mostly empty.
+    /// Description in the file; usually empty.
     pub description: String,
-    /// The file asks not to change it.
+    /// Whether the parameter is locked.
     pub locked: bool,
-    /// Shape, first index fastest (as Fortran has it); empty for a single value. For texts without the length of the texts.
+    /// Shape, first index fastest (as Fortran has it); empty for a single value. For texts, the length of the texts is left out.
     pub dimensions: Vec<usize>,
     /// The values, as many as the product of the dimensions.
     pub values: Values,
@@ -47,14 +47,14 @@ pub enum Values {
     Texts(Vec<String>),
     /// Type 1: bytes.
     Bytes(Vec<u8>),
-    /// Type 2: 16-bit integers. Counts above 32767 stand here as negative numbers; see [`Parameter::counts`].
+    /// Type 2: 16-bit integers. Counts above 32767 appear as negative numbers; see [`Parameter::counts`].
     Integers(Vec<i16>),
     /// Type 4: reals.
     Reals(Vec<f32>),
 }
 
 impl Values {
-    /// How many there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Values::Texts(values) => values.len(),
@@ -64,7 +64,7 @@ impl Values {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there is no value.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -82,7 +82,7 @@ impl Parameter {
         Parameter { dimensions: vec![], ..Parameter::list(name, values) }
     }
 
-    /// The texts, if it holds texts.
+    /// The texts; `None` for numbers.
     pub fn texts(&self) -> Option<&[String]> {
         match &self.values {
             Values::Texts(texts) => Some(texts),
@@ -100,7 +100,7 @@ impl Parameter {
         })
     }
 
-    /// All values as whole numbers from zero, integers taken without sign; `None` for texts and where one is no such number.
+    /// All values as whole numbers from zero, integers read as unsigned; `None` for texts and if a value is not a whole number.
     pub fn counts(&self) -> Option<Vec<usize>> {
         match &self.values {
             Values::Texts(_) => None,
@@ -141,7 +141,7 @@ impl Parameters {
         self.get(group, name)?.numbers()?.first().copied()
     }
 
-    /// The first value of `group:name` as a whole number from zero, an integer taken without sign.
+    /// The first value of `group:name` as a whole number from zero, an integer read as unsigned.
     pub fn count(&self, group: &str, name: &str) -> Option<usize> {
         self.get(group, name)?.counts()?.first().copied()
     }
@@ -151,17 +151,17 @@ impl Parameters {
         self.get(group, name)?.texts()?.first().map(String::as_str)
     }
 
-    /// The texts of `group:name`, `name2`, `name3`, one list after the other: how files hold more than 255.
+    /// The texts of `group:name`, `name2`, `name3`, concatenated: files hold more than 255 values in this way.
     pub fn texts(&self, group: &str, name: &str) -> Vec<&str> {
         self.numbered(group, name).into_iter().filter_map(Parameter::texts).flatten().map(String::as_str).collect()
     }
 
-    /// The numbers of `group:name`, `name2`, `name3`, one list after the other.
+    /// The numbers of `group:name`, `name2`, `name3`, concatenated.
     pub fn numbers(&self, group: &str, name: &str) -> Vec<f64> {
         self.numbered(group, name).into_iter().filter_map(Parameter::numbers).flatten().collect()
     }
 
-    /// Puts a parameter into the group with this name, in place of one with the same name. Makes the group if there is none.
+    /// Sets a parameter of the group with this name; the group is added if there is none.
     pub fn set(&mut self, group: &str, parameter: Parameter) {
         let parameters = &mut self.group_or_new(group).parameters;
         match parameters.iter_mut().find(|old| old.name.eq_ignore_ascii_case(&parameter.name)) {
@@ -170,7 +170,7 @@ impl Parameters {
         }
     }
 
-    /// Puts a group in place of one with the same name, or after the others.
+    /// Sets a group: replaces the one with the same name, or appends it.
     pub fn set_group(&mut self, group: Group) {
         let name = group.name.clone();
         *self.group_or_new(&name) = group;
@@ -185,7 +185,7 @@ impl Parameters {
         &mut self.groups[place]
     }
 
-    /// `group:name`, then `name2`, `name3`, as long as there is a next one.
+    /// `group:name`, then `name2`, `name3`, up to the first that is missing.
     /// Counts of the format have 16 bits: 65535 values are 257 lists of 255.
     fn numbered(&self, group: &str, name: &str) -> Vec<&Parameter> {
         (1usize..=257).map_while(|number| self.get(group, &numbered_name(name, number))).collect()
@@ -198,7 +198,7 @@ pub(crate) fn numbered_name(name: &str, number: usize) -> String {
 }
 
 impl fmt::Display for Parameter {
-    /// The values in a row, as the file has them.
+    /// The values, separated by spaces, as in the file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words: Vec<String> = match &self.values {
             Values::Texts(texts) => texts.iter().map(|text| format!("\"{text}\"")).collect(),

@@ -1,13 +1,13 @@
-//! Force platforms: where they stand and which channels they use.
+//! Force platforms: position, type, channels and calibration.
 //!
 //! | parameter of FORCE_PLATFORM | shape | content |
 //! |---|---|---|
 //! | USED | | number of platforms |
 //! | TYPE | n | 1: force and centre of pressure, 2: force and moment, 3: eight sensors, 4: 2 with calibration matrix, .. |
 //! | CORNERS | 3, 4, n | corners in laboratory axes, in the unit of the points |
-//! | ORIGIN | 3, n | types 1, 2, 4: from the platform's origin to the middle of its surface, in its own axes; type 3: distances of the sensors |
+//! | ORIGIN | 3, n | types 1, 2, 4: from the platform's origin to the middle of its surface, in the platform's axes; type 3: distances of the sensors |
 //! | CHANNEL | k, n | numbers of channels, from 1 |
-//! | CAL_MATRIX | rows, columns, n | by columns; force = matrix · channels |
+//! | CAL_MATRIX | rows, columns, n | column by column; force = matrix · channels |
 //! | ZERO | 2 | first and last frame of the baseline; 0 0: none |
 //!
 //! | type | channels |
@@ -24,7 +24,7 @@
 use super::parameters::{Group, Parameter, Parameters, Values};
 use crate::error::Error;
 
-/// One force platform, as the file describes it.
+/// One force platform, as described in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Platform {
     /// Type 1 to 7 (other numbers of other makers are possible).
@@ -32,14 +32,14 @@ pub struct Platform {
     /// Corners in laboratory axes, in the unit of the points: in the quadrants (+x +y), (-x +y), (-x -y), (+x -y) of
     /// the platform's own axes.
     pub corners: [[f64; 3]; 4],
-    /// ORIGIN as stated, in the unit of the points; what it means depends on the type.
+    /// ORIGIN as stated, in the unit of the points; its meaning depends on the type.
     pub origin: [f64; 3],
-    /// Its channels, as indices (from 0) into [`super::C3d::channels`]; none where the file has the number 0. Types 1 to
+    /// Its channels, as indices (from 0) into [`super::C3d::channels`]; none for the number 0. Types 1 to
     /// 7 have as many as the type needs (6, 6, 8, 6, 8, 12, 8), or fewer if the file names fewer.
     pub channels: Vec<Option<usize>>,
     /// Rows of the calibration matrix; empty if there is none.
     pub calibration: Vec<Vec<f64>>,
-    /// First and last frame of the baseline, where one is stated.
+    /// First and last frame of the baseline, if it is stated.
     pub zero_frames: Option<[i64; 2]>,
 }
 
@@ -88,7 +88,7 @@ fn part<const N: usize>(parameters: &Parameters, name: &str, index: usize) -> Re
     part.ok_or_else(|| too_few(name, numbers.len(), index))
 }
 
-/// Channels of one platform of this type; other types: all that the file names.
+/// Channels of one platform of this type; for other types, all that the file names.
 fn needed_channels(kind: u8) -> usize {
     match kind {
         1 | 2 | 4 => 6,
@@ -121,7 +121,7 @@ fn channel_indices(
     column.iter().take(needed_channels(kind)).map(checked).collect()
 }
 
-/// The matrix of one platform, turned from columns to rows. Missing or empty: none.
+/// The matrix of one platform by rows (the file has it by columns); empty if it is missing.
 fn calibration(parameters: &Parameters, index: usize) -> Result<Vec<Vec<f64>>, Error> {
     let Some(parameter) = parameters.get(GROUP, "CAL_MATRIX") else {
         return Ok(vec![]);

@@ -1,12 +1,12 @@
 //! Points: the first part of every frame.
 //!
-//! Four values a point: x, y, z and a word. Integer files: 16-bit integers, positions times the scale; the word negative:
-//! not seen. Real files: reals, and the word is a real that has to be turned into an integer. High byte of the word: a bit
-//! for each camera; low byte: the residual divided by the scale.
+//! Four values per point: x, y, z and a word. Integer files: 16-bit integers, positions are multiplied by the scale; a negative word:
+//! missing. Real files: reals, and the word is a real that is converted to an integer. High byte of the word: one bit
+//! per camera; low byte: the residual divided by the scale.
 //!
-//! What real files hold in the word, beside what they should: -1.0 (not seen), 65535.0 (all bits, not seen: such points
-//! lie at the origin), 32768.0 to 65534.0 (an eighth camera), reals beyond 16 bits (the word stands in the upper half of
-//! the real's bits: 1.7e38 has 0x7F00 there), reals below 1 (nothing). Infinite and not-a-number: not seen.
+//! Real files also hold other words: -1.0 (missing), 65535.0 (all bits, missing: such points
+//! are at the origin), 32768.0 to 65534.0 (an eighth camera), reals beyond 16 bits (the word is the upper half of
+//! the real's bits: 1.7e38 has 0x7F00 there), reals below 1 (zero). Infinite and not-a-number: missing.
 //!
 //! Source: C3D user guide (c3d.org), "3D data - floating-point format"; the words, from files of c3d.org's samples.
 
@@ -16,19 +16,19 @@ use super::words::Words;
 use super::{Encoding, Storage};
 use crate::error::Remark;
 
-/// The path of one point.
+/// The trajectory of one point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// Name as it stands in `POINT:LABELS`, `LABELS2` ...; `*3` for the third point if it has none.
+    /// Name as in `POINT:LABELS`, `LABELS2` ...; `*3` for the third point if it has none.
     pub name: String,
-    /// What `POINT:DESCRIPTIONS` says about it.
+    /// Text of `POINT:DESCRIPTIONS`.
     pub description: String,
-    /// Position in the file's unit and axes, one a frame; three times not-a-number where it was not seen.
+    /// Position in the file's unit and axes, one per frame; not-a-number in all three where the marker is missing.
     pub positions: Vec<[f64; 3]>,
-    /// Mean distance from the rays of the cameras, in the file's unit, one a frame; zero: filtered or filled;
-    /// not-a-number where it was not seen.
+    /// Residual: mean distance from the rays of the cameras, in the file's unit, one per frame; zero: filtered or filled;
+    /// not-a-number where the point is missing.
     pub residuals: Vec<f64>,
-    /// Bit n: camera n + 1 saw it; one a frame; zero where it was not seen or nobody says.
+    /// Bit n: seen by camera n + 1; one value per frame; zero where the point is missing or cameras are not stated.
     pub cameras: Vec<u8>,
 }
 
@@ -50,10 +50,10 @@ struct Sighting {
 }
 
 const UNSEEN: Sighting = Sighting { position: [f64::NAN; 3], residual: f64::NAN, cameras: 0 };
-/// All sixteen bits: not seen.
+/// All sixteen bits: missing.
 const ALL_BITS: u16 = 0xffff;
 
-/// All points of the data. A point that is seen at exactly 0 0 0 is kept there.
+/// All points of the data. A point at exactly 0 0 0 is kept.
 pub(super) fn read(
     words: Words<'_>,
     layout: &Layout,
@@ -86,7 +86,7 @@ fn named(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) ->
     let descriptions = parameters.texts("POINT", "DESCRIPTIONS");
     if labels.len() < layout.points {
         let message = format!(
-            "{} of {} points have no name in POINT:LABELS; they are called *n",
+            "{} of {} points have no name in POINT:LABELS; they were named *n",
             layout.points - labels.len(),
             layout.points
         );
@@ -126,7 +126,7 @@ fn reals(words: Words<'_>, at: usize, scale: f64) -> Option<Sighting> {
     Some(sighting(position, word, scale))
 }
 
-/// The fourth value of a real file as 16 bits; `None` if it says that the point was not seen.
+/// The fourth value of a real file as 16 bits; `None` if the point is missing.
 fn word_of_real(value: f32) -> Option<u16> {
     if !value.is_finite() || value < 0.0 {
         return None;
@@ -135,7 +135,7 @@ fn word_of_real(value: f32) -> Option<u16> {
     (word != ALL_BITS).then_some(word)
 }
 
-/// The word of a point that was seen; `None` if residual and cameras do not fit into it.
+/// The word of a point that is present; `None` if residual and cameras do not fit into it.
 pub(super) fn word_of_sighting(residual: f64, cameras: u8, scale: f64, storage: Storage) -> Option<u16> {
     let steps = if residual.is_nan() { 0.0 } else { (residual / scale).round() };
     if !(0.0..=255.0).contains(&steps) {

@@ -1,4 +1,4 @@
-//! Reading from the first byte to the last.
+//! Reading C3D files.
 
 use super::header::{Header, parameter_offset};
 use super::layout::{self, Extent, Layout};
@@ -46,10 +46,10 @@ fn analog_rate(layout: &Layout) -> f64 {
 fn check_analog_rate(layout: &Layout, parameters: &Parameters, remarks: &mut Vec<Remark>) {
     let rate = analog_rate(layout);
     let stated = parameters.number("ANALOG", "RATE").unwrap_or(rate);
-    // A part in a thousand: rates are rounded, but no device is off by more.
+    // A part in a thousand: rates are rounded, but devices deviate by less.
     if layout.channels > 0 && (stated - rate).abs() > 1e-3 * rate {
         let samples = layout.samples_per_frame;
-        let message = format!("ANALOG:RATE is {stated} Hz, but a frame holds {samples} samples: {rate} Hz counts");
+        let message = format!("ANALOG:RATE is {stated} Hz, but a frame has {samples} samples; {rate} Hz was used");
         remarks.push(Remark::of_file(message));
     }
 }

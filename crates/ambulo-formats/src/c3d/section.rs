@@ -7,7 +7,7 @@
 //!   parameter: type (-1 text, 1 byte, 2 integer, 4 real), number of dimensions, dimensions, values, length of description, description
 //! ```
 //!
-//! The offset is taken without sign, so a chain only goes forwards and ends with the file at the latest.
+//! The offset is unsigned, so a chain only goes forwards and ends with the file at the latest.
 //! Source: C3D user guide (c3d.org), "The parameter section".
 
 use super::header::BLOCK;
@@ -18,7 +18,7 @@ use crate::error::{Error, Remark};
 /// Bytes before the first record: two unused, the number of blocks, the processor.
 pub(super) const SECTION_HEADER: usize = 4;
 
-/// Which processor wrote the file: the fourth byte of the section.
+/// The processor that wrote the file: the fourth byte of the section.
 pub(super) fn processor(bytes: &[u8], start: usize, remarks: &mut Vec<Remark>) -> Result<Processor, Error> {
     let Some(&code) = bytes.get(start + 3) else {
         let expected = format!("a parameter section at byte {start}");
@@ -27,15 +27,15 @@ pub(super) fn processor(bytes: &[u8], start: usize, remarks: &mut Vec<Remark>) -
     if let Some(processor) = Processor::of_code(code) {
         return Ok(processor);
     }
-    // The header's block of the data is small and not zero; read in the wrong order it is at least 256.
+    // The header's block of the data is small and not zero; in the wrong byte order it is at least 256.
     let low_first = bytes[17] <= bytes[16];
     let processor = if low_first { Processor::Intel } else { Processor::Sgi };
-    let message = format!("byte {}: processor {code} is none of 84, 85, 86; read as {processor:?}", start + 3);
+    let message = format!("byte {}: processor {code} is not 84, 85 or 86; read as {processor:?}", start + 3);
     remarks.push(Remark::of_file(message));
     Ok(processor)
 }
 
-/// A record of the section before it is put in its group.
+/// A record of the section before it is sorted into its group.
 struct Record {
     offset: usize,
     group: u8,
@@ -47,12 +47,12 @@ enum Content {
     Parameter(Parameter),
 }
 
-/// First byte after the blocks that the section says it has.
+/// First byte after the stated number of blocks.
 pub(super) fn end(words: Words<'_>, start: usize) -> usize {
     start + usize::from(words.u8(start + 2).unwrap_or(0)) * BLOCK
 }
 
-/// The whole section. `data_block` is where the header says that the data begin.
+/// The whole section. `data_block` is the block of the data stated in the header.
 pub(super) fn read(
     words: Words<'_>,
     start: usize,
@@ -69,13 +69,13 @@ pub(super) fn read(
     Ok(gather(records, remarks))
 }
 
-/// Goes along the chain.
+/// Follows the chain of records.
 struct Reader<'a> {
     words: Words<'a>,
     at: usize,
     /// First byte after the section.
     end: usize,
-    /// The last record said that it is the last.
+    /// Whether the last record was marked as the last.
     closed: bool,
 }
 
@@ -156,7 +156,7 @@ impl Reader<'_> {
         Ok(Parameter { name, description, locked, dimensions, values })
     }
 
-    /// The description, which some programs leave out.
+    /// The description, which some programs omit.
     fn description(&mut self, next: usize) -> Result<String, Error> {
         if self.at >= next {
             return Ok(String::new());
@@ -173,14 +173,13 @@ impl Reader<'_> {
         let Some(bytes) = self.words.bytes.get(self.at..self.at + length) else {
             return Err(self.cut(&format!("a name of {length} bytes")));
         };
-        // Zeros at the end only fill up, as blanks do.
+        // Zeros at the end are padding, as blanks are.
         let filled = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
         if filled == 0 || bytes[..filled].iter().any(u8::is_ascii_control) {
             return Err(Error::Byte {
                 offset,
                 found: format!("a parameter's name with unprintable characters, `{}`", bytes.escape_ascii()),
-                expected: "letters and digits; the parameter section is damaged or something was written over it"
-                    .into(),
+                expected: "letters and digits; the parameter section is damaged or was overwritten".into(),
             });
         }
         self.at += length;
@@ -212,13 +211,13 @@ impl Reader<'_> {
     fn beyond(&self, offset: usize, name: &str, next: usize) -> Error {
         Error::Byte {
             offset,
-            found: format!("`{name}`, whose record goes on to byte {next}"),
+            found: format!("`{name}`, whose record extends to byte {next}"),
             expected: format!("records within the parameter section, which ends at byte {}; it is damaged", self.end),
         }
     }
 }
 
-/// Bytes of all values; `None` if nothing could hold so many. Texts without letters take no room, but memory.
+/// Bytes of all values; `None` if they cannot fit into a file. Empty texts take no room in the file, but memory.
 fn size(kind: i8, width: usize, dimensions: &[usize]) -> Option<usize> {
     const EMPTY_TEXTS: usize = 65535;
     let product = |start, factors: &[usize]| factors.iter().try_fold(start, |size: usize, &n| size.checked_mul(n));
@@ -256,7 +255,7 @@ pub(super) fn text(bytes: &[u8]) -> String {
     std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().copied().map(char::from).collect(), str::to_owned)
 }
 
-/// Puts parameters into their groups, which may come later in the file or not at all.
+/// Sorts parameters into their groups, which may come later in the file or be missing.
 fn gather(records: Vec<Record>, remarks: &mut Vec<Remark>) -> Parameters {
     let mut groups: Vec<(u8, Group)> = Vec::new();
     let mut parameters = Vec::new();

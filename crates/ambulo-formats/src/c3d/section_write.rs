@@ -15,14 +15,14 @@ const NAME: usize = 127;
 /// Largest dimension, and longest text or description in bytes.
 pub(super) const LARGEST: usize = 255;
 
-/// The section's bytes, filled up to whole blocks.
+/// The section's bytes, padded to whole blocks.
 pub(super) fn write(parameters: &Parameters, processor: Processor) -> Result<Vec<u8>, Error> {
     if parameters.groups.len() > GROUPS {
         return Err(invalid(format!("{} groups of parameters", parameters.groups.len()), format!("at most {GROUPS}")));
     }
     let mut bytes = vec![0; SECTION_HEADER];
     for (group, number) in parameters.groups.iter().zip(1i8..) {
-        // A group without a name came from parameters whose group the file never named.
+        // A group without a name holds parameters whose group the file does not name.
         if !group.name.is_empty() {
             write_group(group, number, processor, &mut bytes)?;
         }
@@ -67,7 +67,7 @@ fn write_parameter(
     link(&place, &body, processor, bytes)
 }
 
-/// Number of values and shape agree, and each dimension can be written.
+/// Checks that the number of values and the shape agree, and that each dimension can be written.
 fn check_shape(place: &str, parameter: &Parameter) -> Result<(), Error> {
     let dimensions = &parameter.dimensions;
     if dimensions.len() > LARGEST - 1 || dimensions.iter().any(|&dimension| dimension > LARGEST) {
@@ -76,7 +76,7 @@ fn check_shape(place: &str, parameter: &Parameter) -> Result<(), Error> {
     let size = dimensions.iter().try_fold(1usize, |size, &dimension| size.checked_mul(dimension));
     if size != Some(parameter.values.len()) {
         let found = format!("{place} of shape {dimensions:?} with {} values", parameter.values.len());
-        return Err(invalid(found, "as many values as the shape says"));
+        return Err(invalid(found, "as many values as its shape has"));
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The parameters that say what a record holds: counts, rates, names, scales, events. Made anew before writing.
+//! The parameters that repeat fields of a record (counts, rates, names, scales, events), computed before writing.
 
 use super::events::{EventPlace, minutes_and_seconds};
 use super::parameters::{Parameter, Parameters, Values, numbered_name};
@@ -8,7 +8,7 @@ use super::{C3d, Channel, Event, Storage};
 /// Largest number of a header word.
 const WORD: i64 = 65535;
 
-/// The record's parameters with everything that repeats its other fields. `data_block`: where the data begin.
+/// The record's parameters, updated from its other fields. `data_block` is the block where the data begin.
 pub(super) fn parameters(record: &C3d, data_block: u16) -> Parameters {
     let mut stated = Stated { parameters: record.parameters.clone() };
     stated.points(record, data_block);
@@ -18,7 +18,7 @@ pub(super) fn parameters(record: &C3d, data_block: u16) -> Parameters {
     stated.parameters
 }
 
-/// `POINT:SCALE` as it is written: negative for reals.
+/// `POINT:SCALE` for writing: negative for reals.
 pub(super) fn point_scale(record: &C3d) -> f32 {
     let scale = record.encoding.point_scale as f32;
     match record.encoding.storage {
@@ -27,7 +27,7 @@ pub(super) fn point_scale(record: &C3d) -> f32 {
     }
 }
 
-/// `ANALOG:GEN_SCALE`, kept from the file where it can be used.
+/// `ANALOG:GEN_SCALE`, kept from the file if it can be used.
 pub(super) fn general_scale(parameters: &Parameters) -> f32 {
     let usable = |scale: &f64| scale.is_finite() && scale.abs() > 0.0;
     parameters.number("ANALOG", "GEN_SCALE").filter(usable).map_or(1.0, |scale| scale as f32)
@@ -54,7 +54,7 @@ impl Stated {
         self.texts("POINT", "DESCRIPTIONS", points.iter().map(|point| point.description.clone()));
     }
 
-    /// Of more than 65535 frames POINT:FRAMES says 65535; their number is in POINT:LONG_FRAMES and in the group TRIAL. (The
+    /// With more than 65535 frames POINT:FRAMES is 65535; the number is in POINT:LONG_FRAMES and in the group TRIAL. (The
     /// user guide would have a real in POINT:FRAMES, which ezc3d 1.7.2 refuses.)
     fn frames(&mut self, record: &C3d) {
         let frames = record.frames() as i64;
@@ -93,7 +93,7 @@ impl Stated {
         self.sign(record);
     }
 
-    /// ANALOG:FORMAT, where it is there or needed: an offset at the end of the signed range is taken for unsigned without it.
+    /// ANALOG:FORMAT, if it is present or needed: without it, an offset at the end of the signed range means unsigned numbers.
     fn sign(&mut self, record: &C3d) {
         let unsigned = record.encoding.unsigned_analog;
         let at_end = |channel: &Channel| channel.offset.abs() > 32766.5;
@@ -144,7 +144,7 @@ impl Stated {
         self.numbered(group, name, if parts.is_empty() { none() } else { parts }.into_iter());
     }
 
-    /// `name`, `name2`, `name3` with one list each; longer rows of an earlier file are taken out.
+    /// `name`, `name2`, `name3` with one list each; further lists of an earlier file are removed.
     fn numbered(&mut self, group: &str, name: &str, lists: impl Iterator<Item = Values>) {
         let mut count = 0;
         for values in lists {
@@ -155,7 +155,7 @@ impl Stated {
         self.drop_after(group, name, count);
     }
 
-    /// Takes `name` with numbers above `last` out, as far as they go on without a hole.
+    /// Removes `name` with numbers above `last`, up to the first that is missing.
     fn drop_after(&mut self, group: &str, name: &str, last: usize) {
         for number in last + 1.. {
             let name = numbered_name(name, number);
@@ -175,7 +175,7 @@ impl Stated {
         self.list(group, name, &[], values);
     }
 
-    /// Values of a shape; description and lock of an earlier parameter stay.
+    /// Values with a shape; description and lock of an earlier parameter are kept.
     fn list(&mut self, group: &str, name: &str, shape: &[usize], values: Values) {
         let fresh = Parameter { dimensions: shape.to_vec(), ..Parameter::list(name, values) };
         let parameter = match self.parameters.get(group, name) {
@@ -188,12 +188,12 @@ impl Stated {
     }
 }
 
-/// A count as a 16-bit integer without sign.
+/// A count as an unsigned 16-bit integer.
 fn word(count: usize) -> Values {
     Values::Integers(vec![(count as u16).cast_signed()])
 }
 
-/// ANALOG:OFFSET: integers where all are whole and fit, else reals.
+/// ANALOG:OFFSET: integers if all are whole and fit, otherwise reals.
 fn offsets(record: &C3d) -> Values {
     let range = if record.encoding.unsigned_analog { 0.0..=65535.0 } else { -32768.0..=32767.0 };
     let whole = |channel: &Channel| channel.offset.fract().abs() < f64::MIN_POSITIVE && range.contains(&channel.offset);

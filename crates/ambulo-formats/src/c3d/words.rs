@@ -1,4 +1,4 @@
-//! Numbers as the three kinds of processor wrote them: Intel, DEC (VAX) and SGI (MIPS).
+//! Numbers in the formats of the three kinds of processor: Intel, DEC (VAX) and SGI (MIPS).
 //!
 //! | processor | 16-bit words | 32-bit reals |
 //! |---|---|---|
@@ -9,10 +9,10 @@
 //! Source: C3D user guide (c3d.org), "Parameter section header" and "Floating-point format" (unverified in detail);
 //! the six files Eb015 of c3d.org's samples, which hold one recording in all encodings, agree.
 
-/// The kind of processor whose numbers a file holds.
+/// The kind of processor that wrote a file's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Processor {
-    /// Low byte first, IEEE 754; nearly every file of today.
+    /// Low byte first, IEEE 754; nearly every current file.
     Intel,
     /// Low byte first, VAX F reals.
     Dec,
@@ -43,7 +43,7 @@ impl Processor {
         Processor::ALL.into_iter().find(|processor| processor.code() == code)
     }
 
-    /// A 16-bit word without sign.
+    /// An unsigned 16-bit word.
     pub(crate) fn u16(self, bytes: [u8; 2]) -> u16 {
         match self {
             Processor::Intel | Processor::Dec => u16::from_le_bytes(bytes),
@@ -51,7 +51,7 @@ impl Processor {
         }
     }
 
-    /// A 16-bit word with sign.
+    /// A signed 16-bit word.
     pub(crate) fn i16(self, bytes: [u8; 2]) -> i16 {
         self.u16(bytes).cast_signed()
     }
@@ -86,7 +86,7 @@ impl Processor {
     }
 }
 
-/// Value of VAX F bits, put in the order sign, 8 bits of exponent, 23 bits of significand.
+/// Value of VAX F bits in the order sign, 8 bits of exponent, 23 bits of significand.
 fn vax_real(bits: u32) -> f32 {
     let exponent = (bits >> 23) & 0xff;
     let negative = bits >> 31 == 1;
@@ -99,7 +99,7 @@ fn vax_real(bits: u32) -> f32 {
     value as f32
 }
 
-/// The VAX F bits of a number; zero for what is too small, `None` for what is too large, infinite or not-a-number.
+/// The VAX F bits of a number; zero if it is too small, `None` if it is too large, infinite or not-a-number.
 fn vax_bits(value: f32) -> Option<u32> {
     if !value.is_finite() {
         return None;

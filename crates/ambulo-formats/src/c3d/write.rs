@@ -1,4 +1,4 @@
-//! Writing from the first byte to the last.
+//! Writing C3D files.
 
 use super::header::{BLOCK, Header};
 use super::points::word_of_sighting;
@@ -9,9 +9,9 @@ use std::ops::RangeInclusive;
 
 /// Block of the parameter section.
 const PARAMETER_BLOCK: u8 = 2;
-/// Range of 16-bit integers with sign.
+/// Range of signed 16-bit integers.
 const SIGNED: RangeInclusive<f64> = -32768.0..=32767.0;
-/// Range of 16-bit integers without sign.
+/// Range of unsigned 16-bit integers.
 const UNSIGNED: RangeInclusive<f64> = 0.0..=65535.0;
 /// Counts of the header are words of 16 bits.
 const WORD: usize = 65535;
@@ -36,7 +36,7 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
 fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
     let samples = if record.channels.is_empty() { 0 } else { record.samples_per_frame() };
     let last = record.first_frame + record.frames() as i64 - 1;
-    // 65535 stands for all frames beyond; the group TRIAL has the number.
+    // 65535 means 65535 or more; the group TRIAL has the number.
     let word = |frame: i64| u16::try_from(frame).unwrap_or(u16::MAX);
     let header = Header {
         points: record.points.len() as u16,
@@ -57,7 +57,7 @@ fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// What the format cannot hold is refused before a byte is written.
+/// Rejects what the format cannot hold, before any byte is written.
 fn check(record: &C3d) -> Result<(), Error> {
     let positive = |what: &str, value: f64| {
         // As it will be read: VAX reals have nothing below 2^-128.
@@ -69,12 +69,13 @@ fn check(record: &C3d) -> Result<(), Error> {
     positive("a rate of points", record.point_rate_hz)?;
     positive("a scale of points", record.encoding.point_scale)?;
     if !(0..=i64::from(u32::MAX) - record.frames() as i64).contains(&record.first_frame) {
-        return Err(invalid(format!("first frame {}", record.first_frame), "a number of 32 bits without sign"));
+        return Err(invalid(format!("first frame {}", record.first_frame), "an unsigned 32-bit number"));
     }
     check_channels(record)?;
-    for (what, count) in
-        [("points", record.points.len()), ("analog values a frame", record.channels.len() * record.samples_per_frame())]
-    {
+    for (what, count) in [
+        ("points", record.points.len()),
+        ("analog values per frame", record.channels.len() * record.samples_per_frame()),
+    ] {
         if count > WORD {
             return Err(invalid(format!("{count} {what}"), format!("at most {WORD}")));
         }
@@ -97,10 +98,10 @@ fn check_channels(record: &C3d) -> Result<(), Error> {
     }
     let samples = record.samples_per_frame();
     let ratio = record.analog_rate_hz / record.point_rate_hz;
-    // Rates come from reals of 24 bits; a part in a million lies above their rounding.
+    // Rates come from 24-bit reals; one part in a million is above their rounding.
     if !((ratio - samples as f64).abs() <= 1e-6 * ratio && samples <= WORD) {
-        let found = format!("{} analog samples and {} frames a second", record.analog_rate_hz, record.point_rate_hz);
-        return Err(invalid(found, format!("a whole number of samples a frame, at most {WORD}")));
+        let found = format!("{} analog samples and {} frames per second", record.analog_rate_hz, record.point_rate_hz);
+        return Err(invalid(found, format!("a whole number of samples per frame, at most {WORD}")));
     }
     for channel in &record.channels {
         if channel.samples.len() != record.frames() * samples {
@@ -168,7 +169,7 @@ fn write_point(record: &C3d, point: &Point, frame: usize, bytes: &mut Vec<u8>) -
 fn write_sample(record: &C3d, channel: &Channel, sample: usize, scale: f64, bytes: &mut Vec<u8>) -> Result<(), Error> {
     let encoding = &record.encoding;
     let value = channel.samples[sample];
-    // A scale of zero makes every sample zero, whatever the raw number. A sum with zero would lose the sign of -0.
+    // A scale of zero makes every sample zero for any raw number. A sum with zero would lose the sign of -0.
     let steps = if scale.abs() > 0.0 { value / scale } else { 0.0 };
     let raw = if channel.offset.abs() > 0.0 { steps + channel.offset } else { steps };
     let written = match encoding.storage {
@@ -194,7 +195,7 @@ fn integer(value: f64, processor: Processor, range: RangeInclusive<f64>, bytes: 
     Some(())
 }
 
-/// Appends the nearest 32-bit real; not-a-number stays, except for VAX, which has none. `None` if it is too large.
+/// Appends the nearest 32-bit real; not-a-number is kept, except for VAX, which has none. `None` if it is too large.
 fn real(value: f64, processor: Processor, bytes: &mut Vec<u8>) -> Option<()> {
     let nearest = value as f32;
     if nearest.is_infinite() {

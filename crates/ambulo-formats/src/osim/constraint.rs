@@ -19,10 +19,10 @@ pub enum OsimConstraint {
         independent: String,
         /// The coordinate that follows.
         dependent: String,
-        /// How it follows, the scale factor included.
+        /// The function, including the scale factor.
         function: OsimFunction,
     },
-    /// Any other constraint that is switched on; it closes a loop or ties bodies.
+    /// Any other constraint that is switched on; it closes a loop or couples bodies.
     Other {
         /// Tag of the element.
         kind: String,

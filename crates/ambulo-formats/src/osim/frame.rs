@@ -1,11 +1,11 @@
-//! Frames fixed to bodies, and the many ways in which documents name them.
+//! Frames fixed to bodies, and the ways in which the versions of the format name them.
 
 use super::{OsimBody, OsimFrame, is_ground, name_of};
 use crate::error::Error;
 use crate::xml;
 use roxmltree::Node;
 
-/// Offset frames may sit on offset frames; a longer chain than this is a circle.
+/// Offset frames may be fixed to offset frames; a longer chain than this is a cycle.
 const LONGEST_CHAIN: usize = 32;
 
 impl OsimFrame {
@@ -29,7 +29,7 @@ impl OsimFrame {
         placed
     }
 
-    /// This frame carrying another: the other frame seen from the body.
+    /// The pose in the body of a frame that is given in this frame.
     fn carry(&self, translation: [f64; 3], rotation: [[f64; 3]; 3]) -> OsimFrame {
         OsimFrame {
             body: self.body.clone(),
@@ -61,7 +61,7 @@ pub(super) struct Frames<'d> {
 
 struct Offset<'d> {
     name: &'d str,
-    /// Name of the joint, body or component in which the frame stands.
+    /// Name of the joint, body or component that contains the frame.
     owner: &'d str,
     parent: Option<&'d str>,
     translation: [f64; 3],
@@ -83,7 +83,7 @@ impl<'d> Frames<'d> {
         Ok(Frames { bodies: bodies.iter().map(|b| b.name.clone()).collect(), offsets })
     }
 
-    /// The frame that a component's socket names.
+    /// The frame named by a socket of a component.
     pub(super) fn of_socket(&self, node: Node<'_, '_>, name: &str) -> Result<OsimFrame, Error> {
         match socket(node, name) {
             Some(path) => self.resolve(node, path),
@@ -91,7 +91,7 @@ impl<'d> Frames<'d> {
         }
     }
 
-    /// The frame with this name or path, seen from `node`: its own frames first, then bodies, then any frame.
+    /// The frame with this name or path, resolved from `node`: its own frames first, then bodies, then any frame.
     pub(super) fn resolve(&self, node: Node<'_, '_>, path: &str) -> Result<OsimFrame, Error> {
         let owner = name_of(node);
         self.lookup(owner, path, 0).ok_or_else(|| {
@@ -124,7 +124,7 @@ impl<'d> Frames<'d> {
     }
 
     fn stack(&self, offset: &Offset<'_>, depth: usize) -> Option<OsimFrame> {
-        // A frame without a stated parent sits on the component that holds it.
+        // A frame without a stated parent is fixed to the component that contains it.
         let base = match offset.parent {
             Some(".." | "") | None => self.lookup("", offset.owner, depth + 1)?,
             Some(parent) => self.lookup(offset.owner, parent, depth + 1)?,
@@ -133,7 +133,7 @@ impl<'d> Frames<'d> {
     }
 }
 
-/// Name of the nearest enclosing component that has a name and is no list.
+/// Name of the nearest enclosing component that has a name and is not a list.
 fn owner_of<'d>(node: Node<'d, '_>) -> &'d str {
     node.ancestors()
         .skip(1)
@@ -143,7 +143,7 @@ fn owner_of<'d>(node: Node<'d, '_>) -> &'d str {
         .trim()
 }
 
-/// What a socket is connected to, in the wording of any version since 30505.
+/// The connectee of a socket, in the syntax of any version since 30505.
 fn socket<'d>(node: Node<'d, '_>, name: &str) -> Option<&'d str> {
     for tag in
         [format!("socket_{name}"), format!("socket_{name}_connectee_name"), format!("connector_{name}_connectee_name")]

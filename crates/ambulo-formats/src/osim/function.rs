@@ -1,10 +1,10 @@
-//! Functions of one coordinate, as the `TransformAxis`, coupler and prescribed-motion elements hold them.
+//! Functions of one coordinate, in `TransformAxis`, coupler and prescribed-motion elements.
 
 use crate::error::Error;
 use crate::xml;
 use roxmltree::Node;
 
-/// A function of one variable, as the document states it.
+/// A function of one variable, as in the document.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OsimFunction {
     /// `y = value`.
@@ -26,12 +26,12 @@ pub enum OsimFunction {
         degree: usize,
         /// Points.
         knots: Knots,
-        /// Error variance of the points; zero or less asks for interpolation.
+        /// Error variance of the points; zero or less means interpolation.
         error_variance: f64,
     },
-    /// Straight lines between the points.
+    /// Linear interpolation between the points.
     PiecewiseLinear(Knots),
-    /// Steps at the points.
+    /// Piecewise constant, with steps at the points.
     PiecewiseConstant(Knots),
     /// A smooth step from `start.1` at `start.0` to `end.1` at `end.0`.
     Step {
@@ -51,7 +51,7 @@ pub enum OsimFunction {
         /// Mean value.
         offset: f64,
     },
-    /// Another function times a factor.
+    /// A function multiplied by a factor.
     Multiplier {
         /// Factor.
         scale: f64,
@@ -72,10 +72,10 @@ pub struct Knots {
 const KNOWN: &str = "Constant, LinearFunction, PolynomialFunction, SimmSpline, NaturalCubicSpline, GCVSpline, \
                      PiecewiseLinearFunction, PiecewiseConstantFunction, StepFunction, Sine or MultiplierFunction";
 
-/// A function may scale a function that scales a function; deeper than this is no model.
+/// Deepest nesting of functions that scale functions.
 pub(super) const DEEPEST: usize = 32;
 
-/// The function held by a component: directly, under `<function>`, or as `<... name="function">`. `None` if empty.
+/// The function of a component: a direct child, under `<function>`, or as `<... name="function">`. `None` if there is none.
 pub(super) fn held_by(node: Node<'_, '_>) -> Result<Option<OsimFunction>, Error> {
     held_at_depth(node, 0)
 }

@@ -7,7 +7,7 @@ use crate::error::{Error, quoted};
 use crate::xml;
 use roxmltree::Node;
 
-/// A joint: how a frame on the child may move in a frame on the parent.
+/// A joint: the motion of a frame on the child in a frame on the parent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OsimJoint {
     /// Name of the joint.
@@ -24,10 +24,10 @@ pub struct OsimJoint {
     pub coordinates: Vec<OsimCoordinate>,
 }
 
-/// What a joint lets move, and in which order its coordinates are counted.
+/// Kind of motion of a joint, and the order of its coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OsimJointKind {
-    /// Nothing moves.
+    /// No motion.
     Weld,
     /// One rotation about z.
     Pin,
@@ -57,7 +57,7 @@ pub enum OsimJointKind {
 pub struct OsimAxis {
     /// Direction, as stated (not always of unit length).
     pub axis: [f64; 3],
-    /// Name of the coordinate; none for a constant.
+    /// Name of the coordinate; `None` for a constant.
     pub coordinate: Option<String>,
     /// Angle [rad] or distance [m] as a function of the coordinate.
     pub function: OsimFunction,
@@ -70,15 +70,15 @@ pub struct OsimCoordinate {
     pub name: String,
     /// Line of the element, counted from 1.
     pub line: usize,
-    /// Value when nothing else is said [rad or m].
+    /// Default value [rad or m].
     pub default_value: f64,
     /// Allowed range as stated [rad or m].
     pub range: Option<[f64; 2]>,
-    /// Whether motion must stay inside the range; otherwise the range is the author's advice.
+    /// Whether motion must stay inside the range; otherwise the range is only advice.
     pub clamped: bool,
     /// Held at its default value.
     pub locked: bool,
-    /// Driven by this function of time [s], if it is switched on.
+    /// Prescribed function of time [s], if it is switched on.
     pub prescribed: Option<OsimFunction>,
 }
 
@@ -169,7 +169,7 @@ fn read_axis(node: Node<'_, '_>) -> Result<OsimAxis, Error> {
     }
     let function = match (function::held_by(node)?, &coordinate) {
         (Some(function), _) => function,
-        // An axis without a function stands still; one with a coordinate follows it.
+        // An axis without a function is constant; one with a coordinate follows it.
         (None, None) => OsimFunction::Constant(0.0),
         (None, Some(_)) => OsimFunction::Linear { slope: 1.0, intercept: 0.0 },
     };
@@ -214,7 +214,7 @@ fn read_coordinate(node: Node<'_, '_>) -> Result<OsimCoordinate, Error> {
     })
 }
 
-/// A joint has as many coordinates as its kind asks, and its axes speak only of them.
+/// Checks that a joint has the coordinates of its kind, and that its axes use only these.
 fn check_coordinates(node: Node<'_, '_>, joint: &OsimJoint) -> Result<(), Error> {
     let expected = match &joint.kind {
         OsimJointKind::Weld => 0,

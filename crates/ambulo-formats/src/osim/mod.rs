@@ -1,11 +1,11 @@
-//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers and markers, as the document states them.
+//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers and markers, as in the document.
 //!
 //! Document versions 20303 to 40600 are read, in both layouts: joints nested in their child body with
 //! `location_in_parent` (to 30500), and joints in a `JointSet` with offset frames (from 30505), the frames named by
-//! connectors, by `..._connectee_name` or by `socket_...` elements. Other versions are tried and remarked upon.
+//! connectors, by `..._connectee_name` or by `socket_...` elements. Other versions are read as well, with a remark.
 //!
 //! Lengths are metres, masses kg, inertias kg.m² about the mass centre, angles radians, as the format defines them.
-//! What plays no part in rigid-body dynamics (muscles, wrapping, geometry, controllers) is counted in
+//! Elements without a role in rigid-body dynamics (muscles, wrapping, geometry, controllers) are counted in
 //! [`OsimModel::ignored`], by the tag of its element.
 
 mod constraint;
@@ -13,7 +13,6 @@ mod frame;
 mod function;
 mod joint;
 mod write;
-mod write_function;
 
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};
@@ -30,7 +29,7 @@ const OLDEST_VERSION: u32 = 20303;
 /// Newest document version whose layout is known.
 const NEWEST_VERSION: u32 = 40600;
 
-/// A model as the document states it: names, numbers and frames, nothing checked for physics.
+/// A model as in the document: names, numbers and frames, without physical checks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OsimModel {
     /// The model's `name` attribute.
@@ -47,9 +46,9 @@ pub struct OsimModel {
     pub constraints: Vec<OsimConstraint>,
     /// Markers in document order.
     pub markers: Vec<OsimMarker>,
-    /// Elements that were passed over, by tag, with their number.
+    /// Number of ignored elements, by tag.
     pub ignored: BTreeMap<String, usize>,
-    /// What was odd in the document.
+    /// Remarks on the document.
     pub remarks: Vec<Remark>,
 }
 
@@ -68,7 +67,7 @@ pub struct OsimBody {
     pub inertia: [f64; 6],
 }
 
-/// A frame fixed to a body (or to ground): where it sits.
+/// Pose of a frame that is fixed to a body or to ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OsimFrame {
     /// Name of the body, or `ground`.
@@ -94,8 +93,8 @@ impl OsimModel {
     /// Reads a model document.
     ///
     /// # Errors
-    /// XML that is not well formed, a document without a model, numbers that do not read, joints whose frames lead
-    /// nowhere, functions and joint types that are not known. Each names line and element.
+    /// XML that is not well formed, a document without a model, invalid numbers, joints whose frames lead
+    /// nowhere, unknown functions and joint types. Each error names line and element.
     pub fn read(bytes: &[u8]) -> Result<OsimModel, Error> {
         let text = xml::decode(bytes);
         if text.trim().is_empty() {
@@ -210,7 +209,7 @@ fn read_marker(node: Node<'_, '_>, frames: &Frames) -> Result<OsimMarker, Error>
     Ok(OsimMarker { name: name_of(node).to_owned(), location_m: frame.place(location), body: frame.body })
 }
 
-/// Components with no part in the dynamics, counted by tag where they stand in their sets.
+/// Counts components without a role in the dynamics, by tag, within their sets.
 fn count_ignored(model: Node<'_, '_>) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let sets = ["ForceSet", "ControllerSet", "ProbeSet", "ContactGeometrySet", "ComponentSet"];

@@ -41,7 +41,7 @@ fn gap_remark(gaps: usize) -> Option<Remark> {
     Some(Remark { line: None, message })
 }
 
-/// The csv crate counts lines by their line feeds, which old Macintosh files do not have.
+/// The csv crate counts lines by line feeds, which old Macintosh files do not have.
 fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.contains(&b'\n') || !bytes.contains(&b'\r') {
@@ -50,7 +50,7 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(bytes.iter().map(|&b| if b == b'\r' { b'\n' } else { b }).collect())
 }
 
-/// The separator that stands most often in the header row, outside quotes.
+/// The most frequent separator in the header row, outside quotes.
 fn delimiter(header: &str) -> Result<u8, Error> {
     let mut counts = [(b',', 0), (b';', 0), (b'\t', 0)];
     let mut in_quotes = false;
@@ -64,7 +64,7 @@ fn delimiter(header: &str) -> Result<u8, Error> {
         let expected = "column names whose quotes are closed on the same line".into();
         return Err(Error::Line { line: 1, found: "an open quote".into(), expected });
     }
-    // `rev`, because the last of equals wins: a comma before a semicolon before a tab.
+    // `rev`, because the last of equals is chosen: a comma before a semicolon before a tab.
     Ok(counts.into_iter().rev().max_by_key(|&(_, count)| count).map_or(b',', |(separator, _)| separator))
 }
 
@@ -82,7 +82,7 @@ fn next_record(reader: &mut ::csv::Reader<&[u8]>, record: &mut ByteRecord) -> Re
     }
 }
 
-/// Line of the file in which the record stands, counted from 1. The csv crate gives the place where its search for the
+/// Line of the record in the file, counted from 1. The csv crate gives the place where its search for the
 /// record began; blank lines may lie between.
 fn line_of(record: &ByteRecord, bytes: &[u8]) -> usize {
     let Some(start) = record.position() else { return 1 };
@@ -114,7 +114,7 @@ fn one_line(name: &str) -> String {
     name.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').to_owned()
 }
 
-/// Appends a row and says how many of its cells are empty.
+/// Appends a row; returns the number of its empty cells.
 fn read_row(record: &ByteRecord, line: usize, table: &mut Table) -> Result<usize, Error> {
     if record.len() != table.data.len() {
         let hint = if record.len() > table.data.len() { " (a decimal comma splits a number in two)" } else { "" };

@@ -1,12 +1,12 @@
-//! Lines and numbers of text files, as measuring programs of thirty years have written them.
+//! Lines and numbers of text files, in all the variants that measurement programs write.
 //!
 //! Lines end with LF, CRLF or a lone CR and are counted from 1. Nothing is copied unless a line is not UTF-8, and no
-//! line may be longer than [`MAX_LINE_BYTES`], so that a file of another kind is refused early.
+//! line may be longer than [`MAX_LINE_BYTES`], so that a file of another kind is rejected early.
 
 use crate::error::{Error, quoted};
 use std::borrow::Cow;
 
-/// Longest line that is read [bytes]. 300 markers with 17 digits a coordinate take 20 kB.
+/// Longest line that is read [bytes]. 300 markers with 17 digits per coordinate take 20 kB.
 pub(crate) const MAX_LINE_BYTES: usize = 1 << 20;
 
 /// One line without its end.
@@ -67,7 +67,7 @@ impl<'a> Lines<'a> {
         Ok(Some(Line { number: self.number, text: decode(line) }))
     }
 
-    /// The next line that holds more than white space.
+    /// The next line that is not blank.
     pub(crate) fn next_filled(&mut self) -> Result<Option<Line<'a>>, Error> {
         while let Some(line) = self.next_line()? {
             if !line.is_blank() {
@@ -82,18 +82,18 @@ impl<'a> Lines<'a> {
         self.rest.iter().all(u8::is_ascii_whitespace)
     }
 
-    /// Whether the file closes its last line, as most writers do; a file cut in the middle does not.
+    /// Whether the last line has a line end, as most programs write it; a truncated file has none.
     pub(crate) fn last_is_ended(&self) -> bool {
         self.last_is_ended
     }
 
-    /// The error for a file that ends before `expected` came.
+    /// The error for a file that ends before `expected`.
     pub(crate) fn truncated(&self, expected: impl Into<String>) -> Error {
         Error::Truncated { line: self.number, expected: expected.into() }
     }
 }
 
-/// UTF-8 as it is; anything else as Latin-1, as old exporters wrote it.
+/// UTF-8; anything else is read as Latin-1, as old programs wrote it.
 fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
@@ -101,7 +101,7 @@ fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// A number in any of the ways C, C++, Rust and Microsoft's C write it, not-a-number and infinity among them.
+/// A number as C, C++, Rust or Microsoft's C write it, including not-a-number and infinity.
 pub(crate) fn number(word: &str) -> Option<f64> {
     match word.parse::<f64>() {
         Ok(value) if value.is_nan() => Some(f64::NAN),
@@ -110,7 +110,7 @@ pub(crate) fn number(word: &str) -> Option<f64> {
     }
 }
 
-/// `-nan(ind)`, `nan(snan)`, `1.#QNAN`, `-1.#IND00`, `1.#INF`: what Microsoft's printf makes of special values.
+/// `-nan(ind)`, `nan(snan)`, `1.#QNAN`, `-1.#IND00`, `1.#INF`: special values as Microsoft's printf writes them.
 fn special(word: &str) -> Option<f64> {
     let (sign, size) = match word.strip_prefix('-') {
         Some(size) => (-1.0, size),
@@ -127,27 +127,27 @@ fn special(word: &str) -> Option<f64> {
     (size.starts_with("nan(") && size.ends_with(')')).then_some(f64::NAN)
 }
 
-/// What to write instead of a word that is no number.
+/// What is expected in place of a word that is not a number.
 pub(crate) fn expected_number(word: &str) -> String {
     let with_point = word.replacen(',', ".", 1);
     if word.contains(',') && with_point.parse::<f64>().is_ok() {
-        return "a number with a decimal point; the file seems to use a decimal comma, export it with a point".into();
+        return "a number with a decimal point; the file appears to use a decimal comma; export it with a decimal point".into();
     }
     "a number".into()
 }
 
-/// The word for a count in a message: "1 row", "3 rows".
+/// A count in a message: "1 row", "3 rows".
 pub(crate) fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
-/// The first name that stands twice.
+/// The first name that occurs twice.
 pub(crate) fn duplicate<'n>(names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     let mut seen = std::collections::BTreeSet::new();
     names.into_iter().find(|&name| !seen.insert(name))
 }
 
-/// What is wrong with a name that shall stand in a table's head, if anything.
+/// Rejects a name that cannot be written in a table's header.
 pub(crate) fn check_name(name: &str) -> Result<(), Error> {
     let expected = "a name that is not empty, without control characters and without spaces at its ends";
     if name.is_empty() || name.trim() != name || name.chars().any(char::is_control) {

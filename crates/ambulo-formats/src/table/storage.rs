@@ -5,13 +5,13 @@ use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
 use crate::error::{Error, Remark, quoted};
 use std::io::Write;
 
-/// A header is ten lines long; comments of some programs take a few dozen.
+/// A header is ten lines long; some programs add a few dozen lines of comments.
 const MAX_HEADER_LINES: usize = 4096;
 
 const ENDHEADER: &str = "endheader";
 
 /// Reads a `.mot` or `.sto` file.
-/// A model, a set-up file or markers in place of a table are the usual mistakes.
+/// A model, a set-up file or a marker file in place of a table is a common mistake.
 fn refuse_other_formats(bytes: &[u8]) -> Result<(), Error> {
     let start = bytes.trim_ascii_start();
     let found = if start.starts_with(b"<") {
@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
 
 fn row_count_message(stated: usize, rows: usize, lines: &Lines<'_>) -> String {
     let cut = if rows < stated && !lines.last_is_ended() {
-        "; the last line is not ended, so its last number may be cut"
+        "; the last line has no line end, so its last number may be truncated"
     } else {
         ""
     };
@@ -57,7 +57,7 @@ fn row_count_message(stated: usize, rows: usize, lines: &Lines<'_>) -> String {
 struct Header {
     name: String,
     in_degrees: Option<bool>,
-    /// "Angles are in degrees.", which files before version 1 have instead of a key.
+    /// "Angles are in degrees.", which files before version 1 have in place of a key.
     angles_in_degrees: Option<bool>,
     rows: Option<usize>,
     columns: Option<usize>,
@@ -96,7 +96,7 @@ fn settle_degrees(header: &mut Header, remarks: &mut Vec<Remark>) {
     if key != sentence {
         let unit = |degrees| if degrees { "degrees" } else { "radians" };
         let message = format!(
-            "`inDegrees` says {}, but \"Angles are in {}.\" stands beside it; `inDegrees` was followed",
+            "`inDegrees` states {}, but the header also has \"Angles are in {}.\"; `inDegrees` was used",
             unit(key),
             unit(sentence)
         );
@@ -105,7 +105,7 @@ fn settle_degrees(header: &mut Header, remarks: &mut Vec<Remark>) {
 }
 
 impl Header {
-    /// Takes what one line states. False for a line without a key that we know.
+    /// Reads one line; returns false for a line without a known key.
     fn take(&mut self, line: &Line<'_>, remarks: &mut Vec<Remark>) -> Result<bool, Error> {
         let (key, value) = split_key(&line.text);
         match key.to_ascii_lowercase().as_str() {
@@ -149,7 +149,7 @@ fn check_data_type(line: &Line<'_>, value: &str) -> Result<(), Error> {
     if value.eq_ignore_ascii_case("double") {
         return Ok(());
     }
-    let expected = "`DataType=double`, one number a cell; export the table flattened, one column a component";
+    let expected = "`DataType=double`, one number per cell; export the table flattened, with one column per component";
     Err(line.error(format!("DataType {}", quoted(value)), expected))
 }
 
@@ -157,7 +157,8 @@ fn unknown_version(line: &Line<'_>, value: &str) -> Option<Remark> {
     if value.parse().is_ok_and(|version: u32| version <= 3) {
         return None;
     }
-    let message = format!("storage version {}; versions 1 to 3 are known, it was read as one of them", quoted(value));
+    let message =
+        format!("storage version {}; the known versions are 1 to 3; it was read as one of them", quoted(value));
     Some(Remark { line: Some(line.number), message })
 }
 
@@ -191,8 +192,8 @@ fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), Error> {
     Ok((line.number, names))
 }
 
-/// Names stand between tabs, and may hold spaces, where that gives as many as the first row has numbers; otherwise
-/// between any white space.
+/// Names are separated by tabs and may contain spaces, if that gives as many names as the first row has numbers; otherwise
+/// they are separated by any white space.
 fn split_names(text: &str, width: usize) -> Vec<String> {
     let between_tabs: Vec<&str> = text.split('\t').map(str::trim).filter(|name| !name.is_empty()).collect();
     if between_tabs.len() == width {
@@ -214,7 +215,7 @@ fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) ->
     Ok(())
 }
 
-/// Whether the file was cut in this row: numbers are missing, or the last one breaks off.
+/// Whether the file is truncated in this row: numbers are missing, or the last one is incomplete.
 fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     let words = || line.text.split_ascii_whitespace();
     let count = words().count();
@@ -258,7 +259,7 @@ pub(super) fn write(table: &Table) -> Vec<u8> {
     out
 }
 
-/// The name stands alone on the first line, unless a reader would take it for something else.
+/// The name is the first line, unless a reader could take it for something else.
 fn name_line(name: &str) -> String {
     let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let name = name.trim().trim_start_matches(|c: char| c.is_whitespace() || c == '=');

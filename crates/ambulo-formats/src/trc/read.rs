@@ -26,14 +26,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
 
 fn frame_count_message(stated: usize, frames: usize, lines: &Lines<'_>) -> String {
     let cut = if frames < stated && !lines.last_is_ended() {
-        "; the last line is not ended, so its last number may be cut"
+        "; the last line has no line end, so its last number may be truncated"
     } else {
         ""
     };
     format!("NumFrames states {stated}, the file has {frames}; read {frames}{cut}")
 }
 
-/// The first line; gives what follows `(X/Y/Z)`.
+/// Reads the first line; returns the text after `(X/Y/Z)`.
 fn read_path_line(lines: &mut Lines<'_>) -> Result<String, Error> {
     let line = lines.next_filled()?.ok_or_else(|| lines.truncated(FIRST_WORD))?;
     let first = line.text.split_whitespace().next().unwrap_or_default();
@@ -63,7 +63,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<Header, Error> {
     let whole = |key: &str| value(key).map(|text| count(&values, key, text)).transpose();
     Ok(Header {
         rate_hz: number(rate).filter(|rate| rate.is_finite() && *rate > 0.0).ok_or_else(|| {
-            values.error(format!("DataRate {}", quoted(rate)), "frames a second, a finite number above zero")
+            values.error(format!("DataRate {}", quoted(rate)), "a frame rate in Hz, a finite number above zero")
         })?,
         unit: read_unit(&values, need("Units")?)?,
         orig_start_frame: value("OrigDataStartFrame")
@@ -74,7 +74,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<Header, Error> {
     })
 }
 
-/// Values stand between white space, or between tabs where one of them is empty.
+/// Values are separated by white space, or by tabs if one of them is empty.
 fn pair<'l>(keys: &'l Line<'_>, values: &'l Line<'_>) -> Result<Vec<(&'l str, &'l str)>, Error> {
     let names: Vec<&str> = keys.text.split_whitespace().collect();
     let words: Vec<&str> = values.text.split_whitespace().collect();
@@ -85,7 +85,7 @@ fn pair<'l>(keys: &'l Line<'_>, values: &'l Line<'_>) -> Result<Vec<(&'l str, &'
     let spare_is_empty = cells.iter().skip(names.len()).all(|cell| cell.is_empty());
     if cells.len() < names.len() || !spare_is_empty || words.len() > names.len() {
         return Err(
-            values.error(counted(words.len(), "value"), format!("{}, one a key of the line above", names.len()))
+            values.error(counted(words.len(), "value"), format!("{}, one per key of the line above", names.len()))
         );
     }
     Ok(names.into_iter().zip(cells).filter(|(_, value)| !value.is_empty()).collect())
@@ -133,7 +133,7 @@ fn read_names(lines: &mut Lines<'_>, stated: Option<usize>, remarks: &mut Vec<Re
     Ok(names)
 }
 
-/// Filled cells between tabs, which may hold spaces; words where there is no tab.
+/// Non-empty cells separated by tabs, which may contain spaces; words if there is no tab.
 fn words(text: &str) -> Vec<&str> {
     if text.contains('\t') {
         return text.split('\t').map(str::trim).filter(|cell| !cell.is_empty()).collect();
@@ -155,7 +155,7 @@ fn check_axes(lines: &mut Lines<'_>, markers: usize) -> Result<(), Error> {
     odd.map_or(Ok(()), |(word, _)| Err(line.error(quoted(word), expected())))
 }
 
-/// What a person should know of the frames, counted.
+/// Unusual values in the frames, counted for remarks.
 #[derive(Default)]
 struct Oddities {
     partial: Count,
@@ -185,7 +185,7 @@ impl Count {
 impl Oddities {
     fn remarks(&self) -> impl Iterator<Item = Remark> {
         let partial = self.partial.remark("with one or two empty cells; read as a gap");
-        let zero = self.zero.remark("exactly 0 0 0, as some programs write a gap; kept as a position");
+        let zero = self.zero.remark("exactly 0 0 0, which some programs write for a gap; kept as positions");
         partial.into_iter().chain(zero)
     }
 }
@@ -209,7 +209,7 @@ fn read_frames(lines: &mut Lines<'_>, trc: &mut Trc, stated: Option<usize>) -> R
     Ok(oddities)
 }
 
-/// Whether the file was cut in this row: cells are missing, or the last one breaks off.
+/// Whether the file is truncated in this row: cells are missing, or the last one is incomplete.
 fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     let text = &line.text;
     let count = if text.contains('\t') { text.split('\t').count() } else { text.split_ascii_whitespace().count() };
@@ -217,7 +217,7 @@ fn is_cut(line: &Line<'_>, width: usize, ended: bool) -> bool {
     count < width || (count == width && !ended && last_is_broken())
 }
 
-/// The cells of one row; those between tabs may be empty. Tabs behind the last column are left out.
+/// The cells of one row, which may be empty if they are separated by tabs. Tabs after the last column are ignored.
 fn cells<'l>(line: &'l Line<'_>, width: usize) -> Result<Vec<&'l str>, Error> {
     let mut cells: Vec<&str> = match line.text.contains('\t') {
         true => line.text.split('\t').map(str::trim).collect(),
@@ -227,13 +227,13 @@ fn cells<'l>(line: &'l Line<'_>, width: usize) -> Result<Vec<&'l str>, Error> {
         cells.pop();
     }
     if cells.len() != width {
-        let expected = format!("{width}: frame, time and three a marker, tabs between them, gaps empty");
+        let expected = format!("{width}: frame, time and three per marker, separated by tabs, gaps empty");
         return Err(line.error(counted(cells.len(), "cell"), expected));
     }
     Ok(cells)
 }
 
-/// Appends a frame. An error leaves the record ragged; it is given up then.
+/// Appends a frame. After an error the record is incomplete and must not be used.
 fn read_frame(line: &Line<'_>, cells: &[&str], trc: &mut Trc, oddities: &mut Oddities) -> Result<(), Error> {
     let [frame, time, positions @ ..] = cells else {
         return Err(line.error(counted(cells.len(), "cell"), "frame and time"));
@@ -257,7 +257,7 @@ fn read_frame(line: &Line<'_>, cells: &[&str], trc: &mut Trc, oddities: &mut Odd
     Ok(())
 }
 
-/// A position in the file's unit; three times not-a-number if any of its cells is empty or not-a-number.
+/// A position in the file's unit; not-a-number in all three if any cell is empty or not-a-number.
 fn read_position(line: &Line<'_>, cells: &[&str]) -> Result<[f64; 3], Error> {
     let mut position = [f64::NAN; 3];
     for (value, cell) in position.iter_mut().zip(cells).filter(|(_, cell)| !cell.is_empty()) {

@@ -8,7 +8,8 @@
 //! channels of position that replace its offset. Bodies of the usual models get the names that animation programs know.
 
 use ambulo::kinematics::{Trajectory, each_body_motion};
-use ambulo::model::{Body, BodyId, Model, Side};
+use ambulo::model::anatomy::Leg;
+use ambulo::model::{BodyId, Model, Side};
 use ambulo::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::Error;
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
@@ -17,15 +18,11 @@ const CENTIMETRES: f64 = 100.0;
 /// A place in the parent that moves less than this is an offset [m].
 const FIXED: f64 = 1e-9;
 
-/// Bodies of the usual models and the joints that animation programs call after what they carry; `{}` is Right or Left.
-const NAMES: [(&str, &str); 11] = [
+/// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry; `{}` is Right or
+/// Left.
+const NAMES: [(&str, &str); 6] = [
     ("pelvis", "Hips"),
     ("torso", "Spine"),
-    ("femur", "{}UpLeg"),
-    ("tibia", "{}Leg"),
-    ("talus", "{}Foot"),
-    ("calcn", "{}Foot"),
-    ("toes", "{}ToeBase"),
     ("humerus", "{}Arm"),
     ("ulna", "{}ForeArm"),
     ("forearm", "{}ForeArm"),
@@ -45,7 +42,7 @@ pub fn skeleton_of(model: &Model, trajectory: &Trajectory) -> Result<Bvh, Error>
         let parent = body.joint.parent.and_then(|parent| order.iter().position(|&other| other == parent));
         let (offset, slides) = place(&poses[id.index()], parent.is_none());
         joints.push(Joint {
-            name: name(model, body),
+            name: name(model, id),
             parent,
             offset: (offset * CENTIMETRES).into(),
             channels: channels(slides),
@@ -127,17 +124,21 @@ fn end_sites(model: &Model, id: BodyId) -> Vec<[f64; 3]> {
     end.map(|place| (place * CENTIMETRES).into()).into_iter().collect()
 }
 
-fn name(model: &Model, body: &Body) -> String {
-    let (side, stem) = match Side::split_name(&body.name) {
-        Some((side, stem)) => (Some(side), stem),
-        None => (None, body.name.clone()),
+/// Legs, pelvis and trunk by the anatomy, other bodies by their names.
+fn name(model: &Model, id: BodyId) -> String {
+    let own = &model.bodies()[id.index()].name;
+    let anatomy = model.anatomy();
+    let of_leg = |leg: &Leg| {
+        let words = [(Some(leg.thigh), "{}UpLeg"), (Some(leg.shank), "{}Leg"), (Some(leg.ankle), "{}Foot")];
+        words.into_iter().chain([(leg.toes, "{}ToeBase")])
     };
-    let Some((_, known)) = NAMES.iter().find(|(own, _)| *own == stem) else { return body.name.clone() };
-    let has_talus = side.is_some_and(|side| model.body(&format!("talus_{}", side.letter())).is_some());
-    if stem == "calcn" && has_talus {
-        return body.name.clone();
-    }
-    let word = match side {
+    let central = [(anatomy.trunk(), "Spine"), (anatomy.pelvis().filter(|_| anatomy.trunk().is_some()), "Hips")];
+    let legs = anatomy.legs().values().flatten().flat_map(of_leg);
+    let by_anatomy = central.into_iter().chain(legs).find(|(body, _)| *body == Some(id)).map(|(_, word)| word);
+    let stem = Side::split_name(own).map_or_else(|| own.clone(), |(_, stem)| stem);
+    let by_name = || NAMES.iter().find(|(known, _)| *known == stem).map(|(_, word)| *word);
+    let Some(known) = by_anatomy.or_else(by_name) else { return own.clone() };
+    let word = match anatomy.body_side(id) {
         Some(Side::Right) => "Right",
         Some(Side::Left) => "Left",
         None => "",

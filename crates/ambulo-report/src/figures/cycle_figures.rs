@@ -4,7 +4,7 @@ use super::cycle_panel::{CyclePanel, MOST_CYCLES, dashes};
 use super::sheet::{Sample, Sheet};
 use super::svg::Stroke;
 use super::{FigureError, Mark};
-use crate::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign, moves};
+use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities, moves};
 use crate::normative;
 use crate::style::{Style, style};
 use ambulo::model::Side;
@@ -17,6 +17,8 @@ use std::ops::Range;
 pub struct CycleFigures<'a> {
     /// The rows of `cycles.csv`.
     pub rows: &'a [CycleRow],
+    /// Which coordinates measure which movements.
+    pub names: &'a ClinicalNames,
     /// Body mass that moments and powers are divided by [kg].
     pub mass_kg: f64,
     /// Whose walk it is.
@@ -166,22 +168,19 @@ impl CycleFigures<'_> {
     }
 
     fn panels(&self, plan: &Plan) -> Vec<CyclePanel<'_>> {
-        let knee = KNEE.map(|name| format!("{name}_angle"));
-        let angles = self.rows.iter().filter(|row| knee.contains(&row.quantity)).flat_map(|row| &row.values);
-        let knee_sign = knee_flexion_sign(angles);
-        let mut quantities = clinical_quantities(|name| self.rows.iter().any(|row| row.quantity == name));
+        let mut quantities = clinical_quantities(self.names, |name| self.rows.iter().any(|row| row.quantity == name));
         quantities.retain(|quantity| plan.groups.contains(&quantity.group));
         if !plan.only.is_empty() {
             quantities.retain(|quantity| plan.only.contains(&quantity.id));
             quantities.sort_by_key(|quantity| plan.only.iter().position(|id| *id == quantity.id));
         }
         // Sideways forces of a figure that moves in a plane, joints that are locked.
-        quantities.retain(|q| self.rows.iter().any(|row| row.quantity == q.column && moves(row.unit, &row.values)));
+        quantities.retain(|q| self.rows.iter().any(|row| q.has_column(&row.quantity) && moves(row.unit, &row.values)));
         let speed = self.speed_dimensionless.filter(|_| !self.runs());
         let band = |id: &str| speed.and_then(|speed| normative::band(id, speed));
         let panel = |quantity: ClinicalQuantity| {
             let band = band(quantity.id);
-            CyclePanel::new(quantity, self.rows, self.mass_kg, knee_sign, band)
+            CyclePanel::new(quantity, self.rows, self.mass_kg, band)
         };
         quantities.into_iter().map(panel).collect()
     }

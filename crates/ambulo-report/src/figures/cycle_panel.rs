@@ -38,12 +38,11 @@ impl<'a> CyclePanel<'a> {
         quantity: ClinicalQuantity,
         rows: &'a [CycleRow],
         mass_kg: f64,
-        knee_sign: f64,
         band: Option<NormativeBand>,
     ) -> CyclePanel<'a> {
-        let of_quantity = rows.iter().filter(|row| row.quantity == quantity.column);
+        let of_quantity = rows.iter().filter(|row| row.quantity == quantity.columns[row.side]);
         let curve = |row: &'a CycleRow| {
-            let factor = quantity.factor(mass_kg, row.side, knee_sign);
+            let factor = quantity.factor(mass_kg, row.side);
             Curve { row, values: row.values.iter().map(|x| factor * x).collect() }
         };
         let curves = of_quantity.map(curve).collect();
@@ -160,7 +159,7 @@ impl<'a> CyclePanel<'a> {
             for mark in marks.iter().filter(|mark| mark.side == curve.row.side && mark.cycle == curve.row.cycle) {
                 let attributes = tags(mark.side, "infeasible", mark.cycle);
                 match &mark.quantity {
-                    Some(column) if *column == self.quantity.column => {
+                    Some(column) if *column == self.quantity.columns[mark.side] => {
                         let points = within(&curve.values, mark.percent).map(|point| axes.at(point));
                         drawing.polyline(&points.collect::<Vec<_>>(), stroke, &attributes);
                     }

@@ -61,7 +61,7 @@ impl Stage {
         }
         if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
             let mass_kg = summary["mass_kg"].as_f64().filter(|mass| *mass > 0.0).unwrap_or_else(|| model.mass());
-            stage.torques = torque::torques(&model, &moments, &angles, mass_kg);
+            stage.torques = torque::torques(&model, &moments, mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
         stage.put_soles_on_the_floor(&model, summary["height_m"].as_f64());

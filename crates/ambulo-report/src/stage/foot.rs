@@ -10,7 +10,7 @@ use super::joint_places::JointPlaces;
 use super::part::Part;
 use super::{Stage, StageContact};
 use crate::page::ViewShape;
-use ambulo::ground::sole::{Sole, SolePoint};
+use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::model::anthropometry::{ContactSphere, Dimensions};
 use ambulo::model::{BodyId, Side};
 use ambulo::spatial::Vec3;
@@ -58,7 +58,7 @@ impl Foot {
     fn new(places: &JointPlaces<'_>, side: Side, stature: f64, size: &Dimensions, sunk: f64) -> Option<Foot> {
         let half_width = 0.5 * size.foot_width;
         let sole = Sole::of_spheres(&spheres(places, side, size), side, half_width)
-            .or_else(|| Some(lowered(places, Sole::estimated(places.model, &places.rest, side, stature)?, sunk)))?;
+            .or_else(|| Some(lowered(places, places.model.anatomy().soles(stature)[side]?, sunk)))?;
         let rear = sole.points[0].body;
         let toes = places.children(rear).find(|id| places.part(*id) == Part::Toes);
         let points = sole.points.map(|point| match toes {

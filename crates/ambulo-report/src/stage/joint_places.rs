@@ -1,8 +1,8 @@
 //! Where joints stand in the bodies that they join.
 
 use super::part::Part;
-use ambulo::ground::sole::at_rest;
-use ambulo::kinematics::BodyMotion;
+use ambulo::kinematics::{BodyMotion, Posture, body_motion};
+use ambulo::model::anatomy::Leg;
 use ambulo::model::{BodyId, Model, Side};
 use ambulo::spatial::Vec3;
 
@@ -14,15 +14,33 @@ pub(super) struct JointPlaces<'a> {
 
 impl<'a> JointPlaces<'a> {
     pub(super) fn new(model: &'a Model) -> JointPlaces<'a> {
-        JointPlaces { model, rest: at_rest(model) }
+        let q: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+        let rest = vec![0.0; q.len()];
+        JointPlaces { model, rest: body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest }) }
     }
 
+    /// What a body is: by the anatomy of pelvis, trunk and legs, else by its name.
     pub(super) fn part(&self, body: BodyId) -> Part {
-        Part::of(&self.model.bodies()[body.index()].name)
+        let anatomy = self.model.anatomy();
+        // A trunk that is not divided is pelvis and trunk in one.
+        let central =
+            [(anatomy.trunk(), Part::Trunk), (anatomy.pelvis().filter(|_| anatomy.trunk().is_some()), Part::Pelvis)];
+        let of_leg = |leg: &Leg| {
+            [
+                (Some(leg.thigh), Part::Thigh),
+                (Some(leg.shank), Part::Shank),
+                (Some(leg.foot), Part::Foot),
+                (leg.toes, Part::Toes),
+                (Some(leg.ankle), Part::Small),
+            ]
+        };
+        let legs = anatomy.legs().values().flatten().flat_map(of_leg);
+        let found = central.into_iter().chain(legs).find(|(id, _)| *id == Some(body));
+        found.map_or_else(|| Part::of(&self.model.bodies()[body.index()].name), |(_, part)| part)
     }
 
     pub(super) fn side(&self, body: BodyId) -> Option<Side> {
-        Side::of_name(&self.model.bodies()[body.index()].name)
+        self.model.anatomy().body_side(body)
     }
 
     /// Centre of the joint that carries a body, in its own frame [m].

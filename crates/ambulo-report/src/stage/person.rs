@@ -1,7 +1,6 @@
 //! The size of the person whose body is drawn.
 
 use super::joint_places::JointPlaces;
-use ambulo::ground::sole::Stature;
 use ambulo::model::anthropometry::{Build, Dimensions, SegmentTable};
 
 /// Statures that the tables of segments allow [m].
@@ -19,5 +18,5 @@ pub(super) fn lengths(stature: f64) -> Option<Dimensions> {
 /// Stature [m]: what is known of the person, else from the legs, else from the mass.
 pub(super) fn stature(places: &JointPlaces<'_>, known_m: Option<f64>) -> f64 {
     let known = known_m.filter(|height| height.is_finite() && *height > 0.0);
-    known.unwrap_or_else(|| Stature::of_model(places.model, &places.rest).height_m)
+    known.unwrap_or_else(|| places.model.stature().height_m)
 }

@@ -4,23 +4,21 @@
 //! few degrees that a picture does not show.
 
 use super::StageTorque;
-use crate::clinical::{ClinicalGroup, ClinicalQuantity, KNEE, clinical_quantities, knee_flexion_sign};
+use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::model::{BodyId, CoordinateId, Displacement, JointAxis, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 
-/// The moments of legs that panels show, in a table with the columns of `moments.sto`; `angles` are the coordinates of the same motion.
-pub(super) fn torques(model: &Model, moments: &Table, angles: &Table, mass_kg: f64) -> Vec<StageTorque> {
-    let has = |stem: &str| {
-        moments.column(&of_side(stem, Side::Right)).or(moments.column(&of_side(stem, Side::Left))).is_some()
-    };
-    let quantities = clinical_quantities(has);
+/// The moments of legs that panels show, in a table with the columns of `moments.sto`.
+pub(super) fn torques(model: &Model, moments: &Table, mass_kg: f64) -> Vec<StageTorque> {
+    let quantities = clinical_quantities(&ClinicalNames::of_model(model), |_| true);
     let of_legs = quantities.iter().filter(|q| q.group == ClinicalGroup::Moments && !q.central);
-    let flexion = flexion(angles);
     let torque = |(quantity, side): (&ClinicalQuantity, Side)| {
-        let values = moments.column(&of_side(&quantity.column, side))?;
-        let (body, axis) = axis(model, model.coordinate(&format!("{}_{}", quantity.coordinate, side.letter()))?)?;
-        let factor = quantity.factor(mass_kg, side, flexion);
+        let coordinate = &quantity.coordinates[side];
+        let id = model.coordinate(coordinate).filter(|id| model.anatomy().coordinate_side(*id) == Some(side))?;
+        let values = moments.column(&format!("{coordinate}_moment"))?;
+        let (body, axis) = axis(model, id)?;
+        let factor = quantity.factor(mass_kg, side);
         let title = quantity.title.trim_end_matches(" moment").to_lowercase();
         Some(StageTorque {
             name: format!("{side} {title}"),
@@ -33,19 +31,6 @@ pub(super) fn torques(model: &Model, moments: &Table, angles: &Table, mass_kg: f
         })
     };
     of_legs.flat_map(|quantity| Side::BOTH.map(|side| (quantity, side))).filter_map(torque).collect()
-}
-
-/// `hip_flexion_moment` of the right side is `hip_flexion_r_moment`.
-fn of_side(column: &str, side: Side) -> String {
-    let (coordinate, kind) = column.rsplit_once('_').unwrap_or((column, ""));
-    format!("{coordinate}_{}_{kind}", side.letter())
-}
-
-/// The direction in which the knees' coordinate counts flexion.
-fn flexion(angles: &Table) -> f64 {
-    let names = KNEE.iter().flat_map(|knee| Side::BOTH.map(|side| format!("{knee}_{}", side.letter())));
-    let columns: Vec<&[f64]> = names.filter_map(|name| angles.column(&name)).collect();
-    knee_flexion_sign(columns.into_iter().flatten())
 }
 
 /// The body that a coordinate turns and the axis, in its frame, about which it turns when the coordinate grows.

@@ -7,7 +7,7 @@ use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
 use ambulo::analysis::{PredictionInput, Settings, analyse, analyse_predicted};
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
-use ambulo::model::from_osim_bytes;
+use ambulo::model::Model;
 use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -34,7 +34,7 @@ pub(crate) fn recorded() -> Files {
 /// The folder of recorded coordinates with the forces of plates.
 pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads) -> Files {
     let mut findings = Findings::default();
-    let model = from_osim_bytes(body, &mut findings).unwrap();
+    let model = Model::from_osim(body, &mut findings).unwrap();
     let motion = Table::read_storage(motion).unwrap().0;
     let motion = coordinates_from_table(&model, &motion, "walk.mot", &mut findings).unwrap();
     let ground = Table::read_storage(ground).unwrap().0;
@@ -80,7 +80,7 @@ pub(crate) fn predicted() -> Files {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-cli/tests/recording");
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
     let (mut files, mut findings) = (recorded(), Findings::default());
-    let model = from_osim_bytes(&read("figure.osim"), &mut findings).unwrap();
+    let model = Model::from_osim(&read("figure.osim"), &mut findings).unwrap();
     let table = |name: &str| Table::read_storage(&read(name)).unwrap().0;
     let motion = coordinates_from_table(&model, &table("walk.mot"), "walk.mot", &mut findings).unwrap();
     let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;

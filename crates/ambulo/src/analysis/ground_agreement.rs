@@ -22,7 +22,7 @@ use crate::ground::footfalls::Footfalls;
 use crate::ground::phases::contacts_of_events;
 use crate::ground::predict::{FootDeviation, Prediction};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet, upward};
-use crate::model::{Model, Side};
+use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
 use crate::spatial::Vec3;
 use serde::Serialize;
@@ -33,8 +33,8 @@ const SHORTEST_STANCE_S: f64 = 0.2;
 const CENTER_LOAD_BW: f64 = 0.05;
 /// Standard deviations on either side that hold 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
-/// Coordinates whose moments are compared, without their side.
-const MOMENTS: [&str; 3] = ["hip_flexion", "knee_angle", "ankle_angle"];
+/// Movements whose moments are compared.
+const MOMENTS: [Movement; 3] = [Movement::HipFlexion, Movement::KneeFlexion, Movement::AnkleDorsiflexion];
 /// A stance that motion sees is measured if plates saw at least this share of it.
 const MEASURED_SHARE: f64 = 0.5;
 
@@ -226,7 +226,7 @@ pub fn ground_agreement(compared: &Compared<'_>, seen: &PlateCoverage) -> Ground
     let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
     let moments = Side::BOTH.into_iter().flat_map(|side| {
         let frames = judge.measured_frames(side, seen, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| f));
-        MOMENTS.into_iter().filter_map(move |stem| moment(compared, side, stem, &frames)).collect::<Vec<_>>()
+        MOMENTS.into_iter().filter_map(move |movement| moment(compared, side, movement, &frames)).collect::<Vec<_>>()
     });
     let grid = judge.grid;
     let inside = |event: &&Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
@@ -248,9 +248,9 @@ fn stances(seen: &PlateCoverage, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
     of_side.filter(long).filter(inside).collect()
 }
 
-fn moment(compared: &Compared<'_>, side: Side, stem: &str, frames: &[usize]) -> Option<MomentAgreement> {
+fn moment(compared: &Compared<'_>, side: Side, movement: Movement, frames: &[usize]) -> Option<MomentAgreement> {
     let Compared { model, predicted, measured, .. } = *compared;
-    let id = model.coordinate(&format!("{stem}_{}", side.letter()))?.index();
+    let id = model.anatomy().coordinate(movement, Some(side))?.0.index();
     let (found, truth) = (&predicted.forces.generalized[id], &measured.forces.generalized[id]);
     let pairs: Vec<(f64, f64)> = frames.iter().map(|&i| (found[i], truth[i])).collect();
     if pairs.is_empty() {

@@ -8,7 +8,7 @@ use super::ground_agreement::PlateCoverage;
 use super::progress::{Progress, Stage, Stopped};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion};
-use crate::ground::plates::{FeetOnPlates, feet_on_plates, foot_bodies};
+use crate::ground::plates::{FeetOnPlates, feet_on_plates};
 use crate::kinematics::calibration::{
     self, CalibrationError, CalibrationReport, Trial, assume_upright_trunk, calibrate,
 };
@@ -251,7 +251,7 @@ impl BodyInMotion {
     /// What the plates did to the feet; nothing if the body has no feet.
     #[must_use]
     pub fn plate_forces(&self) -> Vec<ForceRecording> {
-        foot_bodies(&self.subject.model).map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
+        self.subject.model.anatomy().feet().map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::recording::Analysis;
 use crate::findings::{Code, Findings};
-use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, GroundForces, upward};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
-use crate::model::{CoordinateKind, Model, Side};
+use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
@@ -50,8 +50,8 @@ fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mu
 
 /// Centres of pressure that lie nearer to the other foot: right and left exchanged.
 fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
-    let side_of = |i: usize| Side::of_name(&model.bodies()[i].name);
-    let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b.body.index()).is_some()).collect();
+    let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
+    let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b).is_some()).collect();
     let mut own: Vec<Vec<f64>> = vec![Vec::new(); feet.len()];
     let mut other = own.clone();
     each_body_motion(model, trajectory, |frame, bodies| {
@@ -61,7 +61,7 @@ fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces
             if center.x.is_nan() {
                 continue;
             }
-            let opposite = feet.iter().filter(|f| side_of(f.body.index()) != side_of(foot.body.index()));
+            let opposite = feet.iter().filter(|f| side_of(f) != side_of(foot));
             if let Some(nearest) = opposite.map(|f| stands_on(f.body.index())).min_by(f64::total_cmp) {
                 own[k].push(stands_on(foot.body.index()));
                 other[k].push(nearest);

@@ -12,10 +12,10 @@ use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Finding, Findings};
 use crate::ground::predict::{Known, PredictSettings, Prediction, predict};
-use crate::ground::sole::Sole;
 use crate::ground::upward;
 use crate::kinematics::Trajectory;
-use crate::model::Model;
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 
@@ -23,7 +23,7 @@ use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictionInput<'a> {
     /// Right and left sole.
-    pub soles: &'a [Option<Sole>; 2],
+    pub soles: &'a BySide<Option<Sole>>,
     /// How forces are predicted.
     pub settings: &'a PredictSettings,
     /// Low-pass of the plates, where there are any; `None` leaves them as they are.

@@ -9,7 +9,7 @@ use super::residual::{Residual, residual_within};
 use crate::dynamics::{Forces, Workspace, inverse};
 use crate::findings::{Code, Findings};
 use crate::ground::predict::PredictError;
-use crate::ground::{self, GroundForces};
+use crate::ground::{self, BodyForces, GroundForces};
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::{Model, Side};
 use crate::motion::filter::LowPass;
@@ -262,14 +262,14 @@ pub(super) fn recorded(plate: &ForceRecording) -> Window {
 
 /// What `grf.mot`, which has one foot a side, cannot show as it was measured.
 fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
-    let names = ground.bodies.iter().map(|b| model.bodies()[b.body.index()].name.as_str());
-    let (sided, other): (Vec<&str>, Vec<&str>) = names.partition(|name| Side::of_name(name).is_some());
-    for name in other {
+    let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
+    let name = |b: &BodyForces| model.bodies()[b.body.index()].name.as_str();
+    for name in ground.bodies.iter().filter(|b| side_of(b).is_none()).map(name) {
         let message = format!("the load on `{name}`, which is of no side, is used but not written to grf.mot");
         findings.report(Code::LoadsNoSide, message);
     }
     for side in Side::BOTH {
-        let bodies: Vec<&str> = sided.iter().filter(|n| Side::of_name(n) == Some(side)).copied().collect();
+        let bodies: Vec<&str> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).map(name).collect();
         if bodies.len() > 1 {
             let message = format!(
                 "{} are pushed on the {side}; grf.mot holds their sum, on the one that carried most",
@@ -307,7 +307,7 @@ type TimedForce = (Vec<f64>, Vec<f64>);
 fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
     let mut list = Vec::new();
     for side in Side::BOTH {
-        let of_side = |p: &&ForceRecording| Side::of_name(&model.bodies()[p.body.index()].name) == Some(side);
+        let of_side = |p: &&ForceRecording| model.anatomy().body_side(p.body) == Some(side);
         let mut plates = plates.iter().filter(of_side);
         let Some(first) = plates.next() else { continue };
         let vertical = |p: &ForceRecording| p.force.iter().map(|f| zero_if_unknown(f.dot(&up))).collect::<Vec<f64>>();

@@ -17,10 +17,10 @@
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
 use super::recording::Analysis;
-use crate::ground::sole::Sole;
 use crate::ground::upward;
 use crate::kinematics::each_body_motion;
-use crate::model::{Model, Side};
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, interpolate};
 use crate::spatial::Vec3;
 
@@ -205,9 +205,9 @@ pub fn symmetry_index(right: f64, left: f64) -> Option<f64> {
     (right * left > 0.0).then(|| 2.0 * (right.abs() - left.abs()) / sum)
 }
 
-/// Times and distances of an analysed walk; `soles` are right and left sole. Without soles there are no distances.
+/// Times and distances of an analysed walk; Without soles there are no distances.
 #[must_use]
-pub fn times_and_distances(model: &Model, soles: &[Option<Sole>; 2], analysis: &Analysis) -> TimesAndDistances {
+pub fn times_and_distances(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis) -> TimesAndDistances {
     let places = Places::of(model, soles, analysis);
     let mut strides = Vec::new();
     for side in Side::BOTH {
@@ -225,7 +225,7 @@ fn times(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {
 /// The stride of a foot between two strikes; `None` if the foot does not leave the ground exactly once.
 fn stride(events: &[Event], places: &Places, side: Side, span: [f64; 2]) -> Option<Stride> {
     let off = only(&times(events, side, EventKind::Off), span)?;
-    let other = other(side);
+    let other = side.other();
     let other_off = only(&times(events, other, EventKind::Off), span);
     let other_strike = only(&times(events, other, EventKind::Strike), span);
     let alone = other_off.zip(other_strike).filter(|(from, to)| from < to && *to <= off);
@@ -245,13 +245,6 @@ fn stride(events: &[Event], places: &Places, side: Side, span: [f64; 2]) -> Opti
         step_length_m: placed.and_then(|placed| placed.step_m),
         step_width_m: placed.and_then(|placed| placed.width_m),
     })
-}
-
-fn other(side: Side) -> Side {
-    match side {
-        Side::Right => Side::Left,
-        Side::Left => Side::Right,
-    }
 }
 
 /// The only instant inside a span, if there is just one.
@@ -284,25 +277,20 @@ struct Placed {
 }
 
 impl Places {
-    fn of(model: &Model, soles: &[Option<Sole>; 2], analysis: &Analysis) -> Places {
+    fn of(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis) -> Places {
         let up = upward(model);
         let floor = floor_velocity(model, analysis, up);
         let grid = analysis.trajectory.grid();
-        let mut heels = [Vec::new(), Vec::new()];
+        let mut heels: BySide<Vec<Vec3>> = BySide::default();
         each_body_motion(model, &analysis.trajectory, |_, bodies| {
-            for (path, sole) in heels.iter_mut().zip(soles) {
-                path.extend(
-                    sole.as_ref().map(|sole| bodies[sole.points[0].body.index()].pose.place(sole.points[0].place)),
-                );
+            for (side, sole) in soles.iter() {
+                let heel = sole.as_ref().map(|sole| sole.points[0]);
+                heels[side].extend(heel.map(|heel| bodies[heel.body.index()].pose.place(heel.place)));
             }
         });
         let strikes = analysis.events.iter().filter(|event| event.kind == EventKind::Strike);
         let placed = |event: &Event| {
-            let path = match event.side {
-                Side::Right => &heels[0],
-                Side::Left => &heels[1],
-            };
-            let heel = at(grid, path, event.time_s)? - floor * (event.time_s - grid.start_s);
+            let heel = at(grid, &heels[event.side], event.time_s)? - floor * (event.time_s - grid.start_s);
             Some(Strike { side: event.side, time_s: event.time_s, heel })
         };
         let mut strikes: Vec<Strike> = strikes.filter_map(placed).collect();

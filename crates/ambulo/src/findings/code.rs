@@ -357,9 +357,6 @@ codes! {
     PredictionShort "prediction.short" Warning
         "The recording is shorter than a gait cycle; forces near its ends are uncertain."
         "Use a longer recording; `grf_sd.mot` has the standard deviations.";
-    PredictionNotWritten "prediction.not_written" Warning
-        "`grf_sd.mot` and `grf_measured.mot` could not be written."
-        "The message states the reason.";
     PredictionWeight "prediction.weight" Warning
         "The mean vertical force over whole cycles is not the body weight."
         "Check unit, rate and filter of the motion, and that the ground alone carries the body.";

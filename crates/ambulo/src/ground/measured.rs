@@ -66,7 +66,7 @@ impl GroundForces {
 #[must_use]
 pub fn feet(model: &Model, ground: &GroundForces) -> Vec<(Side, BodyForces)> {
     let up = upward(model);
-    let side_of = |b: &BodyForces| Side::of_name(&model.bodies()[b.body.index()].name);
+    let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
     let sum = |side: Side| {
         let bodies: Vec<&BodyForces> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).collect();
         let carried = |b: &&&BodyForces| b.force.iter().map(Vec3::norm).sum::<f64>();

@@ -6,7 +6,6 @@ mod measured;
 pub mod phases;
 pub mod plates;
 pub mod predict;
-pub mod sole;
 pub mod stream;
 
 pub use measured::upward;

@@ -8,6 +8,7 @@ pub(crate) mod plan;
 mod trajectory;
 
 mod body_motion;
+mod clinical_angles;
 pub(crate) mod lanes;
 mod sin_cos;
 pub(crate) mod sweep;
@@ -18,4 +19,5 @@ pub mod retarget;
 pub mod scaling;
 
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
+pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

@@ -119,12 +119,24 @@ pub enum OsimError {
     Model(#[from] ImportError),
 }
 
-/// The model that the bytes of an `.osim` file describe; as [`from_osim`].
-///
-/// # Errors
-/// Bytes that are no OpenSim document, or one that describes no body that can be computed.
-pub fn from_osim_bytes(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {
-    Ok(from_osim(&OsimModel::read(bytes)?, findings)?)
+impl Model {
+    /// Reads an OpenSim model (`.osim`).
+    ///
+    /// # Errors
+    /// Bytes that are not an OpenSim document, or a document without a body that can be computed.
+    ///
+    /// ```no_run
+    /// use ambulo::findings::Findings;
+    /// use ambulo::model::Model;
+    ///
+    /// let bytes = std::fs::read("subject.osim")?;
+    /// let model = Model::from_osim(&bytes, &mut Findings::default())?;
+    /// println!("{} bodies, {:.1} kg", model.bodies().len(), model.mass());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_osim(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {
+        Ok(from_osim(&OsimModel::read(bytes)?, findings)?)
+    }
 }
 
 /// A model from an OpenSim document. What plays no part in the dynamics is noted once, with counts; odd inertias,

@@ -3,7 +3,9 @@
 //! A [`Model`] is a tree: every body has one joint to its parent or to ground, parents stand before their children.
 //! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
 
+pub mod anatomy;
 pub mod anthropometry;
+mod by_side;
 mod export;
 pub mod full_body;
 mod function;
@@ -11,13 +13,16 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
+mod posture;
 mod scaled;
 mod side;
 mod simm_spline;
 
+pub use anatomy::{Anatomy, Movement};
+pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
-pub use import::{ImportError, OsimError, from_osim, from_osim_bytes};
+pub use import::{ImportError, OsimError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, Measure};
 pub use knots::Knots;
 pub use scaled::ScaleError;
@@ -25,6 +30,7 @@ pub use side::Side;
 pub use simm_spline::SimmSpline;
 
 use crate::spatial::{Inertia, InertiaError, Vec3};
+use std::sync::Arc;
 
 /// Names a body of one model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -132,6 +138,7 @@ pub struct Model {
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
+    anatomy: Arc<Anatomy>,
 }
 
 /// Why parts make no model.
@@ -201,8 +208,10 @@ impl Model {
         coordinates: Vec<Coordinate>,
         markers: Vec<Marker>,
     ) -> Result<Model, ModelError> {
-        let model = Model { name: name.into(), gravity, bodies, coordinates, markers };
+        let anatomy = Arc::default();
+        let mut model = Model { name: name.into(), gravity, bodies, coordinates, markers, anatomy };
         model.check()?;
+        model.anatomy = Arc::new(Anatomy::find(&model));
         Ok(model)
     }
 
@@ -268,6 +277,12 @@ impl Model {
         &self.markers
     }
 
+    /// What the parts are, anatomically.
+    #[must_use]
+    pub fn anatomy(&self) -> &Anatomy {
+        &self.anatomy
+    }
+
     /// Total mass [kg].
     #[must_use]
     pub fn mass(&self) -> f64 {
@@ -284,6 +299,13 @@ impl Model {
     #[must_use]
     pub fn coordinate(&self, name: &str) -> Option<CoordinateId> {
         self.coordinates.iter().position(|c| c.name == name).map(CoordinateId)
+    }
+
+    /// The name of a coordinate without its side, as in `cycles.csv`: `knee_angle` for `knee_angle_r`.
+    #[must_use]
+    pub fn coordinate_stem(&self, id: CoordinateId) -> String {
+        let name = &self.coordinates[id.0].name;
+        Side::split_name(name).map_or_else(|| name.clone(), |(_, stem)| stem)
     }
 
     /// All bodies, by id.

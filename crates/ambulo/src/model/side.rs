@@ -24,6 +24,15 @@ impl Side {
         }
     }
 
+    /// The opposite side.
+    #[must_use]
+    pub fn other(self) -> Side {
+        match self {
+            Side::Right => Side::Left,
+            Side::Left => Side::Right,
+        }
+    }
+
     /// The side that a name ends with (`calcn_r`) or carries inside (`knee_angle_r_beta`).
     #[must_use]
     pub fn of_name(name: &str) -> Option<Side> {

@@ -8,7 +8,7 @@
 //!
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified).
 //! Cost: rows times w² for the factors, rows times 4 w for a solution.
-//! Not handled: pivoting. A pivot that is not positive is an answer of its own.
+//! Not handled: pivoting. `factor` returns `None` if the matrix is not positive definite.
 //! Pinned by: the tests below; tests/marker_gaps.rs
 
 /// A symmetric band matrix, lower half stored by rows.
@@ -24,7 +24,7 @@ pub struct BandMatrix {
 pub struct BandFactor(BandMatrix);
 
 impl BandMatrix {
-    /// The zero matrix of `size` rows with `width` bands below the diagonal.
+    /// A zero matrix of `size` rows with `width` bands below the diagonal.
     #[must_use]
     pub fn zeros(size: usize, width: usize) -> BandMatrix {
         BandMatrix { size, width, rows: vec![0.0; size * (width + 1)] }
@@ -52,7 +52,7 @@ impl BandMatrix {
         self.rows[place] += value;
     }
 
-    /// The factor in the place of the matrix; `None` if a pivot is not positive.
+    /// Factors the matrix; `None` if it is not positive definite.
     #[must_use]
     pub fn factor(mut self) -> Option<BandFactor> {
         let (w, stride) = (self.width, self.width + 1);
@@ -103,7 +103,7 @@ impl BandFactor {
 }
 
 impl BandFactor {
-    /// The entries of A⁻¹ that lie inside the band of A, without the others.
+    /// The entries of A⁻¹ inside the band of A.
     ///
     /// From Z L = L⁻ᵀ, row by row from the last: Z_ij = (δ_ij / L_jj - Σ_k Z_ik L_kj) / L_jj for j <= i, k = j+1 .. j+w (Takahashi,
     /// Fagan, Chen 1973; unverified). Cost: rows times w².

@@ -10,7 +10,7 @@
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified); inverse bands:
 //! M.F. Hutchinson, F.R. de Hoog 1985, Numer. Math. 47:99-106 (unverified), derived below.
 //! Cost: linear in rows; w² each for the factors and for the inverse.
-//! Not handled: pivoting. A pivot that is not positive is returned with its row.
+//! Not handled: pivoting. If the matrix is not positive definite, the row of the first pivot that is not positive is returned.
 //! Pinned by: tests/splines.rs
 
 /// Bands below the diagonal that the largest spline (half order 4) needs.
@@ -24,7 +24,7 @@ pub(super) struct SymmetricBand {
 }
 
 impl SymmetricBand {
-    /// The zero matrix of `size` rows with `width` bands below the diagonal.
+    /// A zero matrix of `size` rows with `width` bands below the diagonal.
     pub(super) fn zeros(size: usize, width: usize) -> Self {
         assert!(width <= MAX_WIDTH, "a spline of half order {width} has no place here");
         Self { width, rows: vec![[0.0; MAX_WIDTH + 1]; size] }
@@ -76,7 +76,7 @@ impl SymmetricBand {
         self.rows.iter().zip(bands).map(row).sum()
     }
 
-    /// The factors, or the row whose pivot is not positive.
+    /// The factors, or the row of the first pivot that is not positive.
     pub(super) fn factor(&self) -> Result<BandedLdl, usize> {
         let w = self.width;
         let mut lower = vec![[0.0; MAX_WIDTH]; self.rows.len()];
@@ -122,7 +122,7 @@ impl BandedLdl {
     }
 
     /// L u = b from the top, then Lᵀ x = D⁻¹ u from the bottom. The last W values are carried in registers:
-    /// `recent[d - 1]` is u(i-d), and then `owed[d - 1]` what the solved rows below still take from row i-d.
+    /// `recent[d - 1]` is u(i-d), and then `owed[d - 1]` what the solved rows below subtract from row i-d.
     fn solve_width<const W: usize>(&self, x: &mut [f64]) {
         let mut recent = [0.0; W];
         for (value, lower) in x.iter_mut().zip(&self.lower) {
@@ -144,7 +144,7 @@ impl BandedLdl {
         }
     }
 
-    /// The bands of Z = A⁻¹ that A itself has: entry [i][d] is Z(i, i-d).
+    /// The entries of Z = A⁻¹ inside the band of A: entry [i][d] is Z(i, i-d).
     ///
     /// From Lᵀ Z = D⁻¹ L⁻¹, whose right side has zeros above its diagonal Dᵢ⁻¹: row i of Z follows from the rows
     /// below it, Zᵢⱼ = [i = j] Dᵢ⁻¹ - Σₖ Lₖᵢ Zₖⱼ for k = i+1..=i+w and j >= i.

@@ -1,28 +1,28 @@
-//! Nonlinear least squares by Levenberg's and Marquardt's method.
+//! Nonlinear least squares by the Levenberg-Marquardt method.
 //!
 //! With residuals r(x) and Jacobian J, a step solves (JᵀJ + λ diag JᵀJ) Δ = -Jᵀr; λ falls when the step helps and grows
-//! when it does not. JᵀJ is gathered row by row and never J itself, so thousands of residuals cost no memory.
+//! when it does not. JᵀJ is accumulated row by row without storing J, so thousands of residuals need no memory.
 //!
 //! Source: Levenberg 1944; Marquardt 1963 (both unverified).
-//! Cost: a Cholesky factorisation an iteration, and what the rows cost.
+//! Cost: one Cholesky factorisation per iteration, plus the rows.
 //! Pinned by: the tests below; tests/consistent_walk.rs
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// What is minimised: half the sum of squares of residuals.
+/// A least-squares problem: residuals as functions of unknowns.
 pub trait Residuals {
-    /// How many unknowns.
+    /// Number of unknowns.
     fn count(&self) -> usize;
     /// Sum of squares.
     fn cost(&mut self, x: &[f64]) -> f64;
-    /// Sum of squares; hands every residual to the normal equations.
+    /// Sum of squares; adds every residual to the normal equations.
     fn linearise(&mut self, x: &[f64], normal: &mut NormalEquations) -> f64;
 }
 
-/// JᵀJ (lower triangle) and Jᵀr, gathered row by row.
+/// JᵀJ (lower triangle) and Jᵀr, accumulated row by row.
 ///
-/// Rows that follow each other on the same unknowns are summed in a small matrix of their own, which is spread over the whole one
-/// when others come.
+/// Consecutive rows with the same unknowns are summed in a small matrix, which is added to the whole one
+/// when the unknowns change.
 #[derive(Debug, Clone)]
 pub struct NormalEquations {
     matrix: DMatrix<f64>,
@@ -49,7 +49,7 @@ impl NormalEquations {
         self.begin(&[]);
     }
 
-    /// One residual with its derivatives by some unknowns.
+    /// Adds one residual with its derivatives with respect to some unknowns.
     pub fn add(&mut self, residual: f64, numbers: &[usize], slopes: &[f64]) {
         if self.numbers != numbers {
             self.spread();
@@ -73,7 +73,7 @@ impl NormalEquations {
         self.block_right.resize(numbers.len(), 0.0);
     }
 
-    /// Adds the small matrix to the whole one. Two columns of the small one may stand for one unknown.
+    /// Adds the small matrix to the whole one. Two columns of the small one may belong to the same unknown.
     fn spread(&mut self) {
         let count = self.numbers.len();
         for (i, &row) in self.numbers.iter().enumerate() {
@@ -88,7 +88,7 @@ impl NormalEquations {
     }
 }
 
-/// How a minimisation went.
+/// Iterations and costs of a minimisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Steps taken.
@@ -103,7 +103,7 @@ pub struct Progress {
 const SMALL_GAIN: f64 = 1e-4;
 const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-10;
-/// Tries in one iteration until a step helps.
+/// Attempts per iteration to find a step that lowers the cost.
 const TRIES: usize = 12;
 
 /// Improves `x` in place, in at most `iterations` steps.
@@ -127,7 +127,7 @@ pub fn minimise(problem: &mut impl Residuals, x: &mut [f64], iterations: usize) 
     progress
 }
 
-/// A step that lowers the cost, if one is found.
+/// A step that lowers the cost; `None` if there is none.
 fn step(
     problem: &mut impl Residuals,
     x: &[f64],

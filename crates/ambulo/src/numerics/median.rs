@@ -1,6 +1,6 @@
-//! The middle of numbers.
+//! Medians.
 
-/// The median; with an even count the mean of the two in the middle. What is not finite is left out; `None` where nothing is left.
+/// The median; with an even count the mean of the two middle values. Values that are not finite are ignored; `None` if no value remains.
 #[must_use]
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut list: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();

@@ -1,5 +1,5 @@
-//! Numerical tools without mechanics: natural splines and the banded solver under them, periodic splines, nonlinear
-//! least squares.
+//! Numerical methods: natural splines and their banded solver, periodic and uniform B-splines, band matrices, nonlinear
+//! least squares, medians. Nothing here knows mechanics.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.

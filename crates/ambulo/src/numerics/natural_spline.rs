@@ -1,7 +1,7 @@
 //! A natural spline of odd degree: values and derivatives at any time.
 //!
 //! f minimises  Σ (yᵢ - f(tᵢ))² + p ∫ (f⁽ᵐ⁾)² dt,  a piecewise polynomial of degree 2m-1 with 2m-2 continuous
-//! derivatives whose derivatives m to 2m-2 vanish at both ends. [`SplineFitter`](super::SplineFitter) finds it;
+//! derivatives whose derivatives m to 2m-2 vanish at both ends. [`SplineFitter`](super::SplineFitter) computes it;
 //! here it is stored and evaluated: f(tᵢ + s) = Σₖ cᵢₖ sᵏ, k = 0..2m-1.
 //!
 //! | code           | symbol | unit       | shape                     |
@@ -10,9 +10,9 @@
 //! | `coefficients` | cᵢₖ    | value/sᵏ   | 2m per sample, row by row |
 //! | `p`            | p      | s^(2m-1)   | the smoothing parameter   |
 //!
-//! Before the first sample and from the last one on, f continues as the polynomial of degree m-1 that a natural spline
-//! is there. Woltring's SPLDER does the same, and so does OpenSim 4.6 as released; SimTK's `GCVSPLUtil::splder` asserts
-//! in debug builds that no time lies outside.
+//! Before the first and after the last sample, f continues as the polynomial of degree m-1 that a natural spline
+//! has at its ends. Woltring's SPLDER does the same, and so does OpenSim 4.6 as released; SimTK's `GCVSPLUtil::splder` asserts
+//! in debug builds that no time is outside.
 //!
 //! Source: H.J. Woltring 1986, Adv. Eng. Software 8:104-113 (unverified), as translated in simbody's
 //! `SimTKmath/Geometry/src/gcvspl.cpp` and used by OpenSim's `GCVSpline`. Sample weights are 1, as OpenSim sets them.
@@ -215,13 +215,13 @@ impl NaturalSpline {
     }
 
     /// Estimated standard deviation of the noise in one sample, in the unit of the values:
-    /// the root of Σ (yᵢ - f(tᵢ))² / tr(I - A). `None` for interpolation, which leaves no residual.
+    /// the square root of Σ (yᵢ - f(tᵢ))² / tr(I - A). `None` for interpolation, which leaves no residual.
     pub fn noise_standard_deviation(&self) -> Option<f64> {
         let SmoothingUsed { squared_residuals, residual_freedom, .. } = self.used;
         (residual_freedom > 0.0).then(|| (squared_residuals / residual_freedom).sqrt())
     }
 
-    /// Time since the sample at or before `t`, and the polynomial that holds there.
+    /// Time since the sample at or before `t`, and the polynomial of this interval.
     fn piece(&self, t: f64) -> (f64, &[f64]) {
         let m = self.half_order;
         if t < self.times[0] {

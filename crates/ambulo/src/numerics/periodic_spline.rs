@@ -1,18 +1,18 @@
 //! Periodic quintic B-splines on uniform knots.
 //!
-//! With w_d(j) the cardinal B-splines of degree d that are not zero at a place u of its interval, in order of where they begin,
+//! With w_d(j) the cardinal B-splines of degree d that are not zero at position u of a knot interval, ordered by their start,
 //!
 //!   w_d(j)  = [(u + d - j) w_{d-1}(j - 1) + (1 - u + j) w_{d-1}(j)] / d
 //!   w_d'(j) = w_{d-1}(j - 1) - w_{d-1}(j)                                per knot interval
 //!
-//! A sum of them has four continuous derivatives, and is periodic because the knots are numbered in a ring.
+//! A sum of them has four continuous derivatives; it is periodic because the knots form a ring.
 //!
 //! Source: de Boor 1978, "A practical guide to splines", chapters IX and X (unverified).
 //! Cost: constant.
 
 /// Degree of the splines.
 const DEGREE: usize = 5;
-/// How many splines are not zero at one place.
+/// Number of splines that are not zero at one position.
 pub const OVERLAP: usize = DEGREE + 1;
 
 /// Splines over one period, numbered 0 to `count` - 1.
@@ -21,29 +21,29 @@ pub struct PeriodicSplines {
     count: usize,
 }
 
-/// The splines that are not zero at one place.
+/// The splines that are not zero at one position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SplineValues {
-    /// Their numbers.
+    /// Indices of the splines.
     pub numbers: [usize; OVERLAP],
-    /// Value, first and second derivative by the phase (0 to 1 a period).
+    /// Value, first and second derivative with respect to the phase (0 to 1 per period).
     pub values: [[f64; OVERLAP]; 3],
 }
 
 impl PeriodicSplines {
-    /// `count` splines a period, at least one more than overlap at one place, so that each number stands once.
+    /// `count` splines per period, at least one more than overlap at one position, so that each index occurs once.
     #[must_use]
     pub fn new(count: usize) -> PeriodicSplines {
         PeriodicSplines { count: count.max(OVERLAP) }
     }
 
-    /// How many there are.
+    /// Number of splines.
     #[must_use]
     pub fn count(self) -> usize {
         self.count
     }
 
-    /// The splines at a phase, of which the whole part plays no role.
+    /// The splines at a phase, whose integer part is ignored.
     #[must_use]
     pub fn at(self, phase: f64) -> SplineValues {
         let rate = self.count as f64;
@@ -65,7 +65,7 @@ impl PeriodicSplines {
     }
 }
 
-/// w_d(0), ..., w_d(d); zeros behind.
+/// w_d(0), ..., w_d(d), then zeros.
 pub(super) fn cardinal<const D: usize>(u: f64) -> [f64; OVERLAP] {
     let mut w = [0.0; OVERLAP];
     w[0] = 1.0;

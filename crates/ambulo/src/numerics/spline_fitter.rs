@@ -49,11 +49,11 @@ const SEARCH_TOLERANCE: f64 = 1e-3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Smoothing {
     /// Through every sample: p = 0. OpenSim's default for splines of coordinates and forces, which it writes as error
-    /// variance 0: its search then lowers p until nothing is left of the residuals (1e-15 at most, as p ‖Qᵀ Q‖).
+    /// variance 0: its search then lowers p until the residuals vanish (1e-15 at most, as p ‖Qᵀ Q‖).
     Interpolate,
     /// Woltring's smoothing parameter p [s^(2m-1)]: minimises Σ (y - f)² + p ∫ (f⁽ᵐ⁾)² dt.
     Parameter(f64),
-    /// p from the data alone, by generalised cross-validation; supposes noise independent from sample to sample.
+    /// p from the data alone, by generalised cross-validation; assumes that the noise of samples is independent.
     GeneralizedCrossValidation,
     /// p that minimises the expected squared error for a known noise variance (value²), as OpenSim's `error_variance`.
     ErrorVariance(f64),
@@ -96,7 +96,7 @@ impl SplineFitter {
         Ok(self.fit_many(&[values], smoothing)?.swap_remove(0))
     }
 
-    /// Fits many columns; what depends only on times and p is computed once.
+    /// Fits many columns; the parts that depend only on times and p are computed once.
     pub fn fit_many<C: AsRef<[f64]>>(
         &self,
         columns: &[C],
@@ -185,7 +185,7 @@ impl SplineFitter {
     }
 
     /// Factors and tr(I - A) for p in steps. With Z = (R + p Qᵀ Q)⁻¹ both p tr(Qᵀ Q Z) and n - m - tr(R Z) are this
-    /// trace; the smaller part is taken from the product that has all its digits.
+    /// trace; it is computed from the smaller product, which has all its digits.
     fn candidate(&self, p: f64) -> Result<Candidate, SplineError> {
         let grid = &self.grid;
         let uneven = |row: usize| SplineError::Uneven { time: grid.times[row], degree: self.degree.degree() };
@@ -204,7 +204,7 @@ impl SplineFitter {
         let mut best = vec![(f64::INFINITY, WEAKEST_SMOOTHING / self.penalty_norm); columns.len()];
         let mut p = WEAKEST_SMOOTHING / self.penalty_norm;
         while p * self.penalty_norm <= STRONGEST_SMOOTHING {
-            // Long gaps may lose definiteness before the end of the range; stronger smoothing is then out of reach.
+            // Long gaps may lose definiteness before the end of the range; stronger smoothing is then impossible.
             let Ok(candidate) = self.candidate(p) else { break };
             for (best, y) in best.iter_mut().zip(columns) {
                 let score = self.score(y, &candidate, smoothing);
@@ -240,7 +240,7 @@ impl SplineFitter {
         Ok(self.smooth(y, &self.candidate((0.5 * (low + high)).exp())?))
     }
 
-    /// What a search makes small.
+    /// The objective of a search.
     fn score(&self, y: &[f64], candidate: &Candidate, smoothing: Smoothing) -> f64 {
         let n = y.len() as f64;
         let squared_residuals = sum_of_squares(&self.solve(y, candidate).1);

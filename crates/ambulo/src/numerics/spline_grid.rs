@@ -1,6 +1,6 @@
-//! What natural splines of one half order on one time grid share, whatever the values.
+//! The part of a natural spline fit that depends on the time grid and the half order only, not on the values.
 //!
-//! The m-th derivative of a natural spline is a sum of B-splines of order m that all lie inside the data:
+//! The m-th derivative of a natural spline is a sum of B-splines of order m, all of them inside the data:
 //!
 //! f⁽ᵐ⁾ = Σⱼ γⱼ Mⱼ,   ∫ Mⱼ dτ = 1,   j = 0..n-m-1
 //!
@@ -20,7 +20,7 @@
 //! The mean step as unit keeps all entries near 1 at any sampling rate.
 //!
 //! Source: derived here; the formulation is that of Reinsch 1967, Numer. Math. 10:177-183, and of F.R. de Hoog,
-//! M.F. Hutchinson 1987, Numer. Math. 50:311-319 (both unverified). The function minimised is Woltring's, so p is his.
+//! M.F. Hutchinson 1987, Numer. Math. 50:311-319 (both unverified). The objective is Woltring's, and so is p.
 //! Cost: linear in samples, about m³ each, once per grid; then about 3m² per sample and column.
 //! Pinned by: tests/splines.rs
 
@@ -108,7 +108,7 @@ impl SplineGrid {
         d
     }
 
-    /// The B-splines that live between samples i and i+1, and their share of R.
+    /// The B-splines between samples i and i+1, and their contribution to R.
     fn push_pieces(&mut self, i: usize) {
         let (m, rows) = (self.half_order, self.times.len() - self.half_order);
         let live = self.live_splines(i);
@@ -194,7 +194,7 @@ impl SplineGrid {
             self.node_weights.extend(nodes[..m].iter().map(|polynomial| polynomial[k]));
             for l in start..start + m - 1 {
                 for power in 0..m {
-                    // Samples right of the step see it with plus, if it is right of i; left of it with minus, if left.
+                    // A step to the right of i counts with plus for the samples to its right; a step to the left with minus for those to its left.
                     let (seen_by, sign) = if l >= i { (l + 1..start + m, -1.0) } else { (start..l + 1, 1.0) };
                     let weight = |j: usize| nodes[j - start][k] * self.remainder(l, j, power);
                     self.piece_weights.push(sign * seen_by.map(weight).sum::<f64>());

@@ -1,7 +1,7 @@
 //! Cubic B-splines on uniform knots over a run of samples.
 //!
-//! Knots lie on every `stride`-th sample. A sum of the splines has two continuous derivatives. At an open end every spline that
-//! reaches into the run takes part, so the sum is free there; at a closed end only those that lie inside, so the sum and its two
+//! Knots are at every `stride`-th sample. A sum of the splines has two continuous derivatives. At an open end every spline that
+//! overlaps the run takes part, so the sum is free there; at a closed end only those inside take part, so the sum and its two
 //! derivatives are zero there.
 //!
 //! Source: as [`super::PeriodicSplines`], of degree three.
@@ -10,21 +10,21 @@
 
 use super::periodic_spline::cardinal;
 
-/// How many splines are not zero at one sample, at most.
+/// Largest number of splines that are not zero at one sample.
 pub const SPLINES_AT_ONCE: usize = 4;
 
 /// Splines over samples 0 to `samples` - 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UniformSplines {
     stride: usize,
-    /// Splines left out before the first.
+    /// Splines omitted before the first.
     skipped: usize,
     count: usize,
 }
 
 impl UniformSplines {
-    /// Splines over `samples` samples, a knot every `stride` of them. `closed` says at which end, first and last, the sum vanishes; a
-    /// closed last end wants a number of samples that is one more than a multiple of `stride`.
+    /// Splines over `samples` samples, with a knot at every `stride`-th of them. `closed` states at which end, first and last, the sum vanishes; a
+    /// closed last end needs a number of samples that is one more than a multiple of `stride`.
     #[must_use]
     pub fn new(samples: usize, stride: usize, closed: [bool; 2]) -> UniformSplines {
         let stride = stride.max(1);
@@ -35,19 +35,19 @@ impl UniformSplines {
         UniformSplines { stride, skipped, count: all.saturating_sub(skipped + left_out) }
     }
 
-    /// How many there are.
+    /// Number of splines.
     #[must_use]
     pub fn count(self) -> usize {
         self.count
     }
 
-    /// How many are not zero at one sample, at most.
+    /// Largest number of splines that are not zero at one sample.
     #[must_use]
     pub fn overlap(self) -> usize {
         if self.stride == 1 { SPLINES_AT_ONCE - 1 } else { SPLINES_AT_ONCE }
     }
 
-    /// The splines that are not zero at a sample: the number of the first, and each one's value, first and second derivative by the
+    /// The splines that are not zero at a sample: the index of the first, and for each the value and the first and second derivative with respect to the
     /// number of samples.
     #[must_use]
     pub fn at(self, sample: usize) -> (usize, [[f64; SPLINES_AT_ONCE]; 3], std::ops::Range<usize>) {

@@ -1,8 +1,8 @@
-//! How a rigid body resists.
+//! Mass and inertia of a rigid body.
 
 use super::{Mat3, Pose, Vec3};
 
-/// Mass, mass centre and inertia about it, in the axes of the frame that the context names.
+/// Mass, mass centre and inertia about it, in the axes of a frame that the context states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inertia {
     mass: f64,
@@ -10,11 +10,11 @@ pub struct Inertia {
     about_center: Mat3,
 }
 
-/// Why numbers are no inertia.
+/// Why numbers are not an inertia.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InertiaError {
-    /// A mass below zero, or no number.
+    /// A mass below zero, or not finite.
     #[error("the mass is {mass} kg; expected a finite number, zero or more")]
     Mass {
         /// What was given [kg].
@@ -25,14 +25,14 @@ pub enum InertiaError {
     NotFinite,
 }
 
-/// Principal moments may miss the triangle inequality by this share of the largest: rounding of printed inertias.
+/// Principal moments may violate the triangle inequality by this share of the largest: rounding of printed inertias.
 const TRIANGLE_SLACK: f64 = 1e-3;
 
 impl Inertia {
     /// From mass [kg], mass centre [m] and the symmetric inertia about it [kg.m²].
     ///
     /// # Errors
-    /// A negative mass or numbers that are not finite. An inertia that no body can have is not an error here; ask
+    /// A negative mass or numbers that are not finite. An inertia that no body can have is not an error here; see
     /// [`Inertia::defect`].
     pub fn new(mass: f64, center: Vec3, about_center: Mat3) -> Result<Inertia, InertiaError> {
         if !(mass >= 0.0 && mass.is_finite()) {
@@ -62,8 +62,8 @@ impl Inertia {
         self.about_center
     }
 
-    /// What no rigid body can have: a negative principal moment, or one larger than the sum of the other two
-    /// (∫(y²+z²) ≤ ∫(x²+z²) + ∫(x²+y²)). `None` if all is well.
+    /// Describes why no rigid body can have this inertia: a negative principal moment, or one larger than the sum of the other two
+    /// (∫(y²+z²) ≤ ∫(x²+z²) + ∫(x²+y²)). `None` if the inertia is valid.
     #[must_use]
     pub fn defect(&self) -> Option<String> {
         let mut principal = self.about_center.symmetric_eigenvalues();

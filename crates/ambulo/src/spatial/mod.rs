@@ -1,4 +1,4 @@
-//! Rigid-body quantities: where a body is, how it moves, what pushes it, how it resists.
+//! Quantities of rigid bodies: pose, twist, wrench and inertia.
 //!
 //! Everything is expressed in world axes unless a name says otherwise, angular part before linear.
 
@@ -13,7 +13,7 @@ pub use wrench::{Twist, Wrench};
 /// Standard gravity [m/s²] (CGPM 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Three numbers along x, y, z.
+/// A vector with components along x, y, z.
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3 x 3 matrix.
 pub type Mat3 = nalgebra::Matrix3<f64>;

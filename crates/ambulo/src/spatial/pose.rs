@@ -1,6 +1,6 @@
-//! Place and orientation of a frame.
+//! Position and orientation of a frame.
 //!
-//! Products are inlined everywhere: a matrix handed over in memory right after it was computed waits for its stores to
+//! Products are always inlined: a matrix passed through memory right after it was computed waits for its stores to
 //! become visible, which was measured as a fifth of a simulated step.
 
 use super::{Mat3, Vec3};
@@ -16,7 +16,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The frame itself.
+    /// The identity.
     pub const IDENTITY: Pose =
         Pose { rotation: Mat3::new(1., 0., 0., 0., 1., 0., 0., 0., 1.), translation: Vec3::new(0., 0., 0.) };
 
@@ -34,7 +34,7 @@ impl Pose {
         Pose { rotation, translation: -(rotation * self.translation) }
     }
 
-    /// A point given in the inner frame, seen from the outer one [m].
+    /// The coordinates in the outer frame of a point given in the inner frame [m].
     #[must_use]
     #[inline(always)]
     pub fn place(&self, point: Vec3) -> Vec3 {

@@ -1,8 +1,8 @@
-//! Twists and wrenches: six numbers that move with a body or push it.
+//! Twists and wrenches: velocity or acceleration of a body, and force with moment on it.
 
 use super::Vec3;
 
-/// Velocity or acceleration of a body, at a point that the context names.
+/// Velocity or acceleration of a body, at a point that the context states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist {
     /// Angular part [rad/s or rad/s²].
@@ -11,7 +11,7 @@ pub struct Twist {
     pub linear: Vec3,
 }
 
-/// A force and a moment about a point that the context names.
+/// A force and a moment about a point that the context states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench {
     /// Moment about the point [N.m].
@@ -24,7 +24,7 @@ impl Twist {
     /// No motion.
     pub const ZERO: Twist = Twist { angular: Vec3::new(0., 0., 0.), linear: Vec3::new(0., 0., 0.) };
 
-    /// The velocity of another point of the same body, `arm` away [m]. Holds for velocities only.
+    /// The velocity of another point of the same body, at `arm` from this one [m]. For velocities only, not for accelerations.
     #[must_use]
     pub fn velocity_at(&self, arm: Vec3) -> Vec3 {
         self.linear + self.angular.cross(&arm)
@@ -35,7 +35,7 @@ impl Wrench {
     /// No load.
     pub const ZERO: Wrench = Wrench { moment: Vec3::new(0., 0., 0.), force: Vec3::new(0., 0., 0.) };
 
-    /// The same load about another point; `arm` leads from the new point to the old one [m].
+    /// The same load about another point; `arm` points from the new point to the old one [m].
     #[must_use]
     pub fn about(&self, arm: Vec3) -> Wrench {
         Wrench { moment: self.moment + arm.cross(&self.force), force: self.force }

@@ -3,7 +3,7 @@
 use super::error::StudyError;
 use super::source::ForceTable;
 use crate::findings::{Code, Findings};
-use crate::model::Model;
+use crate::model::{BySide, Model};
 use crate::motion::{ForceRecording, force_recordings};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
@@ -16,8 +16,6 @@ const USUAL_PREFIXES: [(&str, &str); 4] = [
     ("ground_force_", "1_ground_force_"),
     ("ground_force_", "l_ground_force_"),
 ];
-/// Bodies that carry the foot's load in the usual models, right and left.
-const USUAL_FEET: [(&str, &str); 3] = [("calcn_r", "calcn_l"), ("foot_r", "foot_l"), ("talus_r", "talus_l")];
 
 /// The forces of a table on the bodies of a model.
 pub(super) fn forces_of_table(
@@ -52,12 +50,13 @@ pub(super) fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3
     plates.iter_mut().for_each(|plate| plate.turn(world_from_lab));
 }
 
-/// Usual prefixes on usual feet; what was taken is a finding.
+/// Usual prefixes on the model's feet, reported as a finding.
 fn usual_loads(model: &Model, table: &Table, findings: &mut Findings) -> Result<ExternalLoads, StudyError> {
     let has = |prefix: &str| table.column(&format!("{prefix}vx")).is_some();
     let columns = USUAL_PREFIXES.iter().find(|(right, left)| has(right) && has(left));
-    let feet = USUAL_FEET.iter().find(|(right, left)| model.body(right).is_some() && model.body(left).is_some());
-    let (Some((right_prefix, left_prefix)), Some((right_foot, left_foot))) = (columns, feet) else {
+    let feet = model.anatomy().feet().map(|feet| feet.map(|body| model.bodies()[body.index()].name.as_str()));
+    let (Some((right_prefix, left_prefix)), Some(BySide { right: right_foot, left: left_foot })) = (columns, feet)
+    else {
         return Err(StudyError::ForceColumns { found: table.names().iter().map(ToString::to_string).collect() });
     };
     let message =

@@ -1,7 +1,7 @@
 //! What one file of a laboratory holds: markers, force plates, events, and what it states about the person.
 
 use crate::analysis::LaboratoryRecording;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
     Event, MarkerError, SubjectParameters, events_from_c3d, markers_from_c3d, markers_from_trc, subject_from_c3d,
@@ -85,6 +85,25 @@ impl LaboratoryFile {
             subject: SubjectParameters::default(),
         })
     }
+}
+
+/// Reads a standing trial with `read`. Its findings are marked as such, and those that the walk has already are not repeated.
+///
+/// # Errors
+/// Those of `read`.
+pub fn standing_trial<E>(
+    findings: &mut Findings,
+    read: impl FnOnce(&mut Findings) -> Result<LaboratoryFile, E>,
+) -> Result<LaboratoryFile, E> {
+    let mut own = Findings::default();
+    let file = read(&mut own);
+    let of_walk = findings.clone();
+    for finding in own.as_slice() {
+        if !of_walk.as_slice().iter().any(|known| known.code == finding.code && known.message == finding.message) {
+            findings.add(Finding { message: format!("standing trial: {}", finding.message), ..finding.clone() });
+        }
+    }
+    file
 }
 
 /// Oddities of a file become findings.

@@ -28,7 +28,7 @@ mod source;
 
 pub use crate::analysis::{Stage, Stopped};
 pub use error::{Input, StudyError};
-pub use laboratory_file::{LaboratoryFile, LaboratoryFileError};
+pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 pub use mass::{MassKnowledge, standing_mass_kg};
 pub use outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
 pub use run::{run, run_observed};

@@ -10,7 +10,7 @@ use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, P
 use crate::analysis::feasibility::Person;
 use crate::analysis::{Body, BodyInMotion, LaboratoryRecording, MarkerTrial, Progress, Stage, follow_markers};
 use crate::findings::{Code, Findings};
-use crate::ground::plates::{PlateContact, foot_bodies};
+use crate::ground::plates::PlateContact;
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, Measures};
 use crate::kinematics::retarget::retarget;
@@ -45,7 +45,7 @@ pub(super) enum Origin {
     Coordinates,
     Markers(Box<Followed>),
     Skeleton(Box<Tracking>),
-    Simulation { rule: String },
+    Simulation { rule: &'static str },
 }
 
 /// A body that followed markers, and what the files state besides.
@@ -113,7 +113,7 @@ impl Source {
                 person: made.person.clone(),
                 motion: ObservedMotion::Complete(made.trajectory.clone()),
                 forces: made.loads.clone(),
-                origin: Origin::Simulation { rule: made.rule.clone() },
+                origin: Origin::Simulation { rule: made.rule },
                 mass_is_stated: true,
             }),
         }
@@ -296,8 +296,8 @@ fn without_forces(body: &BodyInMotion) -> String {
     match contacts.first() {
         _ if body.plates.is_empty() => "the file has no force plates".to_owned(),
         None => format!("no load was measured on the file's {}", counted(body.plates.len(), "force plate")),
-        Some(_) if foot_bodies(&body.subject.model).is_none() => {
-            "the model has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l".to_owned()
+        Some(_) if body.subject.model.anatomy().feet().is_none() => {
+            "the model has no two legs with hip, knee, ankle and foot".to_owned()
         }
         Some(first) => format!("no plate's load belongs to one foot ({})", one(first)),
     }

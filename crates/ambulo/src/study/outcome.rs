@@ -43,19 +43,19 @@ pub struct Outcome {
 }
 
 /// Where ground forces come from.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceOrigin {
     /// Force plates or other sensors.
     Measured,
     /// The motion itself.
     Predicted {
         /// How double support was resolved.
-        rule: String,
+        rule: &'static str,
     },
     /// A simulation of the motion.
     Simulated {
         /// How double support was resolved.
-        rule: String,
+        rule: &'static str,
     },
     /// There are none.
     None,

@@ -64,7 +64,7 @@ pub struct CompleteMotion {
     /// The forces of the ground.
     pub loads: Vec<ForceRecording>,
     /// How the forces were divided between the feet in double support.
-    pub rule: String,
+    pub rule: &'static str,
 }
 
 /// Measured ground forces.

@@ -1,19 +1,19 @@
-//! What can be wrong with a file, said so that its writer can mend it.
+//! Errors of TOML files, with line and key.
 
-/// Why a file could not be read: where, what was found, what was allowed, what to do.
+/// Why a file could not be read: the place, what was found, what was expected, and a hint.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[error("line {line}{}: {message}", place(key))]
 pub struct TomlError {
     /// Line of the file, counted from 1.
     pub line: usize,
-    /// Path of the key, entries of lists counted from 1: `body[3].mass`. Empty where the text is no TOML.
+    /// Path of the key, entries of lists counted from 1: `body[3].mass`. Empty if the text is not TOML.
     pub key: String,
     /// What was found, what was expected, and a hint.
     pub message: String,
 }
 
-/// Where something stands in a file, for errors that show only later.
+/// A place in a file, for errors that are detected later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// Line of the file, counted from 1.
@@ -35,13 +35,13 @@ fn place(key: &str) -> String {
 }
 
 impl TomlError {
-    /// An error at a place of the file; also for what shows only later, when other files are read.
+    /// An error at a place of the file.
     #[must_use]
     pub fn new(line: usize, key: impl Into<String>, message: impl Into<String>) -> TomlError {
         TomlError { line, key: key.into(), message: message.into() }
     }
 
-    /// The same error with advice at its end.
+    /// The same error with a hint at its end.
     #[must_use]
     pub fn hint(mut self, advice: &str) -> TomlError {
         let joined = if self.message.contains(". hint: ") { "; " } else { ". hint: " };

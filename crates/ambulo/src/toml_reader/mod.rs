@@ -1,4 +1,4 @@
-//! Files in TOML, read so that whatever is refused is refused with line and key: scenes and gaits.
+//! Reads TOML files (scenes, gaits, thresholds, marker sets); every error states line and key.
 
 mod error;
 mod value;

@@ -1,4 +1,4 @@
-//! TOML values with their place: whatever is refused is refused with line and key.
+//! TOML values with their place in the file, so that every error states line and key.
 
 use super::error::{Place, TomlError};
 use super::words::{listed, nearest};
@@ -8,14 +8,14 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Larger numbers are slips, and their fifth powers would leave the range of f64.
+/// Larger numbers are mistakes, and their fifth powers would exceed the range of f64.
 const LARGEST: f64 = 1e15;
 /// A vector shorter than this gives no direction.
 const SHORTEST_DIRECTION: f64 = 1e-9;
-/// Characters of the file that a message repeats.
+/// Characters of the file that a message quotes.
 const SHOWN: usize = 40;
 
-/// The text of a file, and where its lines begin.
+/// The text of a file, and the starts of its lines.
 pub(crate) struct Source<'t> {
     text: &'t str,
     /// The document that describes such files.
@@ -29,12 +29,12 @@ impl<'t> Source<'t> {
         Source { text, document, starts: std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect() }
     }
 
-    /// The table that the text is.
+    /// Parses the text to a table.
     pub(crate) fn parse(&self) -> Result<DeTable<'t>, TomlError> {
         DeTable::parse(self.text).map(Spanned::into_inner).map_err(|error| {
             let at = error.span().map_or(self.text.len(), |span| span.start);
             TomlError::new(self.line(at), "", format!("this is not TOML: {}", error.message().trim()))
-                .hint(&format!("texts stand in quotes, lists in [ ], inline tables in {{ }}; see {}", self.document))
+                .hint(&format!("write texts in quotes, lists in [ ], inline tables in {{ }}; see {}", self.document))
         })
     }
 
@@ -66,7 +66,7 @@ impl<'t> Value<'t> {
         self.source.line(self.raw.span().start)
     }
 
-    /// Where it stands.
+    /// Its place in the file.
     pub(crate) fn place(&self) -> Place {
         Place { line: self.line(), key: self.path.clone() }
     }
@@ -93,14 +93,14 @@ impl<'t> Value<'t> {
         if number >= 0.0 { Ok(number) } else { Err(self.wrong(EXPECTED)) }
     }
 
-    /// A finite number; `expected` says what else might stand here.
+    /// A finite number; `expected` describes everything that is allowed here.
     pub(crate) fn finite(&self, expected: &str) -> Result<f64, TomlError> {
         let number = match self.raw.get_ref() {
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64),
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::String(text) if text.trim().parse::<f64>().is_ok() => {
-                return Err(self.wrong(expected).hint("numbers stand without quotes"));
+                return Err(self.wrong(expected).hint("write numbers without quotes"));
             }
             _ => None,
         };
@@ -160,7 +160,7 @@ impl<'t> Value<'t> {
         self.numbers("three numbers [x, y, z]").map(Vec3::from)
     }
 
-    /// A vector made one long.
+    /// A unit vector.
     pub(crate) fn direction(&self) -> Result<Vec3, TomlError> {
         const EXPECTED: &str = "a direction [x, y, z] longer than zero";
         let vector = Vec3::from(self.numbers(EXPECTED)?);
@@ -177,7 +177,7 @@ impl<'t> Value<'t> {
         Ok(Table { source: self.source, path: self.path.clone(), line: self.line(), raw })
     }
 
-    /// Axis and angle, or a quaternion: `outer_from_inner`.
+    /// The rotation `outer_from_inner`, from axis and angle or from a quaternion.
     fn rotation(&self) -> Result<Mat3, TomlError> {
         let table = self.table("{ axis = [x, y, z], angle_deg = 30 } or { quaternion = [w, x, y, z] }")?;
         let Some(value) = table.get("quaternion") else {
@@ -209,7 +209,7 @@ impl<'t> Table<'t> {
         Table { source, path: String::new(), line: 1, raw }
     }
 
-    /// Where it stands.
+    /// Its place in the file.
     pub(crate) fn place(&self) -> Place {
         Place { line: self.line, key: self.path.clone() }
     }
@@ -218,13 +218,13 @@ impl<'t> Table<'t> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Refuses every key that is not among the lists.
+    /// Rejects every key that is not in the lists.
     pub(crate) fn only(&self, allowed: &[&[&str]]) -> Result<(), TomlError> {
         let keys = || allowed.iter().flat_map(|list| list.iter().copied());
         let unknown = self.raw.keys().filter(|key| !keys().any(|known| known == key.get_ref().as_ref()));
         let Some(first) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         let name = first.get_ref().as_ref();
-        let message = format!("this key is not known here; expected {}", listed(keys()));
+        let message = format!("unknown key; expected {}", listed(keys()));
         let shown_name = self.source.shown(first.span());
         let error = TomlError::new(self.source.line(first.span().start), self.path_of(&shown_name), message);
         Err(match nearest(name, keys()) {
@@ -237,12 +237,12 @@ impl<'t> Table<'t> {
         self.raw.get(key).map(|raw| Value { source: self.source, path: self.path_of(key), raw })
     }
 
-    /// A value that must be there; `meaning` tells a reader who left it out what it is.
+    /// A required value; `meaning` describes it in the error if it is missing.
     pub(crate) fn need(&self, key: &str, meaning: &str) -> Result<Value<'t>, TomlError> {
         self.get(key).ok_or_else(|| self.missing(key, meaning))
     }
 
-    /// The error that a key is not there.
+    /// The error that a key is missing.
     pub(crate) fn missing(&self, key: &str, meaning: &str) -> TomlError {
         let error = TomlError::new(self.line, self.path_of(key), format!("found no `{key}`; expected {meaning}"));
         match nearest(key, self.raw.keys().map(|key| key.get_ref().as_ref())) {
@@ -276,7 +276,7 @@ impl<'t> Table<'t> {
         self.get(key).map_or(Ok(Vec3::zeros()), |value| value.vector())
     }
 
-    /// The value under `key` or `key_deg`, and the factor to SI; both at once are refused.
+    /// The value under `key` or `key_deg`, and the factor to SI; both together are an error.
     pub(crate) fn either_unit(&self, key: &str) -> Result<Option<(Value<'t>, f64)>, TomlError> {
         match (self.get(key), self.get(&format!("{key}_deg"))) {
             (Some(_), Some(degrees)) => {
@@ -294,13 +294,13 @@ impl<'t> Table<'t> {
         self.either_unit(key)?.map(|(value, unit)| value.number().map(|number| number * unit)).transpose()
     }
 
-    /// Where a frame stands: the vector under `at` (`position` for bodies) and `rotation`; each may be left out.
+    /// The pose of a frame: the vector under `at` (`position` for bodies) and `rotation`; both are optional.
     pub(crate) fn pose(&self, at: &str) -> Result<Pose, TomlError> {
         let rotation = self.get("rotation").map_or(Ok(Mat3::identity()), |value| value.rotation())?;
         Ok(Pose { rotation, translation: self.vector_or_zero(at)? })
     }
 
-    /// The tables of `[[key]]`; one alone may also be written `[key]`.
+    /// The tables of `[[key]]`; a single one may also be written `[key]`.
     pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'t>>, TomlError> {
         let Some(value) = self.get(key) else { return Ok(Vec::new()) };
         let expected = format!("tables, each under the header [[{}]]", self.header(key));

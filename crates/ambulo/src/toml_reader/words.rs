@@ -1,4 +1,4 @@
-//! Names in messages: lists of what is known, and the name that was probably meant.
+//! Names in messages: lists of known names, and the name that was probably meant.
 
 /// At most this many names are listed in a message; the longest table of keys has 17.
 const LISTED: usize = 20;
@@ -12,7 +12,7 @@ pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
     quoted.join(", ")
 }
 
-/// The name that is a slip of the pen away: at most a third of its letters differ.
+/// The most similar name, if at most a third of its letters differ.
 pub(crate) fn nearest<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     const LONGEST: usize = 64;
     let near = |other: &&str| other.chars().count() <= LONGEST;

@@ -13,12 +13,12 @@ mod gait_files;
 use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts;
-use ambulo::ground::sole::Sole;
 use ambulo::kinematics::Trajectory;
 use ambulo::kinematics::calibration::{Measures, Person};
 use ambulo::kinematics::marker_fit::FitSettings;
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{
     Event, EventKind, ForceRecording, Motion, PlateSettings, SmoothSettings, Smoother, Window, coordinates_from_table,
@@ -41,7 +41,7 @@ pub(crate) struct Recorded {
     pub(crate) subject: &'static str,
     pub(crate) model: Model,
     pub(crate) motion: Motion,
-    pub(crate) soles: [Option<Sole>; 2],
+    pub(crate) soles: BySide<Option<Sole>>,
     pub(crate) plates: Vec<Event>,
     /// What plates measured, in the world of the motion.
     pub(crate) forces: Vec<ForceRecording>,
@@ -158,7 +158,7 @@ fn fitted(
 fn opensim(data: &Path) -> Vec<Recorded> {
     let (gait, walk, run) = ("opensim-gait2392-subject01", "opensim-rajagopal-walk", "opensim-rajagopal-run");
     let model =
-        |file: &str| from_osim_bytes(&std::fs::read(data.join(file)).unwrap(), &mut Findings::default()).unwrap();
+        |file: &str| Model::from_osim(&std::fs::read(data.join(file)).unwrap(), &mut Findings::default()).unwrap();
     let trc = |folder: &str, file: &str| {
         let trc = Trc::read(&std::fs::read(data.join(folder).join(file)).unwrap()).unwrap().0;
         let markers = markers_from_trc(&trc, &mut Findings::default()).unwrap();

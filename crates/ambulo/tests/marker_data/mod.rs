@@ -8,7 +8,7 @@
 mod shared_data;
 
 use ambulo::findings::Findings;
-use ambulo::model::{Model, from_osim_bytes};
+use ambulo::model::Model;
 use ambulo::motion::{ForceRecording, MarkerRecording, force_recordings, markers_from_trc};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -44,7 +44,7 @@ pub(crate) fn markers(path: &Path) -> MarkerRecording {
 fn subject(folder: PathBuf, [model, walk, standing, grf, loads]: [&str; 5]) -> Subject {
     let bytes = |name: &str| std::fs::read(folder.join(name)).unwrap();
     let mut findings = Findings::default();
-    let model = from_osim_bytes(&bytes(model), &mut findings).unwrap();
+    let model = Model::from_osim(&bytes(model), &mut findings).unwrap();
     let (loads, _) = ExternalLoads::read(&bytes(loads)).unwrap();
     let plates = force_recordings(&model, &loads, &table(&folder.join(grf)), &mut findings).unwrap();
     let [markers, standing] = [walk, standing].map(|name| markers(&folder.join(name)));

@@ -11,9 +11,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
 
 use ambulo::findings::Findings;
-use ambulo::ground::sole::{Sole, SolePoint};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::anatomy::{Sole, SolePoint};
+use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 
@@ -44,7 +44,7 @@ pub(crate) const NO_HAND: Hand = Hand { share: 0.0, forward: 0.0, right: 0.0 };
 /// A motion with the body that makes it.
 pub(crate) struct Puppet {
     pub(crate) model: Model,
-    pub(crate) soles: [Option<Sole>; 2],
+    pub(crate) soles: BySide<Option<Sole>>,
     pub(crate) trajectory: Trajectory,
 }
 
@@ -69,12 +69,12 @@ fn model() -> Model {
         body("calcn_r", 0.1, 0.001),
         body("calcn_l", 0.1, 0.001)
     );
-    from_osim_bytes(text.as_bytes(), &mut Findings::default()).unwrap()
+    Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }
 
-fn soles(model: &Model) -> [Option<Sole>; 2] {
-    ["calcn_r", "calcn_l"].map(|name| {
-        let body = model.body(name).unwrap();
+fn soles(model: &Model) -> BySide<Option<Sole>> {
+    BySide::from_fn(|side| {
+        let body = model.body(&format!("calcn_{}", side.letter())).unwrap();
         let point = |x: f64| SolePoint { body, place: Vec3::new(x, 0.0, 0.0) };
         Some(Sole { points: [point(-0.05), point(0.12), point(0.18)], half_width: 0.045 })
     })

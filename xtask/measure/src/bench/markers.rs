@@ -10,7 +10,7 @@ use super::timing::{Timing, cpu_us};
 use crate::workspace;
 use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
-use ambulo::model::{Model, from_osim_bytes};
+use ambulo::model::Model;
 use ambulo::motion::{MarkerRecording, markers_from_trc};
 use ambulo_formats::trc::Trc;
 use std::fmt::Write as _;
@@ -126,7 +126,7 @@ fn line(case: &Case, mean_mm: f64, ours: Timing, theirs: Result<&f64, &String>) 
 fn read(case: &Case, folder: &Path) -> Result<(Model, MarkerRecording), String> {
     let bytes = |name: &str| fs::read(folder.join(name)).map_err(|e| format!("{name}: cannot read: {e}"));
     let mut findings = Findings::default();
-    let model = from_osim_bytes(&bytes(case.model)?, &mut findings).map_err(|e| e.to_string())?;
+    let model = Model::from_osim(&bytes(case.model)?, &mut findings).map_err(|e| e.to_string())?;
     let (trc, _) = Trc::read(&bytes(case.markers)?).map_err(|e| e.to_string())?;
     let markers = markers_from_trc(&trc, &mut findings).map_err(|e| e.to_string())?;
     Ok((model, markers))

@@ -11,12 +11,12 @@ use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::footfalls;
 use ambulo::ground::predict::{PredictSettings, predict, total_wrench};
-use ambulo::ground::sole::Sole;
 use ambulo::ground::stream::{Stream, StreamSettings};
 use ambulo::kinematics::Trajectory;
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
-use ambulo::model::Model;
+use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::model::{BySide, Model};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
@@ -72,7 +72,7 @@ fn of_trajectory(
     name: &str,
     model: &Model,
     trajectory: &Trajectory,
-    soles: &[Option<Sole>; 2],
+    soles: &BySide<Option<Sole>>,
 ) -> Result<Vec<Row>, String> {
     let settings = PredictSettings::default();
     let run = || predict(model, trajectory, soles, &settings, &mut Findings::default());
@@ -95,7 +95,7 @@ fn of_trajectory(
 }
 
 /// A push once the window is full.
-fn push(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Result<Timing, String> {
+fn push(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Result<Timing, String> {
     let mut stream =
         Stream::new(model.clone(), *soles, &StreamSettings::at_rate(RATE_HZ)).map_err(|e| e.to_string())?;
     let mut frames = Vec::new();

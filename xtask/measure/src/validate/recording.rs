@@ -2,8 +2,8 @@
 
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{Known, PredictSettings};
+use ambulo::model::Model;
 use ambulo::model::anthropometry::SegmentTable;
-use ambulo::model::from_osim_bytes;
 use ambulo::motion::coordinates_from_table;
 use ambulo::study::{
     self, ForceTable, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings,
@@ -145,7 +145,7 @@ impl Recording {
         let source = match self.kind {
             Kind::Coordinates { motion, model } => coordinates(&file(model)?, &file(motion)?, findings)?,
             Kind::ModelMarkers { markers, model } => {
-                let model = from_osim_bytes(&file(model)?, findings).map_err(|e| e.to_string())?;
+                let model = Model::from_osim(&file(model)?, findings).map_err(|e| e.to_string())?;
                 let trial = laboratory_file(markers, &file(markers)?, findings)?;
                 let body = MarkerBody::Model { model, mass_kg: None };
                 Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
@@ -166,7 +166,7 @@ impl Recording {
 }
 
 fn coordinates(model: &[u8], motion: &[u8], findings: &mut Findings) -> Result<Source, String> {
-    let model = from_osim_bytes(model, findings).map_err(|e| e.to_string())?;
+    let model = Model::from_osim(model, findings).map_err(|e| e.to_string())?;
     let (table, _) = Table::read_storage(motion).map_err(|e| e.to_string())?;
     let motion = coordinates_from_table(&model, &table, "the recording", findings).map_err(|e| e.to_string())?;
     Ok(Source::coordinates(model, motion))

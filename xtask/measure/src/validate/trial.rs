@@ -6,7 +6,7 @@ use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
 use ambulo::ground::predict::{Known, PredictSettings, predict};
 use ambulo::ground::{BodyForces, feet};
-use ambulo::model::Side;
+use ambulo::model::{BySide, Side};
 use ambulo::motion::{TimeGrid, Window};
 use ambulo::spatial::{Vec3, Wrench};
 use ambulo::study::{Outcome, PredictedGround, Source};
@@ -91,7 +91,7 @@ fn truths(
     };
     let total = Some(true_total(grid, right, left, seen));
     let right_share = Some(true_share(grid, right, left, seen));
-    let centers = Some([right.center_of_pressure.clone(), left.center_of_pressure.clone()]);
+    let centers = Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() });
     let none = Known::default;
     vec![
         ("total wrench", Known { total: total.clone(), ..none() }),

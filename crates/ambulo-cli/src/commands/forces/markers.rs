@@ -3,11 +3,10 @@
 use super::{Reading, added_mass, ground_table, read_model};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
 use crate::files;
-use ambulo::findings::{Finding, Findings};
+use ambulo::findings::Findings;
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source};
+use ambulo::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, standing_trial};
 use anyhow::{Context, Result, bail};
-use std::mem;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -83,20 +82,9 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
     }
 }
 
-/// The standing trial. Findings that the walk has already are not repeated.
 fn read_still(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
     reading.read.push(path.to_owned());
-    let before = mem::take(&mut reading.findings);
-    let file = read_laboratory_file(path, &mut reading.findings);
-    let found = mem::replace(&mut reading.findings, before);
-    let known = reading.findings.clone();
-    for finding in found.as_slice() {
-        if !known.as_slice().iter().any(|k| k.code == finding.code && k.message == finding.message) {
-            let message = format!("standing trial: {}", finding.message);
-            reading.findings.add(Finding { message, ..finding.clone() });
-        }
-    }
-    file
+    standing_trial(&mut reading.findings, |findings| read_laboratory_file(path, findings))
 }
 
 /// A set of markers by its name, or from a file.

@@ -132,11 +132,7 @@ fn input(args: &ForcesArgs, ground: Option<&Path>, outcome: &Outcome) -> Input {
         loads: args.loads.as_deref().map(shown),
         device: args.device.as_deref().map(shown),
         added_mass: args.add_mass.iter().map(ToString::to_string).collect(),
-        ground_source: match &outcome.prediction {
-            Some(predicted) => GroundSource::Predicted { rule: predicted.prediction.rule },
-            None if args.no_ground => GroundSource::None,
-            None => GroundSource::Measured,
-        },
+        ground_source: GroundSource::None,
     }
 }
 

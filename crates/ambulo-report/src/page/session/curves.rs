@@ -69,8 +69,8 @@ impl ShownCurve {
 
 /// The cycles of a foot, in the file's order.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
-    let factor = quantity.factor(results.mass_kg, side, results.knee_flexion);
-    let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.column);
+    let factor = quantity.factor(results.mass_kg, side);
+    let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.columns[side]);
     let shown = |curve: &CycleValues| {
         let factor = factor * if curve.unit == "rad" { 1.0_f64.to_degrees() } else { 1.0 };
         ShownCurve {
@@ -108,7 +108,7 @@ pub(super) fn mean_and_deviation(curves: &[ShownCurve]) -> Option<(Vec<f64>, Opt
 
 /// Both sides over time; a coordinate of pelvis or trunk that means the same on both is one trace.
 fn traces(results: &Results, quantity: &ClinicalQuantity, block: &mut Block) -> Vec<Trace> {
-    let factors = Side::BOTH.map(|side| quantity.factor(results.mass_kg, side, results.knee_flexion));
+    let factors = Side::BOTH.map(|side| quantity.factor(results.mass_kg, side));
     if quantity.central && factors[0].total_cmp(&factors[1]).is_eq() {
         return trace(results, quantity, None, factors[0], block).into_iter().collect();
     }
@@ -165,17 +165,14 @@ struct Place<'a> {
 impl Place<'_> {
     fn of<'a>(results: &'a Results, quantity: &ClinicalQuantity, side: Option<Side>) -> Option<Place<'a>> {
         let letter = side.map(Side::letter).unwrap_or_default();
-        let coordinate = match quantity.central {
-            true => quantity.coordinate.to_owned(),
-            false => format!("{}_{letter}", quantity.coordinate),
-        };
+        let coordinate = quantity.coordinates[side.unwrap_or(Side::Right)].clone();
         let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
         match quantity.group {
             ClinicalGroup::Kinematics => Some(place(&results.kinematics, KINEMATICS, coordinate)),
             ClinicalGroup::Moments => Some(place(results.moments.as_ref()?, MOMENTS, format!("{coordinate}_moment"))),
             ClinicalGroup::Powers => Some(place(results.powers.as_ref()?, POWERS, format!("{coordinate}_power"))),
             ClinicalGroup::Ground => {
-                let (_, axis) = GROUND_AXES.iter().find(|(name, _)| *name == quantity.coordinate)?;
+                let (_, axis) = GROUND_AXES.iter().find(|(name, _)| *name == coordinate)?;
                 let column = format!("ground_force_{letter}_v{axis}");
                 Some(Place { divisor: results.weight_n, ..place(results.ground.as_ref()?, GROUND, column) })
             }

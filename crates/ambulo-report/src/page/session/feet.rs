@@ -1,9 +1,9 @@
 //! Where the feet are when they strike.
 
 use super::results::Results;
-use ambulo::analysis::feasibility::{Person, Sole};
 use ambulo::kinematics::{Posture, body_motion};
-use ambulo::model::{CoordinateKind, Model, Side};
+use ambulo::model::anatomy::Sole;
+use ambulo::model::{CoordinateKind, Model, Movement, Side};
 use ambulo::motion::interpolate;
 use ambulo::spatial::Vec3;
 
@@ -22,7 +22,7 @@ pub(super) struct Strike {
 /// All strikes in order of time; none without a body whose feet are known.
 pub(super) fn strikes(results: &Results) -> Vec<Strike> {
     let Some((_, model)) = &results.body else { return Vec::new() };
-    let soles = Person::of_model(model).soles;
+    let soles = model.anatomy().soles(model.stature().height_m);
     let floor = floor_velocity(results);
     let events = results.events.iter().filter(|event| event.strike);
     let strike = |time_s: f64, side: Side, sole: &Sole| {
@@ -32,8 +32,7 @@ pub(super) fn strikes(results: &Results) -> Vec<Strike> {
     };
     let mut list: Vec<Strike> = events
         .filter_map(|event| {
-            let (side, sole) =
-                Side::BOTH.into_iter().zip(&soles).find(|(side, _)| super::sides::page(*side) == event.side)?;
+            let (side, sole) = soles.iter().find(|(side, _)| super::sides::page(*side) == event.side)?;
             Some(strike(event.time_s, side, sole.as_ref()?))
         })
         .collect();
@@ -66,12 +65,12 @@ pub(super) fn floor_velocity(results: &Results) -> Vec3 {
     }
 }
 
-/// Mean velocity of the pelvis along the floor [m/s], by the coordinates that OpenSim's models have.
+/// Mean velocity of the pelvis along the floor [m/s].
 pub(super) fn pelvis_velocity(results: &Results) -> Option<Vec3> {
     let duration = results.grid.end_s() - results.grid.start_s;
-    let way = |name: &str| {
-        let column = results.kinematics.column(name)?;
+    let way = |movement: Movement| {
+        let column = results.kinematics.column(results.clinical_names().central(movement)?)?;
         Some((column.last()? - column.first()?) / duration)
     };
-    Some(Vec3::new(way("pelvis_tx")?, 0.0, way("pelvis_tz").unwrap_or(0.0)))
+    Some(Vec3::new(way(Movement::PelvisForward)?, 0.0, way(Movement::PelvisRight).unwrap_or(0.0)))
 }

@@ -56,7 +56,7 @@ pub(super) fn groups(
 /// The quantities that the files have, over cycles or over time.
 pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
     let names = names(results);
-    clinical_quantities(|name| names.contains(name))
+    clinical_quantities(&results.clinical_names(), |name| names.contains(name))
 }
 
 fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {
@@ -87,7 +87,7 @@ fn lacking(results: &Results, grid: &Grid) -> &'static str {
         "ground" if results.source == PageSource::None => "the run was made without ground forces",
         "ground" => "the folder has no grf.mot",
         "kinetics" if results.moments.is_none() => "the folder has no moments.sto",
-        _ => "the model has none of the joints' usual names",
+        _ => "the model has no joints of legs and trunk",
     }
 }
 

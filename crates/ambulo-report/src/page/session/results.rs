@@ -2,11 +2,11 @@
 
 use super::cycles_file::{self, CycleValues};
 use super::{cycles, events};
-use crate::clinical::{KNEE, knee_flexion_sign};
+use crate::clinical::ClinicalNames;
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
 use crate::page::folder::{Folder, PageError};
 use ambulo::findings::Findings;
-use ambulo::model::{Model, Side, from_osim_bytes};
+use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
 use serde_json::Value;
@@ -37,8 +37,6 @@ pub(super) struct Results {
     pub(super) mass_kg: f64,
     /// The same times gravity [N].
     pub(super) weight_n: f64,
-    /// +1 where the knee's coordinate counts flexion positive, else -1.
-    pub(super) knee_flexion: f64,
 }
 
 impl Results {
@@ -61,7 +59,6 @@ impl Results {
             deviations: table(DEVIATIONS)?,
             measured: table(MEASURED)?,
             weight_n: mass_kg * gravity(body.as_ref().map(|(_, model)| model), &summary),
-            knee_flexion: knee_flexion(&kinematics),
             source: source(&summary),
             summary,
             grid,
@@ -72,6 +69,11 @@ impl Results {
             body,
             mass_kg,
         })
+    }
+
+    /// Which coordinates measure which movements: the body's, or the usual ones without a body.
+    pub(super) fn clinical_names(&self) -> ClinicalNames {
+        self.body.as_ref().map_or_else(ClinicalNames::without_model, |(_, model)| ClinicalNames::of_model(model))
     }
 
     /// The instants as the page has them.
@@ -139,7 +141,7 @@ fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Opt
 fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError> {
     for file in BODIES {
         if let Some(bytes) = (folder.file)(file) {
-            let model = from_osim_bytes(&bytes, &mut Findings::default());
+            let model = Model::from_osim(&bytes, &mut Findings::default());
             return match model {
                 Ok(model) => Ok(Some((file, model))),
                 Err(error) => Err(folder.unreadable(file, error.to_string())),
@@ -174,9 +176,4 @@ fn source(summary: &Value) -> PageSource {
         Some("simulated") => PageSource::Simulated,
         _ => PageSource::None,
     }
-}
-
-fn knee_flexion(kinematics: &Table) -> f64 {
-    let is_knee = |name: &str| Side::split_name(name).is_some_and(|(_, stem)| KNEE.contains(&stem.as_str()));
-    knee_flexion_sign(kinematics.columns().filter(|(name, _)| is_knee(name)).flat_map(|(_, values)| values))
 }

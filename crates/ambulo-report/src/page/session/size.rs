@@ -4,8 +4,6 @@ use super::results::Results;
 use super::strides::Stride;
 use super::way::{self, Turn};
 use crate::normative::dimensionless_speed;
-use ambulo::analysis::feasibility::Person;
-use ambulo::model::Side;
 
 /// A length with where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,11 +64,9 @@ fn leg_length(results: &Results) -> Option<Known> {
         return Some(Known { metres, source: "hip to floor of the figure".to_owned() });
     }
     let (file, model) = results.body.as_ref()?;
-    let has_legs = ["hip_flexion", "knee_angle", "ankle_angle"]
-        .iter()
-        .all(|stem| Side::BOTH.iter().any(|side| model.coordinate(&format!("{stem}_{}", side.letter())).is_some()));
+    let has_legs = model.anatomy().legs().values().any(Option::is_some);
     has_legs.then(|| Known {
-        metres: Person::of_model(model).leg_length_m,
+        metres: model.stature().leg_length_m,
         source: format!("hip to ankle in {file}, and the height of the ankle"),
     })
 }

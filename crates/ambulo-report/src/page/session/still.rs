@@ -21,8 +21,7 @@ pub(super) fn divided(
 }
 
 fn is_moving(results: &Results, quantity: &ClinicalQuantity) -> bool {
-    let of_quantity = |name: &str| name == quantity.column;
-    let mut cycles = results.curves.iter().filter(|curve| of_quantity(&curve.quantity));
+    let mut cycles = results.curves.iter().filter(|curve| quantity.has_column(&curve.quantity));
     let in_cycles = cycles.any(|curve| moves(&curve.unit, &curve.values));
     in_cycles || Side::BOTH.into_iter().any(|side| moves_over_time(results, quantity, side))
 }
@@ -42,7 +41,7 @@ fn moves_over_time(results: &Results, quantity: &ClinicalQuantity, side: Side) -
 pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String> {
     let is_angle = |quantity: &ClinicalQuantity| quantity.group == ClinicalGroup::Kinematics;
     let is_named = |quantity: &&ClinicalQuantity| {
-        is_angle(quantity) || !still.iter().any(|other| is_angle(other) && other.coordinate == quantity.coordinate)
+        is_angle(quantity) || !still.iter().any(|other| is_angle(other) && other.coordinates == quantity.coordinates)
     };
     let words = |quantity: &ClinicalQuantity| {
         let why = match quantity.group {
@@ -58,8 +57,7 @@ pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String
 
 fn is_locked(results: &Results, quantity: &ClinicalQuantity) -> bool {
     let Some((_, model)) = &results.body else { return false };
-    let names =
-        [quantity.coordinate.to_owned(), format!("{}_r", quantity.coordinate), format!("{}_l", quantity.coordinate)];
-    let mut coordinates = model.coordinates().iter().filter(|coordinate| names.contains(&coordinate.name));
+    let is_it = |name: &String| quantity.coordinates.values().any(|coordinate| coordinate == name);
+    let mut coordinates = model.coordinates().iter().filter(|coordinate| is_it(&coordinate.name));
     coordinates.any(|coordinate| matches!(coordinate.drive, Drive::Locked))
 }

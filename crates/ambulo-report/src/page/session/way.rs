@@ -3,7 +3,7 @@
 use super::feet;
 use super::results::Results;
 use super::sides;
-use ambulo::model::Side;
+use ambulo::model::{Movement, Side};
 use ambulo::motion::interpolate;
 use ambulo::spatial::Vec3;
 
@@ -32,12 +32,13 @@ pub(super) struct Way<'a> {
 }
 
 impl Way<'_> {
-    /// By the coordinates that OpenSim's models have; none without them.
+    /// By the coordinates of the pelvis; none without them.
     pub(super) fn of(results: &Results) -> Option<Way<'_>> {
+        let column = |movement: Movement| results.kinematics.column(results.clinical_names().central(movement)?);
         Some(Way {
             times: &results.times,
-            forward: results.kinematics.column("pelvis_tx")?,
-            sideways: results.kinematics.column("pelvis_tz"),
+            forward: column(Movement::PelvisForward)?,
+            sideways: column(Movement::PelvisRight),
             floor: feet::floor_velocity(results),
         })
     }

@@ -9,21 +9,27 @@ const ENDINGS: [(&str, ClinicalGroup); 2] = [("_moment", ClinicalGroup::Moments)
 
 /// `left knee flexion moment` for `knee_angle_l_moment`, `left knee flexion` for `knee_angle_l`, `right friction` for `friction_r`.
 pub(super) fn in_words(name: &str, quantities: &[ClinicalQuantity]) -> String {
-    let (side, stem) = match Side::split_name(name) {
-        Some((side, stem)) => (format!("{side} "), stem),
-        None => (String::new(), name.to_owned()),
-    };
-    let known = known(&stem, quantities);
-    let words = known.map_or_else(|| stem.replace('_', " "), |quantity| quantity.title.to_lowercase());
-    format!("{side}{words}")
+    if let Some((quantity, side)) = known(name, quantities) {
+        let title = quantity.title.to_lowercase();
+        return side.map_or_else(|| title.clone(), |side| format!("{side} {title}"));
+    }
+    match Side::split_name(name) {
+        Some((side, stem)) => format!("{side} {}", stem.replace('_', " ")),
+        None => name.replace('_', " "),
+    }
 }
 
-/// The quantity that a name without its side belongs to: one with an ending, or else the coordinate's angle.
-pub(super) fn known<'a>(stem: &str, quantities: &'a [ClinicalQuantity]) -> Option<&'a ClinicalQuantity> {
-    let group = ENDINGS.iter().find(|(ending, _)| stem.ends_with(ending)).map(|(_, group)| *group);
-    let column = if group.is_some() { stem.to_owned() } else { format!("{stem}_angle") };
-    let group = group.unwrap_or(ClinicalGroup::Kinematics);
-    quantities.iter().find(|quantity| quantity.group == group && quantity.column == column)
+/// The quantity that a name belongs to, with its side: a moment or a power of a coordinate, or else the coordinate's angle.
+pub(super) fn known<'a>(
+    name: &str,
+    quantities: &'a [ClinicalQuantity],
+) -> Option<(&'a ClinicalQuantity, Option<Side>)> {
+    let ending = ENDINGS.iter().find_map(|(ending, group)| Some((name.strip_suffix(ending)?, *group)));
+    let (coordinate, group) = ending.unwrap_or((name, ClinicalGroup::Kinematics));
+    quantities.iter().filter(|quantity| quantity.group == group).find_map(|quantity| {
+        let (side, _) = quantity.coordinates.iter().find(|(_, own)| *own == coordinate)?;
+        Some((quantity, (!quantity.central).then_some(side)))
+    })
 }
 
 /// Rewords the names in a column of a table.
@@ -36,11 +42,11 @@ pub(super) fn reword(table: &mut Table, column: usize, quantities: &[ClinicalQua
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::clinical::clinical_quantities;
+    use crate::clinical::{ClinicalNames, clinical_quantities};
 
     #[test]
     fn names_of_files_become_words() {
-        let quantities = clinical_quantities(|_| true);
+        let quantities = clinical_quantities(&ClinicalNames::usual(), |_| true);
         for (name, words) in [
             ("knee_angle_l_moment", "left knee flexion moment"),
             ("hip_flexion_r", "right hip flexion"),

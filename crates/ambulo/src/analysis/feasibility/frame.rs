@@ -2,13 +2,14 @@
 //!
 //! Every check yields the share of what is allowed; above one the instant is infeasible.
 
-use super::person::{Person, Sole};
-use super::strength::StrengthCurve;
+use super::person::Person;
+use super::strength::{Hill, StrengthCurve};
 use super::thresholds::Thresholds;
 use super::verdict::Check;
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::kinematics::BodyMotion;
-use crate::model::{CoordinateId, CoordinateKind, Drive, Model, Side};
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
 use crate::spatial::{Vec3, Wrench};
 
 /// A sole below this height above the ground [m] ...
@@ -53,8 +54,8 @@ pub struct Frame<'a> {
     pub powers: &'a [f64],
     /// Bodies, in the model's order.
     pub bodies: &'a [BodyMotion],
-    /// What the ground does to the right and the left foot; `None` where it is not known.
-    pub feet: [Option<FootFrame>; 2],
+    /// What the ground does to each foot; `None` where it is not known.
+    pub feet: BySide<Option<FootFrame>>,
     /// What motion and loads disagree by: force [N] and moment about the root joint [N.m], world axes.
     pub residual: Wrench,
     /// Velocity of the ground [m/s]: the belt's on a treadmill.
@@ -100,21 +101,11 @@ pub struct Measurement {
     pub share: f64,
 }
 
-/// +1 if the knees of a model flex in the positive direction, by their ranges; -1 (the Gait2392 family) if they have none.
-#[must_use]
-pub fn knee_flexion_of_ranges(model: &Model) -> f64 {
-    let knee = model.coordinates().iter().find(|c| c.name.starts_with("knee_angle") && c.range.is_some());
-    match knee.and_then(|c| c.range) {
-        Some([low, high]) if high > -low => 1.0,
-        _ => -1.0,
-    }
-}
-
 impl Judge {
-    /// Prepares the limits of a model and a person. `knee_flexion` is +1 where the knee's coordinate rises in flexion, else -1.
+    /// Prepares the limits of a model and a person.
     #[must_use]
-    pub fn new(model: &Model, person: &Person, thresholds: &Thresholds, knee_flexion: f64) -> Judge {
-        let limits = |id: CoordinateId| limits(model, id, person, thresholds, knee_flexion);
+    pub fn new(model: &Model, person: &Person, thresholds: &Thresholds) -> Judge {
+        let limits = |id: CoordinateId| limits(model, id, person, thresholds);
         Judge {
             thresholds: thresholds.clone(),
             person: person.clone(),
@@ -138,11 +129,11 @@ impl Judge {
 
     /// Whether a foot is unloaded, near the ground and slow: it may stand where nothing measures.
     fn may_stand_unseen(&self, frame: &Frame<'_>, side: Side) -> bool {
-        let carried = frame.feet[side as usize].map_or(0.0, |foot| foot.force.dot(&self.up));
+        let carried = frame.feet[side].map_or(0.0, |foot| foot.force.dot(&self.up));
         if carried > CENTER_OF_PRESSURE_LOAD_N {
             return false;
         }
-        let Some(sole) = &self.person.soles[side as usize] else { return frame.feet[side as usize].is_none() };
+        let Some(sole) = &self.person.soles[side] else { return frame.feet[side].is_none() };
         sole.points.iter().any(|point| {
             let body = &frame.bodies[point.body.index()];
             let place = body.pose.place(point.place);
@@ -152,21 +143,26 @@ impl Judge {
     }
 }
 
-fn limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds, knee_flexion: f64) -> Limits {
+fn limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds) -> Limits {
     let coordinate = &model.coordinates()[id.index()];
     let is_root = model.bodies().iter().any(|b| b.joint.parent.is_none() && b.joint.coordinates().contains(&id));
     let is_judged = coordinate.kind == CoordinateKind::Rotation && matches!(coordinate.drive, Drive::Free) && !is_root;
     let (mass, height) = (t.mass_kg.unwrap_or(person.mass_kg), t.height_m.unwrap_or(person.height_m));
-    let stem = Side::split_name(&coordinate.name).map(|(_, stem)| stem);
-    let given = t.tables.iter().find(|(name, _)| *name == coordinate.name || Some(name) == stem.as_ref());
+    let meaning = model.anatomy().meaning(id);
+    let stem = model.coordinate_stem(id);
+    let given = t.tables.iter().find(|(name, _)| *name == coordinate.name || *name == stem);
+    let given = given.map(|(_, table)| {
+        let hill = meaning.map_or(Hill::UNKNOWN, |m| Hill::of_direction(m.movement, m.sign));
+        StrengthCurve { hill: table.hill.or(Some(hill)), ..table.clone() }
+    });
     let built_in = || {
-        let curve = StrengthCurve::built_in(&coordinate.name, mass, height)?;
-        let turned = stem.as_deref() == Some("knee_angle") && knee_flexion > 0.0;
-        Some(if turned { curve.reversed() } else { curve })
+        let meaning = meaning?;
+        let curve = StrengthCurve::built_in(meaning.movement, mass, height)?;
+        Some(if meaning.sign < 0.0 { curve.reversed() } else { curve })
     };
     let slack = t.range_slack_rad;
     Limits {
-        strength: given.map(|(_, curve)| curve.clone()).or_else(built_in).filter(|_| is_judged),
+        strength: given.or_else(built_in).filter(|_| is_judged),
         range: coordinate.range.map(|[low, high]| [low - slack, high + slack]).filter(|_| is_judged),
         is_judged,
     }
@@ -187,7 +183,7 @@ pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measu
         }
     };
     let unsupported = share(frame.residual.force.norm(), judge.weight);
-    let ground_known = frame.feet.iter().any(Option::is_some);
+    let ground_known = frame.feet.values().any(Option::is_some);
     let whole = !ground_known
         || unsupported <= t.support_bw
         || !Side::BOTH.into_iter().any(|side| judge.may_stand_unseen(frame, side));
@@ -195,7 +191,7 @@ pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measu
         check_coordinate(judge, frame, CoordinateId(index), limits, whole, &mut visit);
     }
     for side in Side::BOTH {
-        if let Some(foot) = &frame.feet[side as usize] {
+        if let Some(foot) = &frame.feet[side] {
             check_foot(judge, frame, side, foot, &mut visit);
         }
     }
@@ -206,7 +202,7 @@ pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measu
         };
         say(Check::Support, unsupported, t.support_bw);
         say(Check::Balance, frame.residual.moment.norm() / judge.person.mass_kg, t.balance_nm_kg);
-        let carried: f64 = frame.feet.iter().flatten().map(|foot| foot.force.dot(&judge.up)).sum();
+        let carried: f64 = frame.feet.values().flatten().map(|foot| foot.force.dot(&judge.up)).sum();
         let flies = frame.walking && carried < FLIGHT_LOAD_BW * judge.weight;
         let [value, share] = if flies { [f64::INFINITY; 2] } else { [0.0, 0.0] };
         visit(Measurement { check: Check::Flight, of, value, limit: t.flight_s, share });
@@ -262,7 +258,7 @@ fn check_foot(judge: &Judge, frame: &Frame<'_>, side: Side, foot: &FootFrame, vi
     if carries(t.friction_load_bw) {
         say(Check::Friction, (foot.force - up * normal).norm() / normal, t.friction);
     }
-    let Some(sole) = &judge.person.soles[side as usize] else { return };
+    let Some(sole) = &judge.person.soles[side] else { return };
     if carries(t.sole_load_bw) {
         let outside = distance_to_line(judge, frame, sole, foot.center_of_pressure) - sole.half_width;
         say(Check::CenterOfPressure, outside.max(0.0), t.sole_margin_m);

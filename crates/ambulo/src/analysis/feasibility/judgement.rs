@@ -10,7 +10,7 @@ use crate::dynamics::{Forces, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::{BodyForces, GroundForces, feet, upward};
 use crate::kinematics::{Trajectory, each_body_motion};
-use crate::model::{CoordinateId, Model, Side};
+use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
 
@@ -29,23 +29,11 @@ pub struct Evidence<'a> {
     pub device: Option<&'a [Vec<f64>]>,
 }
 
-/// +1 if the knees bend in the positive direction of their coordinates, -1 if in the negative one: that in which they turn most.
-#[must_use]
-pub fn knee_flexion_of_motion(model: &Model, trajectory: &Trajectory) -> f64 {
-    let knees = model.coordinate_ids().filter(|id| {
-        let name = &model.coordinates()[id.index()].name;
-        Side::split_name(name).is_some_and(|(_, stem)| stem == "knee_angle")
-    });
-    let angles = knees.flat_map(|id| trajectory.values(id).iter().copied());
-    let largest = angles.fold(0.0_f64, |m, x| if x.abs() > m.abs() { x } else { m });
-    if largest > 0.0 { 1.0 } else { -1.0 }
-}
-
 /// Judges a whole motion.
 #[must_use]
 pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let Evidence { model, trajectory, .. } = *evidence;
-    let judge = Judge::new(model, person, thresholds, knee_flexion_of_motion(model, trajectory));
+    let judge = Judge::new(model, person, thresholds);
     let tracks = measure(evidence, &judge, findings);
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
@@ -90,7 +78,7 @@ fn slot(model: &Model, measurement: &Measurement) -> Option<usize> {
     let coordinates = OF_COORDINATES.len() * model.coordinates().len();
     match measurement.of {
         Measured::Coordinate(id) => Some(OF_COORDINATES.len() * id.index() + among(&OF_COORDINATES)?),
-        Measured::Foot(side) => Some(coordinates + OF_FEET.len() * side as usize + among(&OF_FEET)?),
+        Measured::Foot(side) => Some(coordinates + OF_FEET.len() * usize::from(side == Side::Left) + among(&OF_FEET)?),
         Measured::Body => Some(coordinates + 2 * OF_FEET.len() + among(&OF_BODY)?),
     }
 }
@@ -117,7 +105,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
     let gravity = model.gravity().norm();
     let froude = over.map(|o| o.speed * o.speed / (gravity * judge.person.leg_length_m));
     let by_side = feet(model, ground);
-    let feet = Side::BOTH.map(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces));
+    let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces));
     let roots = Roots::of(model);
     let n = model.coordinates().len();
     let [mut q, mut qd, mut tau, mut power] = [0; 4].map(|_| vec![0.0; n]);
@@ -175,8 +163,8 @@ fn foot_frame(foot: &BodyForces, frame: usize) -> FootFrame {
 }
 
 /// Median height of the centres of pressure [m].
-fn ground_height(feet: &[Option<&BodyForces>; 2], up: Vec3) -> f64 {
-    let centers = feet.iter().flatten().flat_map(|foot| &foot.center_of_pressure);
+fn ground_height(feet: &BySide<Option<&BodyForces>>, up: Vec3) -> f64 {
+    let centers = feet.values().flatten().flat_map(|foot| &foot.center_of_pressure);
     let mut heights: Vec<f64> = centers.map(|p| p.dot(&up)).filter(|h| h.is_finite()).collect();
     heights.sort_by(f64::total_cmp);
     heights.get(heights.len() / 2).copied().unwrap_or(0.0)
@@ -203,16 +191,10 @@ fn not_judged(evidence: &Evidence<'_>, judge: &Judge) -> Vec<NotJudged> {
         }
         return list;
     }
-    let unknown = |side: &Side| judge.person.soles[*side as usize].is_none();
+    let unknown = |side: &Side| judge.person.soles[*side].is_none();
     for side in Side::BOTH.into_iter().filter(unknown) {
         for check in [Check::CenterOfPressure, Check::Sliding] {
-            add(
-                check,
-                format!(
-                    "the {side} sole is not known: no body calcn_{0} with a coordinate ankle_angle_{0}",
-                    side.letter()
-                ),
-            );
+            add(check, format!("the {side} sole is not known: the model has no {side} foot"));
         }
     }
     list
@@ -239,7 +221,7 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
         m.value = span.duration_s(grid.step_s);
     }
     let side = match m.of {
-        Measured::Coordinate(id) => Side::of_name(&model.coordinates()[id.index()].name),
+        Measured::Coordinate(id) => model.anatomy().coordinate_side(id),
         Measured::Foot(side) => Some(side),
         Measured::Body => None,
     };

@@ -14,9 +14,9 @@ mod strength;
 mod thresholds;
 mod verdict;
 
-pub use frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame, knee_flexion_of_ranges, least_load_n};
-pub use judgement::{Evidence, check, knee_flexion_of_motion};
-pub use person::{Person, Sole, SolePoint};
+pub use frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame, least_load_n};
+pub use judgement::{Evidence, check};
+pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;
 pub use verdict::{Check, Closest, NotJudged, Reason, Verdict};

@@ -1,11 +1,10 @@
-//! Whose motion it is: size, and where the soles are.
+//! The size and the soles of the person who moves.
 
-pub use crate::ground::sole::{Sole, SolePoint};
-use crate::ground::sole::{Stature, at_rest};
+use crate::model::anatomy::{Sole, Stature};
 use crate::model::anthropometry::Human;
-use crate::model::{Model, Side};
+use crate::model::{BySide, Model};
 
-/// A person: whose strength, weight and soles a motion is judged by.
+/// The person by whose strength, weight and soles a motion is judged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Person {
     /// Body mass [kg].
@@ -14,8 +13,8 @@ pub struct Person {
     pub height_m: f64,
     /// Hip to ground, standing [m].
     pub leg_length_m: f64,
-    /// Right and left sole, where known or estimated.
-    pub soles: [Option<Sole>; 2],
+    /// The soles, where known or estimated.
+    pub soles: BySide<Option<Sole>>,
     /// Whether height and soles are estimates from a model's joints.
     pub estimated: bool,
 }
@@ -29,22 +28,20 @@ impl Person {
             mass_kg: human.model.mass(),
             height_m: d.height,
             leg_length_m: d.leg_length,
-            soles: Side::BOTH.map(|side| Sole::of_spheres(&human.soles, side, 0.5 * d.foot_width)),
+            soles: BySide::from_fn(|side| human.sole(side)),
             estimated: false,
         }
     }
 
-    /// The person of any model whose legs have coordinates of the usual names: stature from thigh and shank, soles from stature and
-    /// the ankle's place.
+    /// The person of any model with legs: stature from thigh and shank, soles from stature and the place of the ankle.
     #[must_use]
     pub fn of_model(model: &Model) -> Person {
-        let bodies = at_rest(model);
-        let Stature { height_m, leg_length_m } = Stature::of_model(model, &bodies);
+        let Stature { height_m, leg_length_m } = model.stature();
         Person {
             mass_kg: model.mass(),
             height_m,
             leg_length_m,
-            soles: Side::BOTH.map(|side| Sole::estimated(model, &bodies, side, height_m)),
+            soles: model.anatomy().soles(height_m),
             estimated: true,
         }
     }

@@ -18,7 +18,7 @@
 //! Not handled: tendons that recoil, two-joint muscles whose length the other joint changes.
 //! Pinned by: tests/feasibility.rs
 
-use crate::model::Side;
+use crate::model::anatomy::Movement;
 
 /// Isometric moments, with their source.
 const TABLE: &str = include_str!("strength.csv");
@@ -67,8 +67,9 @@ pub struct StrengthCurve {
     pub positive: Vec<f64>,
     /// Largest negative moment at each angle, as a number above zero [N.m].
     pub negative: Vec<f64>,
-    /// Of the muscles that give the positive moment, and of those that give the negative one.
-    pub hill: [Hill; 2],
+    /// How the muscles of the positive moment slow down, and those of the negative one; `None`: as those of the joint that the curve
+    /// is used for.
+    pub hill: Option<[Hill; 2]>,
 }
 
 impl StrengthCurve {
@@ -76,8 +77,8 @@ impl StrengthCurve {
     /// beyond them.
     #[must_use]
     pub fn available(&self, angle: f64, rate: f64, sign: f64, eccentric: f64) -> f64 {
-        let (isometric, hill) =
-            if sign >= 0.0 { (&self.positive, self.hill[0]) } else { (&self.negative, self.hill[1]) };
+        let hill = self.hill.unwrap_or(Hill::UNKNOWN);
+        let (isometric, hill) = if sign >= 0.0 { (&self.positive, hill[0]) } else { (&self.negative, hill[1]) };
         let shortening = if sign >= 0.0 { rate } else { -rate };
         crate::motion::interpolate(&self.angles, isometric, angle) * hill.factor(shortening, eccentric)
     }
@@ -90,40 +91,53 @@ impl StrengthCurve {
             angles: self.angles.iter().rev().map(|a| -a).collect(),
             positive: turned(&self.negative),
             negative: turned(&self.positive),
-            hill: [self.hill[1], self.hill[0]],
+            hill: self.hill.map(|[positive, negative]| [negative, positive]),
         }
     }
 
-    /// The built-in curve of a coordinate of the Gait2392 family for a person; `None` where the table has none.
+    /// The built-in curve of a movement for a person, positive in the direction of the movement; `None` where the table has none.
     #[must_use]
-    pub fn built_in(coordinate: &str, mass_kg: f64, height_m: f64) -> Option<StrengthCurve> {
-        let stem = Side::split_name(coordinate)?.1;
-        let hill = Hill::of_coordinate(coordinate);
+    pub fn built_in(movement: Movement, mass_kg: f64, height_m: f64) -> Option<StrengthCurve> {
+        let (_, coordinate, sign) = *COORDINATES.iter().find(|(of, ..)| *of == movement)?;
         let scale = mass_kg * height_m / REFERENCE;
-        let rows = TABLE.lines().filter_map(row).filter(|(name, _)| *name == stem).map(|(_, numbers)| numbers);
+        let rows = TABLE.lines().filter_map(row).filter(|(name, _)| *name == coordinate).map(|(_, numbers)| numbers);
         let (mut angles, mut positive, mut negative) = (Vec::new(), Vec::new(), Vec::new());
         for [angle_deg, up, down] in rows {
             angles.push(angle_deg.to_radians());
             positive.push(scale * up);
             negative.push(-scale * down);
         }
-        (!angles.is_empty()).then_some(StrengthCurve { angles, positive, negative, hill })
+        let hill = Some(Hill::of_direction(movement, sign));
+        let in_table = StrengthCurve { angles, positive, negative, hill };
+        Some(if sign < 0.0 { in_table.reversed() } else { in_table })
     }
 }
 
 impl Hill {
-    /// Of the positive and the negative direction of a coordinate; those that the source lacks slow down as the hip's extensors do.
+    /// Muscles that the source lacks slow down as the hip's extensors do.
+    pub(super) const UNKNOWN: [Hill; 2] = [HIP_EXTENSORS; 2];
+
+    /// Of the muscles that give the positive and the negative moment of a coordinate, which grows (`sign` above zero) or falls during
+    /// a movement.
     #[must_use]
-    pub fn of_coordinate(name: &str) -> [Hill; 2] {
-        let stem = Side::split_name(name).map_or_else(|| name.to_owned(), |(_, stem)| stem);
-        match stem.as_str() {
-            "hip_flexion" => [HIP_FLEXORS, HIP_EXTENSORS],
-            "knee_angle" => [KNEE_EXTENSORS, KNEE_FLEXORS],
-            "ankle_angle" => [DORSIFLEXORS, PLANTARFLEXORS],
-            _ => [HIP_EXTENSORS; 2],
-        }
+    pub fn of_direction(movement: Movement, sign: f64) -> [Hill; 2] {
+        let [agonists, antagonists] = match movement {
+            Movement::HipFlexion => [HIP_FLEXORS, HIP_EXTENSORS],
+            Movement::KneeFlexion => [KNEE_FLEXORS, KNEE_EXTENSORS],
+            Movement::AnkleDorsiflexion => [DORSIFLEXORS, PLANTARFLEXORS],
+            _ => Hill::UNKNOWN,
+        };
+        if sign < 0.0 { [antagonists, agonists] } else { [agonists, antagonists] }
     }
 }
+
+/// Movements of the table, their coordinates there and the signs of these: Gait2392 counts the knee's extension.
+const COORDINATES: [(Movement, &str, f64); 4] = [
+    (Movement::HipFlexion, "hip_flexion", 1.0),
+    (Movement::HipAdduction, "hip_adduction", 1.0),
+    (Movement::KneeFlexion, "knee_angle", -1.0),
+    (Movement::AnkleDorsiflexion, "ankle_angle", 1.0),
+];
 
 /// Coordinate, angle [deg], largest positive and negative moment [N.m]; `None` for comments and the line of names.
 fn row(line: &str) -> Option<(&str, [f64; 3])> {

@@ -1,6 +1,6 @@
 //! What is allowed, by default or from a file.
 
-use super::strength::{Hill, StrengthCurve};
+use super::strength::StrengthCurve;
 use super::verdict::Check;
 use crate::toml_reader::{Source, Table, TomlError, Value};
 
@@ -177,7 +177,7 @@ fn skipped(root: &Table<'_>) -> Result<Vec<Check>, TomlError> {
     value.list("a list of checks in quotes")?.iter().map(|entry| entry.choice(&words)).collect()
 }
 
-/// A strength of the user's own; joints that the source of Hill's factor lacks slow down as the hip's extensors do.
+/// A strength table of the user, with the coordinate that it belongs to.
 fn strength_table(table: &Table<'_>) -> Result<(String, StrengthCurve), TomlError> {
     table.only(&[&["coordinate", "angle_deg", "positive_nm", "negative_nm"]])?;
     let coordinate = table.need("coordinate", "a coordinate, such as \"lumbar_extension\"")?.filled_text()?;
@@ -198,5 +198,5 @@ fn strength_table(table: &Table<'_>) -> Result<(String, StrengthCurve), TomlErro
     };
     let (positive, negative) = (moments("positive_nm")?, moments("negative_nm")?);
     let angles = angles_deg.iter().map(|a| a.to_radians()).collect();
-    Ok((coordinate.clone(), StrengthCurve { angles, positive, negative, hill: Hill::of_coordinate(&coordinate) }))
+    Ok((coordinate, StrengthCurve { angles, positive, negative, hill: None }))
 }

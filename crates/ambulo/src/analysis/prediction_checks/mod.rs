@@ -40,9 +40,9 @@ use super::feasibility::{Reason, Thresholds};
 use super::predicted::PredictedAnalysis;
 use crate::findings::Findings;
 use crate::ground::predict::Prediction;
-use crate::ground::sole::Sole;
 use crate::kinematics::Trajectory;
-use crate::model::Model;
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model};
 use judgement::Judgement;
 use low_pass::low_passed;
 pub use mass::{CarriedBy, CarriedMass};
@@ -57,7 +57,7 @@ pub struct CheckedPrediction<'a> {
     /// Its motion.
     pub trajectory: &'a Trajectory,
     /// Right and left sole.
-    pub soles: &'a [Option<Sole>; 2],
+    pub soles: &'a BySide<Option<Sole>>,
     /// What was predicted.
     pub prediction: &'a Prediction,
     /// Whole gait cycles.
@@ -132,7 +132,7 @@ pub struct CheckSettings<'a> {
     /// The body.
     pub model: &'a Model,
     /// Right and left sole.
-    pub soles: &'a [Option<Sole>; 2],
+    pub soles: &'a BySide<Option<Sole>>,
     /// What is allowed of friction and centre of pressure.
     pub thresholds: &'a Thresholds,
     /// The time in which plates measured every foot [s].

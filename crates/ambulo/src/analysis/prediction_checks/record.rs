@@ -34,7 +34,7 @@ impl Record {
     /// `None` without both soles.
     pub(super) fn of(evidence: &CheckedPrediction<'_>) -> Option<Record> {
         let CheckedPrediction { model, trajectory, prediction, soles, .. } = *evidence;
-        let soles_of_body = [soles[0]?, soles[1]?];
+        let soles_of_body = [soles.right?, soles.left?];
         let (grid, floor) = (trajectory.grid(), prediction.footfalls.floor_velocity);
         let way = |frame: usize| floor * (grid.time(frame) - grid.start_s);
         let (mut velocity, mut soles) = (Vec::with_capacity(grid.frames), [Vec::new(), Vec::new()]);

@@ -57,9 +57,9 @@ mod still;
 
 use crate::findings::{Code, Findings};
 use crate::ground::phases::Contact;
-use crate::ground::sole::Sole;
 use crate::kinematics::Trajectory;
-use crate::model::{Model, Side};
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind};
 use crate::spatial::Vec3;
 use belt::Belt;
@@ -125,7 +125,7 @@ impl Footfalls {
 pub fn footfalls(
     model: &Model,
     trajectory: &Trajectory,
-    soles: &[Option<Sole>; 2],
+    soles: &BySide<Option<Sole>>,
     findings: &mut Findings,
 ) -> Footfalls {
     footfalls_at(model, trajectory, soles, OffSpeed::default(), findings)
@@ -136,7 +136,7 @@ pub fn footfalls(
 pub fn footfalls_at(
     model: &Model,
     trajectory: &Trajectory,
-    soles: &[Option<Sole>; 2],
+    soles: &BySide<Option<Sole>>,
     left: OffSpeed,
     findings: &mut Findings,
 ) -> Footfalls {
@@ -157,10 +157,10 @@ pub fn footfalls_at(
     falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
     if falls.is_empty() {
         let why = if signals.feet.is_empty() {
-            "no sole is known: the ground can carry nobody. hint: soles are looked for under bodies `calcn_r` and `calcn_l` that \
-             `ankle_angle_r` and `ankle_angle_l` move"
+            "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the ends of legs with hip, \
+             knee and ankle"
         } else {
-            "no foot was seen to stand: the ground carries nobody in this motion"
+            "no stance phase was detected: no foot rests on the ground in this motion"
         };
         findings.report(Code::FootfallsNone, why);
     }

@@ -7,10 +7,10 @@
 //! F = Σ mᵢ (aᵢ - g), M = Σ rᵢ × mᵢ (aᵢ - g) + Iᵢ αᵢ + ωᵢ × Iᵢ ωᵢ about the world's origin (Newton, Euler), and from the statics of
 //! [`crate::ground`]: p = (u × M + h F) / (u · F).
 
-use crate::ground::sole::{Sole, Stature, at_rest};
 use crate::ground::upward;
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
-use crate::model::{Model, Side};
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 
@@ -43,10 +43,10 @@ pub(super) struct Signals {
 
 impl Signals {
     /// Of the soles that there are.
-    pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &[Option<Sole>; 2]) -> Signals {
+    pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Signals {
         let (up, grid) = (upward(model), trajectory.grid());
         let gravity = Some(model.gravity().norm()).filter(|g| *g > f64::MIN_POSITIVE).unwrap_or(STANDARD_GRAVITY);
-        let leg = Stature::of_model(model, &at_rest(model)).leg_length_m;
+        let leg = model.stature().leg_length_m;
         let mut signals = Signals {
             grid,
             up,
@@ -57,8 +57,8 @@ impl Signals {
             carried: Vec::with_capacity(grid.frames),
             pressure_line: Vec::with_capacity(grid.frames),
         };
-        let standing: Vec<Sole> = soles.iter().flatten().copied().collect();
-        for (side, _) in Side::BOTH.into_iter().zip(soles).filter(|(_, sole)| sole.is_some()) {
+        let standing: Vec<Sole> = soles.values().flatten().copied().collect();
+        for (side, _) in soles.iter().filter(|(_, sole)| sole.is_some()) {
             let (places, velocities) = (Vec::with_capacity(grid.frames), Vec::with_capacity(grid.frames));
             signals.feet.push(FootPath { side, places, velocities });
         }

@@ -2,7 +2,7 @@
 
 use super::FeetOnPlates;
 use crate::ground::BodyForces;
-use crate::model::{BodyId, Side};
+use crate::model::{BodyId, BySide, Side};
 use crate::motion::{ForceRecording, PlateRecording};
 use crate::spatial::Vec3;
 
@@ -13,14 +13,14 @@ impl FeetOnPlates {
     pub fn loads_by_foot(&self, plates: &[PlateRecording], height_m: f64) -> Vec<(Side, BodyForces)> {
         let Some(first) = plates.first() else { return Vec::new() };
         // The bodies are only told apart; no model is there yet.
-        let bodies = [BodyId(0), BodyId(1)];
+        let bodies = BySide { right: BodyId(0), left: BodyId(1) };
         let recordings = self.recordings(plates, bodies);
-        let load = |(side, body): (Side, BodyId)| {
+        let load = |(side, &body): (Side, &BodyId)| {
             let own: Vec<&ForceRecording> = recordings.iter().filter(|recording| recording.body == body).collect();
             let (force, moment) = sum(&own, first.times.len());
             (side, BodyForces::on_level_ground(body, &force, &moment, Vec3::y(), height_m))
         };
-        Side::BOTH.into_iter().zip(bodies).map(load).collect()
+        bodies.iter().map(load).collect()
     }
 }
 

@@ -19,7 +19,7 @@ mod windows;
 
 use super::foot_motion::FootMotion;
 use crate::findings::{Code, Findings};
-use crate::model::{BodyId, Model, Side};
+use crate::model::{BodyId, BySide, Side};
 use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
 
@@ -144,13 +144,13 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
 
 impl FeetOnPlates {
     /// What each foot felt, one recording for each plate and foot, for [`super::measured`], which adds what acts on one
-    /// body. `feet` are the bodies of the right and the left foot. Loads of two feet and of nobody are left out.
+    /// body. `feet` are the bodies that the ground acts on ([`Anatomy::feet`](crate::model::Anatomy::feet)). Loads of two feet and of nobody are left out.
     #[must_use]
-    pub fn recordings(&self, plates: &[PlateRecording], feet: [BodyId; 2]) -> Vec<ForceRecording> {
+    pub fn recordings(&self, plates: &[PlateRecording], feet: BySide<BodyId>) -> Vec<ForceRecording> {
         let mut out = Vec::new();
         for (i, plate) in plates.iter().enumerate() {
             let on_plate: Vec<&PlateContact> = self.contacts.iter().filter(|c| c.plate == i).collect();
-            for (side, body) in Side::BOTH.into_iter().zip(feet) {
+            for (side, &body) in feet.iter() {
                 let is_own = |c: &&PlateContact| c.side == Some(side) && c.quality != ContactQuality::TwoFeet;
                 if on_plate.iter().any(is_own) {
                     let own = |t: f64| nearest(&on_plate, t).is_some_and(|c| is_own(&c));
@@ -186,13 +186,4 @@ fn recording(plate: &PlateRecording, side: Side, body: BodyId, own: impl Fn(f64)
         point: vec![plate.center(); plate.times.len()],
         moment: masked(&|i| plate.moment_about_center(i)),
     }
-}
-
-/// The bodies that ground forces act on, right and left: `calcn`, else `foot`, else `talus`.
-#[must_use]
-pub fn foot_bodies(model: &Model) -> Option<[BodyId; 2]> {
-    ["calcn", "foot", "talus"].into_iter().find_map(|stem| {
-        let body = |side: Side| model.body(&format!("{stem}_{}", side.letter()));
-        Some([body(Side::Right)?, body(Side::Left)?])
-    })
 }

@@ -2,7 +2,7 @@
 
 use super::PredictError;
 use crate::ground::footfalls::Footfalls;
-use crate::model::Side;
+use crate::model::{BySide, Side};
 use crate::spatial::{Vec3, Wrench};
 
 /// What is known and need not be found. Series have one entry a frame of the motion; not a number where nothing is known.
@@ -15,18 +15,18 @@ pub struct Known {
     /// The right foot's share of the vertical force, 0 to 1.
     pub right_share: Option<Vec<f64>>,
     /// Centres of pressure of the right and the left foot [m].
-    pub centers: Option<[Vec<Vec3>; 2]>,
+    pub centers: Option<BySide<Vec<Vec3>>>,
 }
 
 impl Known {
     /// Whether every series is as long as the motion, and the stances of each foot follow each other.
     pub(super) fn check(&self, frames: usize) -> Result<(), PredictError> {
-        let centers = |foot: usize| self.centers.as_ref().map(|c| c[foot].len());
+        let centers = |side: Side| self.centers.as_ref().map(|c| c[side].len());
         let series = [
             ("total wrench", self.total.as_ref().map(Vec::len)),
             ("share of the right foot", self.right_share.as_ref().map(Vec::len)),
-            ("centre of pressure of the right foot", centers(0)),
-            ("centre of pressure of the left foot", centers(1)),
+            ("centre of pressure of the right foot", centers(Side::Right)),
+            ("centre of pressure of the left foot", centers(Side::Left)),
         ];
         for side in Side::BOTH {
             let falls = self.footfalls.iter().flat_map(|footfalls| footfalls.of(side));
@@ -63,8 +63,8 @@ impl Known {
     }
 
     /// A foot's centre of pressure in a frame [m].
-    pub(super) fn center_at(&self, foot: usize, frame: usize) -> Option<Vec3> {
-        self.centers.as_ref().map(|c| c[foot][frame]).filter(|center| center.iter().all(|x| x.is_finite()))
+    pub(super) fn center_at(&self, side: Side, frame: usize) -> Option<Vec3> {
+        self.centers.as_ref().map(|c| c[side][frame]).filter(|center| center.iter().all(|x| x.is_finite()))
     }
 }
 

@@ -1,13 +1,11 @@
 //! The estimate read out: forces, centres of pressure and free moments of a foot in every frame, with standard deviations.
 
 use super::FootDeviation;
-use super::estimate::Evidence;
 use super::expected::Expectation;
-use super::samples::{Part, frames_of, sample};
+use super::samples::{Evidence, Part, frames_of, sample};
 use super::stances::Gait;
 use super::system::Solution;
 use super::unknowns::{Curve, Unknowns};
-use crate::ground::sole::nearest_on_sole;
 use crate::model::Side;
 use crate::spatial::Vec3;
 
@@ -55,13 +53,13 @@ pub(super) fn loads(
             let axes = [stance.forward, evidence.measure.up, stance.right];
             let vertical = up.value.max(LEAST_LOAD * evidence.measure.weight_n);
             out.force[frame] = axes[0] * forward.value + axes[1] * up.value + axes[2] * right.value;
-            out.center[frame] = match evidence.known.center_at(side as usize, frame) {
+            out.center[frame] = match evidence.known.center_at(side, frame) {
                 Some(center) => center,
                 // δ × F = T for a centre of pressure δ away from its path.
                 None => {
                     let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
-                    let sole = &evidence.geometry.feet[side as usize][frame].sole;
-                    nearest_on_sole(sole, evidence.half_widths[side as usize], at.center + moved, axes[1])
+                    let sole = &evidence.geometry.feet[side][frame].sole;
+                    nearest_on_sole(sole, evidence.half_widths[side], at.center + moved, axes[1])
                 }
             };
             out.free_moment[frame] = about_up.value;
@@ -79,6 +77,20 @@ pub(super) fn loads(
         }
     }
     out
+}
+
+/// The place nearest to `place` on a sole whose points are at `points`, seen along `up`; its height stays.
+fn nearest_on_sole(points: &[Vec3; 3], half_width: f64, place: Vec3, up: Vec3) -> Vec3 {
+    let level = |v: Vec3| v - up * v.dot(&up);
+    let target = level(place);
+    let nearest = points.windows(2).map(|ends| {
+        let (from, along) = (level(ends[0]), level(ends[1] - ends[0]));
+        let share = (target - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+        from + along * share.clamp(0.0, 1.0)
+    });
+    let nearest = nearest.min_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm())).unwrap_or(target);
+    let away = target - nearest;
+    nearest + away * (half_width / away.norm().max(half_width)) + up * place.dot(&up)
 }
 
 /// A component with its variance.

@@ -24,18 +24,18 @@ mod unknowns;
 mod weights;
 
 use super::footfalls::{Footfall, Footfalls, footfalls};
-use super::plates::foot_bodies;
-use super::sole::{Sole, Stature, at_rest};
 use super::{BodyForces, GroundForces, upward};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
-use crate::model::{Model, Side};
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 pub use calibration::{Calibration, Spread};
-use estimate::{Evidence, estimate};
+use estimate::estimate;
 use geometry::Geometry;
 pub use known::Known;
+use samples::Evidence;
 use stance_curves::StanceCurves;
 use stances::{Measure, stances};
 use std::ops::Range;
@@ -77,6 +77,13 @@ pub struct FootDeviation {
 }
 
 impl Prediction {
+    /// What the ground does to a foot, and how far it may be off.
+    #[must_use]
+    pub fn foot(&self, side: Side) -> (&BodyForces, &FootDeviation) {
+        let index = usize::from(side == Side::Left);
+        (&self.ground.bodies[index], &self.deviations[index])
+    }
+
     /// Some of its frames, those of `grid`; stances that reach beyond are cut there.
     #[must_use]
     pub(crate) fn within(&self, frames: Range<usize>, grid: TimeGrid) -> Prediction {
@@ -122,16 +129,14 @@ pub struct PredictSettings {
 pub enum PredictError {
     /// A model without feet.
     #[error(
-        "the model `{model}` has no bodies called calcn_r and calcn_l, foot_r and foot_l or talus_r and talus_l; expected feet for the ground to act on"
+        "the model `{model}` has no two legs with hip, knee, ankle and foot; expected feet for the ground to act on"
     )]
     NoFeet {
         /// Its name.
         model: String,
     },
     /// A foot without a sole.
-    #[error(
-        "the {side} sole of the model `{model}` is not known: it has no body calcn_{letter} below a coordinate ankle_angle_{letter}; expected both feet", letter = side.letter()
-    )]
+    #[error("the {side} sole of the model `{model}` is not known; expected the soles of both feet")]
     NoSole {
         /// Its name.
         model: String,
@@ -197,21 +202,23 @@ pub enum PredictError {
     },
 }
 
-/// Predicts the forces under both feet. `soles` are those of the right and the left foot.
+/// Predicts the forces under both feet, on the bodies that carry the rear ends of the soles.
 ///
 /// # Errors
 /// A model without feet or soles, known numbers of another length than the motion: see [`PredictError`].
 pub fn predict(
     model: &Model,
     trajectory: &Trajectory,
-    soles: &[Option<Sole>; 2],
+    soles: &BySide<Option<Sole>>,
     settings: &PredictSettings,
     findings: &mut Findings,
 ) -> Result<Prediction, PredictError> {
     let name = || model.name().to_owned();
-    let bodies = foot_bodies(model).ok_or_else(|| PredictError::NoFeet { model: name() })?;
-    let sole = |side: Side| soles[side as usize].ok_or_else(|| PredictError::NoSole { model: name(), side });
-    let soles = [sole(Side::Right)?, sole(Side::Left)?];
+    if soles.values().all(Option::is_none) {
+        return Err(PredictError::NoFeet { model: name() });
+    }
+    let sole = |side: Side| soles[side].ok_or_else(|| PredictError::NoSole { model: name(), side });
+    let soles = BySide { right: sole(Side::Right)?, left: sole(Side::Left)? };
     settings.known.check(trajectory.grid().frames)?;
     let footfalls = match &settings.known.footfalls {
         Some(known) => known.clone(),
@@ -219,7 +226,7 @@ pub fn predict(
     };
     let total = settings.known.total(total_wrench(model, trajectory));
     let up = upward(model);
-    let stature = Stature::of_model(model, &at_rest(model));
+    let stature = model.stature();
     let gravity = model.gravity().norm();
     if model.mass() <= 0.0 {
         return Err(PredictError::NoMass { model: name(), mass: model.mass() });
@@ -249,8 +256,9 @@ pub fn predict(
     };
     let mut feet = estimate(&evidence, curves)?;
     keep_on_the_ground(&mut feet, up, &settings.known);
-    let deviations = feet.iter().map(|foot| foot.deviation.clone()).collect();
-    let ground = bodies.into_iter().zip(&feet).map(|(body, foot)| {
+    let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();
+    let ground = feet.iter().map(|(side, foot)| {
+        let body = soles[side].points[0].body;
         let moment: Vec<Vec3> =
             (0..foot.force.len()).map(|i| foot.center[i].cross(&foot.force[i]) + up * foot.free_moment[i]).collect();
         BodyForces::on_ground(body, &foot.force, &moment, up, &foot.height)

@@ -150,7 +150,7 @@ fn stance(
     let count = (last - first + 1) as f64;
     let level = |v: Vec3| v - measure.up * v.dot(&measure.up);
     let drift = geometry.velocity[first..=last].iter().sum::<Vec3>() / count - fall.floor_velocity;
-    let foot = &geometry.feet[fall.side as usize][(first + last) / 2].sole;
+    let foot = &geometry.feet[fall.side][(first + last) / 2].sole;
     let pace = level(drift).norm() / measure.leg_speed_m_s;
     let heading = if pace > UNDER_WAY { level(drift) } else { level(foot[2] - foot[0]) };
     let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| any_level(measure.up));

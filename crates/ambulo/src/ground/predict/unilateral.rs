@@ -2,6 +2,7 @@
 
 use super::Known;
 use super::loads::FootLoads;
+use crate::model::{BySide, Side};
 use crate::spatial::Vec3;
 
 /// Friction that no shoe on a floor exceeds: walking needs 0.2 to 0.4, rubber on dry floor gives up to about 1.
@@ -9,17 +10,18 @@ const MOST_FRICTION: f64 = 1.0;
 
 /// Nothing pulls a foot down: what would pull is taken from the other foot, if it stands. Forces along the ground stay inside Coulomb's
 /// cone. Where the share of the feet is known it decides.
-pub(super) fn keep_on_the_ground(feet: &mut [FootLoads; 2], up: Vec3, known: &Known) {
-    for frame in 0..feet[0].force.len() {
-        let [right, left] = [0, 1].map(|foot| feet[foot].force[frame].dot(&up));
+pub(super) fn keep_on_the_ground(feet: &mut BySide<FootLoads>, up: Vec3, known: &Known) {
+    for frame in 0..feet.right.force.len() {
+        let BySide { right, left } = feet.as_ref().map(|foot| foot.force[frame].dot(&up));
         let vertical = match known.right_share_at(frame) {
             Some(share) => {
                 let whole = known.total_at(frame).map_or(right + left, |total| total.force.dot(&up));
-                [share * whole, (1.0 - share) * whole]
+                BySide { right: share * whole, left: (1.0 - share) * whole }
             }
-            None => [pushed(right, left), pushed(left, right)],
+            None => BySide { right: pushed(right, left), left: pushed(left, right) },
         };
-        for (foot, vertical) in feet.iter_mut().zip(vertical) {
+        for side in Side::BOTH {
+            let (foot, vertical) = (&mut feet[side], vertical[side]);
             foot.force[frame] = inside_the_cone(foot.force[frame], vertical, up);
             if vertical <= 0.0 {
                 foot.free_moment[frame] = 0.0;

@@ -79,8 +79,7 @@ pub(super) fn read(
 }
 
 fn foot_load(model: &Model, prediction: &Prediction, side: Side, frame: usize) -> FootLoad {
-    let foot = &prediction.ground.bodies[side as usize];
-    let deviation = &prediction.deviations[side as usize];
+    let (foot, deviation) = prediction.foot(side);
     let center = Some(foot.center_of_pressure[frame]).filter(|center| center.iter().all(|x| x.is_finite()));
     FootLoad {
         side,

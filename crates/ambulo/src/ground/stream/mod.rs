@@ -21,11 +21,11 @@ mod rhythm;
 
 use super::footfalls::footfalls;
 use super::predict::{Known, PredictSettings, Prediction, Weights, predict};
-use super::sole::Sole;
 use crate::dynamics::Workspace;
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
-use crate::model::Model;
+use crate::model::anatomy::Sole;
+use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::gaps::LONGEST_GAP_S;
 use crate::motion::{SmoothSettings, Smoother, Window, smooth};
@@ -77,7 +77,7 @@ impl StreamSettings {
 #[derive(Debug, Clone)]
 pub struct Stream {
     model: Model,
-    soles: [Option<Sole>; 2],
+    soles: BySide<Option<Sole>>,
     smoother: Smoother,
     weights: Weights,
     recent: Recent,
@@ -95,7 +95,7 @@ impl Stream {
     ///
     /// # Errors
     /// A rate, delay or window that no stream can have. A model without feet is refused with the first forces.
-    pub fn new(model: Model, soles: [Option<Sole>; 2], settings: &StreamSettings) -> Result<Stream, StreamError> {
+    pub fn new(model: Model, soles: BySide<Option<Sole>>, settings: &StreamSettings) -> Result<Stream, StreamError> {
         let StreamSettings { rate_hz, delay_s, window_s, smoother, weights } = *settings;
         let ([lowest_hz, highest_hz], [shortest_s, longest_s]) = (RATES_HZ, WINDOWS_S);
         if !(lowest_hz..=highest_hz).contains(&rate_hz) {

@@ -2,12 +2,15 @@
 
 use super::axes::{about_x, about_y, about_z, angles_zxy, from_y_x};
 use crate::findings::{Code, Findings};
-use crate::model::{Body, CoordinateId, Displacement, Drive, Model};
+use crate::model::{Body, CoordinateId, Displacement, Drive, Model, Movement};
 use crate::motion::Motion;
 use crate::spatial::{Mat3, Vec3};
 
-const LUMBAR: [&str; 3] = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"];
-const PELVIS: [&str; 3] = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"];
+/// Coordinates that turn about z, x and y, with the signs of these turns.
+const LUMBAR: [(Movement, f64); 3] =
+    [(Movement::TrunkLean, -1.0), (Movement::TrunkObliquity, -1.0), (Movement::TrunkRotation, 1.0)];
+const PELVIS: [(Movement, f64); 3] =
+    [(Movement::PelvicTilt, -1.0), (Movement::PelvicObliquity, -1.0), (Movement::PelvicRotation, 1.0)];
 
 /// Fills the coordinates of a trunk that no marker showed: upright above the pelvis, looking where the pelvis looks. A trunk that was
 /// seen, or that the model holds fast, stays as it is. Other joints without a column, such as those of arms, are left to their
@@ -33,8 +36,11 @@ pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut F
     );
 }
 
-fn ids(model: &Model, names: [&str; 3]) -> Option<[CoordinateId; 3]> {
-    let [a, b, c] = names.map(|name| model.coordinate(name));
+fn ids(model: &Model, movements: [(Movement, f64); 3]) -> Option<[CoordinateId; 3]> {
+    let [a, b, c] = movements.map(|(movement, expected)| {
+        let (id, sign) = model.anatomy().coordinate(movement, None)?;
+        (sign * expected > 0.0).then_some(id)
+    });
     Some([a?, b?, c?])
 }
 

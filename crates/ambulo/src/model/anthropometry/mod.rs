@@ -60,7 +60,8 @@ pub use dimensions::Dimensions;
 pub use foot::ContactSphere;
 pub use table::{SegmentTable, UnknownTable};
 
-use super::{Model, ModelError};
+use super::anatomy::Sole;
+use super::{Model, ModelError, Side};
 use crate::spatial::InertiaError;
 
 /// Body masses that a figure may have [kg]: from an infant's to the heaviest who walk.
@@ -138,6 +139,14 @@ pub struct Human {
     pub dimensions: Dimensions,
     /// What was asked for.
     pub build: Build,
+}
+
+impl Human {
+    /// The sole of a foot, by its spheres.
+    #[must_use]
+    pub fn sole(&self, side: Side) -> Option<Sole> {
+        Sole::of_spheres(&self.soles, side, 0.5 * self.dimensions.foot_width)
+    }
 }
 
 impl Build {

@@ -4,8 +4,8 @@ use super::built::GaitSource;
 use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
+use crate::model::Model;
 use crate::model::anthropometry::Build;
-use crate::model::{Model, from_osim_bytes};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::simulation::consistent_walk::ConsistentWalk;
@@ -33,7 +33,7 @@ impl<'a, 'f> InputFiles<'a, 'f> {
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {
         let bytes = (self.load)(path).map_err(|message| place.error(message))?;
-        from_osim_bytes(&bytes, self.findings).map_err(|e| place.error(format!("{path}: {}", chain(&e))))
+        Model::from_osim(&bytes, self.findings).map_err(|e| place.error(format!("{path}: {}", chain(&e))))
     }
 
     pub(super) fn table(&mut self, place: &Place, path: &str) -> Result<RecordedTable, SceneError> {

@@ -8,7 +8,6 @@ use super::cells::{Form, column, listed, table};
 use super::{sides, words};
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Feasibility, Group, RedSpan, Table};
-use ambulo::model::Side;
 use serde_json::Value;
 
 /// Panels that show what is no coordinate's, by check.
@@ -120,9 +119,8 @@ fn panel(check: &str, quantity: &str, quantities: &[ClinicalQuantity]) -> Option
     if let Some((_, panel)) = PANELS.iter().find(|(known, _)| *known == check) {
         return Some((*panel).to_owned());
     }
-    let stem = Side::split_name(quantity).map_or_else(|| quantity.to_owned(), |(_, stem)| stem);
     let coordinates = ["strength", "power", "range"];
-    let shown = coordinates.contains(&check).then(|| words::known(&stem, quantities)).flatten()?;
+    let (shown, _) = coordinates.contains(&check).then(|| words::known(quantity, quantities)).flatten()?;
     Some(shown.id.to_owned())
 }
 

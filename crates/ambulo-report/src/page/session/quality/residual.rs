@@ -4,21 +4,27 @@ use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
 use crate::page::session::results::{MOMENTS, Results};
+use ambulo::model::Movement;
 
-/// A column of the root in `moments.sto`, as OpenSim's models and the built-in bodies call it, and its panel: word, heading, unit,
-/// directions.
-type Component = (&'static str, [&'static str; 3], [&'static str; 2]);
+/// A coordinate of the root and its panel: word, heading, unit, directions.
+type Component = (Movement, [&'static str; 3], [&'static str; 2]);
 
 const FORCES: [Component; 3] = [
-    ("pelvis_tx_force", ["residual_force_x", "Residual force, fore-aft", "N"], ["forward", "backward"]),
-    ("pelvis_ty_force", ["residual_force_y", "Residual force, vertical", "N"], ["up", "down"]),
-    ("pelvis_tz_force", ["residual_force_z", "Residual force, sideways", "N"], ["right", "left"]),
+    (Movement::PelvisForward, ["residual_force_x", "Residual force, fore-aft", "N"], ["forward", "backward"]),
+    (Movement::PelvisUp, ["residual_force_y", "Residual force, vertical", "N"], ["up", "down"]),
+    (Movement::PelvisRight, ["residual_force_z", "Residual force, sideways", "N"], ["right", "left"]),
 ];
 const MOMENTS_OF_ROOT: [Component; 3] = [
-    ("pelvis_tilt_moment", [RESIDUAL_MOMENT, "Residual moment, tilt", "N.m"], ["", ""]),
-    ("pelvis_list_moment", ["residual_moment_list", "Residual moment, list", "N.m"], ["", ""]),
-    ("pelvis_rotation_moment", ["residual_moment_rotation", "Residual moment, rotation", "N.m"], ["", ""]),
+    (Movement::PelvicTilt, [RESIDUAL_MOMENT, "Residual moment, tilt", "N.m"], ["", ""]),
+    (Movement::PelvicObliquity, ["residual_moment_list", "Residual moment, list", "N.m"], ["", ""]),
+    (Movement::PelvicRotation, ["residual_moment_rotation", "Residual moment, rotation", "N.m"], ["", ""]),
 ];
+
+/// The column of `moments.sto` for a coordinate of the root.
+fn column(results: &Results, movement: Movement) -> Option<String> {
+    let suffix = if FORCES.iter().any(|(force, ..)| *force == movement) { "force" } else { "moment" };
+    Some(format!("{}_{suffix}", results.clinical_names().central(movement)?))
+}
 
 /// Components of force and moment, and the size of the force in per cent of body weight; `None` without moments of a root.
 pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
@@ -35,16 +41,18 @@ fn trace(name: &str, role: Role, values: &[f64], origin: Option<Origin>, block: 
     Trace { name: name.to_owned(), side: None, role, values: block.add(values), sd: None, origin }
 }
 
-fn panel(results: &Results, (column, head, directions): &Component, block: &mut Block) -> Option<Panel> {
-    let values = results.moments.as_ref()?.column(column)?;
-    let origin = Origin { file: MOMENTS.to_owned(), column: (*column).to_owned(), factor: 1.0 };
+fn panel(results: &Results, (movement, head, directions): &Component, block: &mut Block) -> Option<Panel> {
+    let column = column(results, *movement)?;
+    let values = results.moments.as_ref()?.column(&column)?;
+    let origin = Origin { file: MOMENTS.to_owned(), column, factor: 1.0 };
     Some(over_time(*head, *directions, vec![trace("residual", Role::Main, values, Some(origin), block)]))
 }
 
 /// Length of the force, with the limit that it was judged by.
 fn size(results: &Results, block: &mut Block) -> Option<Panel> {
     let table = results.moments.as_ref()?;
-    let axes: Vec<&[f64]> = FORCES.iter().filter_map(|(column, ..)| table.column(column)).collect();
+    let axes: Vec<&[f64]> =
+        FORCES.iter().filter_map(|(movement, ..)| table.column(&column(results, *movement)?)).collect();
     let percent = 100.0 / results.weight_n;
     let length = |frame: usize| percent * axes.iter().map(|axis| axis[frame].powi(2)).sum::<f64>().sqrt();
     if axes.is_empty() {

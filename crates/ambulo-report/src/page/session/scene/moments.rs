@@ -1,7 +1,7 @@
 //! Moments of figures that walk, in clinical signs, from `moments.sto`.
 
 use super::instants::Instants;
-use crate::clinical::{ClinicalQuantity, clinical_quantities};
+use crate::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Panel, Role, Trace};
 use crate::page::folder::{Folder, PageError};
@@ -46,7 +46,8 @@ fn quantities(table: &Table, prefix: &str) -> Vec<ClinicalQuantity> {
         .filter_map(|column| column.strip_prefix(prefix))
         .map(|column| Side::split_name(column).map_or_else(|| column.to_owned(), |(_, stem)| stem))
         .collect();
-    clinical_quantities(|name| stems.iter().any(|stem| stem == name))
+    // Built figures have the usual names.
+    clinical_quantities(&ClinicalNames::usual(), |name| stems.iter().any(|stem| stem == name))
 }
 
 /// A grid a figure; none where the files have no moments of it.
@@ -75,10 +76,9 @@ impl Figure {
 
     fn trace(&self, quantity: &ClinicalQuantity, side: Side, instants: &Instants, block: &mut Block) -> Option<Trace> {
         let table = self.table.as_ref()?;
-        let column = format!("{}{}_{}_moment", self.prefix, quantity.coordinate, side.letter());
+        let column = format!("{}{}_moment", self.prefix, quantity.coordinates[side]);
         let values = table.column(&column)?;
-        // Built figures bend their knees backwards, as those of the Gait2392 family.
-        let factor = quantity.factor(self.mass_kg, side, -1.0);
+        let factor = quantity.factor(self.mass_kg, side);
         let rows: Vec<(f64, f64)> = table.times()?.iter().zip(values).map(|(t, x)| (*t, factor * x)).collect();
         Some(Trace {
             name: side.to_string(),

@@ -1,0 +1,70 @@
+//! Tables and summary of an outcome of `ambulo::study`.
+
+use crate::consistency_summary::ConsistencySummary;
+use crate::files::{OutputFile, output_files};
+use crate::prediction_files::prediction_files;
+use crate::subject_summary::SubjectSummary;
+use crate::summary::{GroundSource, Input, MassKnowledge, Summary, summary};
+use ambulo::analysis::{PredictedAnalysis, Settings};
+use ambulo::findings::Findings;
+use ambulo::study::{self, ForceOrigin, Outcome, Processing, Tracking};
+use ambulo_formats::Error;
+
+/// Every table of a run, with those that only a prediction has.
+///
+/// # Errors
+/// Column names that no table can hold.
+pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
+    let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
+    if let Some(predicted) = predicted_analysis(outcome) {
+        files.extend(prediction_files(&outcome.body, &predicted)?);
+    }
+    Ok(files)
+}
+
+/// The motion with predicted and with measured forces; `None` where nothing was predicted.
+#[must_use]
+pub fn predicted_analysis(outcome: &Outcome) -> Option<PredictedAnalysis> {
+    let found = outcome.prediction.as_ref()?;
+    Some(PredictedAnalysis {
+        analysis: outcome.analysis.clone(),
+        prediction: found.prediction.clone(),
+        measured: found.measured.clone(),
+    })
+}
+
+/// The summary of a run. `input` names what went in; where the ground forces come from is taken from the outcome.
+#[must_use]
+pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
+    let Processing { smoother, force_filter, window } = outcome.processing;
+    let settings = Settings { smoother, force_filter, window, rate_hz: None, instrumented: None };
+    let ground_source = match outcome.force_origin {
+        ForceOrigin::Measured => GroundSource::Measured,
+        ForceOrigin::Predicted { rule } => GroundSource::Predicted { rule },
+        ForceOrigin::Simulated { rule } => GroundSource::Simulated { rule },
+        ForceOrigin::None => GroundSource::None,
+    };
+    let input = Input { ground_source, ..input };
+    let mut summary = summary(&outcome.body, &outcome.analysis, &settings, input, findings);
+    summary.height_m = outcome.height_m();
+    summary.subject = outcome.tracking.as_ref().map(subject);
+    summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);
+    let prediction = outcome.prediction.as_ref();
+    summary.comparison = prediction.and_then(|prediction| prediction.agreement.clone());
+    summary.prediction = prediction.map(|prediction| prediction.checks.clone());
+    summary.mass = match outcome.mass_knowledge {
+        study::MassKnowledge::Verified => MassKnowledge::Verified,
+        study::MassKnowledge::Unverified => MassKnowledge::Unverified,
+        study::MassKnowledge::Contradicted => MassKnowledge::Contradicted,
+    };
+    summary
+}
+
+fn subject(tracking: &Tracking) -> SubjectSummary {
+    match tracking {
+        Tracking::Markers(markers) => {
+            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
+        }
+        Tracking::Skeleton { statement, fit } => SubjectSummary::of_skeleton(statement, fit),
+    }
+}

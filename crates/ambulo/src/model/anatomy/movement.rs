@@ -1,0 +1,217 @@
+//! The anatomical movement that each coordinate measures, and its sign.
+//!
+//! A coordinate turns one body relative to another about an axis ω (per unit of its rate, in the neutral posture). Seen in the axes of
+//! the body (forward, up, right), the largest part of ω tells the plane, and its sign tells the direction:
+//!
+//! | joint (far body relative to near body) | about forward (frontal) | about up (transverse) | about right (sagittal) |
+//! |---|---|---|---|
+//! | pelvis relative to the world | right side down | right side forward | posterior tilt |
+//! | trunk relative to the pelvis | bends to the right | right side forward | extension |
+//! | right hip | adduction | internal rotation | flexion |
+//! | right knee | adduction | internal rotation | extension |
+//! | right ankle | inversion | internal rotation | dorsiflexion |
+//! | right toes | - | - | extension |
+//!
+//! On the left, the movements of the frontal and the transverse plane turn the other way round.
+
+use super::axes::Oriented;
+use super::legs::Tree;
+use crate::model::posture::PostureOf;
+use crate::model::{BodyId, Coordinate, CoordinateId, Drive, Side};
+use crate::spatial::Vec3;
+
+/// An axis belongs to a plane if this share of it is along the plane's normal.
+const LEAST_SHARE: f64 = 0.5;
+/// The same for toes, whose axis is oblique.
+const LEAST_SHARE_OF_TOES: f64 = 0.3;
+
+/// A movement that clinicians name. Each is positive in the direction of its description.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Movement {
+    /// Anterior tilt of the pelvis.
+    PelvicTilt,
+    /// Right side of the pelvis up.
+    PelvicObliquity,
+    /// Right side of the pelvis forward.
+    PelvicRotation,
+    /// Pelvis forward [m].
+    PelvisForward,
+    /// Pelvis up [m].
+    PelvisUp,
+    /// Pelvis to the right [m].
+    PelvisRight,
+    /// Flexion of the hip: thigh forward.
+    HipFlexion,
+    /// Adduction of the hip: thigh towards the middle.
+    HipAdduction,
+    /// Internal rotation of the hip.
+    HipRotation,
+    /// Flexion of the knee: shank backward.
+    KneeFlexion,
+    /// Adduction of the knee (varus): shank towards the middle.
+    KneeAdduction,
+    /// Internal rotation of the knee.
+    KneeRotation,
+    /// Dorsiflexion of the ankle: toes up.
+    AnkleDorsiflexion,
+    /// Inversion of the foot: sole towards the middle.
+    SubtalarInversion,
+    /// Internal rotation of the foot: toes towards the middle.
+    FootRotation,
+    /// Extension of the toes: toes up.
+    ToeExtension,
+    /// Forward lean of the trunk relative to the pelvis.
+    TrunkLean,
+    /// Right side of the trunk up, relative to the pelvis.
+    TrunkObliquity,
+    /// Right side of the trunk forward, relative to the pelvis.
+    TrunkRotation,
+}
+
+/// What a coordinate measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meaning {
+    /// The movement.
+    pub movement: Movement,
+    /// The side of a leg's coordinate; `None` for pelvis and trunk.
+    pub side: Option<Side>,
+    /// +1 if the coordinate grows during the movement, -1 if it falls.
+    pub sign: f64,
+}
+
+/// The movements of a joint about the axes forward, up and right, each with the sign of a rotation about the axis.
+type Planes = [Option<(Movement, f64)>; 3];
+
+const PELVIS: Planes = [
+    Some((Movement::PelvicObliquity, -1.0)),
+    Some((Movement::PelvicRotation, 1.0)),
+    Some((Movement::PelvicTilt, -1.0)),
+];
+const TRUNK: Planes =
+    [Some((Movement::TrunkObliquity, -1.0)), Some((Movement::TrunkRotation, 1.0)), Some((Movement::TrunkLean, -1.0))];
+// Right leg.
+const HIP: Planes =
+    [Some((Movement::HipAdduction, 1.0)), Some((Movement::HipRotation, 1.0)), Some((Movement::HipFlexion, 1.0))];
+const KNEE: Planes =
+    [Some((Movement::KneeAdduction, 1.0)), Some((Movement::KneeRotation, 1.0)), Some((Movement::KneeFlexion, -1.0))];
+const ANKLE: Planes = [
+    Some((Movement::SubtalarInversion, 1.0)),
+    Some((Movement::FootRotation, 1.0)),
+    Some((Movement::AnkleDorsiflexion, 1.0)),
+];
+const TOES: Planes = [None, None, Some((Movement::ToeExtension, 1.0))];
+const PELVIS_SHIFTS: Planes =
+    [Some((Movement::PelvisForward, 1.0)), Some((Movement::PelvisUp, 1.0)), Some((Movement::PelvisRight, 1.0))];
+
+/// The same planes on the left.
+fn mirrored([frontal, transverse, sagittal]: Planes) -> Planes {
+    let turned = |entry: Option<(Movement, f64)>| entry.map(|(movement, sign)| (movement, -sign));
+    [turned(frontal), turned(transverse), sagittal]
+}
+
+/// A coordinate and the axis about or along which it moves the far body, forward, up and right.
+struct Axis {
+    id: CoordinateId,
+    direction: Vec3,
+}
+
+/// Meanings of all coordinates under construction.
+pub(super) struct Meanings<'a> {
+    tree: &'a Tree<'a>,
+    coordinates: &'a [Coordinate],
+    oriented: &'a Oriented,
+    pub(super) found: Vec<Option<Meaning>>,
+}
+
+impl<'a> Meanings<'a> {
+    pub(super) fn find(
+        tree: &'a Tree<'a>,
+        coordinates: &'a [Coordinate],
+        oriented: &'a Oriented,
+        [pelvis, trunk]: [Option<BodyId>; 2],
+    ) -> Vec<Option<Meaning>> {
+        let mut meanings = Meanings { tree, coordinates, oriented, found: vec![None; coordinates.len()] };
+        if let Some(pelvis) = pelvis {
+            meanings.root(pelvis);
+            meanings.trunk(trunk.and_then(|trunk| tree.path(pelvis, trunk)));
+        }
+        for (side, leg) in oriented.legs.iter() {
+            let Some(leg) = leg else { continue };
+            let [hip, knee, ankle, end] = leg.groups;
+            let toes = leg.bodies.len().min(end + 2) - 1;
+            let of_side = |planes: Planes| if side == Side::Right { planes } else { mirrored(planes) };
+            for (joints, planes) in [(hip..knee, HIP), (knee..ankle, KNEE), (ankle..end, ANKLE), (end..toes, TOES)] {
+                let least = if planes == TOES { LEAST_SHARE_OF_TOES } else { LEAST_SHARE };
+                let axes = meanings.turns(&leg.bodies[joints.start..=joints.end]);
+                meanings.assign(axes, of_side(planes), Some(side), least);
+            }
+        }
+        meanings.found
+    }
+
+    /// Rotations and shifts of the pelvis in the world, if the pelvis is the root of the tree.
+    fn root(&mut self, pelvis: BodyId) {
+        if self.tree.bodies[pelvis.index()].joint.parent.is_none() {
+            let [turns, shifts] = self.slopes(pelvis, 1.0);
+            self.assign(turns, PELVIS, None, LEAST_SHARE);
+            self.assign(shifts, PELVIS_SHIFTS, None, LEAST_SHARE);
+        }
+    }
+
+    /// The trunk's movements, where one coordinate alone makes each: a spine of several free joints has none.
+    fn trunk(&mut self, path: Option<Vec<BodyId>>) {
+        let mut axes = self.turns(&path.unwrap_or_default());
+        let planes: Vec<usize> = axes.iter().map(|axis| axis.direction.iamax()).collect();
+        let mut planes_left = planes.iter();
+        axes.retain(|_| planes_left.next().is_some_and(|plane| planes.iter().filter(|p| *p == plane).count() == 1));
+        self.assign(axes, TRUNK, None, LEAST_SHARE);
+    }
+
+    /// Axes of the coordinates that turn a chain's later bodies relative to its earlier ones.
+    fn turns(&self, chain: &[BodyId]) -> Vec<Axis> {
+        let joints = chain.windows(2).flat_map(|pair| {
+            let joint = self.tree.joint_between(pair[0], pair[1]);
+            let [turns, _] = self.slopes(joint, if joint == pair[1] { 1.0 } else { -1.0 });
+            turns
+        });
+        joints.collect()
+    }
+
+    /// Axes of rotations and of shifts of one joint.
+    fn slopes(&self, body: BodyId, sign: f64) -> [Vec<Axis>; 2] {
+        let mut axes = [Vec::new(), Vec::new()];
+        for id in self.tree.bodies[body.index()].joint.coordinates() {
+            if matches!(self.coordinates[id.index()].drive, Drive::Coupled(..)) {
+                continue;
+            }
+            let slopes: [Vec3; 2] = PostureOf::slopes(self.tree.posture, body, id);
+            let turn = self.local(slopes[0] * sign);
+            let kind = usize::from(turn.is_none());
+            if let Some(direction) = turn.or_else(|| self.local(slopes[1] * sign)) {
+                axes[kind].push(Axis { id, direction });
+            }
+        }
+        axes
+    }
+
+    fn local(&self, v: Vec3) -> Option<Vec3> {
+        (self.oriented.axes.transpose() * v).try_normalize(1e-6)
+    }
+
+    /// Gives each axis the plane that it is nearest to, the nearest pair first.
+    fn assign(&mut self, mut axes: Vec<Axis>, mut planes: Planes, side: Option<Side>, least: f64) {
+        loop {
+            let free = planes.iter().enumerate().filter(|(_, plane)| plane.is_some()).map(|(k, _)| k);
+            let pairs =
+                free.flat_map(|k| axes.iter().enumerate().map(move |(i, axis)| (i, k, axis.direction[k].abs())));
+            // The first of equals.
+            let best = pairs.reduce(|best, pair| if pair.2 > best.2 { pair } else { best });
+            let Some((i, k, _)) = best.filter(|(_, _, share)| *share >= least) else { return };
+            let axis = axes.remove(i);
+            if let Some((movement, sign)) = planes[k].take() {
+                let sign = sign * axis.direction[k].signum();
+                self.found[axis.id.index()] = Some(Meaning { movement, side, sign });
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The sole of a foot, and the stature of a person, from a built figure or from usual proportions.
+
+use super::Leg;
+use crate::model::anthropometry::ContactSphere;
+use crate::model::anthropometry::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
+use crate::model::{BodyId, Side};
+use crate::spatial::{Mat3, Pose, Vec3};
+
+/// Thigh and shank of a model, joint centre to joint centre, over stature: Gait2392 and Rajagopal's model as scaled to people of known
+/// stature have 0.488 and 0.470, Drillis and Contini 0.491.
+const THIGH_AND_SHANK: f64 = 0.48;
+/// Mass [kg] and stature [m] of a man: where a model has no legs, stature goes with the cube root of mass.
+const REFERENCE: (f64, f64) = (72.6, 1.80);
+/// Axes of a foot's frame count as forward and up if they are within this of them (cosine of 25°).
+const ALONG_AXIS: f64 = 0.9;
+
+/// How tall a person is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stature {
+    /// From head to heel [m].
+    pub height_m: f64,
+    /// Hip to ground, standing [m].
+    pub leg_length_m: f64,
+}
+
+impl Stature {
+    /// From the mean length of thigh and shank together [m] where a model has legs, else from its mass [kg].
+    pub(super) fn estimated(thigh_and_shank_m: Option<f64>, mass_kg: f64) -> Stature {
+        let (height_m, leg) = match thigh_and_shank_m {
+            Some(leg) => (leg / THIGH_AND_SHANK, leg),
+            None => {
+                let height = REFERENCE.1 * (mass_kg / REFERENCE.0).cbrt();
+                (height, THIGH_AND_SHANK * height)
+            }
+        };
+        Stature { height_m, leg_length_m: leg + ANKLE_HEIGHT * height_m }
+    }
+}
+
+/// The sole of one foot: three points along its middle. Places within `half_width` of the line through them, seen from above, are on
+/// the sole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sole {
+    /// Rear, ball and tip, half a width inside the ends of the foot.
+    pub points: [SolePoint; 3],
+    /// Half the breadth of the foot [m].
+    pub half_width: f64,
+}
+
+/// A point under a foot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolePoint {
+    /// The body that it is fixed to.
+    pub body: BodyId,
+    /// Place in that body's frame [m].
+    pub place: Vec3,
+}
+
+impl Sole {
+    /// From heel, ball and toe spheres; the ends of the sole are those of the outermost spheres.
+    #[must_use]
+    pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
+        let of_side = || spheres.iter().filter(|s| s.side == side);
+        let named = |stem: &str| of_side().find(|s| s.name.starts_with(stem));
+        let (heel, ball, toe) = (named("heel")?, named("ball")?, named("toe")?);
+        let under = |sphere: &ContactSphere, forward: f64| SolePoint {
+            body: sphere.body,
+            place: sphere.center + Vec3::new(forward, -sphere.radius, 0.0),
+        };
+        let points = [under(heel, half_width - heel.radius), under(ball, 0.0), under(toe, toe.radius - half_width)];
+        Some(Sole { points, half_width })
+    }
+
+    /// A foot of usual proportions under the ankle of a person of a stature [m].
+    pub(super) fn estimated(leg: &Leg, height_m: f64) -> Sole {
+        let (length, half_width) = (FOOT_LENGTH * height_m, 0.5 * FOOT_WIDTH * height_m);
+        let [ahead, up] = leg.foot_axes;
+        let point = |from_heel: f64| SolePoint {
+            body: leg.foot,
+            place: leg.ankle_in_foot + (ahead * (from_heel - HEEL_TO_ANKLE * length) + up * (-ANKLE_HEIGHT * height_m)),
+        };
+        let points = [point(half_width), point(HEEL_TO_BALL * length), point(length - half_width)];
+        Sole { points, half_width }
+    }
+}
+
+/// Forward and up in the frame of a foot: the frame's own axes where they are near to these directions, else the directions.
+pub(super) fn foot_axes(axes: &Mat3, world_from_foot: &Pose) -> [Vec3; 2] {
+    let in_foot = world_from_foot.rotation.transpose() * axes;
+    let directions = [0, 1].map(|k| -> Vec3 { in_foot.column(k).into() });
+    let own = directions.map(|direction| {
+        let main = direction.iamax();
+        let mut axis = Vec3::zeros();
+        axis[main] = direction[main].signum();
+        axis
+    });
+    let near = own.iter().zip(&directions).all(|(axis, direction)| axis.dot(direction) > ALONG_AXIS);
+    if near { own } else { directions }
+}
