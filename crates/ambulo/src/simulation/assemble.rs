@@ -1,67 +1,66 @@
 //! The constraint graph of one velocity step.
 //!
-//! Unknown are the velocities v at the end of the step:
+//! The unknowns are the velocities v at the end of the step:
 //!
 //!   M v = M v⁻ + h f + Jᵀ λ          λ: impulses
 //!
-//! with f gravity, loads and the gyroscopic moment -ω × I ω, the last taken implicitly by one Newton step of
-//! I (ω - ω⁻) + h ω × I ω = 0, since taken at the start it feeds energy to fast spins (Catto 2015, unverified).
-//! Springs, dampers and motors on coordinates are implicit: with q at the end of the step q + h q̇,
+//! where f is gravity, loads and the gyroscopic moment -ω × I ω. The gyroscopic moment is implicit, by one Newton step of
+//! I (ω - ω⁻) + h ω × I ω = 0, because an explicit one feeds energy to fast spins (Catto 2015, unverified). Springs, dampers
+//! and motors on coordinates are implicit too: with q + h q̇ at the end of the step,
 //!
 //!   (.. + r + h d + h² k) q̇ = r q̇⁻ + h k (rest - q)
 //!
-//! A drive takes its coordinate from where it is to where its signal is at the end of the step: q̇ = (s(t + h) - q)/h.
+//! A drive moves its coordinate to the value of its signal at the end of the step: q̇ = (s(t + h) - q)/h.
 
-use super::joint::{JointKind, MOST, rotation_vector};
-use super::rates::rates;
-use super::state::{RowKey, WorldState};
+use super::joint::{Frames, JointKind, MOST, rotation_vector};
+use super::state::{RowKey, WorldState, rates};
 use super::world::{Closure, JointCoordinate, TreeJoint, World};
 use crate::dynamics::{ActsOn, BodyTerms, Constraint, ConstraintGraph, ConstraintGroup, Law, Link, Six, relative_rows};
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 
-/// Which drives are to give way beyond their limit in this step: (joint, coordinate, limit).
+/// Drives that give way beyond their limit in this step: (joint, coordinate, limit).
 pub(crate) type Yielding = Vec<(usize, usize, f64)>;
 
-/// Time over which velocities are solved for.
+/// The time span of one velocity solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Span {
-    /// [s].
+    /// Duration [s].
     pub(crate) h: f64,
-    /// Whether it stands for an instant, at which surfaces strike.
+    /// Whether the solve is for an instant, an impact.
     pub(crate) instant: bool,
 }
 
-/// A coordinate of the graph.
+/// A coordinate of the graph: where it belongs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slot {
     pub(crate) body: usize,
-    /// None for a body without a joint.
+    /// `None` for a body without a joint.
     pub(crate) joint: Option<usize>,
     pub(crate) coordinate: usize,
 }
 
-/// The graph of a step, and what its parts stand for.
+/// The graph of a step, with the parts of the world that its rows and coordinates belong to.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Assembly {
     pub(crate) graph: ConstraintGraph,
-    /// What each group of rows stands for.
+    /// The constraint of each group of rows.
     pub(crate) keys: Vec<RowKey>,
-    /// What each coordinate stands for.
+    /// The coordinate of the world for each coordinate of the graph.
     pub(crate) slots: Vec<Slot>,
-    /// All free directions of each joint, driven ones too.
+    /// All free directions of each joint, including driven ones.
     pub(crate) directions: Vec<[Six; MOST]>,
-    /// TreeJoint of each body.
+    /// Joint of each body.
     pub(crate) joint_of: Vec<Option<usize>>,
 }
 
-/// What drives and recordings prescribe at one instant.
+/// Positions that drives and figures prescribe at one instant.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Prescribed {
     /// Poses of the bodies of every figure.
     figures: Vec<Vec<Pose>>,
-    /// First coordinate of each joint.
+    /// Index of the first coordinate of each joint in `values`.
     first: Vec<usize>,
-    /// Where drives take the coordinates; zero for those without one.
+    /// Values of the drives; zero for coordinates without one.
     values: Vec<f64>,
 }
 
@@ -84,13 +83,13 @@ impl Prescribed {
         }
     }
 
-    /// Where the drive of a coordinate takes it.
+    /// Value of the drive of a coordinate.
     #[inline(always)]
     pub(crate) fn value(&self, joint: usize, coordinate: usize) -> f64 {
         self.values[self.first[joint] + coordinate]
     }
 
-    /// Where a joint's child shall be, seen from its parent.
+    /// Prescribed pose of a joint's child relative to its parent, if the joint follows a figure.
     pub(crate) fn goal(&self, joint: &TreeJoint) -> Option<Pose> {
         let follows = joint.follows?;
         let poses = &self.figures[follows.figure];
@@ -100,7 +99,7 @@ impl Prescribed {
 }
 
 impl Assembly {
-    /// Bodies, joints, closures and what acts on coordinates; contacts come after.
+    /// Fills the graph with bodies, joints, closures and coordinates. Contacts are added later.
     pub(crate) fn fill(
         &mut self,
         world: &World,
@@ -123,7 +122,7 @@ impl Assembly {
         }
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, c)| c.active) {
             let parent = closure.second.map_or(Pose::IDENTITY, |p| state.poses[p]);
-            let frames = super::joint::Frames {
+            let frames = Frames {
                 parent: parent * closure.second_from_joint,
                 child: state.poses[closure.first] * closure.first_from_joint,
             };
@@ -132,7 +131,7 @@ impl Assembly {
         }
     }
 
-    /// Empties everything but the memory.
+    /// Clears the graph and keeps its memory.
     pub(crate) fn begin(&mut self, world: &World) {
         self.graph.clear();
         self.keys.clear();
@@ -146,7 +145,7 @@ impl Assembly {
         }
     }
 
-    /// Adds the rows of a closure; one that holds nothing has none.
+    /// Adds the rows of a closure, if it has any.
     pub(crate) fn close(&mut self, number: usize, closure: &Closure, rows: Vec<Constraint>) {
         if rows.is_empty() {
             return;
@@ -214,11 +213,12 @@ impl Assembly {
         for k in 0..q.len() {
             goal[k] = drive_of(k).map_or(q[k], |_| prescribed.value(number, k));
         }
-        // At an instant drives hold the rates that they have: a impact is none of their doing.
-        let (way, h) = if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.way(q, &goal), h) };
+        // During an impact, drives keep their rates.
+        let (displacement, h) =
+            if instant { (rates(state, joint, &frames), 1.0) } else { (joint.kind.displacement(q, &goal), h) };
         for k in 0..q.len() {
             if drive_of(k).is_some() {
-                offset.axpy(way[k] / h, &directions[k], 1.0);
+                offset.axpy(displacement[k] / h, &directions[k], 1.0);
                 continue;
             }
             freedom += 1;
@@ -232,7 +232,7 @@ impl Assembly {
         self.directions[number] = directions;
     }
 
-    /// Springs, motors, limits and friction of one coordinate.
+    /// Adds springs, motors, limits and friction of one coordinate.
     fn add_coordinate(
         &mut self,
         world: &World,
@@ -289,7 +289,7 @@ impl Assembly {
     }
 }
 
-/// ω - ω⁻ of the free body: one Newton step of I (ω - ω⁻) + h ω × I ω = 0 at ω⁻.
+/// ω - ω⁻ of a free body: one Newton step of I (ω - ω⁻) + h ω × I ω = 0 at ω⁻.
 fn gyroscopic_change(inertia: &Mat3, omega: &Vec3, h: f64) -> Vec3 {
     let momentum = inertia * omega;
     let moment = omega.cross(&momentum) * h;
@@ -300,7 +300,7 @@ fn gyroscopic_change(inertia: &Mat3, omega: &Vec3, h: f64) -> Vec3 {
     slope.try_inverse().map_or(Vec3::zeros(), |inverse| -(inverse * moment))
 }
 
-/// The twist, as a motion of the child's mass centre against its parent, that takes a followed body to its place in one step.
+/// The twist of the child's mass centre relative to its parent that moves a following body to its prescribed pose in one step.
 fn following(state: &WorldState, joint: &TreeJoint, goal: &Pose, h: f64) -> Six {
     let now = state.poses[joint.child];
     let goal = joint.parent.map_or(Pose::IDENTITY, |p| state.poses[p]) * *goal;
@@ -309,7 +309,7 @@ fn following(state: &WorldState, joint: &TreeJoint, goal: &Pose, h: f64) -> Six 
     Six::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
 }
 
-/// The child's motion against its parent as it is.
+/// The present twist of the child's mass centre relative to its parent.
 fn carried_along(state: &WorldState, joint: &TreeJoint) -> Six {
     let (child, center) = (state.twists[joint.child], state.poses[joint.child].translation);
     let (angular, linear) = joint.parent.map_or((child.angular, child.linear), |p| {
@@ -319,20 +319,16 @@ fn carried_along(state: &WorldState, joint: &TreeJoint) -> Six {
     Six::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
-/// Rows of a closing joint; targets zero.
-pub(crate) fn closing_rows(
-    kind: JointKind,
-    frames: &super::joint::Frames,
-    (first, second): (Vec3, Option<Vec3>),
-) -> Vec<Constraint> {
+/// Rows of a closure, with targets of zero.
+pub(crate) fn closing_rows(kind: JointKind, frames: &Frames, (first, second): (Vec3, Option<Vec3>)) -> Vec<Constraint> {
     let point = frames.child.translation;
     let from_second = second.map_or(Vec3::zeros(), |c| point - c);
-    let (turns, slides) = kind.held(frames);
+    let (turns, slides) = kind.constrained(frames);
     let rows = |axis: Vec3| relative_rows([axis, axis, axis], first - point, from_second);
     turns.into_iter().map(|e| rows(e)[0]).chain(slides.into_iter().map(|e| rows(e)[3])).collect()
 }
 
-/// Velocity of a body from the solver's six numbers.
+/// Twist of a body from the six numbers of the solver.
 pub(crate) fn twist(motion: &Six) -> Twist {
     Twist { angular: Vec3::new(motion[0], motion[1], motion[2]), linear: Vec3::new(motion[3], motion[4], motion[5]) }
 }

@@ -1,29 +1,29 @@
-//! Whether a world's description makes sense.
+//! Checks of a world's description before it is simulated.
 
 use super::world::{Owner, TreeJoint, World};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 
-/// Departure of a frame's axes from an orthonormal right-handed set that is more than rounding.
+/// Largest departure of a frame's axes from an orthonormal set that counts as rounding.
 const SKEW: f64 = 1e-9;
 
-/// What is wrong with a world.
+/// An error in the description of a world.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[error("{what} `{name}`: {complaint}")]
 pub struct WorldError {
-    /// RigidBody, joint, closure, obstacle or surface.
+    /// Kind of part: body, joint, closure or surface.
     pub what: &'static str,
-    /// Its name, or its number.
+    /// Name of the part, or its number.
     pub name: String,
     /// What was found and what was expected.
     pub complaint: String,
 }
 
 impl World {
-    /// Looks for masses, inertias, frames and references that no simulation can use.
+    /// Checks masses, inertias, frames and references.
     ///
     /// # Errors
-    /// The first thing that is wrong.
+    /// The first error found.
     pub fn check(&self) -> Result<(), WorldError> {
         self.check_bodies()?;
         self.joints.iter().try_for_each(|joint| self.check_joint(joint))?;
@@ -31,7 +31,7 @@ impl World {
         for (number, joint) in self.joints.iter().enumerate() {
             if let Some(other) = last[joint.child].filter(|other| *other != number) {
                 let (child, other) = (&self.bodies[joint.child].name, &self.joints[other].name);
-                let complaint = format!("carries `{child}`, which `{other}` carries too; close loops by closures");
+                let complaint = format!("carries `{child}`, which `{other}` already carries; close loops by closures");
                 return Err(WorldError { what: "joint", name: joint.name.clone(), complaint });
             }
         }

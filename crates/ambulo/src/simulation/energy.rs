@@ -1,4 +1,4 @@
-//! Energies of a world.
+//! Mechanical energy of a world.
 
 use super::state::WorldState;
 use super::world::World;
@@ -15,14 +15,14 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Their sum [J].
+    /// Total mechanical energy [J].
     #[must_use]
     pub fn total(&self) -> f64 {
         self.kinetic + self.gravity + self.springs
     }
 }
 
-/// Energies of the world.
+/// Mechanical energies of a world in a state.
 #[must_use]
 pub fn energy(world: &World, state: &WorldState) -> Energy {
     let mut energy = Energy::default();

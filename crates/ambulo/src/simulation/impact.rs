@@ -1,13 +1,12 @@
-//! Instants at which surfaces meet: velocities change, positions do not.
+//! Impacts: instants at which surfaces meet. Velocities change, positions do not.
 //!
-//! Drives hold the rates that they have, whatever impulse it takes; those with a limit give way.
+//! Drives without a limit keep their rates, whatever impulse that takes; drives with a limit give way.
 
 use super::assemble::{Prescribed, Span, twist};
 use super::forces::{Impact, StepForces};
-use super::impulse::obstacle_motion;
 use super::state::WorldState;
-use super::step::{StepSettings, StepWorkspace};
-use super::touch::Touch;
+use super::touch::{Touch, obstacle_motion};
+use super::workspace::{StepSettings, StepWorkspace};
 use super::world::World;
 use crate::dynamics::LinkError;
 use crate::findings::Findings;
@@ -15,7 +14,7 @@ use crate::findings::Findings;
 /// Duration of an impact in a smooth step [s]: gravity gives 1e-8 m/s in it.
 const IMPACT_S: f64 = 1e-9;
 
-/// What happens at an instant where surfaces meet: velocities change, positions do not.
+/// Computes the impact of surfaces that touch at this instant of a smooth step.
 pub(super) fn impact(
     world: &World,
     state: &mut WorldState,
@@ -47,12 +46,12 @@ impl StepWorkspace {
         self.solve(world, state, Span { h: IMPACT_S, instant: true }, settings, prescribed, findings)
     }
 
-    /// Velocities change, positions do not. The impulses join those of the step.
+    /// Takes over the velocities after an impact, and records its impulses.
     fn take_impact(&mut self, world: &World, state: &mut WorldState) {
         for (twist_now, motion) in state.twists.iter_mut().zip(&self.solution.motions) {
             *twist_now = twist(motion);
         }
-        let StepForces { mut contacts, mut efforts, .. } = StepForces::of(world, self);
+        let StepForces { mut contacts, mut efforts, .. } = self.forces(world);
         for contact in &mut contacts {
             contact.force *= IMPACT_S;
             contact.normal_force *= IMPACT_S;
@@ -62,8 +61,8 @@ impl StepWorkspace {
         self.after_impacts.clone_from(&state.twists);
     }
 
-    /// Every point that has come into touch since the last step strikes, the one that did so first before the others, and
-    /// loses all of its velocity. Points that meanwhile part, or rest already, do not strike.
+    /// Sticking impacts: every point that has come into contact since the last step loses all its velocity, one after the
+    /// other in the order in which they touched. Points that separate in the meantime, or are at rest already, are skipped.
     pub(super) fn strike(
         &mut self,
         world: &World,
@@ -77,7 +76,7 @@ impl StepWorkspace {
             self.touch.touches[number].sticks = true;
             self.solve_impact(world, state, settings, prescribed, findings)?;
             if self.pulls() {
-                // Another point carries the impact: this one is not held.
+                // Another point carries the impact: this one is not held back.
                 self.touch.touches.clone_from(&touches);
                 self.solve_impact(world, state, settings, prescribed, findings)?;
             }
@@ -88,9 +87,9 @@ impl StepWorkspace {
         Ok(())
     }
 
-    /// Whether the point that was to stick is not pushed.
+    /// Whether the sticking point would have to pull.
     fn pulls(&self) -> bool {
-        let normal = |touch: &Touch| self.solution.lambda[self.assembly.graph.groups[touch.group].rows.start];
+        let normal = |touch: &Touch| self.solution.lambda[touch.rows.normal];
         self.touch.touches.iter().any(|touch| touch.sticks && normal(touch) <= 0.0)
     }
 }

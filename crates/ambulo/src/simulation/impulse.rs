@@ -1,30 +1,30 @@
-//! One step of first order: impulses at velocity level, then positions.
+//! A first-order step: impulses at velocity level, then positions.
 //!
-//!   1. where surfaces touch, what acts: the graph at (x, v⁻)
+//!   1. contact points and constraints: the graph at (x, v⁻)
 //!   2. v, λ from the graph                                        (dynamics::solve_graph)
 //!   3. x := x + h v, rotations by exp(h ω)
-//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2; then joints of trees are seated exactly
+//!   4. linearised displacements: M δ = Jᵀ ν, J δ = -error, with the factor of 2; then tree joints are placed exactly
 //!
-//! First order in time. The multipliers λ/h are the forces: of joints, drives, contacts, friction.
+//! The multipliers λ/h are the forces of joints, drives, contacts and friction.
 //!
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.1 (steps 1-3 for accelerations, velocities, linearised
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
 use super::assemble::{Assembly, Prescribed, Span, Yielding, twist};
-use super::closing::closing;
-use super::joint::{orthonormal, rotation};
+use super::joint::advance;
+use super::projection::still_closing;
 use super::state::{RowKey, WorldState};
-use super::step::{StepSettings, StepWorkspace};
-use super::touch::ObstacleMotion;
+use super::touch::obstacle_motion;
+use super::workspace::{StepSettings, StepWorkspace};
 use super::world::{ImpactLaw, TreeJoint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, solve_graph};
 use crate::findings::{Code, Findings};
-use crate::spatial::{Pose, STANDARD_GRAVITY, Twist};
+use crate::spatial::STANDARD_GRAVITY;
 
-/// Forces beyond so many times the weight of everything are taken as a sign that rows contradict each other: drives without
-/// a limit give way there, and where the solver fails no force is larger.
+/// A force beyond this many times the total weight is a sign of contradictory constraints: drives without a limit give way
+/// there, and no force is larger where the solver fails.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
-/// Rows that depart by more than this share contradict each other; less is slow convergence, as where a loop is stretched.
+/// A residual above this means contradictory constraints; below, slow convergence, as in stretched loops.
 const CONTRADICTION: f64 = 1e-6;
 
 /// Advances the state by `h`.
@@ -54,7 +54,7 @@ fn prescribed_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     obstacle_motion(world, state.time_s, h, &mut w.obstacles);
-    let still_closing = closing(world, state);
+    let closing = still_closing(world, state);
     w.touch.detect(world, state, &w.obstacles, h);
     if world.impact == ImpactLaw::Sticking {
         w.touch.keep_touching(world, state);
@@ -67,8 +67,8 @@ fn prescribed_step(
     }
     state.time_s += h;
     w.remember(state);
-    if settings.projection && w.only_slides(world) {
-        w.slide(world, state, prescribed, h);
+    if settings.projection && w.only_translates(world) {
+        w.place_translated(world, state, prescribed, h);
     } else {
         for (pose, twist) in state.poses.iter_mut().zip(&state.twists) {
             advance(pose, twist, h);
@@ -76,37 +76,16 @@ fn prescribed_step(
         if settings.projection {
             w.project(world, state, prescribed, h);
         }
-        w.seat(world, state, prescribed, settings.projection);
+        w.place_joints(world, state, prescribed, settings.projection);
     }
-    if settings.projection && !still_closing {
+    if settings.projection && !closing {
         w.close(world, state, prescribed, settings)?;
     }
     Ok(w.solution.convergence)
 }
 
-/// Poses of obstacles at the start of a step, with the mean twist over it.
-pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut ObstacleMotion) {
-    let over_step = |obstacle: &super::world::Obstacle| {
-        let (now, _) = obstacle.at(time_s);
-        if obstacle.path.is_none() {
-            return (now, Twist::ZERO);
-        }
-        let (then, _) = obstacle.at(time_s + h);
-        let turn = super::joint::rotation_vector(&(then.rotation * now.rotation.transpose()));
-        (now, Twist { angular: turn / h, linear: (then.translation - now.translation) / h })
-    };
-    motion.clear();
-    motion.extend(world.obstacles.iter().map(over_step));
-}
-
-#[inline(always)]
-pub(super) fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
-    pose.translation += twist.linear * h;
-    pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
-}
-
 impl StepWorkspace {
-    /// Velocities and impulses; drives that ask too much give way.
+    /// Solves for velocities and impulses; overloaded drives give way.
     pub(super) fn solve(
         &mut self,
         world: &World,
@@ -118,7 +97,7 @@ impl StepWorkspace {
     ) -> Result<(), LinkError> {
         let h = span.h;
         let unreasonable = match span.instant {
-            // A impact has an impulse, not a force.
+            // An impact has an impulse, not a force.
             true => f64::INFINITY,
             false => UNREASONABLE_WEIGHTS * world.mass() * world.gravity.norm().max(STANDARD_GRAVITY),
         };
@@ -148,7 +127,7 @@ impl StepWorkspace {
         Ok(())
     }
 
-    /// Keeps the impulses for the next step to guess from.
+    /// Keeps the impulses as first guess of the next step.
     fn remember(&self, state: &mut WorldState) {
         let groups = || self.assembly.keys.iter().zip(&self.assembly.graph.groups);
         let impulses = |group: &ConstraintGroup| {
@@ -166,7 +145,7 @@ impl StepWorkspace {
         state.guess.extend(groups().map(|(key, group)| (*key, impulses(group))));
     }
 
-    /// Impulses of the last step as a guess; a new contact is taken to push and to stick.
+    /// Sets the first guess: the impulses of the last step. A new contact is assumed to push and to stick.
     fn guess(&mut self, state: &WorldState) {
         let lambda = &mut self.solution.lambda;
         lambda.clear();
@@ -181,7 +160,7 @@ impl StepWorkspace {
         }
     }
 
-    /// Drives whose effort exceeds their limit, or reason.
+    /// Drives whose effort exceeds their limit, or any reasonable force.
     fn overloaded(&mut self, world: &World, yielding: &Yielding, unreasonable: f64) -> Yielding {
         let driven = |j: &TreeJoint| j.coordinates.iter().any(|c| c.drive.is_some());
         if !world.joints.iter().any(driven) {
@@ -202,7 +181,7 @@ impl StepWorkspace {
         more
     }
 
-    /// Confines every force.
+    /// Bounds every force.
     fn bound(&mut self, most: f64) {
         for group in &mut self.assembly.graph.groups {
             group.law = match group.law {
@@ -219,10 +198,7 @@ impl StepWorkspace {
             let unit = if joint.kind.turns(coordinate) { "N.m" } else { "N" };
             findings.report(
                 Code::DriveGaveWay,
-                format!(
-                    "the drive of `{}` ({name}) could not keep to its motion with {max:.4} {unit} and gave way",
-                    joint.name
-                ),
+                format!("the drive of `{}` ({name}) gave way: its motion needs more than {max:.4} {unit}", joint.name),
             );
         }
         let convergence = &self.solution.convergence;
@@ -231,12 +207,12 @@ impl StepWorkspace {
             let name = self.row_name(world, row);
             findings.report(
                 Code::SolverNotConverged,
-                format!("not all constraints could be met at once; the one that departs most is {name}"),
+                format!("the constraints contradict each other; the one violated most is {name}"),
             );
         }
     }
 
-    /// What a row stands for, in words.
+    /// Description of a row for messages.
     pub(crate) fn row_name(&self, world: &World, row: usize) -> String {
         let groups = &self.assembly.graph.groups;
         let Some(group) = groups.iter().position(|g| g.rows.contains(&row)) else { return format!("row {row}") };

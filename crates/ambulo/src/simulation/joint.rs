@@ -1,7 +1,7 @@
-//! Joints: which motions of a child against its parent are free, where the child stands, and how far it has drifted.
+//! Joint kinematics: the free motions of a child relative to its parent, its pose, and its drift.
 //!
 //! P is a frame fixed to the parent, C one fixed to the child; with all coordinates zero they coincide. S are the free
-//! directions as motions of the child's mass centre: a rotation about e through the origin of C is (e, e × r), a
+//! directions, as motions of the child's mass centre: a rotation about e through the origin of C is (e, e × r), a
 //! translation along e is (0, e), where r leads from the origin of C to the mass centre.
 //!
 //! | kind      | T = P from C            | coordinates                                              |
@@ -11,37 +11,37 @@
 //! | universal | R_x(q₁) R_y(q₂)         | angle about x of P, angle about y of C                   |
 //! | ball      | R                       | rotation vector in P; rates: angular velocity in P       |
 //! | planar    | t(q₁ x + q₂ y) R_z(q₃)  | distances along x and y of P, angle about z              |
-//! | free      | t R                     | rotation vector and place in P; rates in P               |
+//! | free      | t R                     | rotation vector and position in P; rates in P            |
 //!
-//! What runs for every joint in every step is inlined, for the reason that `Pose` has.
+//! Functions that run for every joint in every step are inlined, for the same reason as those of `Pose`.
 
 use crate::dynamics::Six;
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use std::f64::consts::TAU;
 
-/// Which motions a joint leaves.
+/// The motions that a joint leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
     /// None.
     Weld,
-    /// A turn about z.
+    /// A rotation about z.
     Revolute,
-    /// A slide along z.
+    /// A translation along z.
     Prismatic,
-    /// A turn about x of the parent's frame, then about y of the child's.
+    /// A rotation about x of the parent's frame, then about y of the child's.
     Universal,
-    /// Any turn.
+    /// All rotations.
     Ball,
-    /// Slides along x and y, a turn about z.
+    /// Translations along x and y, a rotation about z.
     Planar,
-    /// Everything.
+    /// All rotations and translations.
     Free,
 }
 
 /// Largest number of coordinates of a joint.
 pub(crate) const MOST: usize = 6;
 
-/// Coordinates of a joint: the first [`JointKind::freedom`] count.
+/// Coordinates of a joint; only the first [`JointKind::freedom`] are used.
 pub(crate) type Coordinates = [f64; MOST];
 
 /// Frames of a joint at one instant, world axes.
@@ -77,7 +77,7 @@ impl JointKind {
         }
     }
 
-    /// Names of the coordinates, for a joint's own name to precede.
+    /// Names of the coordinates, to follow the name of the joint.
     #[must_use]
     pub fn coordinate_names(self) -> &'static [&'static str] {
         match self {
@@ -91,7 +91,7 @@ impl JointKind {
         }
     }
 
-    /// T of these coordinates.
+    /// T for these coordinates.
     pub(crate) fn parent_from_child(self, q: &Coordinates) -> Pose {
         let turn = |rotation| Pose { rotation, translation: Vec3::zeros() };
         match self {
@@ -107,7 +107,7 @@ impl JointKind {
         }
     }
 
-    /// Coordinates of a T that may have drifted; angles are those nearest to `last`.
+    /// Coordinates of a T that may have drifted; angles are the ones nearest to `last`.
     pub(crate) fn coordinates(self, t: &Pose, last: &[f64]) -> Coordinates {
         let (r, p) = (&t.rotation, &t.translation);
         let near = |angle: f64, k: usize| nearest_turn(angle, last.get(k).copied().unwrap_or(0.0));
@@ -134,24 +134,24 @@ impl JointKind {
         q
     }
 
-    /// The motion along the free directions that leads from `q` to `goal`: their difference, but for rotation vectors the
-    /// turn between them.
-    pub(crate) fn way(self, q: &[f64], goal: &Coordinates) -> Coordinates {
-        let mut way = [0.0; MOST];
-        for (way, (goal, q)) in way.iter_mut().zip(goal.iter().zip(q)) {
-            *way = goal - q;
+    /// The displacement along the free directions from `q` to `goal`: their difference; for rotation vectors, the rotation
+    /// between them.
+    pub(crate) fn displacement(self, q: &[f64], goal: &Coordinates) -> Coordinates {
+        let mut displacement = [0.0; MOST];
+        for (displacement, (goal, q)) in displacement.iter_mut().zip(goal.iter().zip(q)) {
+            *displacement = goal - q;
         }
         if matches!(self, JointKind::Ball | JointKind::Free) {
             let [now, then] = [q, goal].map(|q| rotation(&Vec3::new(q[0], q[1], q[2])));
-            way[..3].copy_from_slice(rotation_vector(&(then * now.transpose())).as_slice());
+            displacement[..3].copy_from_slice(rotation_vector(&(then * now.transpose())).as_slice());
         }
-        way
+        displacement
     }
 
-    /// T without its drift: the nearest one that the joint allows.
-    pub(crate) fn seated(self, t: &Pose, last: &[f64]) -> Pose {
+    /// T without its drift: the nearest pose that the joint allows.
+    pub(crate) fn without_drift(self, t: &Pose, last: &[f64]) -> Pose {
         match self {
-            // No way through angles where nothing is held of the rotation.
+            // The rotation is free: no need to go through angles.
             JointKind::Ball => Pose { rotation: t.rotation, translation: Vec3::zeros() },
             JointKind::Free => *t,
             JointKind::Revolute => Pose { rotation: nearest_about_z(&t.rotation), translation: Vec3::zeros() },
@@ -182,8 +182,8 @@ impl JointKind {
         s
     }
 
-    /// Held directions, as axes in world: rotations that the joint forbids, then translations.
-    pub(crate) fn held(self, frames: &Frames) -> (Vec<Vec3>, Vec<Vec3>) {
+    /// Constrained directions, world axes: rotations that the joint forbids, then translations.
+    pub(crate) fn constrained(self, frames: &Frames) -> (Vec<Vec3>, Vec<Vec3>) {
         let [x, y, z] = [0, 1, 2].map(|k| frames.parent.rotation.column(k).into_owned());
         match self {
             JointKind::Weld => (vec![x, y, z], vec![x, y, z]),
@@ -200,11 +200,11 @@ impl JointKind {
     }
 }
 
-/// How a child has drifted: the turn [rad] and shift [m] of C, world axes, from where the joint would have it.
+/// Drift of a child: rotation [rad] and translation [m] of C, world axes, from the pose that the joint allows.
 #[inline(always)]
 pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Vec3) {
     if kind == JointKind::Revolute {
-        // A rotation is a turn about z and one across it, which takes z of P to z of C.
+        // A rotation is one about z followed by one across z, which takes z of P to z of C.
         let (p, c) = (frames.parent.rotation.column(2), frames.child.rotation.column(2));
         let across = p.cross(&c);
         let (sine, cosine) = (across.norm(), p.dot(&c));
@@ -214,9 +214,9 @@ pub(crate) fn drift(kind: JointKind, frames: &Frames, last: &[f64]) -> (Vec3, Ve
         }
     }
     let t = frames.parent.inverse() * frames.child;
-    let seat = kind.seated(&t, last);
-    let turn = rotation_vector(&(t.rotation * seat.rotation.transpose()));
-    (frames.parent.rotation * turn, frames.parent.rotation * (t.translation - seat.translation))
+    let allowed = kind.without_drift(&t, last);
+    let turn = rotation_vector(&(t.rotation * allowed.rotation.transpose()));
+    (frames.parent.rotation * turn, frames.parent.rotation * (t.translation - allowed.translation))
 }
 
 /// exp of a rotation vector [rad] (Rodrigues).
@@ -254,7 +254,7 @@ fn about_z(angle: f64) -> Mat3 {
     Mat3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// The turn about z that is nearest to a rotation; none for half a turn about another axis.
+/// The rotation about z that is nearest to a rotation; the identity for half a turn about another axis.
 fn nearest_about_z(r: &Mat3) -> Mat3 {
     let (y, x) = (r[(1, 0)] - r[(0, 1)], r[(0, 0)] + r[(1, 1)]);
     let length = (x * x + y * y).sqrt();
@@ -283,7 +283,14 @@ pub(crate) fn rotation_vector(r: &Mat3) -> Vec3 {
     m.column(k).into_owned().try_normalize(0.0).map_or(Vec3::zeros(), |u| u * angle)
 }
 
-/// R (3 - RᵀR)/2: one Newton step back to a rotation; rounding grows by no more than it undoes.
+/// Moves a pose with a twist at its origin for a time `h` [s].
+#[inline(always)]
+pub(super) fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
+    pose.translation += twist.linear * h;
+    pose.rotation = orthonormal(&(rotation(&(twist.angular * h)) * pose.rotation));
+}
+
+/// R (3 - RᵀR)/2: one Newton step towards a rotation matrix, enough to keep rounding from growing.
 #[inline(always)]
 pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
     let [x, y, z] = [0, 1, 2].map(|k| r.column(k).into_owned());
@@ -293,11 +300,11 @@ pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
     Mat3::from_columns(&[x * xx - y * xy - z * xz, y * yy - x * xy - z * yz, z * zz - x * xz - y * yz])
 }
 
-/// Of the vectors of one rotation, v + 2π k v/|v|, the nearest one to the first three of `last`.
+/// Of the rotation vectors of one rotation, v + 2π k v/|v|, the one nearest to the first three of `last`.
 fn near_vector(v: Vec3, last: &[f64]) -> Vec3 {
     let &[x, y, z, ..] = last else { return v };
     let angle = v.norm();
-    // Near no turn the axis is that of `last`, if that has whole turns.
+    // Near the identity the axis is the one of `last`, if that has whole turns.
     let near = Vec3::new(x, y, z);
     let axis = if angle > 1e-9 { Some(v / angle) } else { near.try_normalize(1.0) };
     let Some(axis) = axis else { return v };

@@ -1,10 +1,10 @@
-//! Worlds stepped through time: figures, obstacles, driven joints, collisions, scenes.
+//! The simulator: worlds of rigid bodies, driven joints, contacts and loops, stepped through time.
 //!
 //! A [`World`] describes bodies, the [`TreeJoint`]s that make trees of them, [`Closure`]s that close loops, and [`Surface`]s that
-//! may touch. A [`WorldState`] says where everything is; [`step`] advances it, and [`StepWorkspace::forces`] reads the forces off the
-//! multipliers. Bodies have six coordinates each; there is no limit on their number but memory.
+//! may touch. A [`WorldState`] holds positions and velocities; [`step`] advances it, and [`StepWorkspace::forces`] returns the forces
+//! of the step, which are the multipliers of its constraints. Every body has six coordinates. Only memory limits their number.
 //!
-//! A pendulum, a point of 1 kg on a rod of 1 m, let go at the level of its hinge, passes below it at √(2 g l):
+//! A pendulum (a point of 1 kg on a rod of 1 m), released at the height of its hinge, has the speed √(2 g l) at its lowest point:
 //!
 //! ```
 //! use ambulo::findings::Findings;
@@ -42,33 +42,32 @@
 //!     fastest = fastest.max(state.twists[0].linear.norm());
 //! }
 //! assert!((fastest - (2.0 * 9.80665_f64).sqrt()).abs() < 1e-5);
-//! // The rod's force on the bob, there: three times its weight at most.
+//! // The force of the hinge on the bob, here after 2 s.
 //! println!("force of the hinge now: {:?} N", workspace.forces(&world).joints[0].force);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works and what it is measured to do: docs/SIMULATION.md and docs/measured/BENCHMARKS.md.
+//! docs/SIMULATION.md explains the method; docs/measured/BENCHMARKS.md lists measured speed and accuracy.
+
+mod check;
+mod energy;
+mod joint;
+mod samples;
+mod signal;
+mod state;
+mod world;
 
 mod assemble;
-mod check;
-mod closing;
-pub mod consistent_walk;
-mod energy;
 mod forces;
 mod impact;
 mod impulse;
-mod joint;
 mod projection;
-mod rates;
-mod samples;
-mod signal;
-mod sliding;
 mod smooth;
-mod state;
 mod step;
 mod touch;
-mod world;
+mod workspace;
 
+pub mod consistent_walk;
 pub mod scene;
 pub mod synthetic;
 pub mod walking;
@@ -81,7 +80,8 @@ pub use projection::largest_joint_error;
 pub use samples::Samples;
 pub use signal::Signal;
 pub use state::{RowKey, WorldState};
-pub use step::{Integrator, StepSettings, StepWorkspace, accelerations, step};
+pub use step::{accelerations, step};
+pub use workspace::{Integrator, StepSettings, StepWorkspace};
 pub use world::{
     Closure, ContactLaw, Figure, Follows, ImpactLaw, JointCoordinate, JointDrive, Material, Motor, Obstacle,
     ObstaclePath, Owner, RigidBody, Spring, Surface, TreeJoint, World,

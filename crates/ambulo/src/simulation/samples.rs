@@ -1,83 +1,63 @@
-//! Functions of time known at instants, with their first two derivatives: quintics between.
+//! Sampled periodic functions of time, interpolated with quintics.
 //!
-//! On each interval of length d the polynomial of degree five that has both ends' values, rates and accelerations; so the
-//! whole is twice continuously differentiable, and an error falls with d⁶ where the function is smooth. Where its third
-//! derivative jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval alone.
-//! One reading costs some 30 operations, whatever the function cost.
+//! On each interval of length d, a polynomial of degree five matches value, rate and acceleration at both ends. The result is
+//! twice continuously differentiable, and its error falls with d⁶ where the function is smooth. Where the third derivative
+//! jumps by J inside an interval, the acceleration is off by less than J d/4 within that interval alone. One evaluation costs
+//! about 30 operations, whatever the function costs.
 
-/// Samples of several functions at the same instants.
+/// Samples of several periodic functions at the same instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
-    start_s: f64,
     step_s: f64,
     columns: usize,
-    /// Value, rate and acceleration, one row an instant.
+    /// Value, rate and acceleration, one row per instant; the last instant is the first one of the next period.
     rows: Vec<[f64; 3]>,
-    /// Whether the last instant is the first one of the next period.
-    periodic: bool,
 }
 
 impl Samples {
-    /// Asks `functions` for the rows from `start_s` over `span_s` [s], no farther than `step_s` apart. Periodic ones repeat
-    /// themselves; others keep their end values outside. `functions` fills one entry (value, rate, acceleration) a column.
+    /// Samples one period of `functions` from time zero, at most `step_s` apart. `functions` fills one entry (value, rate,
+    /// acceleration) per column.
     ///
     /// # Panics
-    /// If the span or the step is not above zero.
+    /// If the period or the step is not above zero.
     #[must_use]
-    pub fn new(
-        columns: usize,
-        [start_s, span_s]: [f64; 2],
-        step_s: f64,
-        periodic: bool,
-        mut functions: impl FnMut(f64, &mut [[f64; 3]]),
-    ) -> Samples {
-        assert!(span_s > 0.0 && step_s > 0.0, "a span of {span_s} s in steps of {step_s} s");
-        let intervals = (span_s / step_s - 1e-9).ceil().max(1.0);
-        let step_s = span_s / intervals;
+    pub fn new(columns: usize, period_s: f64, step_s: f64, mut functions: impl FnMut(f64, &mut [[f64; 3]])) -> Samples {
+        assert!(period_s > 0.0 && step_s > 0.0, "a period of {period_s} s in steps of {step_s} s");
+        let intervals = (period_s / step_s - 1e-9).ceil().max(1.0);
+        let step_s = period_s / intervals;
         let mut rows = vec![[0.0; 3]; columns * (intervals as usize + 1)];
         for (number, row) in rows.chunks_exact_mut(columns).enumerate() {
-            functions(start_s + step_s * number as f64, row);
+            functions(step_s * number as f64, row);
         }
-        if periodic {
-            let last = rows.len() - columns;
-            rows.copy_within(..columns, last);
-        }
-        Samples { start_s, step_s, columns, rows, periodic }
+        let last = rows.len() - columns;
+        rows.copy_within(..columns, last);
+        Samples { step_s, columns, rows }
     }
 
     /// Value, first and second derivative of one function.
     #[must_use]
     pub fn at(&self, column: usize, t: f64) -> [f64; 3] {
-        match self.interval(column, t) {
-            Ok((first, u)) => self.quintic(first).at(u, self.step_s),
-            Err(end) => [self.rows[end][0], 0.0, 0.0],
-        }
+        let (first, u) = self.interval(column, t);
+        self.quintic(first).at(u, self.step_s)
     }
 
-    /// The value alone.
+    /// Value of one function.
     #[must_use]
     pub fn value(&self, column: usize, t: f64) -> f64 {
-        match self.interval(column, t) {
-            Ok((first, u)) => self.quintic(first).value(u),
-            Err(end) => self.rows[end][0],
-        }
+        let (first, u) = self.interval(column, t);
+        self.quintic(first).value(u)
     }
 
-    /// The entry at the interval's begin and the share of it that has passed; outside, the entry at the end.
-    fn interval(&self, column: usize, t: f64) -> Result<(usize, f64), usize> {
+    /// The entry at the start of the interval, and the elapsed share of the interval.
+    fn interval(&self, column: usize, t: f64) -> (usize, f64) {
         let intervals = self.rows.len() / self.columns - 1;
         let count = intervals as f64;
-        let mut place = (t - self.start_s) / self.step_s;
-        if self.periodic {
-            // Towards zero, which on most processors is one instruction, and up where that is below.
-            place -= ((place / count) as i64 as f64) * count;
-            place = if place < 0.0 { place + count } else { place };
-        } else if !(0.0..=count).contains(&place) {
-            let end = if place < 0.0 { 0 } else { intervals };
-            return Err(end * self.columns + column);
-        }
+        let mut place = t / self.step_s;
+        // Truncation is one instruction on most processors; a negative remainder is then raised by a period.
+        place -= ((place / count) as i64 as f64) * count;
+        place = if place < 0.0 { place + count } else { place };
         let interval = (place as usize).min(intervals - 1);
-        Ok((interval * self.columns + column, place - interval as f64))
+        (interval * self.columns + column, place - interval as f64)
     }
 
     fn quintic(&self, first: usize) -> Quintic {
@@ -89,7 +69,7 @@ impl Samples {
 struct Quintic([f64; 6]);
 
 impl Quintic {
-    /// With these values, rates and accelerations at its ends, an interval of d [s] apart.
+    /// With these values, rates and accelerations at the ends of an interval of d [s].
     fn new([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], d: f64) -> Quintic {
         // Rates and accelerations in units of the interval.
         let (v0, v1, a0, a1) = (v0 * d, v1 * d, a0 * d * d, a1 * d * d);
@@ -123,11 +103,10 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_is_met_between_its_samples_to_the_sixth_order() {
+    fn a_wave_is_interpolated_to_the_sixth_order() {
         let period = std::f64::consts::TAU / 3.0;
         let error = |step: f64| {
-            let samples =
-                Samples::new(2, [0.1, period], step, true, |t, row| row.copy_from_slice(&[[0.0; 3], wave(t)]));
+            let samples = Samples::new(2, period, step, |t, row| row.copy_from_slice(&[[0.0; 3], wave(t)]));
             let off = |k: u32| {
                 let t = -7.0 + 0.013 * f64::from(k);
                 let (found, meant) = (samples.at(1, t), wave(t));
@@ -141,13 +120,5 @@ mod tests {
             assert!((found - order).abs() < 0.3, "derivative {k}: order {found}");
         }
         assert!(fine[0] < 1e-8, "{fine:?}");
-    }
-
-    #[test]
-    fn what_does_not_repeat_stays_where_it_ends() {
-        let samples = Samples::new(1, [1.0, 1.0], 0.1, false, |t, row| row[0] = wave(t));
-        let [value, rate, acceleration] = samples.at(0, 0.5);
-        assert!((value - wave(1.0)[0]).abs() < 1e-12 && rate.abs() + acceleration.abs() <= 0.0);
-        assert!((samples.at(0, 9.0)[0] - wave(2.0)[0]).abs() < 1e-12);
     }
 }

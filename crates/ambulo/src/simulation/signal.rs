@@ -9,33 +9,50 @@ use std::sync::Arc;
 /// A function of time [s], twice differentiable; values in rad or m.
 #[derive(Debug, Clone)]
 pub enum Signal {
-    /// Always the same.
+    /// A constant value.
     Constant(f64),
     /// offset + amplitude sin(2π frequency t + phase).
     Sine {
-        /// Half the distance between the extremes.
+        /// Amplitude.
         amplitude: f64,
-        /// Cycles a second [Hz].
+        /// Frequency [Hz].
         frequency_hz: f64,
-        /// At time zero [rad].
+        /// Phase at time zero [rad].
         phase: f64,
-        /// The middle.
+        /// Mean value.
         offset: f64,
     },
-    /// At rest at each instant (time [s], value), times rising; quintics between, with zero velocity and acceleration at
-    /// their ends; constant outside.
+    /// Stops at given instants (time [s], value), times rising. Between two stops a quintic with zero velocity and
+    /// acceleration at its ends; constant outside.
     Stops(Vec<(f64, f64)>),
-    /// A natural spline and the time of the spline at which the scene begins [s]; held constant outside it.
+    /// A natural spline, and the time of the spline at time zero of the world [s]; constant outside the spline.
     Spline(NaturalSpline, f64),
-    /// A function of the time, counted from that instant of it at which the scene begins [s].
+    /// A function of time, and its argument at time zero of the world [s].
     OfTime(Function, f64),
-    /// A function of another signal: a coordinate that follows a coupler.
+    /// A function of another signal, for a coordinate that a coupler drives.
     Of(Function, Box<Signal>),
-    /// A column of samples.
+    /// One column of samples.
     Sampled(Arc<Samples>, usize),
 }
 
+/// Largest spacing of the samples of a cycle [s].
+const SAMPLE_STEP_S: f64 = 1e-3;
+
 impl Signal {
+    /// One signal per column of a motion that repeats every `cycle_s`; `motion` fills one entry (value, rate, acceleration)
+    /// per column.
+    ///
+    /// The motion is sampled every millisecond: between samples of a gait, angles differ by less than 1e-9 rad, and
+    /// accelerations by what a jump of the third derivative makes in a millisecond.
+    ///
+    /// # Panics
+    /// If the cycle is not above zero.
+    #[must_use]
+    pub fn periodic(columns: usize, cycle_s: f64, motion: impl FnMut(f64, &mut [[f64; 3]])) -> Vec<Signal> {
+        let samples = Arc::new(Samples::new(columns, cycle_s, SAMPLE_STEP_S, motion));
+        (0..columns).map(|column| Signal::Sampled(Arc::clone(&samples), column)).collect()
+    }
+
     /// Value, first and second derivative.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
@@ -64,10 +81,8 @@ impl Signal {
             }
         }
     }
-}
 
-impl Signal {
-    /// The value alone.
+    /// The value alone; cheaper than [`Signal::at`] for samples.
     #[must_use]
     pub fn value(&self, t: f64) -> f64 {
         match self {

@@ -1,27 +1,29 @@
-//! One step of fourth order, where nothing touches: Runge-Kutta on the coordinates of the trees.
+//! A fourth-order step without contacts: Runge-Kutta on the coordinates of the kinematic trees.
 //!
-//! Unknown are a displacement δ and the rate q̇ of each coordinate; a body without a joint has six. Where a joint lets turn
-//! freely, R = exp(δ) R₀ and δ̇ is no rate but (Munthe-Kaas)
+//! The unknowns are a displacement δ and a rate q̇ of each coordinate; a body without a joint has six. For joints that rotate
+//! freely, R = exp(δ) R₀, and δ̇ is not the rate but (Munthe-Kaas)
 //!
 //!   δ̇ = ω - ½ δ × ω + 1/12 δ × (δ × ω)
 //!
-//! the next term of which is of the order of δ⁴. Poses and twists follow outwards from the coordinates, so joints of trees hold
-//! exactly; the accelerations q̈ come from the constraint graph with
+//! with a next term of the order of δ⁴. Poses and twists follow from the coordinates, from the root outwards, so tree joints are
+//! exact; the accelerations q̈ come from the constraint graph with
 //!
 //!   a_c = X a_p + S q̈ + w      w: b_α, and b_α × r + ω_p × (ω_p × s) + 2 ω_p × ṫ + ω_c × (ω_c × r)
 //!
 //! where r leads from the origin of C to the child's mass centre, s from the parent's mass centre to the origin of C, ṫ is the
-//! slide of C in P and b_α = Σ ė q̇ the turning of the joint's axes. Loops are closed at the level of accelerations; after the step
-//! positions and velocities are projected once on their closures.
+//! translation rate of C in P, and b_α = Σ ė q̇ is the rotation of the joint's axes. Loops are closed at the level of
+//! accelerations; after the step, positions and velocities are projected once onto the closures.
+//!
+//! The tree of this file is not `kinematics::plan`: that one belongs to a model whose axes are functions of coordinates, while
+//! here bodies come in any order, joints are of seven fixed kinds, and free rotations are integrated on the rotation group.
 //!
 //! Source: the classical method of Runge and Kutta; Munthe-Kaas 1998, "Runge-Kutta methods on Lie groups" (unverified page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
 use super::joint::{Frames, JointKind, MOST, orthonormal, rotation, rotation_vector};
 use super::projection::closure_errors;
-use super::rates::rates;
-use super::state::{RowKey, WorldState};
-use super::world::{TreeJoint, World};
+use super::state::{RowKey, WorldState, rates};
+use super::world::{Figure, TreeJoint, World};
 use crate::dynamics::{
     BodyTerms, Constraint, GraphSolution, GraphWorkspace, Link, LinkError, Six, SolverSettings, project_displacements,
     solve_graph,
@@ -29,21 +31,20 @@ use crate::dynamics::{
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// A body with the joint that carries it, real or free. Not built on `kinematics::plan`, whose axes follow coordinates by functions:
-/// these joints are of a few kinds, turn freely by rotation vectors, and include loose bodies.
+/// A body and the joint that carries it; a free body has a joint with six coordinates.
 struct Branch {
     body: usize,
     parent: Option<usize>,
     parent_from_joint: Pose,
     joint_from_child: Pose,
     kind: JointKind,
-    /// At the start of the step.
+    /// Pose of C in P at the start of the step.
     start: Pose,
-    /// Coordinates at the start of the step; without meaning for free turns.
+    /// Coordinates at the start of the step; not used for free rotations.
     q: Vec<f64>,
-    /// First coordinate of the branch, among all.
+    /// Index of the branch's first coordinate among all coordinates.
     first: usize,
-    /// The joint's number; none for a free body.
+    /// Index of the joint; `None` for a free body.
     joint: Option<usize>,
 }
 
@@ -54,20 +55,21 @@ struct Motion {
     rates: Vec<f64>,
 }
 
-/// What a figure prescribes of a joint: pose of the child's mass centre frame in the parent's, its rates and accelerations.
+/// The motion that a figure prescribes for a joint: pose of the child's mass centre frame in the parent's, with rates and
+/// accelerations.
 struct Goal {
     pose: Pose,
     rates: [f64; MOST],
     accelerations: [f64; MOST],
 }
 
-/// Assembly and solution of a stage.
+/// Graph and solution of one stage.
 pub(crate) struct Stage<'a> {
     pub(crate) assembly: &'a mut Assembly,
     pub(crate) solution: &'a mut GraphSolution,
 }
 
-/// Advances the state by `h`. The first stage's forces stay in `first`.
+/// Advances the state by `h`. The forces of the first stage stay in `first`.
 pub(crate) fn runge_kutta(
     world: &World,
     state: &mut WorldState,
@@ -101,7 +103,7 @@ pub(crate) fn runge_kutta(
     Ok(())
 }
 
-/// Accelerations of all bodies at their mass centres, world axes, as nothing touched; forces stay in `first`.
+/// Accelerations of all bodies at their mass centres, world axes, without contacts; the forces stay in `first`.
 pub(crate) fn accelerations(
     world: &World,
     state: &WorldState,
@@ -122,6 +124,7 @@ impl Motion {
     }
 }
 
+/// The kinematic trees of a world at the start of a step.
 struct Tree {
     /// Parents before children.
     outwards: Vec<Branch>,
@@ -145,7 +148,7 @@ impl Tree {
         self.outwards.iter().flat_map(|branch| branch.rates(state)).collect()
     }
 
-    /// Poses and twists of these coordinates, and in the motion itself what is prescribed.
+    /// Sets poses and twists from the coordinates, and writes the prescribed coordinates into the motion.
     fn place(&self, world: &World, motion: &mut Motion, state: &mut WorldState) {
         let goals = Goals::at(world, state.time_s);
         for branch in &self.outwards {
@@ -169,7 +172,7 @@ impl Tree {
         }
     }
 
-    /// (δ̇, q̈) at these coordinates.
+    /// The derivatives (δ̇, q̈) at a motion.
     #[expect(
         clippy::too_many_arguments,
         reason = "the parts of one evaluation; a struct would hold them for four calls"
@@ -208,7 +211,7 @@ impl Tree {
         Ok(slope)
     }
 
-    /// The graph of accelerations.
+    /// Fills the graph of accelerations.
     fn fill(&self, world: &World, state: &WorldState, motion: &Motion, slope: &mut Motion, assembly: &mut Assembly) {
         assembly.begin(world);
         let goals = Goals::at(world, state.time_s);
@@ -233,7 +236,7 @@ impl Tree {
         }
     }
 
-    /// Positions and velocities back on the closures.
+    /// Projects positions and velocities onto the closures.
     fn close(
         &self,
         world: &World,
@@ -289,6 +292,7 @@ impl Tree {
     }
 }
 
+/// The bodies, each after its parent.
 fn parents_first(world: &World, joint_of: &[Option<usize>]) -> Vec<usize> {
     let mut children = vec![Vec::new(); world.bodies.len()];
     let mut order = Vec::with_capacity(world.bodies.len());
@@ -347,12 +351,12 @@ impl Branch {
         rates(state, &like, &self.frames(state))[..self.kind.freedom()].to_vec()
     }
 
-    /// The joint's own description, unless the body is free or follows a recording.
+    /// The joint's description; `None` for a free body.
     fn joint<'w>(&self, world: &'w World) -> Option<&'w TreeJoint> {
         self.joint.map(|n| &world.joints[n])
     }
 
-    /// T at these coordinates.
+    /// Pose of C in P for a motion.
     fn moved(&self, motion: &Motion) -> Pose {
         let d = &motion.delta[self.first..self.first + self.kind.freedom()];
         match self.kind {
@@ -373,7 +377,7 @@ impl Branch {
         }
     }
 
-    /// δ̇ of rates.
+    /// Writes δ̇ from the rates.
     fn displacement_rates(&self, motion: &Motion, slope: &mut Motion) {
         let range = self.first..self.first + self.kind.freedom();
         slope.delta[range.clone()].copy_from_slice(&motion.rates[range]);
@@ -386,7 +390,7 @@ impl Branch {
         }
     }
 
-    /// Overwrites what drives and figures prescribe.
+    /// Overwrites the coordinates that drives and figures prescribe.
     fn prescribe(&self, world: &World, goals: &Goals, motion: &mut Motion, time_s: f64) {
         let Some(joint) = self.joint(world) else { return };
         if let Some(goal) = goals.of(joint) {
@@ -406,7 +410,7 @@ impl Branch {
         }
     }
 
-    /// What drives and figures prescribe of the velocity.
+    /// The velocity that drives and figures prescribe.
     fn driven_velocity(&self, world: &World, state: &WorldState, motion: &Motion) -> Six {
         let mut offset = Six::zeros();
         let Some(joint) = self.joint(world) else { return offset };
@@ -422,7 +426,7 @@ impl Branch {
         offset
     }
 
-    /// This branch's part of the graph; accelerations that are prescribed go to the slope.
+    /// Adds this branch to the graph; prescribed accelerations go to the slope.
     fn fill(
         &self,
         world: &World,
@@ -470,7 +474,7 @@ impl Branch {
         }
     }
 
-    /// w of the velocities alone.
+    /// The part of w that depends on velocities only.
     fn velocity_products(
         &self,
         state: &WorldState,
@@ -503,7 +507,7 @@ impl Branch {
     }
 }
 
-/// Targets of a closure's rows: what velocities contribute to the second derivative of its errors.
+/// Sets the targets of a closure's rows: the contribution of velocities to the second derivative of its errors.
 fn aim(rows: &mut [Constraint], world: &World, state: &WorldState, number: usize, frames: &Frames) {
     let closure = &world.closures[number];
     let c = &state.twists[closure.first];
@@ -515,7 +519,7 @@ fn aim(rows: &mut [Constraint], world: &World, state: &WorldState, number: usize
     let u = c.velocity_at(-r) - p.velocity_at(s);
     let (w_c, w_p) = (c.angular, p.angular);
     let linear = w_c.cross(&w_c.cross(&r)) + w_p.cross(&w_p.cross(&s)) + w_p.cross(&u) * 2.0;
-    let (turns, slides) = closure.kind.held(frames);
+    let (turns, slides) = closure.kind.constrained(frames);
     let relative = w_c - w_p;
     let universal = closure.kind == JointKind::Universal;
     for (row, e) in rows.iter_mut().zip(&turns) {
@@ -537,7 +541,7 @@ struct Goals(Vec<Vec<BodyMotion>>);
 
 impl Goals {
     fn at(world: &World, time_s: f64) -> Goals {
-        let of = |figure: &super::world::Figure| {
+        let of = |figure: &Figure| {
             let values: Vec<[f64; 3]> = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect();
             let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
             body_motion(&figure.model, Posture { q: &q, qd: &qd, qdd: &qdd })
@@ -545,7 +549,7 @@ impl Goals {
         Goals(world.figures.iter().map(of).collect())
     }
 
-    /// Relative motion of a child against its parent, in the parent's axes, mass centre to mass centre.
+    /// Motion of a joint's child relative to its parent, mass centre to mass centre, in the parent's axes.
     fn of(&self, joint: &TreeJoint) -> Option<Goal> {
         let follows = joint.follows?;
         let motions = &self.0[follows.figure];

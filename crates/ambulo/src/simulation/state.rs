@@ -1,8 +1,8 @@
-//! Where everything is and how it moves at one instant.
+//! The state of a world: positions and velocities at one instant.
 
-use super::joint::{Coordinates, Frames};
+use super::joint::{Coordinates, Frames, JointKind, MOST};
 use super::world::{TreeJoint, World};
-use crate::spatial::{Pose, Twist};
+use crate::spatial::{Pose, Twist, Vec3};
 use std::collections::BTreeMap;
 
 /// The state of a world. A copy resumes bit for bit.
@@ -16,11 +16,11 @@ pub struct WorldState {
     pub twists: Vec<Twist>,
     /// Coordinates of every joint [rad, m], whole turns counted; joint by joint.
     pub coordinates: Vec<Vec<f64>>,
-    /// Impulses of the last step, by which the next one guesses who pushes and who slips.
+    /// Impulses of the last step: the first guess of the next one.
     pub guess: BTreeMap<RowKey, [f64; 6]>,
 }
 
-/// What a group of rows stands for.
+/// The constraint that a group of rows belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum RowKey {
     /// A closure.
@@ -37,12 +37,12 @@ pub enum RowKey {
     UpperLimit(usize, usize),
     /// A contact: two surfaces and the feature by which they touch.
     Contact(usize, usize, u64),
-    /// The friction of a Hunt-Crossley contact, or of a point that strikes.
+    /// The friction of a Hunt-Crossley contact, or of a point in a sticking impact.
     SoftFriction(usize, usize, u64),
 }
 
 impl WorldState {
-    /// The start of a world: bodies as described, joints' coordinates as measured.
+    /// The initial state of a world: bodies as described, coordinates measured from their poses.
     #[must_use]
     pub fn new(world: &World) -> WorldState {
         let mut state = WorldState {
@@ -64,14 +64,14 @@ impl WorldState {
         Frames { parent: parent * joint.parent_from_joint, child: self.poses[joint.child] * joint.child_from_joint }
     }
 
-    /// Coordinates of a joint as the poses have them; angles are those nearest to `last`.
+    /// Measures the coordinates of a joint from the poses; angles are the ones nearest to `last`.
     #[inline(always)]
     pub(crate) fn measured(&self, joint: &TreeJoint, last: &[f64]) -> Coordinates {
         let Frames { parent, child } = self.frames(joint);
         joint.kind.coordinates(&(parent.inverse() * child), last)
     }
 
-    /// Reads the coordinates of a joint off the poses.
+    /// Updates the coordinates of a joint from the poses.
     pub(crate) fn measure(&mut self, world: &World, number: usize) {
         let joint = &world.joints[number];
         let q = self.measured(joint, &self.coordinates[number]);
@@ -82,6 +82,46 @@ impl WorldState {
     #[must_use]
     pub fn rates(&self, joint: &TreeJoint) -> Vec<f64> {
         let frames = self.frames(joint);
-        super::rates::rates(self, joint, &frames)[..joint.kind.freedom()].to_vec()
+        rates(self, joint, &frames)[..joint.kind.freedom()].to_vec()
     }
+}
+
+/// Motion of C relative to P, world axes: relative angular velocity [rad/s], velocity of C's origin relative to the parent [m/s].
+fn relative(state: &WorldState, joint: &TreeJoint, frames: &Frames) -> (Vec3, Vec3) {
+    let child = &state.twists[joint.child];
+    let origin = frames.child.translation;
+    let of_child = child.velocity_at(origin - state.poses[joint.child].translation);
+    match joint.parent {
+        None => (child.angular, of_child),
+        Some(parent) => {
+            let twist: &Twist = &state.twists[parent];
+            let of_parent = twist.velocity_at(origin - state.poses[parent].translation);
+            (child.angular - twist.angular, of_child - of_parent)
+        }
+    }
+}
+
+/// Rates of the coordinates [rad/s, m/s], from the relative motion of child and parent.
+pub(crate) fn rates(state: &WorldState, joint: &TreeJoint, frames: &Frames) -> Coordinates {
+    let (omega, v) = relative(state, joint, frames);
+    let p = frames.parent.rotation.transpose();
+    let (w, v) = (p * omega, p * v);
+    let mut rates = [0.0; MOST];
+    match joint.kind {
+        JointKind::Weld => {}
+        JointKind::Revolute => rates[0] = w.z,
+        JointKind::Prismatic => rates[0] = v.z,
+        // ω = x q̇₁ + y_C q̇₂ with y_C perpendicular to x.
+        JointKind::Universal => {
+            rates[0] = w.x;
+            rates[1] = omega.dot(&frames.child.rotation.column(1));
+        }
+        JointKind::Ball => rates[..3].copy_from_slice(w.as_slice()),
+        JointKind::Planar => rates[..3].copy_from_slice(&[v.x, v.y, w.z]),
+        JointKind::Free => {
+            rates[..3].copy_from_slice(w.as_slice());
+            rates[3..].copy_from_slice(v.as_slice());
+        }
+    }
+    rates
 }

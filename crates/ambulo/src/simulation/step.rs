@@ -1,136 +1,42 @@
-//! One step in time.
+//! One time step of a world.
 //!
-//! [`Integrator::Impulse`] is of first order and takes everything: contacts, impacts, friction, limits. [`Integrator::RungeKutta`] is
-//! of fourth order where nothing touches, rubs or runs against a limit; where surfaces come to touch within the step, it
-//! finds the instant, lets them collide there and goes on; a step in which they stay in touch is one of impulses.
+//! [`Integrator::Impulse`] is of first order and handles contacts, impacts, friction and limits. [`Integrator::RungeKutta`] is of
+//! fourth order where there is no contact, dry friction or active limit. Where surfaces meet within its step, it finds the
+//! instant, computes the impact there and continues. A step in which they stay in contact is a step of impulses.
 
-use super::assemble::{Assembly, Prescribed};
-use super::forces::{Impact, StepForces};
+use super::assemble::Prescribed;
 use super::impact::impact;
-use super::impulse::{impulse_step, obstacle_motion};
+use super::impulse::impulse_step;
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
-use super::state::{RowKey, WorldState};
-use super::touch::{ObstacleMotion, Touch, TouchWorkspace};
-use super::world::{ContactLaw, World};
-use crate::dynamics::{
-    ConstraintGroup, Convergence, GraphSolution, GraphWorkspace, LinkError, Six, SolverSettings, undetermined_rows,
-};
+use super::state::WorldState;
+use super::touch::{ObstacleMotion, obstacle_motion};
+use super::workspace::{Integrator, StepSettings, StepWorkspace};
+use super::world::{ContactLaw, JointCoordinate, World};
+use crate::dynamics::{Convergence, LinkError, SolverSettings};
 use crate::findings::Findings;
 use crate::spatial::Twist;
 
-/// Surfaces nearer than this touch [m]; what an instant of contact is found to.
+/// Surfaces nearer than this touch [m]; also the accuracy of an instant of contact.
 const TOUCHING_M: f64 = 1e-10;
-/// Collisions within one step before it is finished by impulses.
-const MOST_COLLISIONS: usize = 8;
+/// Largest number of impacts within one step; the rest of the step is then one of impulses.
+const MOST_IMPACTS: usize = 8;
 /// Bisections of the instant of contact: a step of 1 ms comes down to 1e-18 s.
 const BISECTIONS: usize = 50;
 
-/// A body that turns further in a smooth step [rad] has the step taken in parts, at most so many: the error grows with the
-/// fifth power of the angle.
+/// If a body turns further than this in a smooth step [rad], the step is divided, since its error grows with the fifth power
+/// of the angle.
 const MOST_TURN: f64 = 0.1;
+/// Largest number of parts of a smooth step.
 const MOST_PARTS: f64 = 64.0;
 
-/// How to step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepSettings {
-    /// Step [s].
-    pub step_s: f64,
-    /// The method.
-    pub integrator: Integrator,
-    /// Whether drift of positions is removed.
-    pub projection: bool,
-    /// The solver's limits.
-    pub solver: SolverSettings,
-}
-
-/// How positions and velocities follow from forces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Integrator {
-    /// First order, by impulses.
-    Impulse,
-    /// Fourth order where motion is smooth.
-    RungeKutta,
-}
-
-impl Default for StepSettings {
-    /// 1 ms, by impulses, with projection.
-    fn default() -> Self {
-        StepSettings {
-            step_s: 1e-3,
-            integrator: Integrator::Impulse,
-            projection: true,
-            solver: SolverSettings::default(),
-        }
-    }
-}
-
-/// Scratch of stepping, and the forces of the last step.
-#[derive(Debug, Clone, Default)]
-pub struct StepWorkspace {
-    pub(crate) assembly: Assembly,
-    pub(crate) touch: TouchWorkspace,
-    pub(crate) solver: GraphWorkspace,
-    pub(crate) solution: GraphSolution,
-    /// Scratch of the later stages of a smooth step, and of closing loops.
-    pub(crate) later: (Assembly, GraphSolution),
-    /// First stages of the parts of a smooth step but the first.
-    spare: (Assembly, GraphSolution),
-    /// Solver of closing loops.
-    pub(crate) closing: GraphWorkspace,
-    pub(crate) targets: Vec<f64>,
-    pub(crate) displacements: Vec<Six>,
-    pub(crate) shifts: Vec<f64>,
-    pub(crate) obstacles: ObstacleMotion,
-    pub(crate) prescribed: Prescribed,
-    /// Where surfaces touch, before any is dropped.
-    pub(crate) found: Vec<Touch>,
-    /// Wrench impulse of each body's joint on it, at its mass centre, once read.
-    pub(crate) wrenches: Vec<Six>,
-    pub(crate) step_s: f64,
-    /// Collisions within the last step.
-    pub(crate) impacts: Vec<Impact>,
-    /// Twists of all bodies after the last of them; without meaning if there was none.
-    pub(crate) after_impacts: Vec<Twist>,
-}
-
-impl StepWorkspace {
-    /// The forces of the last step: means over it by impulses, those at its start by Runge-Kutta.
-    #[must_use]
-    pub fn forces(&self, world: &World) -> StepForces {
-        StepForces::of(world, self)
-    }
-
-    /// Closures some of whose forces the motion of the last step does not determine, because their rows repeat others; they got
-    /// the least-squares ones.
-    #[must_use]
-    pub fn undetermined_closures(&mut self) -> Vec<usize> {
-        let rows = undetermined_rows(&self.assembly.graph, &mut self.solver);
-        let groups = self.assembly.keys.iter().zip(&self.assembly.graph.groups);
-        let repeats = |group: &ConstraintGroup| rows.iter().any(|row| group.rows.contains(row));
-        groups
-            .filter_map(|(key, group)| match key {
-                RowKey::Closure(number) if repeats(group) => Some(*number),
-                _ => None,
-            })
-            .collect()
-    }
-
-    /// Impacts of the last step that are apart from its forces: a smooth step's collisions, or those of
-    /// [`ImpactLaw::Sticking`](super::ImpactLaw::Sticking).
-    #[must_use]
-    pub fn impacts(&self) -> &[Impact] {
-        &self.impacts
-    }
-}
-
-/// One step of the world.
+/// Advances a world by one step.
 ///
-/// Rows that contradict each other give findings: drives beyond their limit, or beyond reason, give way; the row that
-/// remains unsatisfied is named.
+/// Contradictory constraints produce findings: drives give way beyond their limit (or beyond any reasonable force), and the
+/// constraint that is violated most is named.
 ///
 /// # Errors
-/// Joints that are no forest.
+/// Joints that do not form trees.
 pub fn step(
     world: &World,
     state: &mut WorldState,
@@ -145,11 +51,11 @@ pub fn step(
     }
 }
 
-/// Accelerations of all bodies at their mass centres [rad/s², m/s²], world axes, of a world in which nothing touches; the
-/// forces that go with them stay in the workspace.
+/// Accelerations of all bodies at their mass centres [rad/s², m/s²], world axes, in a world without contacts. The
+/// corresponding forces stay in the workspace.
 ///
 /// # Errors
-/// Joints that are no forest.
+/// Joints that do not form trees.
 pub fn accelerations(
     world: &World,
     state: &WorldState,
@@ -162,7 +68,7 @@ pub fn accelerations(
     smooth::accelerations(world, state, solver, &mut w.solver, &mut first)
 }
 
-/// Smooth stretches and the collisions between them.
+/// A Runge-Kutta step: smooth parts and the impacts between them.
 fn smooth_step(
     world: &World,
     state: &mut WorldState,
@@ -171,7 +77,7 @@ fn smooth_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     let mut left = settings.step_s;
-    for _ in 0..MOST_COLLISIONS {
+    for _ in 0..MOST_IMPACTS {
         if !smooth_here(world, state, w, left) {
             break;
         }
@@ -203,10 +109,10 @@ fn smooth_step(
     impulse_step(world, state, left, settings, w, findings)
 }
 
-/// Whether nothing touches that does not part, and nothing rubs.
+/// Whether motion is smooth: no dry friction, and no contact except of surfaces that separate.
 fn smooth_here(world: &World, state: &WorldState, w: &mut StepWorkspace, h: f64) -> bool {
     let rubs = world.joints.iter().any(|j| j.coordinates.iter().any(|c| c.friction > 0.0));
-    // The derivatives of a driven rotation vector are no angular velocity and acceleration.
+    // The derivatives of a driven rotation vector are not an angular velocity and acceleration.
     let turned = world.joints.iter().any(|j| {
         let turns = matches!(j.kind, JointKind::Ball | JointKind::Free);
         turns && j.coordinates.iter().take(3).any(|c| c.drive.is_some())
@@ -233,7 +139,7 @@ impl StepWorkspace {
         let fastest = state.twists.iter().map(|t| t.angular.norm()).fold(0.0, f64::max);
         let parts = (fastest * h / MOST_TURN).ceil().clamp(1.0, MOST_PARTS);
         for part in 0..parts as usize {
-            // The first part's forces are those of the step.
+            // The forces of the step are those of its first part.
             let begun = if part == 0 {
                 (&mut self.assembly, &mut self.solution)
             } else {
@@ -255,7 +161,7 @@ impl StepWorkspace {
                 acting.limits.0.is_some_and(|low| *q <= low) || acting.limits.1.is_some_and(|high| *q >= high)
             })
         });
-        let bounded = |c: &super::world::JointCoordinate| c.drive.as_ref().and_then(|d| d.max);
+        let bounded = |c: &JointCoordinate| c.drive.as_ref().and_then(|d| d.max);
         if limited || !world.joints.iter().any(|j| j.coordinates.iter().any(|c| bounded(c).is_some())) {
             return limited;
         }
@@ -265,7 +171,7 @@ impl StepWorkspace {
         })
     }
 
-    /// Least distance of surfaces that may touch [m]; infinite if none come near.
+    /// Smallest distance of surfaces that may touch [m]; infinite if none are near.
     fn least_gap(&mut self, world: &World, state: &WorldState) -> f64 {
         let mut obstacles = ObstacleMotion::new();
         obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);

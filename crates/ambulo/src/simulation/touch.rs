@@ -1,71 +1,81 @@
-//! Where surfaces touch in a step, and the rows that this makes.
+//! Contact points of a step, and their rows in the constraint graph.
 //!
-//! A rigid contact asks at velocity level that its gap g stay open to the end of the step,
+//! A rigid contact requires at velocity level that its gap g stays open until the end of the step,
 //!
-//!   u_n ≥ -max(g, 0)/h          or, where surfaces meet faster than resting contact does, u_n ≥ -e u_n⁻
+//!   u_n ≥ -max(g, 0)/h          or, where surfaces meet faster than in resting contact, u_n ≥ -e u_n⁻
 //!
-//! What overlap there is, position projection removes. A regularised contact is the same row with the compliance of a
-//! spring k and a damper d taken implicitly, F = -k (g + h u) - d u:
+//! Position projection removes overlap. A regularised contact is the same row with the compliance of a spring k and a
+//! damper d, taken implicitly, F = -k (g + h u) - d u:
 //!
 //!   R = 1 / (h (h k + d))          target = -h k g R
 //!
-//! A Hunt-Crossley contact is that with k, d the slopes of its law at the start of the step and F its force there; its
-//! friction is a damper whose constant is the secant |F_t|/|v| of the law.
+//! A Hunt-Crossley contact is the same with k and d the slopes of its law at the start of the step, and F its force there.
+//! Its friction is a damper whose constant is the secant |F_t|/|v| of the law.
 //!
 //! Source: Faure, Debunne, Cani, Multon 1997, section 3.3 (contact as a joint that is destroyed when it would pull;
 //! restitution zero by default).
 
+use super::joint::rotation_vector;
 use super::state::{RowKey, WorldState};
-use super::world::{ContactLaw, ImpactLaw, Material, Owner, Surface, World};
+use super::world::{ContactLaw, ImpactLaw, Material, Obstacle, Owner, Surface, World};
 use crate::contact::{ContactPoint, HuntCrossley, candidate_pairs, contacts};
 use crate::dynamics::{ActsOn, Constraint, ConstraintGraph, ConstraintGroup, Law, Six};
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// Surfaces nearer than this are looked at even if nothing moves [m].
+/// Surfaces nearer than this are examined even if nothing moves [m].
 const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
-/// Gaps below this are closed [m]: what a solver leaves to its tolerance, divided by the step, would set the points of one
-/// body against each other. Position projection removes them.
+/// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of one body
+/// against each other. Position projection removes such gaps.
 const CLOSED_M: f64 = 1e-10;
-/// Surfaces this near meet at an instant of contact [m].
+/// Surfaces this near touch at an instant of contact [m].
 const MEETING_M: f64 = 1e-7;
-/// Touching surfaces that part faster than this are free of each other [m/s].
+/// Touching surfaces that separate faster than this are not in contact [m/s].
 const PARTING_M_S: f64 = 1e-6;
 
-/// One point of contact in a step.
+/// One contact point in a step.
 #[derive(Debug, Clone)]
 pub(crate) struct Touch {
-    /// Surfaces.
+    /// Indices of the two surfaces.
     pub(crate) surfaces: (usize, usize),
-    /// Geometry; the normal points from the second surface to the first.
+    /// Geometry. The normal points from the second surface to the first.
     pub(crate) at: ContactPoint,
-    /// Tangents; with the normal a right-handed frame (normal, first, second).
+    /// Tangents; (normal, first, second) is a right-handed frame.
     pub(crate) tangents: [Vec3; 2],
-    /// Group of rows of the normal force (and of friction, unless soft).
-    pub(crate) group: usize,
-    /// Group of friction of a Hunt-Crossley contact.
-    pub(crate) friction_group: Option<usize>,
-    /// Normal velocity of the second surface itself, where that is an obstacle [m/s].
+    /// Its rows in the graph, once [`TouchWorkspace::add_rows`] has added them.
+    pub(crate) rows: ContactRows,
+    /// Normal velocity of the second surface itself, if it is an obstacle [m/s].
     pub(crate) surface_speed: f64,
-    /// Whether overlap is to be projected out.
+    /// Whether position projection removes overlap.
     pub(crate) rigid: bool,
-    /// Where points strike ([`ImpactLaw::Sticking`]): whether this one was in touch before, or gives; and whether it is the one
-    /// that is to lose all its velocity.
+    /// For [`ImpactLaw::Sticking`]: whether the point was in contact before, or is compliant.
     pub(crate) known: bool,
+    /// For [`ImpactLaw::Sticking`]: whether this is the point that loses all its velocity.
     pub(crate) sticks: bool,
 }
 
-/// Scratch of detection.
+/// Rows of a contact point in the graph.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ContactRows {
+    /// Group of the normal row.
+    pub(crate) group: usize,
+    /// Row of the normal force.
+    pub(crate) normal: usize,
+    /// Rows of friction along the two tangents; none without friction.
+    pub(crate) tangents: Option<[usize; 2]>,
+}
+
+/// Scratch memory of contact detection.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct TouchWorkspace {
     pub(crate) touches: Vec<Touch>,
     boxes: Vec<Option<(Vec3, Vec3)>>,
     poses: Vec<Pose>,
-    /// Bounds on the speeds of the surfaces' points [m/s].
+    /// Upper bounds on the speed of each surface's points [m/s].
     speeds: Vec<f64>,
-    /// What each body hangs on.
+    /// Parent of each body.
     parents: Vec<Option<usize>>,
     pairs: Vec<(usize, usize)>,
     points: Vec<ContactPoint>,
@@ -74,8 +84,23 @@ pub(crate) struct TouchWorkspace {
 /// Poses and twists of obstacles at an instant.
 pub(crate) type ObstacleMotion = Vec<(Pose, Twist)>;
 
+/// Computes the poses of obstacles at the start of a step, with their mean twists over it.
+pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut ObstacleMotion) {
+    let over_step = |obstacle: &Obstacle| {
+        let (now, _) = obstacle.at(time_s);
+        if obstacle.path.is_none() {
+            return (now, Twist::ZERO);
+        }
+        let (then, _) = obstacle.at(time_s + h);
+        let turn = rotation_vector(&(then.rotation * now.rotation.transpose()));
+        (now, Twist { angular: turn / h, linear: (then.translation - now.translation) / h })
+    };
+    motion.clear();
+    motion.extend(world.obstacles.iter().map(over_step));
+}
+
 impl TouchWorkspace {
-    /// Finds all points where surfaces are, or within the step could come, in touch.
+    /// Finds all points where surfaces touch, or could touch within the step.
     pub(crate) fn detect(&mut self, world: &World, state: &WorldState, obstacles: &ObstacleMotion, step_s: f64) {
         self.touches.clear();
         if world.surfaces.is_empty() {
@@ -106,8 +131,7 @@ impl TouchWorkspace {
                 surfaces: (a, b),
                 at: *point,
                 tangents: tangents(&point.normal),
-                group: 0,
-                friction_group: None,
+                rows: ContactRows::default(),
                 surface_speed: 0.0,
                 rigid: true,
                 known: false,
@@ -116,8 +140,8 @@ impl TouchWorkspace {
         }
     }
 
-    /// How far the origin of a surface has gone since detection [m], where that tells how far its points have: of balls, and of
-    /// what does not move.
+    /// Displacement of a surface's origin since detection [m]. Known for surfaces whose contact points move with the origin:
+    /// spheres, and obstacles at rest.
     pub(crate) fn moved(&self, world: &World, state: &WorldState, surface: usize) -> Option<Vec3> {
         let about = &world.surfaces[surface];
         match about.owner {
@@ -129,18 +153,18 @@ impl TouchWorkspace {
         }
     }
 
-    /// Forgets all touches.
+    /// Removes all contact points.
     pub(crate) fn clear(&mut self) {
         self.touches.clear();
     }
 
-    /// At an instant of contact: what all but touches, touches; the rest is not there.
+    /// At an instant of contact: closes the gaps of surfaces that nearly touch, and drops all other points.
     pub(crate) fn close_gaps(&mut self) {
         self.touches.retain(|touch| touch.at.gap < MEETING_M);
         self.touches.iter_mut().for_each(|touch| touch.at.gap = 0.0);
     }
 
-    /// Whether surfaces nearer than `touching` [m] do not part.
+    /// Whether any surfaces nearer than `touching` [m] do not separate.
     pub(crate) fn approaches(
         &self,
         world: &World,
@@ -154,7 +178,7 @@ impl TouchWorkspace {
             .any(|touch| parting_speed(touch, world, state, obstacles) <= PARTING_M_S)
     }
 
-    /// For points that strike: drops what does not touch yet, and tells what did so before.
+    /// For sticking impacts: drops points that do not touch yet, and marks those that were in contact before.
     pub(crate) fn keep_touching(&mut self, world: &World, state: &WorldState) {
         self.touches.retain_mut(|touch| {
             let (a, b) = touch.surfaces;
@@ -162,13 +186,13 @@ impl TouchWorkspace {
             let gives = law(a) != ContactLaw::Rigid || law(b) != ContactLaw::Rigid;
             let past = state.guess.get(&RowKey::Contact(a, b, touch.at.feature));
             touch.known = gives || past.is_some();
-            // What pressed may have been lifted a little by the second order of the step.
+            // A point that carried load may have been lifted a little by the second-order error of the step.
             let pressed = past.is_some_and(|impulses| impulses[0] > 0.0);
             gives || touch.at.gap < if pressed { MARGIN_M } else { MEETING_M }
         });
     }
 
-    /// The point that was the first to strike, by its overlap and speed.
+    /// The point that struck first, judged by its overlap and speed.
     pub(crate) fn next_striker(&self, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> Option<usize> {
         let mut first: Option<(usize, f64)> = None;
         for (number, touch) in self.touches.iter().enumerate().filter(|(_, touch)| !touch.known) {
@@ -183,7 +207,7 @@ impl TouchWorkspace {
         first.map(|(number, _)| number)
     }
 
-    /// Adds the rows of all touches to the graph, dropping those that ask nothing of this step.
+    /// Adds the rows of all contact points to the graph; drops points without effect in this step.
     pub(crate) fn add_rows(
         &mut self,
         world: &World,
@@ -194,13 +218,14 @@ impl TouchWorkspace {
         keys: &mut Vec<RowKey>,
     ) {
         self.touches.retain_mut(|touch| {
-            let mut rows = Rows { world, state, obstacles, step_s, graph, keys };
+            let mut rows = RowWriter { world, state, obstacles, step_s, graph, keys };
             rows.add(touch)
         });
     }
 }
 
-struct Rows<'a> {
+/// Adds the rows of contact points to a graph.
+struct RowWriter<'a> {
     world: &'a World,
     state: &'a WorldState,
     obstacles: &'a ObstacleMotion,
@@ -209,7 +234,8 @@ struct Rows<'a> {
     keys: &'a mut Vec<RowKey>,
 }
 
-impl Rows<'_> {
+impl RowWriter<'_> {
+    /// Adds the rows of one point; returns whether it has any.
     fn add(&mut self, touch: &mut Touch) -> bool {
         let (a, b) = touch.surfaces;
         let (first, second) = (&self.world.surfaces[a], &self.world.surfaces[b]);
@@ -232,7 +258,7 @@ impl Rows<'_> {
         let feature = touch.at.feature;
         match material.law {
             ContactLaw::Rigid => {
-                // Faster than what gravity gives within a few steps is an impact.
+                // An approach faster than gravity gives within a few steps is an impact.
                 let resting = 4.0 * h * self.world.gravity.norm();
                 let rebounds = material.restitution > 0.0 && self.world.impact == ImpactLaw::Coulomb;
                 let bounces = rebounds && u[0] < -resting;
@@ -256,21 +282,23 @@ impl Rows<'_> {
             self.add_sticking(touch, &rows, on);
             return true;
         }
-        touch.group = self.push(&rows, on, Law::Contact { friction: material.friction, bound: f64::INFINITY });
+        let (group, normal) = self.push(&rows, on, Law::Contact { friction: material.friction, bound: f64::INFINITY });
+        touch.rows = ContactRows { group, normal, tangents: Some([normal + 1, normal + 2]) };
         self.keys.push(RowKey::Contact(a, b, feature));
         true
     }
 
-    /// A point that strikes and loses all its velocity: one row that pushes, two that hold.
+    /// A point that loses all its velocity in an impact: one row that can only push, two that hold.
     fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: ActsOn) {
         let ((a, b), feature) = (touch.surfaces, touch.at.feature);
-        touch.group = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
+        let (group, normal) = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
         self.keys.push(RowKey::Contact(a, b, feature));
-        touch.friction_group = Some(self.push(&rows[1..], on, Law::EQUALITY));
+        let (_, first) = self.push(&rows[1..], on, Law::EQUALITY);
         self.keys.push(RowKey::SoftFriction(a, b, feature));
+        touch.rows = ContactRows { group, normal, tangents: Some([first, first + 1]) };
     }
 
-    /// One row: the velocity of the first body's point against the second owner's along a direction.
+    /// One row: the velocity of the first body's point relative to the second owner, along a direction.
     fn row(&self, point: Vec3, direction: Vec3, body: usize, other: &Surface) -> Constraint {
         let at = |center: Vec3| {
             let moment = (point - center).cross(&direction);
@@ -306,14 +334,15 @@ impl Rows<'_> {
         }
     }
 
-    fn push(&mut self, rows: &[Constraint], on: ActsOn, law: Law) -> usize {
+    /// Adds a group of rows; returns its number and that of its first row.
+    fn push(&mut self, rows: &[Constraint], on: ActsOn, law: Law) -> (usize, usize) {
         let start = self.graph.rows.len();
         self.graph.rows.extend_from_slice(rows);
         self.graph.groups.push(ConstraintGroup { on, rows: start..start + rows.len(), law });
-        self.graph.groups.len() - 1
+        (self.graph.groups.len() - 1, start)
     }
 
-    /// A Hunt-Crossley contact: one row that pushes, two that rub.
+    /// A Hunt-Crossley contact: one row for the normal force, two for friction.
     fn add_soft(
         &mut self,
         touch: &mut Touch,
@@ -332,7 +361,7 @@ impl Rows<'_> {
         }
         let slip = Vec3::new(u[1], u[2], 0.0);
         let (force, friction) = law.force(radius, depth, rate, slip);
-        // Slopes by differences: a micrometre and a millimetre a second are far below where the law bends.
+        // Slopes by finite differences, with steps (0.1 um, 10 um/s) far below the scale on which the law bends.
         let stiffness = ((law.force(radius, depth + 1e-7, rate, slip).0 - force) / 1e-7).max(0.0);
         let damping = ((law.force(radius, depth, rate + 1e-5, slip).0 - force) / 1e-5).max(0.0);
         let yields = h * (h * stiffness + damping);
@@ -342,7 +371,8 @@ impl Rows<'_> {
         let compliance = 1.0 / yields;
         rows[0].compliance = compliance;
         rows[0].target += compliance * h * (force + damping * u[0]);
-        touch.group = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
+        let (group, normal) = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
+        touch.rows = ContactRows { group, normal, tangents: None };
         self.keys.push(RowKey::Contact(a, b, touch.at.feature));
         let speed = slip.norm();
         let secant = if speed > STILL_M_S {
@@ -354,14 +384,15 @@ impl Rows<'_> {
             for row in &mut rows[1..] {
                 row.compliance = 1.0 / (h * secant);
             }
-            touch.friction_group = Some(self.push(&rows[1..], on, Law::EQUALITY));
+            let (_, first) = self.push(&rows[1..], on, Law::EQUALITY);
+            touch.rows.tangents = Some([first, first + 1]);
             self.keys.push(RowKey::SoftFriction(a, b, touch.at.feature));
         }
         true
     }
 }
 
-/// Speed at which the surfaces of a touch part [m/s].
+/// Speed at which the surfaces of a contact point separate [m/s].
 fn parting_speed(touch: &Touch, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> f64 {
     let velocity = |surface: usize| match world.surfaces[surface].owner {
         Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
@@ -371,12 +402,12 @@ fn parting_speed(touch: &Touch, world: &World, state: &WorldState, obstacles: &O
     touch.at.normal.dot(&(velocity(a) - velocity(b)))
 }
 
-/// What of a gap is to be closed within the step [m].
+/// The part of a gap that may close within the step [m].
 fn open(gap: f64) -> f64 {
     if gap > CLOSED_M { gap } else { 0.0 }
 }
 
-/// Pose of a surface's owner and a bound on the speed of the surface's points [m/s].
+/// Pose of a surface's owner, and an upper bound on the speed of the surface's points [m/s].
 fn owner_motion(state: &WorldState, obstacles: &ObstacleMotion, surface: &Surface) -> (Pose, f64) {
     let (pose, twist) = match surface.owner {
         Owner::Body(body) => (state.poses[body], state.twists[body]),
@@ -387,6 +418,7 @@ fn owner_motion(state: &WorldState, obstacles: &ObstacleMotion, surface: &Surfac
     (pose, twist.linear.norm() + arm * twist.angular.norm())
 }
 
+/// Whether two surfaces can be in contact: not two obstacles, not connected bodies, not an ignored pair.
 fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface) -> bool {
     let closed = |x: usize, y: usize| {
         world
@@ -404,6 +436,7 @@ fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface)
     }
 }
 
+/// Material of a pair of surfaces.
 fn combined(a: &Material, b: &Material) -> Material {
     let law = match (a.law, b.law) {
         (ContactLaw::Rigid, other) | (other, ContactLaw::Rigid) => other,
@@ -417,7 +450,7 @@ fn combined(a: &Material, b: &Material) -> Material {
     Material { friction: (a.friction * b.friction).sqrt(), restitution: a.restitution.max(b.restitution), law }
 }
 
-/// Two unit vectors that make a right-handed frame with a unit normal (Duff et al. 2017, "Building an orthonormal basis,
+/// Two unit vectors that form a right-handed frame with a unit normal (Duff et al. 2017, "Building an orthonormal basis,
 /// revisited", unverified page).
 fn tangents(n: &Vec3) -> [Vec3; 2] {
     let sign = 1.0_f64.copysign(n.z);

@@ -1,4 +1,4 @@
-//! What a simulation is made of: bodies, joints, closures, shapes, obstacles and what drives them.
+//! The description of a simulated world: bodies, joints, closures, surfaces, obstacles, and what drives them.
 
 use super::joint::JointKind;
 use super::signal::Signal;
@@ -7,33 +7,33 @@ use crate::kinematics::{Posture, body_motion};
 use crate::model::Model;
 use crate::spatial::{Mat3, Pose, STANDARD_GRAVITY, Twist, Vec3, Wrench};
 
-/// Everything that can move or be touched. Changed only between steps: joints and closures may come and go.
+/// Everything that is simulated. Change it only between steps; joints and closures may then be added and removed.
 #[derive(Debug, Clone)]
 pub struct World {
-    /// Acceleration of a body that nothing holds [m/s²].
+    /// Acceleration of a freely falling body [m/s²].
     pub gravity: Vec3,
     /// All bodies.
     pub bodies: Vec<RigidBody>,
-    /// Joints of the trees: each body is the child of one at most; one without is free.
+    /// Joints of the kinematic trees. A body is the child of at most one joint; a body without a joint is free.
     pub joints: Vec<TreeJoint>,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
-    /// Bodies that forces do not move.
+    /// Solids that forces do not move.
     pub obstacles: Vec<Obstacle>,
-    /// Shapes that may touch.
+    /// Surfaces that may touch.
     pub surfaces: Vec<Surface>,
-    /// What surfaces are made of.
+    /// Materials of the surfaces.
     pub materials: Vec<Material>,
-    /// What becomes of the velocity of a point that strikes another one.
+    /// The law of impacts.
     pub impact: ImpactLaw,
-    /// Pairs of owners that pass through each other, beside bodies that a joint or an active closure connects.
+    /// Pairs of owners that pass through each other, in addition to bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
-    /// Recordings that joints follow.
+    /// Motions that joints follow.
     pub figures: Vec<Figure>,
 }
 
 impl Default for World {
-    /// Nothing, under standard gravity along -y (9.80665 m/s²).
+    /// An empty world under standard gravity along -y (9.80665 m/s²).
     fn default() -> Self {
         World {
             gravity: Vec3::new(0.0, -STANDARD_GRAVITY, 0.0),
@@ -50,10 +50,10 @@ impl Default for World {
     }
 }
 
-/// A rigid body; its frame has the origin at the mass centre.
+/// A rigid body. The origin of its frame is the mass centre.
 #[derive(Debug, Clone)]
 pub struct RigidBody {
-    /// Name, for findings and tables.
+    /// Name, used in findings and tables.
     pub name: String,
     /// Mass [kg].
     pub mass: f64,
@@ -61,65 +61,65 @@ pub struct RigidBody {
     pub inertia: Mat3,
     /// `world_from_body` at the start.
     pub pose: Pose,
-    /// Motion at the start, world axes.
+    /// Twist at the start, world axes.
     pub twist: Twist,
-    /// A load that acts until it is changed: moment and force at the mass centre, world axes [N.m, N].
+    /// A constant load: moment and force at the mass centre, world axes [N.m, N].
     pub load: Wrench,
 }
 
-/// A joint between a child and its parent.
+/// A joint of a kinematic tree: it connects a child body to its parent.
 #[derive(Debug, Clone)]
 pub struct TreeJoint {
-    /// Name, for findings and tables.
+    /// Name, used in findings and tables.
     pub name: String,
-    /// The body that hangs on it.
+    /// The child body.
     pub child: usize,
-    /// What it hangs on; `None` is ground.
+    /// The parent body; `None` is the world.
     pub parent: Option<usize>,
     /// P on the parent, or in the world.
     pub parent_from_joint: Pose,
     /// C on the child.
     pub child_from_joint: Pose,
-    /// Which motions are free.
+    /// The motions that the joint leaves free.
     pub kind: JointKind,
-    /// What acts on each coordinate, in the kind's order.
+    /// What acts on each coordinate, in the order of the kind.
     pub coordinates: Vec<JointCoordinate>,
-    /// A recording that prescribes all six directions; then `kind` is [`JointKind::Weld`] and plays no other part.
+    /// A motion that prescribes all six directions. `kind` is then [`JointKind::Weld`] and is not used.
     pub follows: Option<Follows>,
 }
 
-/// Which body of which figure a joint's child follows.
+/// The body of a figure that a joint's child follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Follows {
-    /// The figure.
+    /// Index of the figure in [`World::figures`].
     pub figure: usize,
-    /// The body of its model.
+    /// Index of the body in the figure's model.
     pub body: usize,
-    /// The body of its model that the joint's parent is; `None` is ground.
+    /// Index of the joint's parent in the figure's model; `None` is ground.
     pub parent: Option<usize>,
 }
 
 /// What acts on one coordinate of a joint. Angles in rad, distances in m.
 #[derive(Debug, Clone, Default)]
 pub struct JointCoordinate {
-    /// Prescribes it.
+    /// Prescribed motion.
     pub drive: Option<JointDrive>,
-    /// Pulls it towards a place.
+    /// Pulls towards a fixed value.
     pub spring: Option<Spring>,
-    /// Pulls it towards a moving place, with bounded force.
+    /// Pulls towards a moving value with bounded force.
     pub motor: Option<Motor>,
     /// Lowest and highest value.
     pub limits: (Option<f64>, Option<f64>),
-    /// A force that acts until it is changed [N.m or N].
+    /// A constant moment or force [N.m or N].
     pub effort: f64,
-    /// Dry friction [N.m or N].
+    /// Largest moment or force of dry friction [N.m or N].
     pub friction: f64,
-    /// Inertia of a rotor [kg.m² or kg].
+    /// Inertia of an actuator's rotor [kg.m² or kg].
     pub rotor: f64,
 }
 
 impl JointCoordinate {
-    /// Effort of force, spring, damper and motor at a value and rate, at an instant [s].
+    /// Sum of constant effort, spring, damper and motor [N.m or N] at a value and a rate, at an instant [s].
     pub(crate) fn smooth_effort(&self, q: f64, rate: f64, t: f64) -> f64 {
         let spring = self.spring.map_or(0.0, |s| s.stiffness * (s.rest - q) - s.damping * rate);
         let motor = self.motor.as_ref().map_or(0.0, |m| {
@@ -133,79 +133,79 @@ impl JointCoordinate {
 /// Prescribed motion of a coordinate.
 #[derive(Debug, Clone)]
 pub struct JointDrive {
-    /// What it follows.
+    /// The value over time.
     pub signal: Signal,
-    /// Largest force [N.m or N]: beyond it the drive gives way, and a finding says so.
+    /// Largest moment or force [N.m or N]. Beyond it the drive gives way, and a finding reports it.
     pub max: Option<f64>,
 }
 
 /// A linear spring with a damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
-    /// [N.m/rad or N/m].
+    /// Stiffness [N.m/rad or N/m].
     pub stiffness: f64,
-    /// [N.m.s/rad or N.s/m].
+    /// Damping [N.m.s/rad or N.s/m].
     pub damping: f64,
-    /// Where it is at rest [rad or m].
+    /// Value at which the spring is at rest [rad or m].
     pub rest: f64,
 }
 
 /// A proportional-derivative motor: kp (target - q) + kd (target rate - rate), within ± max.
 #[derive(Debug, Clone)]
 pub struct Motor {
-    /// Where it wants to be.
+    /// The value that it pulls towards.
     pub target: Signal,
-    /// [N.m/rad or N/m].
+    /// Stiffness [N.m/rad or N/m].
     pub kp: f64,
-    /// [N.m.s/rad or N.s/m].
+    /// Damping [N.m.s/rad or N.s/m].
     pub kd: f64,
-    /// Largest force [N.m or N].
+    /// Largest moment or force [N.m or N].
     pub max: f64,
 }
 
-/// A joint that closes a loop, or that one body takes hold of another with.
+/// A joint that closes a loop, or by which one body takes hold of another.
 #[derive(Debug, Clone)]
 pub struct Closure {
-    /// Name, for findings and tables.
+    /// Name, used in findings and tables.
     pub name: String,
-    /// One body; its frame is C.
+    /// The first body; its frame is C.
     pub first: usize,
-    /// The other one, whose frame is P; `None` is ground.
+    /// The second body; its frame is P. `None` is the world.
     pub second: Option<usize>,
     /// C on the first body.
     pub first_from_joint: Pose,
     /// P on the second body, or in the world.
     pub second_from_joint: Pose,
-    /// Which motions stay free.
+    /// The motions that stay free.
     pub kind: JointKind,
-    /// Whether it holds now.
+    /// Whether the closure is active now.
     pub active: bool,
 }
 
-/// Something solid that forces do not move.
+/// A solid that forces do not move.
 #[derive(Debug, Clone)]
 pub struct Obstacle {
-    /// Name, for findings and tables.
+    /// Name, used in findings and tables.
     pub name: String,
     /// `world_from_obstacle` where its path is zero.
     pub pose: Pose,
-    /// Where it goes; `None` stays.
+    /// Prescribed motion; `None` is at rest.
     pub path: Option<ObstaclePath>,
 }
 
-/// Prescribed motion of an obstacle: a shift, and a turn about an axis through its origin.
+/// Prescribed motion of an obstacle: a translation, and a rotation about an axis through its origin.
 #[derive(Debug, Clone)]
 pub struct ObstaclePath {
-    /// Shift along world x, y, z [m].
+    /// Translation along world x, y, z [m].
     pub shift: [Signal; 3],
     /// Unit axis, world.
     pub axis: Vec3,
-    /// Turn about it [rad].
+    /// Angle about the axis [rad].
     pub turn: Signal,
 }
 
 impl Obstacle {
-    /// Pose and twist of its origin at an instant [s].
+    /// Pose, and twist of the origin, at an instant [s].
     #[must_use]
     pub fn at(&self, t: f64) -> (Pose, Twist) {
         let Some(path) = &self.path else { return (self.pose, Twist::ZERO) };
@@ -219,51 +219,52 @@ impl Obstacle {
     }
 }
 
-/// Who carries a surface.
+/// The body or obstacle that carries a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Owner {
-    /// A body.
+    /// Index of a body.
     Body(usize),
-    /// An obstacle.
+    /// Index of an obstacle.
     Obstacle(usize),
 }
 
 /// A shape on a body or an obstacle.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    /// Who carries it.
+    /// The body or obstacle that carries the shape.
     pub owner: Owner,
-    /// Its form.
+    /// The shape.
     pub shape: Shape,
-    /// Where on the owner.
+    /// Pose of the shape on its owner.
     pub owner_from_shape: Pose,
-    /// Which material.
+    /// Index of the material in [`World::materials`].
     pub material: usize,
 }
 
-/// What becomes of the velocity of a point that strikes another one.
+/// Impact law: the velocity of a contact point after it strikes another surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ImpactLaw {
-    /// Along the normal, restitution says; across it, Coulomb's law holds for impulses as for forces. Impacts are part of the
-    /// step in which surfaces meet.
+    /// Restitution decides the normal velocity; Coulomb's law decides the tangential impulse, as it does for forces. Impacts
+    /// are part of the step in which surfaces meet.
     #[default]
     Coulomb,
-    /// All of it is cancelled, along the surfaces too, whatever the friction (the paper's rule, section 3.3). Surfaces touch
-    /// once their gap has closed; a point that was not in touch before then strikes at an instant of its own, those that
-    /// rest obeying Coulomb's law, and the step goes on from there. The impacts are in `StepWorkspace::impacts`, apart from
-    /// the forces. Restitution plays no part; materials that give do not strike. Only steps of impulses know it.
+    /// The whole velocity is cancelled, tangential part included, whatever the friction (section 3.3 of the 1997 paper).
+    /// Surfaces touch once their gap has closed. A point that was not in contact before strikes at an instant of its own,
+    /// while points at rest obey Coulomb's law; the step then continues from there. `StepWorkspace::impacts` lists the
+    /// impacts, separately from the forces. Restitution has no effect, and compliant materials have no impacts. Only
+    /// [`Integrator::Impulse`](super::Integrator::Impulse) supports this law.
     Sticking,
 }
 
-/// How a surface answers to touch. Two surfaces share the geometric mean of their frictions and the larger restitution; the
-/// softer law of the two holds.
+/// Contact properties of a surface. A pair of surfaces has the geometric mean of the frictions, the larger restitution and the
+/// softer of the two laws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Coefficient of friction μ.
     pub friction: f64,
     /// Coefficient of restitution e.
     pub restitution: f64,
-    /// Normal law.
+    /// Law of the normal force.
     pub law: ContactLaw,
 }
 
@@ -274,33 +275,33 @@ impl Default for Material {
     }
 }
 
-/// How a normal force arises.
+/// Law of the normal contact force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactLaw {
-    /// No overlap.
+    /// Surfaces do not overlap.
     Rigid,
-    /// A spring and damper inside the constraint: the force follows the overlap, Coulomb's cone holds exactly.
+    /// A spring and damper inside the constraint: the force follows the overlap, and Coulomb's cone is exact.
     Regularised {
-        /// [N/m] of one contact point.
+        /// Stiffness of one contact point [N/m].
         stiffness: f64,
-        /// [N.s/m].
+        /// Damping of one contact point [N.s/m].
         damping: f64,
     },
-    /// Hunt and Crossley's sphere on a plane, with its own smooth friction.
+    /// Hunt and Crossley's law of a sphere on a plane, with its own smooth friction.
     HuntCrossley(HuntCrossley),
 }
 
-/// A recording that joints follow.
+/// A model and its motion, which joints of the world can follow.
 #[derive(Debug, Clone)]
 pub struct Figure {
-    /// The body.
+    /// The model.
     pub model: Model,
-    /// One signal a coordinate of the model, in its order.
+    /// One signal per coordinate of the model, in its order.
     pub coordinates: Vec<Signal>,
 }
 
 impl Figure {
-    /// `ground_from_mass-centre frame` of every body of the model at an instant; axes are the model's own body axes.
+    /// Pose in ground of the mass centre frame of every body at an instant; the axes are those of the model's bodies.
     #[must_use]
     pub fn poses(&self, t: f64) -> Vec<Pose> {
         let values: Vec<[f64; 3]> = self.coordinates.iter().map(|signal| signal.at(t)).collect();
@@ -313,7 +314,7 @@ impl Figure {
 }
 
 impl World {
-    /// The joint that each body hangs on.
+    /// Index of the joint that carries each body.
     #[must_use]
     pub fn joint_of_body(&self) -> Vec<Option<usize>> {
         let mut joints = vec![None; self.bodies.len()];
@@ -323,7 +324,7 @@ impl World {
         joints
     }
 
-    /// Mass of all bodies [kg].
+    /// Total mass of all bodies [kg].
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.bodies.iter().map(|b| b.mass).sum()

@@ -1,25 +1,26 @@
-//! How much a walk was changed to be consistent, and what it still lacks.
+//! Size of the change that made a walk dynamically consistent, and of its remaining residual forces.
 
+use super::settings::ConsistentWalkError;
 use super::unknowns::reference;
-use super::{ConsistentWalk, ConsistentWalkError};
+use super::walk::ConsistentWalk;
 use crate::contact::HuntCrossley;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
 
-/// Instants of a cycle that are looked at.
+/// Number of instants per cycle that are evaluated.
 const INSTANTS: usize = 200;
 
-/// Root mean square and largest size of something over a cycle.
+/// Magnitude of a quantity over a cycle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Magnitude {
     /// Root mean square.
     pub rms: f64,
-    /// Largest.
+    /// Largest absolute value.
     pub largest: f64,
 }
 
 impl Magnitude {
-    /// Of some values, about zero.
+    /// Magnitude of values about zero.
     #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Magnitude {
         let (mut sum, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
@@ -32,18 +33,18 @@ impl Magnitude {
     }
 }
 
-/// How much a walk was changed.
+/// Size of the change of a walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adjustment {
-    /// Name of each changed coordinate (those of the right side: the left one's are the same half a cycle later) with the change
-    /// of its angle [rad].
+    /// Name and change of angle [rad] of each changed coordinate. Only the right side is listed; the left side is the same half a
+    /// cycle later.
     pub angles: Vec<(String, Magnitude)>,
-    /// The pelvis' path against even forward motion at its mean height: forwards and up [m].
+    /// Change of the pelvis path relative to even forward motion at mean height: forwards and up [m].
     pub pelvis: [Magnitude; 2],
 }
 
 impl ConsistentWalk {
-    /// How much the walk was changed.
+    /// Size of the change of the walk.
     #[must_use]
     pub fn adjustment(&self, model: &Model) -> Adjustment {
         let differences = self.differences(model);
@@ -64,7 +65,7 @@ impl ConsistentWalk {
         Adjustment { angles, pelvis: ["pelvis_tx", "pelvis_ty"].map(path) }
     }
 
-    /// By coordinate: changed less unchanged, over a cycle.
+    /// Changed minus unchanged value of each coordinate over a cycle.
     fn differences(&self, model: &Model) -> Vec<Vec<f64>> {
         let count = model.coordinates().len();
         let mut columns = vec![Vec::with_capacity(INSTANTS); count];
@@ -80,11 +81,11 @@ impl ConsistentWalk {
         columns
     }
 
-    /// What the plan's root lacks over a cycle: force [N] and moment [N.m].
+    /// Residual force [N] and residual moment [N.m] of the planned motion over a cycle.
     ///
     /// # Errors
-    /// A figure that lacks a coordinate.
-    pub fn lacking(&self, human: &Human, shoes: &HuntCrossley) -> Result<[Magnitude; 2], ConsistentWalkError> {
+    /// If the figure lacks a coordinate.
+    pub fn residual(&self, human: &Human, shoes: &HuntCrossley) -> Result<[Magnitude; 2], ConsistentWalkError> {
         let (mut forces, mut moments) = (Vec::new(), Vec::new());
         for instant in 0..INSTANTS {
             let time_s = self.walk.cycle_s() * instant as f64 / INSTANTS as f64;

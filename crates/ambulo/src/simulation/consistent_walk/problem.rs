@@ -1,34 +1,34 @@
-//! The least-squares problem behind a consistent walk: what counts, and how it follows the splines.
+//! The least-squares problem of a dynamically consistent walk: its residuals and their derivatives.
 //!
-//! At each instant the posture gives the soles' depth, speed and slip; the law of soft contact gives their forces; inverse
-//! dynamics under these forces gives what the root lacks and the moments of the joints. Derivatives by the 36 numbers of an instant
-//! (value, rate and acceleration of each curve) are differences; the splines carry them to the coefficients exactly.
+//! At each instant, the posture gives depth, speed and slip of the soles, and the law of soft contact gives their forces. Inverse
+//! dynamics under these forces gives the residual force of the root and the joint moments. Derivatives with respect to the 36
+//! inputs of an instant (value, rate and acceleration of each curve) are finite differences; the splines map them exactly to the
+//! coefficients.
 
 use super::response::{FORE_AFT, GroundedFigure, HEIGHTS, MOMENTS, OUTPUTS, SIDE, SLIPS, TOE, VERTICAL};
-use super::targets::Instant;
-use super::unknowns::{Input, Kind, Layout};
-use super::{ConsistentWalkError, ConsistentWalkSettings};
+use super::settings::{ConsistentWalkError, ConsistentWalkSettings};
+use super::unknowns::{Input, Kind, Layout, reference};
 use crate::contact::HuntCrossley;
 use crate::dynamics::Workspace;
 use crate::gait::{GroundForceLaws, Walk};
 use crate::model::anthropometry::Human;
 use crate::numerics::{NormalEquations, Residuals};
 
-/// Steps of the differences by value, rate and acceleration.
+/// Steps of the finite differences for value, rate and acceleration.
 const STEPS: [f64; 3] = [1e-7, 1e-6, 1e-3];
-/// Weak pull of the root's path towards even motion [m/s²].
+/// Deviation of the root's acceleration from even motion, a weak cost [m/s²].
 const ROOT_ACCELERATION: f64 = 20.0;
-/// Pins the place where the walk begins [m].
+/// Deviation of the mean forward position; it fixes where the walk begins [m].
 const PLACE: f64 = 1e-3;
 
-/// How strict a pass is.
+/// One stage of the solution. The first three are factors of the final values.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stage {
-    /// Of the shoes' stiffness.
+    /// Stiffness of the shoes.
     pub(super) stiffness: f64,
-    /// Of the creep speed.
+    /// Creep speed.
     pub(super) creep: f64,
-    /// Of what the root may lack.
+    /// Deviation of the residual force and moment.
     pub(super) root: f64,
     pub(super) iterations: usize,
 }
@@ -44,7 +44,7 @@ pub(super) struct Problem<'a> {
     outputs: Vec<Outputs>,
 }
 
-/// What one instant yields, and the derivatives by its columns.
+/// Outputs of one instant, and their derivatives with respect to its columns.
 #[derive(Clone)]
 struct Outputs {
     values: [f64; OUTPUTS],
@@ -85,7 +85,7 @@ impl<'a> Problem<'a> {
         self.root_slack = stage.root;
     }
 
-    /// No change but the height at which the soles carry the body.
+    /// The first guess: no change except the height at which the soles carry the body weight.
     pub(super) fn first_guess(&mut self) -> Vec<f64> {
         let mut x = vec![0.0; self.layout.count];
         let Some(height) = self.layout.range(Kind::Height) else { return x };
@@ -152,7 +152,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Hands every residual with its columns and slopes to `row`.
+    /// Passes every residual with its columns and slopes to `row`.
     fn rows(&self, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
         let dev = &self.settings.deviations;
         for (instant, out) in self.instants.iter().zip(&self.outputs) {
@@ -187,7 +187,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Nearness to the curves of the gait.
+    /// Residuals of the distance to the curves of the gait.
     fn posture_rows(&self, instant: &Instant, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
         let dev = &self.settings.deviations;
         let mut near = |input: &Input, d: usize, target: f64, deviation: f64| {
@@ -224,7 +224,7 @@ impl<'a> Problem<'a> {
         self.trunk_rows(instant, x, row);
     }
 
-    /// The trunk's lean is what pelvis and lumbar joint turn together.
+    /// Residuals of the trunk's lean, which is the sum of pelvis and lumbar rotation.
     fn trunk_rows(&self, instant: &Instant, x: &[f64], row: &mut impl FnMut(f64, &[usize], &[f64])) {
         let dev = &self.settings.deviations;
         let turning: Vec<&Input> =
@@ -237,7 +237,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// How fast the moments of the joints change; after half a cycle the sides change places.
+    /// Residuals of the rate of joint moments. After half a cycle, the sides are exchanged.
     fn moment_rows(&self, row: &mut impl FnMut(f64, &[usize], &[f64])) {
         let count = self.instants.len();
         let scale = 2.0 * count as f64 / self.settings.deviations.moment_rate;
@@ -286,5 +286,56 @@ impl Residuals for Problem<'_> {
             normal.add(residual, numbers, slopes);
         });
         cost
+    }
+}
+
+/// The foot is in swing from this share of the cycle after foot off to this share before the next strike, at heel, ball and toes.
+const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]];
+/// Largest extension of the toes in the first guess [rad].
+const TOES_LIMIT: f64 = 0.8;
+
+/// One instant of the unchanged walk, with its targets.
+struct Instant {
+    /// Value, rate and acceleration of every coordinate.
+    posture: [Vec<f64>; 3],
+    /// Dependence of the coordinates on the coefficients.
+    inputs: Vec<Input>,
+    /// Numbers of the coefficients of all inputs, one after the other.
+    columns: Vec<usize>,
+    /// Targets, right and left.
+    sides: [SideTarget; 2],
+}
+
+/// Targets of one side.
+struct SideTarget {
+    /// Vertical and fore-aft force [body weights].
+    force: [f64; 2],
+    /// Angle of the toes [rad].
+    toes: f64,
+    /// Whether heel, ball and toes must be clear of the ground.
+    swing: [bool; 3],
+}
+
+impl Instant {
+    fn new(human: &Human, walk: &Walk, layout: &Layout, forces: &GroundForceLaws, phase: f64) -> Instant {
+        let count = human.model.coordinates().len();
+        let mut posture = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let time_s = phase * walk.cycle_s();
+        let [q, qd, qdd] = &mut posture;
+        reference(walk, layout, time_s, q, qd, qdd);
+        let inputs = layout.inputs(phase, walk.cycle_s());
+        let columns = inputs.iter().flat_map(|input| input.numbers).collect();
+        let at = walk.at(time_s);
+        let sides = [(&at.right, 0.0), (&at.left, 0.5)].map(|(leg, ahead)| {
+            let place = (phase + ahead) % 1.0;
+            let pitch = leg.hip.value - at.pelvis_tilt.value - leg.knee.value + leg.ankle.value;
+            let stands = place < at.phases.foot_off;
+            SideTarget {
+                force: forces.at(place, walk.curve_speed(&walk.clock(time_s)).value),
+                toes: if stands { (-pitch).clamp(0.0, TOES_LIMIT) } else { 0.0 },
+                swing: SWING_MARGINS.map(|[after, before]| place > at.phases.foot_off + after && place < 1.0 - before),
+            }
+        });
+        Instant { posture, inputs, columns, sides }
     }
 }

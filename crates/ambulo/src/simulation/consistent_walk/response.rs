@@ -1,6 +1,6 @@
-//! What a posture asks for and gets: forces of the soles by the law of soft contact, then inverse dynamics under them.
+//! Forces of one posture: contact forces of the soles by the law of soft contact, then inverse dynamics under them.
 
-use super::{ConsistentWalkError, PlannedForces};
+use super::settings::ConsistentWalkError;
 use crate::contact::HuntCrossley;
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
 use crate::kinematics::Posture;
@@ -8,20 +8,21 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{CoordinateId, Side};
 use crate::spatial::{Vec3, Wrench};
 
-/// Numbers that one instant yields: three of the root, twelve of each side.
+/// Number of outputs of one instant: three of the root, twelve of each side.
 pub(super) const OUTPUTS: usize = 3 + 2 * SIDE;
 pub(super) const SIDE: usize = 12;
-/// Within a side: moments of hip, knee and ankle, vertical and fore-aft force, force under the toes, three heights, three slips.
+/// Offsets within a side: moments of hip, knee and ankle, vertical and fore-aft force, force under the toes, three heights,
+/// three slips.
 pub(super) const MOMENTS: usize = 0;
 pub(super) const VERTICAL: usize = 3;
 pub(super) const FORE_AFT: usize = 4;
 pub(super) const TOE: usize = 5;
 pub(super) const HEIGHTS: usize = 6;
 pub(super) const SLIPS: usize = 9;
-/// Load under which slip counts half [body weights].
+/// Load at which slip has half its weight [body weights].
 const LIGHT: f64 = 0.05;
 
-/// What of the figure plays a part.
+/// The parts of a figure that the problem uses.
 pub(super) struct GroundedFigure<'a> {
     soles: [Vec<&'a ContactSphere>; 2],
     root: [CoordinateId; 3],
@@ -55,7 +56,7 @@ impl<'a> GroundedFigure<'a> {
         })
     }
 
-    /// The numbers of a posture: value, rate and acceleration of every coordinate.
+    /// The outputs of a posture (value, rate and acceleration of every coordinate).
     pub(super) fn outputs(
         &self,
         workspace: &mut Workspace,
@@ -72,7 +73,7 @@ impl<'a> GroundedFigure<'a> {
                 let motion = free.body_motion(sole.body);
                 let center = motion.pose.rotation * sole.center + motion.pose.translation;
                 let gap = center.y - sole.radius;
-                // Where the simulator has the point of contact: midway between the two surfaces.
+                // The simulator's contact point lies midway between the two surfaces.
                 let point = Vec3::new(center.x, 0.5 * gap, center.z);
                 let velocity = motion.twist.velocity_at(point - motion.center);
                 let (normal, friction) = shoes.force(sole.radius, -gap, -velocity.y, Vec3::new(velocity.x, 0.0, 0.0));
@@ -104,6 +105,17 @@ impl<'a> GroundedFigure<'a> {
         }
         out
     }
+}
+
+/// Forces of the planned motion at an instant, before any simulation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedForces {
+    /// Residual force and moment at the root: fore-aft and up [N], pitch [N.m].
+    pub root: [f64; 3],
+    /// Moments of hip, knee and ankle [N.m] with the signs of the model; right, left.
+    pub moments: [[f64; 3]; 2],
+    /// Fore-aft and vertical force on each foot [N].
+    pub feet: [[f64; 2]; 2],
 }
 
 /// The forces of one posture (value, rate, acceleration of every coordinate).

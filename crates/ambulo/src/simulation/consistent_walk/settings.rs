@@ -1,15 +1,16 @@
-//! How a walk is made consistent: what a deviation costs, how fine the splines are, what the shoes are made of.
+//! Settings of a dynamically consistent walk: costs of deviations, resolution of the splines, properties of the shoes.
 
 use crate::contact::{FrictionCurve, HuntCrossley};
+use crate::toml_reader::TomlError;
 
-/// Deviations that count one each. Smaller means dearer.
+/// The deviation of each quantity that has a cost of one. A smaller deviation is a larger cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviations {
-    /// Hip, knee and ankle against the gait's curves [rad].
+    /// Hip, knee and ankle from the curves of the gait [rad].
     pub joints: [f64; 3],
     /// Their accelerations [rad/s²].
     pub joint_acceleration: f64,
-    /// Toes against lying flat in late stance [rad].
+    /// Toes from lying flat in late stance [rad].
     pub toes: f64,
     /// Tilt of the pelvis [rad].
     pub pelvis: f64,
@@ -21,30 +22,30 @@ pub struct Deviations {
     pub ground_force: [f64; 2],
     /// Force under the toes [body weights].
     pub toe_force: f64,
-    /// Rate of hip, knee and ankle moment [N.m/kg a cycle].
+    /// Rate of hip, knee and ankle moment [N.m/kg per cycle].
     pub moment_rate: f64,
-    /// Force that the root lacks, fore-aft and up [body weights].
+    /// Residual force, fore-aft and up [body weights].
     pub root_force: f64,
-    /// Moment that the root lacks [body weights × leg length].
+    /// Residual moment [body weights × leg length].
     pub root_moment: f64,
     /// Slip of a loaded sole [m/s].
     pub slip: f64,
-    /// A swinging sole below its clearance [m].
+    /// Depth of a swinging sole below its clearance [m].
     pub clearance: f64,
 }
 
-/// How a walk is made consistent.
+/// Settings of [`make_consistent_walk`](super::make_consistent_walk).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConsistentWalkSettings {
-    /// The soles.
+    /// Contact law of the soles.
     pub shoes: HuntCrossley,
-    /// Deviations that count one each.
+    /// Deviations with a cost of one each.
     pub deviations: Deviations,
-    /// Splines a cycle for each joint of the leg, and half a cycle for root and trunk.
+    /// Number of splines per cycle for each joint of the leg, and per half cycle for root and trunk.
     pub splines: [usize; 2],
     /// Instants in half a cycle.
     pub instants: usize,
-    /// Least height of heel, ball and toes in swing [m].
+    /// Smallest height of heel, ball and toes in swing [m].
     pub clearance: f64,
 }
 
@@ -76,8 +77,8 @@ impl Default for ConsistentWalkSettings {
     }
 }
 
-/// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. Creep
-/// of 13 mm/s at full friction is ours: much slower than theirs (0.2 m/s), so that a standing foot stays where it is.
+/// Soft shoes: stiffness as OpenSim Moco's `2D_gait.osim`, dissipation 2 s/m as there and in Falisse 2022; friction 0.6. A creep
+/// speed of 13 mm/s at full friction is ours; it is much slower than theirs (0.2 m/s), so that a foot in stance stays in place.
 pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
     static_friction: 0.6,
     dynamic_friction: 0.6,
@@ -87,3 +88,18 @@ pub const SOFT_SHOES: HuntCrossley = HuntCrossley {
     friction_curve: FrictionCurve::Smooth,
     ..HuntCrossley::MOCO_2D_GAIT
 };
+
+/// Why a dynamically consistent walk could not be computed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConsistentWalkError {
+    /// The model lacks a coordinate.
+    #[error("the model has no coordinate `{name}`; expected a figure of `model::anthropometry`")]
+    Coordinate {
+        /// Its name.
+        name: String,
+    },
+    /// The built-in ground force laws could not be read.
+    #[error(transparent)]
+    Laws(#[from] TomlError),
+}

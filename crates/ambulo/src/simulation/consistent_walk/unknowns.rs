@@ -1,21 +1,21 @@
-//! What may be changed: splines added to the coordinates of a walk.
+//! The unknowns: periodic splines that are added to the coordinates of a walk.
 
 use crate::gait::{Walk, WalkCoordinates};
 use crate::model::{CoordinateId, Model};
 use crate::numerics::{OVERLAP, PeriodicSplines};
 
-/// A curve that may be changed.
+/// The change of one coordinate, or of a left and right pair.
 #[derive(Debug, Clone)]
 pub(super) struct Curve {
     pub(super) kind: Kind,
-    /// Of the right side, or in the middle; of the left side.
+    /// The coordinate of the right side or in the middle; the one of the left side.
     pub(super) coordinates: [Option<CoordinateId>; 2],
     splines: PeriodicSplines,
-    /// Where its coefficients begin.
+    /// Number of its first coefficient.
     pub(super) first: usize,
 }
 
-/// Which curve.
+/// The quantity that a curve changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Hip,
@@ -28,7 +28,7 @@ pub(super) enum Kind {
     Lumbar,
 }
 
-/// Names of the coordinates, the side's letter to be added to those of legs.
+/// Names of the coordinates; those of legs end with `_`, and a side's letter is appended.
 const CURVES: [(Kind, &str); 8] = [
     (Kind::Hip, "hip_flexion_"),
     (Kind::Knee, "knee_angle_"),
@@ -40,7 +40,7 @@ const CURVES: [(Kind, &str); 8] = [
     (Kind::Lumbar, "lumbar_extension"),
 ];
 
-/// All curves of a model that may be changed.
+/// All curves of a model, and the numbering of their coefficients.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub(super) curves: Vec<Curve>,
@@ -48,7 +48,7 @@ pub(super) struct Layout {
     coordinates: WalkCoordinates,
 }
 
-/// How one coordinate follows the coefficients at one instant.
+/// Dependence of one coordinate on the coefficients at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Input {
     pub(super) kind: Kind,
@@ -56,7 +56,7 @@ pub(super) struct Input {
     pub(super) coordinate: usize,
     /// Numbers of the coefficients.
     pub(super) numbers: [usize; OVERLAP],
-    /// What each adds to value, rate and acceleration.
+    /// Contribution of each to value, rate and acceleration.
     pub(super) weights: [[f64; OVERLAP]; 3],
 }
 
@@ -81,19 +81,19 @@ impl Layout {
         Layout { curves, count, coordinates: WalkCoordinates::of(model) }
     }
 
-    /// The first coefficient of a curve and how many it has.
+    /// Numbers of the coefficients of a curve.
     pub(super) fn range(&self, kind: Kind) -> Option<std::ops::Range<usize>> {
         let curve = self.curves.iter().find(|curve| curve.kind == kind)?;
         Some(curve.first..curve.first + curve.splines.count())
     }
 
-    /// How every changed coordinate follows the coefficients at a phase of the right foot; rates by time.
+    /// Dependence of every changed coordinate on the coefficients at a phase of the right foot; derivatives are by time.
     pub(super) fn inputs(&self, phase: f64, cycle_s: f64) -> Vec<Input> {
         let mut inputs = Vec::new();
         for curve in &self.curves {
             for (side, coordinate) in curve.coordinates.iter().enumerate() {
                 let Some(coordinate) = coordinate else { continue };
-                // Legs repeat after a cycle, half a cycle apart; what both share repeats after a step.
+                // Legs repeat after a cycle, half a cycle apart; shared coordinates repeat after a step.
                 let paired = curve.coordinates[1].is_some();
                 let (place, rate) = if paired { (phase + 0.5 * side as f64, 1.0) } else { (2.0 * phase, 2.0) };
                 let at = curve.splines.at(place);
@@ -129,13 +129,13 @@ impl Layout {
 }
 
 impl Input {
-    /// What the coefficients add to value (0), rate (1) or acceleration (2).
+    /// Sum of the coefficients' contributions to value (0), rate (1) or acceleration (2).
     pub(super) fn sum(&self, coefficients: &[f64], derivative: usize) -> f64 {
         self.numbers.iter().zip(self.weights[derivative]).map(|(&n, w)| coefficients[n] * w).sum()
     }
 }
 
-/// Coordinates of the walk before any change: the curves of the gait, the pelvis going forward at constant speed.
+/// Coordinates of the unchanged walk: the curves of the gait, with the pelvis moving forward at constant speed.
 pub(super) fn reference(walk: &Walk, layout: &Layout, time_s: f64, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
     for values in [&mut *q, &mut *qd, &mut *qdd] {
         values.fill(0.0);

@@ -20,7 +20,7 @@ use super::{Place, SceneError};
 use crate::dynamics::{Method, SolverSettings};
 use crate::findings::{Code, Findings};
 use crate::simulation::state::WorldState;
-use crate::simulation::step::{Integrator, StepSettings, StepWorkspace};
+use crate::simulation::workspace::{Integrator, StepSettings, StepWorkspace};
 use crate::simulation::world::{
     Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Spring, Surface,
     TreeJoint, World,

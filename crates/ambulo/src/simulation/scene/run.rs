@@ -12,7 +12,8 @@ use crate::simulation::energy::{Energy, energy};
 use crate::simulation::forces::{ContactForce, StepForces};
 use crate::simulation::projection::{closure_errors, largest_joint_error};
 use crate::simulation::state::{RowKey, WorldState};
-use crate::simulation::step::{StepSettings, step};
+use crate::simulation::step::step;
+use crate::simulation::workspace::StepSettings;
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Wrench};
 
@@ -324,7 +325,7 @@ impl Scene {
     #[must_use]
     pub fn closure_gap(&self, closure: usize) -> f64 {
         let (frames, errors) = closure_errors(&self.world, &self.state, closure);
-        let (turns, _) = self.world.closures[closure].kind.held(&frames);
+        let (turns, _) = self.world.closures[closure].kind.constrained(&frames);
         errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 

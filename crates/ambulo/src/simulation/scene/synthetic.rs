@@ -20,17 +20,13 @@ use crate::model::{
 };
 use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_consistent_walk};
 use crate::simulation::joint::{JointKind, rotation};
-use crate::simulation::samples::Samples;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{
     ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
     World,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
-use std::sync::Arc;
 
-/// Samples of the motion are no farther apart [s].
-const STEP_S: f64 = 1e-3;
 /// Where a hand grips, from the wrist to the tip of the fingers.
 const GRIP: f64 = 0.5;
 
@@ -165,15 +161,14 @@ fn sampled(
     let count = model.coordinates().len();
     let mut posture = [0, 1, 2].map(|_| vec![0.0; count]);
     let forward = model.coordinate("pelvis_tx").map(CoordinateId::index);
-    let samples = Samples::new(count, [0.0, cycle_s], STEP_S, true, |t, row| {
+    let signals = Signal::periodic(count, cycle_s, |t, row| {
         write(t + phase * cycle_s, &mut posture);
         for (k, entry) in row.iter_mut().enumerate() {
             *entry = if Some(k) == forward { [0.0; 3] } else { [0, 1, 2].map(|d| posture[d][k]) };
         }
     });
-    let samples = Arc::new(samples);
     write(phase * cycle_s, &mut posture);
-    ((0..count).map(|k| Signal::Sampled(Arc::clone(&samples), k)).collect(), posture)
+    (signals, posture)
 }
 
 /// The model on its place of the scene, arms held away from the trunk, with markers where the hands grip.

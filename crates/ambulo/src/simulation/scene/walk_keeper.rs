@@ -7,8 +7,8 @@ use crate::model::{BodyId, Side};
 use crate::motion::TimeGrid;
 use crate::simulation::forces::ContactForce;
 use crate::simulation::state::WorldState;
-use crate::simulation::step::StepWorkspace;
 use crate::simulation::walking::{FootRecord, WalkRecording};
+use crate::simulation::workspace::StepWorkspace;
 use crate::simulation::world::{Owner, World};
 
 /// A contact belongs to the ground if its normal rises at least this steeply (sine): less than 45° off the vertical.

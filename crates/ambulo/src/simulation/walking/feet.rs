@@ -1,44 +1,44 @@
-//! What a foot and the ground do to each other.
+//! Records of the ground reaction on each foot.
 
 use crate::model::BodyId;
 use crate::motion::ForceRecording;
 use crate::simulation::ContactForce;
 use crate::spatial::Vec3;
 
-/// What the ground does to one foot, one entry a row.
+/// Ground reaction on one foot, one entry per row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootRecord {
     /// The body that carries the heel.
     pub body: BodyId,
     /// Force on the foot [N].
     pub force: Vec<Vec3>,
-    /// Its moment about the world's origin [N.m].
+    /// Moment about the world's origin [N.m].
     pub moment: Vec<Vec3>,
-    /// Centre of pressure [m]; zero where nothing presses.
+    /// Centre of pressure [m]; zero without load.
     pub point: Vec<Vec3>,
-    /// Forward velocity of the most loaded point of the sole against the ground [m/s]; zero where nothing presses.
+    /// Forward velocity of the most loaded point of the sole relative to the ground [m/s]; zero without load.
     pub slip: Vec<f64>,
-    /// Whether a loaded point of the sole is at the limit of the ground's friction; of no meaning under Hunt and Crossley's shoes,
-    /// whose friction is a law of its own.
+    /// Whether a loaded point of the sole is at the friction limit of the ground. Not meaningful for Hunt and Crossley's law,
+    /// which has its own friction.
     pub at_limit: Vec<bool>,
-    /// The part of it that another body of the foot feels, the toes.
+    /// The part of the reaction that acts on the toes, if they are a body of their own.
     pub toes: Option<ToeRecord>,
-    /// Most loaded point in a row, while it is filled [N].
+    /// Largest load of a point in the row that is being filled [N].
     heaviest: f64,
 }
 
-/// What the ground does to the toes of one foot, one entry a row.
+/// Ground reaction on the toes of one foot, one entry per row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToeRecord {
-    /// The toes.
+    /// The body of the toes.
     pub body: BodyId,
-    /// Force on them [N].
+    /// Force on the toes [N].
     pub force: Vec<Vec3>,
-    /// Its moment about the world's origin [N.m].
+    /// Moment about the world's origin [N.m].
     pub moment: Vec<Vec3>,
 }
 
-/// A point rubs at the limit of friction where this share of it is used.
+/// A point is at the friction limit if it uses this share of the available friction.
 const LIMIT_SHARE: f64 = 1.0 - 1e-6;
 
 impl FootRecord {
@@ -59,7 +59,7 @@ impl FootRecord {
         }
     }
 
-    /// Begins a row in which nothing presses yet.
+    /// Begins a row without load.
     pub(in crate::simulation) fn begin_row(&mut self) {
         self.force.push(Vec3::zeros());
         self.moment.push(Vec3::zeros());
@@ -73,7 +73,7 @@ impl FootRecord {
         }
     }
 
-    /// Adds a point of contact of a body to the row; the centre of pressure is a sum until the row ends.
+    /// Adds a contact point of a body to the row. The centre of pressure is a weighted sum until the row ends.
     pub(in crate::simulation) fn add(&mut self, contact: &ContactForce, body: BodyId, friction: f64) {
         let (Some(force), Some(point)) = (self.force.last_mut(), self.point.last_mut()) else { return };
         let pressing = contact.normal_force;
@@ -101,19 +101,20 @@ impl FootRecord {
         }
     }
 
+    /// Ends a row: turns the sum into the centre of pressure.
     pub(in crate::simulation) fn end_row(&mut self) {
         if let (Some(force), Some(point)) = (self.force.last(), self.point.last_mut()) {
             *point = if force.y > 0.0 { *point / force.y } else { Vec3::zeros() };
         }
     }
 
-    /// Whether the ground presses in a row.
+    /// Whether the foot is loaded in a row.
     #[must_use]
     pub fn loaded(&self, row: usize) -> bool {
         self.force[row].y > 0.0
     }
 
-    /// The same as a force plate would have it; the moment about the centre of pressure is zero, since points do not twist.
+    /// The reaction as a force plate would record it. The free moment is zero because contact points transmit no moment.
     #[must_use]
     pub fn as_recording(&self, name: &str, times: Vec<f64>) -> ForceRecording {
         let rows = self.force.len();

@@ -1,80 +1,81 @@
-//! A figure in the plane: bodies, joints and soles as the simulator has them.
+//! A walking figure in the sagittal plane, as bodies, joints and soles of a world.
 
-use super::error::WalkingError;
-use crate::contact::{HuntCrossley, Shape};
-use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::contact::{HuntCrossley, Shape, ShapeError};
+use crate::dynamics::LinkError;
+use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Function, JointAxis, Model, Side};
 use crate::simulation::{
     ContactLaw, ImpactLaw, JointCoordinate, JointDrive, JointKind, Material, Obstacle, Owner, RigidBody, Signal,
-    Surface, TreeJoint, World,
+    Surface, TreeJoint, World, WorldError,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
-/// Rounding of directions.
+/// Tolerance for rounding of directions.
 const SLACK: f64 = 1e-9;
 
-/// What the soles are made of.
+/// Material of the soles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shoes {
-    /// They do not give.
+    /// Rigid soles.
     Rigid,
-    /// A spring and a damper under each sphere, exact friction.
+    /// A spring and a damper under each sphere, with exact Coulomb friction.
     Regularised {
-        /// [N/m].
+        /// Stiffness [N/m].
         stiffness: f64,
-        /// [N.s/m].
+        /// Damping [N.s/m].
         damping: f64,
     },
-    /// Hunt and Crossley's, with friction of its own.
+    /// Hunt and Crossley's law, with its own friction.
     HuntCrossley(HuntCrossley),
 }
 
-/// What the figure walks on.
+/// Contact between figure and ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ground {
-    /// Coefficient of friction μ; of no effect under Hunt and Crossley's shoes.
+    /// Coefficient of friction μ; not used by Hunt and Crossley's law.
     pub friction: f64,
-    /// What the soles are made of.
+    /// Material of the soles.
     pub shoes: Shoes,
-    /// What becomes of the velocity of a sole that strikes.
+    /// Impact law of the soles.
     pub impact: ImpactLaw,
 }
 
-/// A coordinate of the model in the world.
+/// The joint coordinate of the world for a coordinate of the model.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Placed {
     pub(super) joint: usize,
     pub(super) coordinate: usize,
-    /// +1, or -1 where the model counts the other way about.
+    /// +1, or -1 if the model counts in the opposite direction.
     pub(super) sense: f64,
 }
 
 /// A figure on flat ground (y = 0), ready to walk.
 #[derive(Debug, Clone)]
 pub struct Walker {
-    /// The world: bodies in the model's order, each the child of the joint of its own number; surfaces are the soles in
-    /// their order, then the ground.
+    /// The world. Bodies have the model's order, and body n is the child of joint n. Surfaces are the soles in their order,
+    /// then the ground.
     pub world: World,
     pub(super) model: Model,
-    /// The signals: one a coordinate of the model.
+    /// One signal per coordinate of the model.
     pub(super) signals: Vec<Signal>,
-    /// Where each coordinate of the model is.
+    /// The joint coordinate of each coordinate of the model.
     pub(super) placed: Vec<Placed>,
-    /// Whose sole each surface is.
+    /// Side of the sole that each surface is; `None` for the ground.
     pub(super) sides: Vec<Option<Side>>,
     /// The body that carries each foot's heel, right and left.
     pub(super) feet: [BodyId; 2],
-    /// Another body of each foot that has soles, right and left.
+    /// The other body of each foot that has soles (the toes), right and left.
     pub(super) toes: [Option<BodyId>; 2],
 }
 
 impl Walker {
-    /// Puts a figure on its feet in the posture that its signals have at time zero, with the mid-hip above x = 0 and moving
-    /// forwards with `speed_m_s`. `signals`: one a coordinate of the model [rad]; those of the root's slides are not used.
+    /// Places a figure on the ground in the posture of its signals at time zero, with the mid-hip above x = 0 and moving
+    /// forwards at `speed_m_s`. `signals` has one entry per coordinate of the model [rad]; those of the root's translations
+    /// are not used.
     ///
     /// # Errors
-    /// A model that is not planar, or signals for another one.
+    /// If the model is not planar, or the number of signals does not match.
     pub fn new(human: &Human, signals: Vec<Signal>, ground: &Ground, speed_m_s: f64) -> Result<Walker, WalkingError> {
         let model = human.model.clone();
         let expected = model.coordinates().len();
@@ -98,6 +99,21 @@ impl Walker {
         Ok(walker)
     }
 
+    /// Moves the whole figure so that its mid-hip is at a position [m] and moves with a velocity [m/s].
+    #[must_use]
+    pub fn starting_at(mut self, mid_hip: Vec3, velocity: Vec3) -> Walker {
+        let joint = &self.world.joints[0];
+        let root = &self.world.bodies[joint.child];
+        let to_hip = root.pose.rotation * joint.child_from_joint.translation;
+        let shift = mid_hip - (root.pose.translation + to_hip);
+        let gain = velocity - root.twist.velocity_at(to_hip);
+        for body in &mut self.world.bodies {
+            body.pose.translation += shift;
+            body.twist.linear += gain;
+        }
+        self
+    }
+
     /// The figure's model.
     #[must_use]
     pub fn model(&self) -> &Model {
@@ -119,7 +135,7 @@ impl Walker {
         Ok(())
     }
 
-    /// Slides along x and y, which are free, and the turn about z, which is driven.
+    /// The root joint: free translations along x and y, a driven rotation about z.
     fn root(&self, id: BodyId, body: &Body) -> Result<JointInModel, WalkingError> {
         let [turn] = moving(body, &body.joint.rotations, [Vec3::z()])?;
         let [x, y] = moving(body, &body.joint.translations, [Vec3::x(), Vec3::y()])?;
@@ -188,7 +204,7 @@ impl Walker {
             material: 0,
         });
         self.sides.push(None);
-        // Feet pass each other.
+        // Feet do not touch each other.
         let soles: Vec<Owner> = self.world.surfaces.iter().map(|surface| surface.owner).collect();
         for (number, owner) in soles.iter().enumerate().filter(|(_, owner)| matches!(owner, Owner::Body(_))) {
             let others = soles[number + 1..].iter().filter(|other| matches!(other, Owner::Body(_)) && *other != owner);
@@ -199,7 +215,7 @@ impl Walker {
         Ok(())
     }
 
-    /// Motions of the bodies at time zero, the lowest sole on the ground.
+    /// Motions of the bodies at time zero, with the lowest sole on the ground.
     fn start(&self, human: &Human, speed_m_s: f64) -> Vec<BodyMotion> {
         let values: Vec<[f64; 3]> = self.signals.iter().map(|signal| signal.at(0.0)).collect();
         let [mut q, mut qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
@@ -234,10 +250,54 @@ impl Walker {
     }
 }
 
-/// A joint, and the coordinates of the model that its own are, with their sense.
+/// Why a figure could not walk.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WalkingError {
+    /// A joint that moves out of the plane.
+    #[error(
+        "joint `{joint}`: {found}; expected one hinge about z, and for the root a turn about z with slides along x and y"
+    )]
+    Joint {
+        /// The joint.
+        joint: String,
+        /// What was found.
+        found: String,
+    },
+    /// The number of signals differs from the number of coordinates.
+    #[error("found {found} signals for {expected} coordinates; expected one per coordinate")]
+    Signals {
+        /// Number of signals.
+        found: usize,
+        /// Number of coordinates.
+        expected: usize,
+    },
+    /// A duration without a whole step.
+    #[error("{duration_s} s in steps of {step_s} s; expected at least one whole step")]
+    Duration {
+        /// Duration [s].
+        duration_s: f64,
+        /// Time step [s].
+        step_s: f64,
+    },
+    /// A sole with an invalid radius.
+    #[error(transparent)]
+    Sole(#[from] ShapeError),
+    /// An invalid world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// Joints that do not form trees.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    /// Motion that is not a finite number.
+    #[error("the simulated motion is not a finite number")]
+    Motion(#[from] TrajectoryError),
+}
+
+/// A joint, and for each of its coordinates the coordinate of the model with its sense.
 type JointInModel = (TreeJoint, Vec<(CoordinateId, f64)>);
 
-/// The coordinates that move the expected axes, in their order; nothing else may move.
+/// The coordinates that move the expected axes, in the order of the axes; an error if anything else moves.
 fn moving<const N: usize>(
     body: &Body,
     axes: &[JointAxis],
@@ -246,19 +306,19 @@ fn moving<const N: usize>(
     let wrong = |found: &str| WalkingError::Joint { joint: body.joint.name.clone(), found: found.to_owned() };
     let level = (body.joint.parent_from_joint.rotation - Mat3::identity()).amax() <= SLACK;
     if !level {
-        return Err(wrong("its frame is turned against the parent's"));
+        return Err(wrong("its frame is rotated relative to the parent's"));
     }
     let mut found = [None; N];
     for axis in axes {
         let Displacement::Follows(id, function) = &axis.displacement else {
-            return Err(wrong("an axis is held at a value"));
+            return Err(wrong("an axis has a fixed value"));
         };
         let slope = match function.as_linear() {
             Some((slope, intercept)) if (slope.abs() - 1.0).abs() <= SLACK && intercept.abs() <= SLACK => slope,
-            _ => return Err(wrong("an axis follows its coordinate by a curve")),
+            _ => return Err(wrong("an axis is a curved function of its coordinate")),
         };
         let place = expected.iter().position(|e| (e.dot(&axis.direction).abs() - 1.0).abs() <= SLACK);
-        let Some(place) = place else { return Err(wrong("an axis leaves the plane")) };
+        let Some(place) = place else { return Err(wrong("an axis is outside the plane")) };
         found[place] = Some((*id, slope * expected[place].dot(&axis.direction)));
     }
     let mut all = [(CoordinateId(0), 1.0); N];

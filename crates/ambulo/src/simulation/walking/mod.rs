@@ -1,27 +1,23 @@
-//! Walking figures: a [`Human`](crate::model::anthropometry::Human) in a world, and what its walk asks of joints, feet and ground.
+//! Walking figures: a [`Human`](crate::model::anthropometry::Human) walks in a world, and its joint and ground forces are recorded.
 //!
-//! All joints are driven, the turn of the root too (so the trunk is held); its two slides are free, and the ground decides where
-//! the figure goes, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. [`Walker`] makes the world, [`Walker::walk`] steps it
-//! and keeps what happened as a [`WalkRecording`], from which tables, figures and `analysis` can work.
+//! All joints are driven, and so is the rotation of the root, which holds the trunk. The two translations of the root are free, so
+//! the ground decides where the figure goes, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. [`Walker`] makes the world,
+//! and [`Walker::walk`] steps it and returns a [`WalkRecording`] for tables, figures and `analysis`.
 //!
-//! Times: a step of impulses from t to t + h has velocities in the middle of the step, so its forces are those of the posture at
-//! t (leapfrog): row n of a recording is the posture at t_n and the forces of the step that begins there. Impulses of impacts
-//! ([`ImpactLaw::Sticking`](super::ImpactLaw::Sticking)) are apart from forces.
+//! Times: a step of impulses from t to t + h has its velocities in the middle of the step, so its forces belong to the posture at
+//! t (leapfrog). Row n of a recording is the posture at t_n and the forces of the step that begins there. Impulses of impacts
+//! ([`ImpactLaw::Sticking`](super::ImpactLaw::Sticking)) are recorded separately from forces.
 
-mod error;
-mod excerpt;
+mod signals;
+
 mod feet;
 mod figure;
 mod recording;
 mod run;
-mod signals;
 mod slip;
-mod start;
 
-pub use error::WalkingError;
-pub use excerpt::{Excerpt, ExcerptRows};
 pub use feet::{FootRecord, ToeRecord};
-pub use figure::{Ground, Shoes, Walker};
-pub use recording::{FootImpact, WalkRecording};
+pub use figure::{Ground, Shoes, Walker, WalkingError};
+pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
 pub use signals::gait_signals;
 pub use slip::StanceSlip;

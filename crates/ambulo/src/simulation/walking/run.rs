@@ -1,8 +1,7 @@
-//! Steps a walker and keeps what happens.
+//! Steps a walker through time and records its motion and forces.
 
-use super::error::WalkingError;
 use super::feet::FootRecord;
-use super::figure::{Placed, Walker};
+use super::figure::{Placed, Walker, WalkingError};
 use super::recording::{FootImpact, WalkRecording};
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
@@ -12,7 +11,7 @@ use crate::simulation::{Impact, Integrator, Owner, StepSettings, StepWorkspace, 
 use crate::spatial::{Pose, Twist, Vec3};
 
 /// A recording under way.
-struct Keeping<'a> {
+struct Recorder<'a> {
     walker: &'a Walker,
     columns: Vec<[Vec<f64>; 3]>,
     efforts: Vec<Vec<f64>>,
@@ -22,10 +21,10 @@ struct Keeping<'a> {
 }
 
 impl Walker {
-    /// Walks for `duration_s`; steps of impulses, whatever the settings' integrator.
+    /// Walks for `duration_s`, with steps of impulses whatever the integrator of the settings.
     ///
     /// # Errors
-    /// No whole step, or numbers that are none.
+    /// If the duration has no whole step, or the motion is not finite.
     pub fn walk(
         &self,
         settings: &StepSettings,
@@ -39,16 +38,16 @@ impl Walker {
         }
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
         let (mut state, mut w) = (WorldState::new(&self.world), StepWorkspace::default());
-        let mut keeping = Keeping::new(self, rows as usize);
+        let mut recorder = Recorder::new(self, rows as usize);
         for row in 0..rows as usize {
-            // ExcerptRows count time afresh, so that many steps do not add up roundings.
+            // Times are computed from the row, so that rounding does not accumulate.
             state.time_s = step_s * row as f64;
             let before = RootBefore::of(&self.world, &state);
             let convergence = step(&self.world, &mut state, &settings, &mut w, findings)?;
-            keeping.unsolved += usize::from(!convergence.converged);
-            keeping.keep(&before, &state, &w);
+            recorder.unsolved += usize::from(!convergence.converged);
+            recorder.record(&before, &state, &w);
         }
-        keeping.finish(TimeGrid { start_s: 0.0, step_s, frames: rows as usize })
+        recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows as usize })
     }
 
     fn friction(&self) -> f64 {
@@ -56,7 +55,7 @@ impl Walker {
     }
 }
 
-/// The root before a step.
+/// The state of the root before a step.
 struct RootBefore {
     time_s: f64,
     pose: Pose,
@@ -72,7 +71,7 @@ impl RootBefore {
     }
 }
 
-/// A impact in the coordinates of the model.
+/// An impact in the coordinates of the model.
 fn foot_impact(walker: &Walker, impact: &Impact) -> FootImpact {
     let mut impulses = [Vec3::zeros(); 2];
     for contact in &impact.contacts {
@@ -84,11 +83,11 @@ fn foot_impact(walker: &Walker, impact: &Impact) -> FootImpact {
     FootImpact { time_s: impact.time_s, impulses, efforts: walker.placed.iter().map(effort).collect() }
 }
 
-impl<'a> Keeping<'a> {
-    fn new(walker: &'a Walker, rows: usize) -> Keeping<'a> {
+impl<'a> Recorder<'a> {
+    fn new(walker: &'a Walker, rows: usize) -> Recorder<'a> {
         let count = walker.model.coordinates().len();
         let column = || Vec::with_capacity(rows);
-        Keeping {
+        Recorder {
             walker,
             columns: (0..count).map(|_| [column(), column(), column()]).collect(),
             efforts: (0..count).map(|_| column()).collect(),
@@ -98,11 +97,11 @@ impl<'a> Keeping<'a> {
         }
     }
 
-    fn keep(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
+    fn record(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
         for impact in w.impacts() {
             self.impacts.push(foot_impact(self.walker, impact));
         }
-        self.keep_root(before, after, w);
+        self.record_root(before, after, w);
         for (id, (columns, placed)) in self.columns.iter_mut().zip(&self.walker.placed).enumerate() {
             let effort = placed.sense * w.effort(placed.joint, placed.joint, placed.coordinate);
             self.efforts[id].push(effort);
@@ -112,11 +111,11 @@ impl<'a> Keeping<'a> {
                 columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             }
         }
-        self.keep_feet(w);
+        self.record_feet(w);
     }
 
-    /// The slides of the root: velocities stand in the middle of steps.
-    fn keep_root(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
+    /// Records the translations of the root; velocities belong to the middle of a step.
+    fn record_root(&mut self, before: &RootBefore, after: &WorldState, w: &StepWorkspace) {
         let root = &self.walker.world.joints[0];
         let struck = (!w.impacts().is_empty()).then_some(&w.after_impacts);
         let h = after.time_s - before.time_s;
@@ -134,7 +133,7 @@ impl<'a> Keeping<'a> {
         }
     }
 
-    fn keep_feet(&mut self, w: &StepWorkspace) {
+    fn record_feet(&mut self, w: &StepWorkspace) {
         let friction = self.walker.friction();
         self.feet.iter_mut().for_each(FootRecord::begin_row);
         for contact in w.contacts() {

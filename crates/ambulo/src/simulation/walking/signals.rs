@@ -2,15 +2,10 @@
 
 use crate::gait::{Walk, WalkCoordinates};
 use crate::model::Model;
-use crate::simulation::{Samples, Signal};
-use std::sync::Arc;
+use crate::simulation::Signal;
 
-/// Samples of a gait are no farther apart [s].
-const STEP_S: f64 = 1e-3;
-
-/// One signal a coordinate of the model: the gait's where it has one, else the default value. The gait's speed at time zero is
-/// kept. The gait is sampled every millisecond, with its rates and accelerations: between samples angles differ by less than
-/// 1e-9 rad, and accelerations by what a jump of the third derivative makes of a millisecond.
+/// One signal per coordinate of the model: the gait's curve if it has one, otherwise the default value. The walk keeps its
+/// speed of time zero.
 #[must_use]
 pub fn gait_signals(walk: &Walk, model: &Model) -> Vec<Signal> {
     let coordinates = WalkCoordinates::of(model);
@@ -19,12 +14,10 @@ pub fn gait_signals(walk: &Walk, model: &Model) -> Vec<Signal> {
     for (value, coordinate) in q.iter_mut().zip(model.coordinates()) {
         *value = coordinate.default_value;
     }
-    let samples = Samples::new(count, [0.0, walk.cycle_s()], STEP_S, true, |t, row| {
+    Signal::periodic(count, walk.cycle_s(), |t, row| {
         coordinates.write(&walk.at(t), &mut q, &mut qd, &mut qdd);
         for (k, entry) in row.iter_mut().enumerate() {
             *entry = [q[k], qd[k], qdd[k]];
         }
-    });
-    let samples = Arc::new(samples);
-    (0..count).map(|k| Signal::Sampled(Arc::clone(&samples), k)).collect()
+    })
 }

@@ -1,23 +1,23 @@
-//! How far feet slip while they stand.
+//! Slip of the feet during stance.
 
 use super::recording::WalkRecording;
 
-/// A foot stands where it carries more than this [N].
+/// A foot is in stance while it carries more than this [N].
 const LOADED_N: f64 = 20.0;
-/// A foot that carries nothing for longer has been swung [s].
+/// An unloaded phase longer than this is a swing [s].
 const SWING_S: f64 = 0.1;
 
-/// Slip of the most loaded point of a sole, added up over a stance [m].
+/// Slip of the most loaded point of a sole over one stance [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StanceSlip {
-    /// Farthest place less rearmost [m].
+    /// Distance between the foremost and the rearmost position [m].
     pub excursion: f64,
-    /// Way there and back [m].
+    /// Length of the path [m].
     pub path: f64,
 }
 
 impl WalkRecording {
-    /// The worst of all stances of both feet that begin and end after a row; none if no stance is whole.
+    /// Largest slip of all stances of both feet that begin and end after a row; `None` if no stance is complete.
     #[must_use]
     pub fn stance_slip(&self, first_row: usize) -> Option<StanceSlip> {
         let step_s = self.grid().step_s;
@@ -32,38 +32,38 @@ impl WalkRecording {
     }
 }
 
-/// A stance under way.
+/// Slip during a stance.
 #[derive(Debug, Clone, Copy, Default)]
-struct Place {
+struct FootPath {
     at: f64,
     rear: f64,
     front: f64,
     path: f64,
 }
 
-/// From what a foot carries [N] and its slip [m/s] in each row.
+/// Slip of each complete stance, from the load [N] and the slip velocity [m/s] of each row.
 fn stances(rows: impl Iterator<Item = (f64, f64)>, step_s: f64) -> Vec<StanceSlip> {
     let mut ended = Vec::new();
-    // The first stance may have begun before the rows: it is not kept.
-    let (mut begun, mut place, mut unloaded) = (false, Place::default(), 0);
+    // The first stance may have begun before the first row, so it is dropped.
+    let (mut begun, mut path, mut unloaded) = (false, FootPath::default(), 0);
     for (carried, slip) in rows {
         if carried > LOADED_N {
             unloaded = 0;
-            place.add(slip * step_s);
+            path.add(slip * step_s);
             continue;
         }
         unloaded += 1;
         if f64::from(unloaded) * step_s > SWING_S {
-            if begun && place.path > 0.0 {
-                ended.push(StanceSlip { excursion: place.front - place.rear, path: place.path });
+            if begun && path.path > 0.0 {
+                ended.push(StanceSlip { excursion: path.front - path.rear, path: path.path });
             }
-            (begun, place) = (true, Place::default());
+            (begun, path) = (true, FootPath::default());
         }
     }
     ended
 }
 
-impl Place {
+impl FootPath {
     fn add(&mut self, step: f64) {
         self.at += step;
         self.path += step.abs();
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn slip_adds_up_over_whole_stances_alone() {
         let swing = [(0.0, 9.0); 200];
-        // A millimetre forwards, half of it back; a bounce in the middle is no swing.
+        // One millimetre forwards, half of it back; the short unloading in the middle is not a swing.
         let stance = [vec![(700.0, 0.1); 10], vec![(5.0, 9.0); 30], vec![(700.0, -0.05); 10]].concat();
         let rows = [&stance[..], &swing, &stance, &swing, &stance].concat();
         let found = stances(rows.into_iter(), 1e-3);

@@ -1,0 +1,95 @@
+//! Synthesis of a walk, in the two modes.
+
+use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
+use super::walk::{CorrectionReport, SyntheticWalk, simulated_cycles, steady};
+use crate::findings::{Code, Findings};
+use crate::gait::{Gait, Pelvis, Walk};
+use crate::model::anthropometry::Human;
+use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
+use crate::simulation::walking::{Ground, Shoes, Walker, gait_signals};
+use crate::simulation::{ImpactLaw, StepSettings};
+
+/// Cycles before the corrected walk is steady; it starts with the planned motion.
+const CORRECTED_SKIPPED: usize = 1;
+/// Largest residual of a consistent walk, rms: force as a share of body weight, moment of body weight times leg length.
+const LARGEST_RESIDUAL: [f64; 2] = [0.01, 0.005];
+/// Cycles before the paper's walk repeats.
+const PAPER_SKIPPED: usize = 2;
+/// The paper's coefficient of friction (section 4.3).
+const FRICTION: f64 = 1.0;
+
+/// Computes a synthetic walk.
+///
+/// # Errors
+/// If the settings, the figure or the gait are invalid; see [`SyntheticError`].
+pub fn synthesise(
+    settings: &SyntheticWalkSettings<'_>,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    settings.check()?;
+    let human = settings.build.human()?;
+    match settings.mode {
+        SyntheticMode::Corrected => corrected(settings, human, findings),
+        SyntheticMode::Paper => paper(settings, human, findings),
+    }
+}
+
+/// The corrected mode: the gait is made dynamically consistent, then simulated on soft shoes.
+fn corrected(
+    settings: &SyntheticWalkSettings<'_>,
+    human: Human,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    let walk = Walk::new(settings.gait, human.dimensions.leg_length, findings)?;
+    let consistent_settings = ConsistentWalkSettings::default();
+    let consistent = make_consistent_walk(&human, &walk, &consistent_settings)?;
+    let correction = correction_report(&consistent, &human, &consistent_settings, findings)?;
+    let recording = consistent.simulate(
+        &human,
+        &consistent_settings,
+        settings.step_s(),
+        simulated_cycles(settings, CORRECTED_SKIPPED),
+        findings,
+    )?;
+    steady(settings, CORRECTED_SKIPPED, human, walk, &recording, Some(correction))
+}
+
+/// Reports the change of the gait; warns if residual forces remain.
+fn correction_report(
+    consistent: &ConsistentWalk,
+    human: &Human,
+    settings: &ConsistentWalkSettings,
+    findings: &mut Findings,
+) -> Result<CorrectionReport, SyntheticError> {
+    let residual = consistent.residual(human, &settings.shoes)?;
+    let weight = human.model.mass() * human.model.gravity().norm();
+    let allowed = [LARGEST_RESIDUAL[0] * weight, LARGEST_RESIDUAL[1] * weight * human.dimensions.leg_length];
+    if residual[0].rms > allowed[0] || residual[1].rms > allowed[1] {
+        let message = format!(
+            "no small change makes this gait dynamically consistent: a residual force of {:.1} N and a residual moment of {:.1} N.m (rms) remain at the root; expected at most {:.1} N and {:.1} N.m. The walk gets them from outside, and the verdict judges it. hint: choose another speed, step length or style",
+            residual[0].rms, residual[1].rms, allowed[0], allowed[1]
+        );
+        findings.report(Code::WalkNotConsistent, message);
+    }
+    Ok(CorrectionReport {
+        parameters: consistent.parameters(),
+        adjustment: consistent.adjustment(&human.model),
+        residual,
+        progress: consistent.progress.clone(),
+    })
+}
+
+/// The paper's mode: joints follow the gait, the trunk is held upright, and impacts of the rigid soles cancel the whole velocity.
+fn paper(
+    settings: &SyntheticWalkSettings<'_>,
+    human: Human,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
+    let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
+    let walk = Walk::new(&gait, human.dimensions.leg_length, findings)?;
+    let ground = Ground { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
+    let walker = Walker::new(&human, gait_signals(&walk, &human.model), &ground, walk.speed())?;
+    let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
+    let recording = walker.walk(&step, simulated_cycles(settings, PAPER_SKIPPED) * walk.cycle_s(), findings)?;
+    steady(settings, PAPER_SKIPPED, human, walk, &recording, None)
+}

@@ -1,0 +1,111 @@
+//! Settings of a synthetic walk.
+
+use crate::gait::{Gait, GaitError};
+use crate::kinematics::TrajectoryError;
+use crate::model::anthropometry::{Build, BuildError};
+use crate::simulation::consistent_walk::ConsistentWalkError;
+use crate::simulation::walking::WalkingError;
+use std::fmt;
+
+/// How a walk is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SyntheticMode {
+    /// Dynamically consistent, on soft shoes.
+    Corrected,
+    /// As in the 1997 paper: rigid soles, and the trunk is held upright.
+    Paper,
+}
+
+impl SyntheticMode {
+    /// Name of the mode in files and options.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            SyntheticMode::Corrected => "corrected",
+            SyntheticMode::Paper => "paper",
+        }
+    }
+}
+
+impl fmt::Display for SyntheticMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Settings of a synthetic walk.
+#[derive(Debug, Clone, Copy)]
+pub struct SyntheticWalkSettings<'a> {
+    /// The gait.
+    pub gait: &'a Gait,
+    /// Size and mass of the figure.
+    pub build: Build,
+    /// How the walk is computed.
+    pub mode: SyntheticMode,
+    /// Number of whole cycles of each foot.
+    pub cycles: usize,
+    /// Frame rate of the motion [Hz].
+    pub rate_hz: f64,
+}
+
+/// Largest number of cycles.
+pub const MOST_CYCLES: usize = 1000;
+/// Smallest and largest frame rate [Hz].
+pub const RATES_HZ: [f64; 2] = [20.0, 5000.0];
+/// Smallest step rate of the simulator [Hz].
+const SLOWEST_STEPS_HZ: f64 = 1000.0;
+
+impl SyntheticWalkSettings<'_> {
+    pub(super) fn check(&self) -> Result<(), SyntheticError> {
+        if !(1..=MOST_CYCLES).contains(&self.cycles) {
+            return Err(SyntheticError::Cycles { found: self.cycles });
+        }
+        if !(RATES_HZ[0]..=RATES_HZ[1]).contains(&self.rate_hz) {
+            return Err(SyntheticError::Rate { found_hz: self.rate_hz });
+        }
+        Ok(())
+    }
+
+    /// Steps of the simulator per frame of the motion.
+    pub(super) fn steps_per_frame(&self) -> usize {
+        (SLOWEST_STEPS_HZ / self.rate_hz - 1e-9).ceil().max(1.0) as usize
+    }
+
+    /// Time step of the simulator [s].
+    pub(super) fn step_s(&self) -> f64 {
+        1.0 / (self.rate_hz * self.steps_per_frame() as f64)
+    }
+}
+
+/// Why a walk could not be computed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SyntheticError {
+    /// A number of cycles outside the allowed range.
+    #[error("found {found} cycles; expected 1 to {MOST_CYCLES}")]
+    Cycles {
+        /// Number of cycles.
+        found: usize,
+    },
+    /// A frame rate outside the allowed range.
+    #[error("found a frame rate of {found_hz} Hz; expected {} to {} Hz", RATES_HZ[0], RATES_HZ[1])]
+    Rate {
+        /// Frame rate [Hz].
+        found_hz: f64,
+    },
+    /// The figure could not be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The gait is invalid.
+    #[error(transparent)]
+    Gait(#[from] GaitError),
+    /// The gait could not be made dynamically consistent.
+    #[error(transparent)]
+    Consistency(#[from] ConsistentWalkError),
+    /// The walk could not be simulated.
+    #[error(transparent)]
+    Walking(#[from] WalkingError),
+    /// The simulated motion is not finite.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+}

@@ -1,0 +1,145 @@
+//! The result of a synthesis: the steady part of a simulated walk, and a report on how it was made.
+
+use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
+use crate::gait::{Style, Walk};
+use crate::kinematics::Trajectory;
+use crate::model::anthropometry::{Human, SegmentTable};
+use crate::motion::ForceRecording;
+use crate::numerics::Progress;
+use crate::simulation::consistent_walk::{Adjustment, Magnitude};
+use crate::simulation::walking::{ExcerptRows, StanceSlip, WalkRecording};
+
+/// A synthetic walk.
+#[derive(Debug, Clone)]
+pub struct SyntheticWalk {
+    /// The figure.
+    pub human: Human,
+    /// The gait, for this leg length.
+    pub walk: Walk,
+    /// The periodic motion at the frame rate of the settings.
+    pub trajectory: Trajectory,
+    /// Ground reactions on the feet.
+    pub loads: Vec<ForceRecording>,
+    /// Moments of the simulator's drives [N.m], one column per coordinate, one entry per frame.
+    pub efforts: Vec<Vec<f64>>,
+    /// How the walk was made, in numbers.
+    pub report: WalkReport,
+}
+
+/// Report on a synthetic walk.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WalkReport {
+    /// Name of the gait.
+    pub gait: String,
+    /// Style of the joint curves.
+    pub style: Style,
+    /// How the walk was computed.
+    pub mode: SyntheticMode,
+    /// Table of the figure's segments.
+    pub figure: SegmentTable,
+    /// Speed of the gait [m/s].
+    pub speed: f64,
+    /// Dimensionless speed V/√(gL).
+    pub dimensionless_speed: f64,
+    /// Step length [m].
+    pub step_length: f64,
+    /// Duration of a cycle [s].
+    pub cycle_s: f64,
+    /// Leg length: hip to floor, standing [m].
+    pub leg_length: f64,
+    /// The correction of the gait; `None` in the paper's mode.
+    pub correction: Option<CorrectionReport>,
+    /// Torque that holds the trunk from outside [N.m].
+    pub trunk_torque: Magnitude,
+    /// Slip of a loaded sole in the worst complete stance.
+    pub slip: Option<StanceSlip>,
+    /// Time without a loaded foot [s].
+    pub flight_s: f64,
+    /// Number of impacts of rigid soles, and the largest impulse on a foot [N.s]; zero on soft shoes.
+    pub impacts: (usize, f64),
+    /// Largest difference of the mid-hip's speed from one cycle to the next [m/s]. The angles are prescribed and repeat exactly.
+    pub speed_drift: f64,
+    /// Step rate of the simulator [Hz].
+    pub steps_hz: f64,
+    /// Number of steps whose contacts were not solved to the tolerance.
+    pub unsolved_steps: usize,
+}
+
+/// The correction that made a walk dynamically consistent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CorrectionReport {
+    /// Number of free parameters.
+    pub parameters: usize,
+    /// Size of the change of the motion.
+    pub adjustment: Adjustment,
+    /// Remaining residual force [N] and residual moment [N.m] of the planned motion.
+    pub residual: [Magnitude; 2],
+    /// Progress of the solver.
+    pub progress: Vec<Progress>,
+}
+
+/// The kept part begins this share of a cycle before the nominal strike of the right foot, so that the strike is inside.
+const LEAD_IN: f64 = 0.2;
+
+/// Cycles to simulate: the skipped ones, the requested ones, and one more, because the cycles of the left foot begin half a cycle
+/// later and the last strike must be inside.
+pub(super) fn simulated_cycles(settings: &SyntheticWalkSettings<'_>, skipped: usize) -> f64 {
+    (skipped + settings.cycles + 1) as f64
+}
+
+/// The steady part of a simulated walk.
+pub(super) fn steady(
+    settings: &SyntheticWalkSettings<'_>,
+    skipped: usize,
+    human: Human,
+    walk: Walk,
+    recording: &WalkRecording,
+    correction: Option<CorrectionReport>,
+) -> Result<SyntheticWalk, SyntheticError> {
+    let (every, step_s) = (settings.steps_per_frame(), settings.step_s());
+    let first = ((skipped as f64 - LEAD_IN) * walk.cycle_s() / step_s).max(0.0) as usize;
+    let frames = ((settings.cycles + 1) as f64 * walk.cycle_s() * settings.rate_hz).round() as usize;
+    let rows = ExcerptRows { first, every, frames };
+    let excerpt = recording.excerpt(rows)?;
+    let report = report(settings, rows, &human, &walk, recording, correction);
+    let (trajectory, loads, efforts) = (excerpt.trajectory, excerpt.loads, excerpt.efforts);
+    Ok(SyntheticWalk { human, walk, trajectory, loads, efforts, report })
+}
+
+fn report(
+    settings: &SyntheticWalkSettings<'_>,
+    rows: ExcerptRows,
+    human: &Human,
+    walk: &Walk,
+    recording: &WalkRecording,
+    correction: Option<CorrectionReport>,
+) -> WalkReport {
+    let step_s = settings.step_s();
+    let all = rows.first..rows.all().end.min(recording.grid().frames);
+    let start_s = rows.first as f64 * step_s;
+    let trunk = recording.effort("pelvis_tilt").map_or(&[][..], |torque| &torque[all.clone()]);
+    let impacts = recording.impacts.iter().filter(|impact| impact.time_s >= start_s);
+    let impulses: Vec<f64> = impacts.flat_map(|impact| impact.impulses.map(|impulse| impulse.norm())).collect();
+    let cycle_rows = (walk.cycle_s() / step_s).round() as usize;
+    let speed = recording.speed();
+    let later = all.clone().filter(|row| row + cycle_rows < all.end);
+    WalkReport {
+        gait: walk.name().to_owned(),
+        style: walk.style(),
+        mode: settings.mode,
+        figure: settings.build.table,
+        speed: walk.speed(),
+        dimensionless_speed: walk.dimensionless_speed(),
+        step_length: walk.step_length(),
+        cycle_s: walk.cycle_s(),
+        leg_length: human.dimensions.leg_length,
+        correction,
+        trunk_torque: Magnitude::of(trunk.iter().copied()),
+        slip: recording.stance_slip(rows.first.saturating_sub(cycle_rows)),
+        flight_s: step_s * all.clone().filter(|row| recording.flies(*row)).count() as f64,
+        impacts: (impulses.len() / 2, impulses.iter().copied().fold(0.0, f64::max)),
+        speed_drift: later.map(|row| (speed[row + cycle_rows] - speed[row]).abs()).fold(0.0, f64::max),
+        steps_hz: 1.0 / step_s,
+        unsolved_steps: recording.unsolved_steps,
+    }
+}
