@@ -133,7 +133,7 @@ fn swing(case: &Case) -> Files {
 /// What a panel shows of the right side over time.
 fn over_time(shown: &Shown, panel: &str) -> Vec<f64> {
     let traces = shown.panel(panel)["traces"].as_array().unwrap();
-    let right = traces.iter().find(|trace| trace["side"] == "right").unwrap_or_else(|| panic!("{panel}: {traces:?}"));
+    let right = traces.iter().find(|trace| trace["side"] == "r").unwrap_or_else(|| panic!("{panel}: {traces:?}"));
     shown.series(&right["values"])
 }
 
@@ -166,7 +166,7 @@ fn a_page_shows_hyperextension_as_extension() {
             moments.column("knee_angle_r_moment").unwrap().iter().map(|moment| -flexion * moment / mass_kg).collect();
         assert_same(&over_time(&shown, "knee_flexion_moment"), &extensor, name);
         let torques = shown.session()["view"]["torques"].as_array().unwrap();
-        let knee = torques.iter().find(|t| t["panel"] == "knee_flexion_moment" && t["side"] == "right").unwrap();
+        let knee = torques.iter().find(|t| t["panel"] == "knee_flexion_moment" && t["side"] == "r").unwrap();
         assert_same(&shown.series(&knee["values"]), &extensor, name);
         // The arrow of an extensor moment points along the axis of extension: to the right.
         let axis = &knee["axis"];

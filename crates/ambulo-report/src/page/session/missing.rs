@@ -12,9 +12,10 @@ use ambulo::model::Side;
 use std::collections::BTreeMap;
 
 /// Coordinates of the clinic that models often lack, with why.
-const LACKING: [(&str, &str); 4] = [
+const LACKING: [(&str, &str); 5] = [
     ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
     ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
+    ("knee_flexion_angle", "knee flexion (no body file shows which direction is flexion)"),
     ("knee_adduction_angle", "knee varus and rotation (the knee of this model only bends)"),
     ("foot_progression_angle", "foot progression (no file has it)"),
 ];
