@@ -133,7 +133,7 @@ fn swing(case: &Case) -> Files {
 /// What a panel shows of the right side over time.
 fn over_time(shown: &Shown, panel: &str) -> Vec<f64> {
     let traces = shown.panel(panel)["traces"].as_array().unwrap();
-    let right = traces.iter().find(|trace| trace["side"] == "right").unwrap_or_else(|| panic!("{panel}: {traces:?}"));
+    let right = traces.iter().find(|trace| trace["side"] == "r").unwrap_or_else(|| panic!("{panel}: {traces:?}"));
     shown.series(&right["values"])
 }
 

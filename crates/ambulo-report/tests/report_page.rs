@@ -193,7 +193,7 @@ fn bands_need_a_leg_length() {
     assert!(shown.header("Leg length").ends_with(" m"));
     files.remove("subject.osim");
     let bare = Shown::of(&files);
-    assert!(bare.panel("knee_flexion_angle")["band"].is_null());
+    assert!(bare.panel("hip_flexion_angle")["band"].is_null());
     assert!(bare.misses("No bands of healthy people: the leg length is not known"));
     assert!(bare.session()["view"].is_null() && bare.misses("There is no body"));
     assert_eq!(bare.header("Leg length"), "not known");
