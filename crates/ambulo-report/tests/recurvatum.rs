@@ -166,7 +166,7 @@ fn a_page_shows_hyperextension_as_extension() {
             moments.column("knee_angle_r_moment").unwrap().iter().map(|moment| -flexion * moment / mass_kg).collect();
         assert_same(&over_time(&shown, "knee_flexion_moment"), &extensor, name);
         let torques = shown.session()["view"]["torques"].as_array().unwrap();
-        let knee = torques.iter().find(|t| t["panel"] == "knee_flexion_moment" && t["side"] == "right").unwrap();
+        let knee = torques.iter().find(|t| t["panel"] == "knee_flexion_moment" && t["side"] == "r").unwrap();
         assert_same(&shown.series(&knee["values"]), &extensor, name);
         // The arrow of an extensor moment points along the axis of extension: to the right.
         let axis = &knee["axis"];
