@@ -244,7 +244,7 @@ fn knots_out_of_order_are_refused() {
     let text = changed(ANKLE, "at_percent = 66", "at_percent = 40");
     assert!(text.starts_with("line 20, `ankle.knot[3]`: found 40.0 % after 4"), "{text}");
     assert!(
-        text.ends_with("expected knots in the order of their times, 0.5 % or more apart, within one cycle"),
+        text.ends_with("expected knots in the order of their times, at least 0.5 % apart, within one cycle"),
         "{text}"
     );
     let text = changed(ANKLE, "at_percent = 66", "at_percent = 100.2");
@@ -278,7 +278,7 @@ fn rules_of_style_1997_are_kept() {
     let text = refused(&KNEE_1997.replace("[70, 4]", "[70, 4, 1]"));
     assert!(
         text.ends_with(
-            "expected a number, or a linear law [c0, c1] of dimensionless speed, as style \"1997\" has them"
+            "expected a number, or a linear law [c0, c1] of dimensionless speed, because the style is \"1997\""
         ),
         "{text}"
     );
