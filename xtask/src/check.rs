@@ -106,7 +106,15 @@ const LONG_STEPS: [Step; 3] = [
     Step {
         name: "fuzz corpus",
         tool: Tool::Cargo,
-        arguments: &["run", "--manifest-path", "fuzz/Cargo.toml", "--no-default-features", "--example", "replay"],
+        arguments: &[
+            "run",
+            "--locked",
+            "--manifest-path",
+            "fuzz/Cargo.toml",
+            "--no-default-features",
+            "--example",
+            "replay",
+        ],
         variable: None,
         hint: "the last file that is printed is the one that fails",
     },

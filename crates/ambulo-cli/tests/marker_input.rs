@@ -217,7 +217,7 @@ fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() 
     ]);
     for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
         let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
-        run.refused(&[&format!("{option} has no use beside --model"), "hint: --static FILE"]);
+        run.refused(&[&format!("{option} has no use with --model"), "hint: --static FILE"]);
     }
     for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());

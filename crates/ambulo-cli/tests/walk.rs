@@ -214,7 +214,10 @@ fn what_makes_no_walk_is_refused() {
     ] {
         refused(&[option, value], &["found", "expected"]);
     }
-    refused(&["--speed", "1", "--step-length", "0.7", "--cadence", "120"], &["speed = step length", "hint: leave one"]);
+    refused(
+        &["--speed", "1", "--step-length", "0.7", "--cadence", "120"],
+        &["speed = step length", "hint: leave out one"],
+    );
     for mass in ["0", "-75", "nan", "5000"] {
         refused(&["--mass", mass], &["the body mass is", "expected 2 to 300 kg"]);
     }

@@ -110,7 +110,7 @@ fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -
     let mut text = String::from(
         "# Torques as harmonics of the cycle, N.m, with the sign of the model's coordinate:\n\
          # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
-         # t from the right foot's nominal contact. Blows are left out.\n",
+         # t from the right foot's nominal contact. Impacts are not included.\n",
     );
     for (mode, evidence) in modes {
         for (gait, run) in GAITS.iter().zip(&evidence.gaits) {

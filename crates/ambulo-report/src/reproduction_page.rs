@@ -1,6 +1,6 @@
-//! The page of `ambulo reproduce`: what the paper of 1997 shows and says beside what is found here, claim by claim.
+//! The page of `ambulo reproduce`: figures and claims of the 1997 paper with the results found here.
 //!
-//! The paper's drawings are not repeated; its captions and what its text says of each figure stand beside ours.
+//! The drawings of the paper are not included; its captions and a summary of its text are next to our figures.
 
 use super::html::{Document, escaped};
 use ambulo::reproduction::{Claim, Numbers, Sensitivity, assumptions, number};
@@ -12,15 +12,15 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src dat
 
 /// A figure of the paper.
 struct Figure {
-    /// Its number, and that of the file.
+    /// Number of the figure and of the file.
     number: u8,
-    /// Its caption.
+    /// Caption in the paper.
     caption: &'static str,
-    /// What the text says of it, in short.
+    /// Summary of the text of the paper.
     says: &'static str,
-    /// What is drawn here, where it is not the same.
+    /// Differences of our figure.
     here: &'static str,
-    /// The claims that it stands for.
+    /// The claims about this figure.
     claims: &'static [&'static str],
 }
 
@@ -29,49 +29,49 @@ const FIGURES: [Figure; 7] = [
     Figure {
         number: 1,
         caption: "Angular laws of the limbs and locomotion sub-cycles during human walking.",
-        says: "Each joint has sub-cycles of its own: the knee extends in three phases (E1, E2, E3) and flexes in one (F); their places follow speed by linear laws.",
-        here: "Nilsson's tables cannot be had: the curves follow laws fitted to published means of walking.",
+        says: "Each joint has its own sub-cycles: the knee extends in three phases (E1, E2, E3) and flexes in one (F); their times are linear in speed.",
+        here: "Nilsson's tables are not available: the curves are laws fitted to published means of walking.",
         claims: &[],
     },
     Figure {
         number: 2,
         caption: "Approximation of the knee angle trajectory by 5-degree polynomial.",
-        says: "Between two bounds a polynomial of degree 5 has first and second derivatives of zero at both.",
-        here: "Beside it the curve from which the bounds are taken.",
+        says: "Between two bounds the angle is a polynomial of degree 5 with zero first and second derivatives at both bounds.",
+        here: "The figure also shows the measured curve that the bounds are from.",
         claims: &[],
     },
     Figure {
         number: 3,
         caption: "Snapshots of the motion, during a step.",
-        says: "A cycle of one second, said to be a slow walk. The trunk keeps its angle to the ground; the driven legs move the body forwards.",
+        says: "A cycle of one second, which the paper calls a slow walk. The trunk keeps its angle to the ground; the driven legs move the body forwards.",
         here: "",
         claims: &["c1", "c3", "d1", "d2", "k"],
     },
     Figure {
         number: 4,
         caption: "Computed torques for the hip, the knee and the ankle of a leg during a step.",
-        says: "At 30 Hz: rather continuous, a period of one second; hip and knee alike in shape, the hip larger, the ankle lower; high, by an estimate of 576 N.m on average.",
-        here: "Blows of feet that strike are kept apart from torques.",
+        says: "At 30 Hz the torques are rather continuous and have a period of one second. Hip and knee have a similar shape, the hip is larger, the ankle is lower. The torques are high: the paper estimates 576 N.m on average.",
+        here: "Impulses of foot impacts are not part of the torques.",
         claims: &["a1", "a2", "b", "c2", "h1", "h2", "h3", "h4"],
     },
     Figure {
         number: 5,
         caption: "Action on the ground during the support phase. Measured (a) and computed (b) exhibit similarities.",
-        says: "Bouncing when the foot hits the ground, and an unwanted flying phase; otherwise quite similar to measured curves, for a figure of 80 kg.",
-        here: "Measured: mean of Schwartz, Rozumalski, Trost 2008 in place of the paper's sources.",
+        says: "The figure of 80 kg bounces when the foot hits the ground, and there is an unwanted flight phase; otherwise the force is quite similar to measured curves.",
+        here: "The measured curve is the mean of Schwartz, Rozumalski, Trost 2008 instead of the sources of the paper.",
         claims: &["e1", "e2", "i"],
     },
     Figure {
         number: 6,
         caption: "Influence of the mass of the human figure on the hip torques.",
-        says: "Amplitudes change in a scale close to that of the weight, the shape stays; in the swing phase torques change slightly.",
+        says: "Amplitudes change nearly in proportion to the weight, and the shape stays the same; in the swing phase the torques change slightly.",
         here: "",
         claims: &["f1", "f2"],
     },
     Figure {
         number: 7,
         caption: "Comparison of the different gaits, here shown with the computed torque for the knee.",
-        says: "Standard, long (1 s), short (0.62 s) and goose steps (0.82 s), after time scaling: the same global shape; short steps have the lowest torques and the most regular velocity.",
+        says: "Standard, long (1 s), short (0.62 s) and goose steps (0.82 s) have the same global shape after time scaling; short steps have the lowest torques and the most regular velocity.",
         here: "",
         claims: &["g1", "g2", "g3", "j"],
     },
@@ -85,14 +85,14 @@ pub fn reproduction_page(claims: &[Claim], sensitivities: &[Sensitivity], files:
     let body = format!(
         r#"<header>
 <h1>Dynamic analysis of human walking, recomputed</h1>
-<p>F. Faure, G. Debunne, M.-P. Cani, F. Multon, 8th Eurographics Workshop on Computer Animation and Simulation, 1997. Its walks are made anew in
-<b>the paper's mode</b> (rigid soles, joints driven by its curves, trunk held upright) and in a <b>corrected mode</b> (soft shoes, a moving trunk, a motion
-that agrees with its forces). A claim is judged in the paper's mode; the corrected number shows what becomes of it.</p>
+<p>F. Faure, G. Debunne, M.-P. Cani, F. Multon, 8th Eurographics Workshop on Computer Animation and Simulation, 1997. Its walks are simulated in
+<b>the paper's mode</b> (rigid soles, joints driven by its curves, trunk held upright) and in a <b>corrected mode</b> (soft shoes, a moving trunk, no
+residual forces). Claims are judged in the paper's mode; the number of the corrected mode is given for comparison.</p>
 <p><b>{held} of {total} claims hold.</b> <span class="soft">Ambulo {version}</span></p>
 </header>
 <main>
 <h2>Figures</h2>
-<p class="soft">The paper's drawings are not repeated here; their captions and what the text says of them stand beside ours.</p>
+<p class="soft">The drawings of the paper are not included. The captions and a summary of the text of the paper are next to our figures.</p>
 {figures}
 <h2>Claims</h2>
 {claims}
@@ -128,7 +128,7 @@ impl Figure {
     }
 }
 
-/// A figure as SVG; a sentence where it could not be drawn.
+/// A figure as SVG, or a message if it could not be drawn.
 fn picture(files: &[OutputFile], number: u8) -> String {
     let name = format!("figures/figure{number}.svg");
     let svg = files.iter().find(|file| file.name == name).and_then(|file| std::str::from_utf8(&file.bytes).ok());
@@ -149,15 +149,15 @@ fn mark(claim: &Claim) -> &'static str {
 
 fn claim_table(claims: &[Claim]) -> String {
     let mut html = String::from(
-        "<div class=\"scroll\"><table>\n<caption>Units stand in the names of the numbers. All of them are in claims.json.</caption>\n\
-         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">The paper, in short</th><th scope=\"col\">Number</th>\
+        "<div class=\"scroll\"><table>\n<caption>The names of the numbers contain the units. All numbers are in claims.json.</caption>\n\
+         <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
          <th scope=\"col\" class=\"number\">Paper's mode</th><th scope=\"col\" class=\"number\">Corrected</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
         let corrected = claim.corrected.as_ref().map_or(f64::NAN, |numbers| number(numbers, claim.headline));
         let _ = writeln!(
             html,
-            "<tr id=\"{id}\"><th scope=\"row\">{id}</th><td>{}</td><td>{}<details><summary>why, and all numbers</summary><p>{}</p>{}</details></td>\
+            "<tr id=\"{id}\"><th scope=\"row\">{id}</th><td>{}</td><td>{}<details><summary>reason and all numbers</summary><p>{}</p>{}</details></td>\
              <td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             mark(claim),
             escaped(claim.paper),
@@ -189,11 +189,11 @@ fn all_numbers(paper: &Numbers, corrected: Option<&Numbers>) -> String {
     html + "</tbody></table>"
 }
 
-/// What was taken for granted, and the claims that another value would turn.
+/// The assumptions, and the claims whose judgement changes with other values.
 fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     let mut html = String::from(
-        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">What</th><th scope=\"col\">Taken</th><th scope=\"col\">Why</th>\
-         <th scope=\"col\">Claims that other values turn</th></tr></thead>\n<tbody>\n",
+        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th><th scope=\"col\">Reason</th>\
+         <th scope=\"col\">Claims that change with other values</th></tr></thead>\n<tbody>\n",
     );
     for assumption in assumptions() {
         let own = sensitivities.iter().filter(|sensitivity| sensitivity.what == assumption.what);
@@ -206,7 +206,7 @@ fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
                 },
             })
             .collect();
-        let turned = if turned.is_empty() { "not tried".to_owned() } else { turned.join("; ") };
+        let turned = if turned.is_empty() { "not tested".to_owned() } else { turned.join("; ") };
         let cells = [assumption.what, assumption.value, assumption.why, &turned].map(escaped);
         let _ = writeln!(
             html,
@@ -217,7 +217,7 @@ fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     html + "</tbody></table></div>"
 }
 
-/// Three significant digits, a dash where there is no number.
+/// Three significant digits, or a dash if there is no number.
 fn shown(value: f64) -> String {
     let size = value.abs();
     match size {

@@ -195,7 +195,7 @@ fn numbers_that_no_gait_can_have_are_refused() {
     assert_eq!(refused("step_height = 30"), "line 1, `step_height`: found 30; expected a factor from 0.1 to 10");
     assert_eq!(
         refused("cadence_exponent = 1"),
-        "line 1, `cadence_exponent`: found 1; expected a share of speed from 0 to below 1"
+        "line 1, `cadence_exponent`: found 1; expected an exponent from 0 to below 1"
     );
 }
 
@@ -203,8 +203,8 @@ fn numbers_that_no_gait_can_have_are_refused() {
 fn contradictions_are_refused() {
     assert_eq!(
         refused("speed = 1\nstep_length = 0.7\ncadence = 120"),
-        "line 1, `speed`: found 1; expected the step length times the step frequency, 1.4000 m/s. hint: leave one of speed, \
-         step length and frequency out"
+        "line 1, `speed`: found 1; expected the step length times the step frequency, 1.4000 m/s. hint: leave out one of speed, \
+         step length and frequency"
     );
     assert_eq!(
         refused("speed = 1\n\ndimensionless_speed = 0.4"),
@@ -223,7 +223,7 @@ fn overlapping_and_parted_sub_cycles_are_refused() {
     assert_eq!(
         overlap,
         "line 15, `knee.sub_cycle[2]`: sub-cycle E overlaps sub-cycle F (by 5.0 % of the cycle at free speed); expected \
-         `from_percent` to be the `to_percent` of the one before"
+         `from_percent` to be equal to `to_percent` of the previous one"
     );
     let gap = changed(KNEE_1997, "to_percent = 140", "to_percent = 135");
     assert!(
@@ -232,7 +232,9 @@ fn overlapping_and_parted_sub_cycles_are_refused() {
     );
     let jump = changed(KNEE_1997, "to_deg = 5", "to_deg = 6");
     assert!(
-        jump.starts_with("line 6, `knee.sub_cycle[1]`: sub-cycle F begins at another angle than sub-cycle E ends"),
+        jump.starts_with(
+            "line 6, `knee.sub_cycle[1]`: sub-cycle F starts at another angle than the end of sub-cycle E"
+        ),
         "{jump}"
     );
 }
@@ -260,7 +262,7 @@ fn knots_out_of_order_are_refused() {
 fn angles_that_no_joint_has_are_refused() {
     let text = changed(KNEE_1997, "from_deg = 5\nto_deg = [40, 30]", "from_deg = 5\nto_deg = [170, 30]");
     // The next sub-cycle begins elsewhere, which is found first.
-    assert!(text.contains("begins at another angle"), "{text}");
+    assert!(text.contains("starts at another angle"), "{text}");
     let text = refused(&KNEE_1997.replace("[40, 30]", "[170, 30]"));
     assert!(text.starts_with("line 6, `knee.sub_cycle[1]`: found 1"), "{text}");
     assert!(text.ends_with("expected knee angles from -15° to 160°"), "{text}");
@@ -292,7 +294,10 @@ fn rules_of_style_1997_are_kept() {
     assert!(text.starts_with("line 5, `change[1].slope_deg`: found a change of slope"), "{text}");
     // A knee whose yield turns into an extension at low speed.
     let text = refused(&KNEE_1997.replace("[40, 30]", "[0, 30]"));
-    assert!(text.contains("found a sub-cycle that turns by") && text.contains("one sense at every speed"), "{text}");
+    assert!(
+        text.contains("found a sub-cycle that turns by") && text.contains("the same direction at every speed"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -5,7 +5,9 @@
 mod common;
 
 use ambulo::findings::Findings;
-use ambulo::gait::machine::{Children, Machine, Running, Sight, State, Transition, WalkMachine, state_table};
+use ambulo::gait::machine::{
+    ChildOutputs, Machine, MachineInputs, RunningMachine, State, Transition, WalkMachine, state_table,
+};
 use ambulo::gait::{Clock, Gait, Jet, SpeedChange, Walk};
 use common::random::Random;
 
@@ -80,18 +82,19 @@ fn the_order_of_children_changes_no_bit() {
 fn mirrors() -> Machine {
     let mirror = |name: &str, other: &'static str, start: [&str; 2]| {
         let states = start.map(State::named).to_vec();
-        let way = |from: usize| {
+        let transition = |from: usize| {
             let wanted = start[1 - from].to_owned();
-            Transition::new(from, 1 - from, "the other was", move |sight: &Sight<'_>| {
-                sight.state(other) == Some(&wanted)
+            Transition::new(from, 1 - from, "the other was", move |inputs: &MachineInputs<'_>| {
+                inputs.state(other) == Some(&wanted)
             })
         };
-        Machine::new(name, states, |state, _, _| Jet::constant(state as f64)).with_transitions([way(0), way(1)])
+        Machine::new(name, states, |state, _, _| Jet::constant(state as f64))
+            .with_transitions([transition(0), transition(1)])
     };
-    let counter = Machine::new("counter", Vec::new(), |_, sight, _| {
-        sight.output("counter").unwrap() * 10.0 + sight.output("left").unwrap().value
+    let counter = Machine::new("counter", Vec::new(), |_, inputs, _| {
+        inputs.output("counter").unwrap() * 10.0 + inputs.output("left").unwrap().value
     });
-    let sum = |_: usize, _: &Sight<'_>, children: &Children<'_>| {
+    let sum = |_: usize, _: &MachineInputs<'_>, children: &ChildOutputs<'_>| {
         children.output("left") + children.output("right") * 10.0 + children.output("counter") * 100.0
     };
     Machine::new("root", Vec::new(), sum).with_children([
@@ -104,7 +107,7 @@ fn mirrors() -> Machine {
 #[test]
 fn siblings_see_the_step_before_and_nothing_of_this_one() {
     for seed in 0..6 {
-        let mut running = Running::new(mirrors().with_children_ordered(&shuffled(seed)));
+        let mut running = RunningMachine::new(mirrors().with_children_ordered(&shuffled(seed)));
         let clock = Clock::default();
         let number = |name: &str| running.number(name).unwrap();
         let (left, right, root) = (number("left"), number("right"), number("root"));

@@ -156,7 +156,7 @@ fn changes_that_cannot_be_made_are_refused() {
     let error = walk.clone().with_speed_change(change(4.0, 1.0, 1.0), &mut findings).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "change of speed: found a start at 4 s; expected 4.1 s or later, when the change before it has ended"
+        "change of speed: found a start at 4 s; expected 4.1 s or later, after the end of the previous change"
     );
     let error = walk.clone().with_speed_change(change(5.0, 1.0, 0.0), &mut findings).unwrap_err();
     assert_eq!(error.to_string(), "speed after a change [m/s]: found 0; expected a number above zero");

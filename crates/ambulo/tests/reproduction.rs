@@ -4,7 +4,7 @@
 
 use ambulo::gait::Gait;
 use ambulo::reproduction::{
-    Claim, Evidence, FRICTION, Footwear, GAITS, PaperSettings, Request, Scope, Steady, angular_laws, assumptions,
+    Claim, Evidence, FRICTION, Footwear, GAITS, PaperSettings, Scope, Steady, TrialSettings, angular_laws, assumptions,
     claims, measured_vertical, muscle_table, number, paper_figures, paper_human, paper_walk, paper_walk_with,
     torque_series,
 };
@@ -15,7 +15,7 @@ static EVIDENCE: LazyLock<Evidence> = LazyLock::new(|| gather(Scope::Full));
 static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| claims(&EVIDENCE, None));
 
 fn gather(scope: Scope) -> Evidence {
-    Evidence::gather(&mut |request: &Request<'_>| paper_walk(request), scope, None).unwrap()
+    Evidence::gather(&mut |trial: &TrialSettings<'_>| paper_walk(trial), scope, None).unwrap()
 }
 
 fn claim(id: &str) -> &'static Claim {
@@ -137,16 +137,22 @@ fn a_corrected_mode_stands_beside_the_paper_s() {
 #[test]
 fn what_the_paper_leaves_open_changes_the_walk() {
     let (human, gait) = (paper_human().unwrap(), Gait::named("standard").unwrap());
-    let request =
-        Request { gait: &gait, human: &human, shoes: Footwear::Own, friction: FRICTION, rate_hz: 500.0, cycles: 8 };
-    let own = paper_walk_with(&PaperSettings::default(), &request).unwrap();
+    let trial = TrialSettings {
+        gait: &gait,
+        human: &human,
+        shoes: Footwear::Own,
+        friction: FRICTION,
+        rate_hz: 500.0,
+        cycles: 8,
+    };
+    let own = paper_walk_with(&PaperSettings::default(), &trial).unwrap();
     for assumption in assumptions() {
         for (other, settings) in assumption.others {
             let changes_shoes = settings.soft_shoes != PaperSettings::default().soft_shoes;
             if settings.own_length.is_some() || changes_shoes {
                 continue;
             }
-            let run = paper_walk_with(&settings, &request).unwrap();
+            let run = paper_walk_with(&settings, &trial).unwrap();
             assert!(run.recording.efforts != own.recording.efforts, "{}: {other}", assumption.what);
         }
     }

@@ -15,7 +15,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::model::Side;
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::reproduction::{Footwear, Request, paper_walk};
+use ambulo::reproduction::{Footwear, TrialSettings, paper_walk};
 use ambulo::simulation::synthetic::{SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
@@ -176,9 +176,9 @@ fn the_papers_mode_is_the_one_whose_claims_are_judged() {
     let build = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false };
     let (walk, _) = made("standard", build, SyntheticMode::Paper);
     let (gait, human) = (Gait::named("standard").unwrap(), build.human().unwrap());
-    let request =
-        Request { gait: &gait, human: &human, shoes: Footwear::Own, friction: 1.0, rate_hz: 1000.0, cycles: 5 };
-    let judged = paper_walk(&request).unwrap().recording;
+    let trial =
+        TrialSettings { gait: &gait, human: &human, shoes: Footwear::Own, friction: 1.0, rate_hz: 1000.0, cycles: 5 };
+    let judged = paper_walk(&trial).unwrap().recording;
     let forward = human.model.coordinate("pelvis_tx").unwrap();
     let (short, long) = (walk.trajectory.values(forward), judged.trajectory.values(forward));
     let first = long.iter().position(|x| x.to_bits() == short[0].to_bits()).unwrap();

@@ -27,15 +27,34 @@ struct Module<'t> {
     paths: BTreeSet<NamePath<'t>>,
 }
 
-/// The circles among the files of a crate, each as indices of `files`, sorted.
-pub(super) fn circles(files: &[File], tokens: &[Vec<Token<'_>>]) -> Vec<Vec<usize>> {
-    let modules: Vec<Module<'_>> = tokens.iter().map(|tokens| read(tokens)).collect();
+/// Files that use each other, as indices of the crate's files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Circle {
+    /// Sorted.
+    pub(super) files: Vec<usize>,
+    /// User, used, and a name that is used, for each pair.
+    pub(super) uses: Vec<(usize, usize, String)>,
+}
+
+/// The circles among the files of a crate.
+pub(super) fn circles<'t>(files: &'t [File], tokens: &[Vec<Token<'t>>]) -> Vec<Circle> {
+    let modules: Vec<Module<'t>> = tokens.iter().map(|tokens| read(tokens)).collect();
     let by_path = files.iter().enumerate().map(|(i, file)| (file.module(), i)).collect();
     let graph = Graph { modules, by_path };
     let encloses = |outer: usize, inner: &File| inner.module().starts_with(&files[outer].module());
-    let uses = |file: &File| graph.uses(&file.module()).into_iter().filter(|&used| !encloses(used, file)).collect();
-    let edges: Vec<BTreeSet<usize>> = files.iter().map(uses).collect();
-    strong_components(&edges)
+    let uses = |file: &'t File| {
+        let mut used = graph.uses(&file.module());
+        used.retain(|&used, _| !encloses(used, file));
+        used
+    };
+    let uses: Vec<BTreeMap<usize, &str>> = files.iter().map(uses).collect();
+    let edges: Vec<BTreeSet<usize>> = uses.iter().map(|used| used.keys().copied().collect()).collect();
+    let circle = |files: Vec<usize>| {
+        let of_file = |&user: &usize| uses[user].iter().map(move |(&used, &name)| (user, used, name.to_owned()));
+        let uses = files.iter().flat_map(of_file).filter(|(_, used, _)| files.contains(used)).collect();
+        Circle { files, uses }
+    };
+    strong_components(&edges).into_iter().map(circle).collect()
 }
 
 /// All files with their module paths.
@@ -45,10 +64,11 @@ struct Graph<'t> {
 }
 
 impl<'t> Graph<'t> {
-    /// The files that the file of a module uses, itself included.
-    fn uses(&self, module: &[&'t str]) -> BTreeSet<usize> {
-        let Some(&own) = self.by_path.get(module) else { return BTreeSet::new() };
-        self.modules[own].paths.iter().filter_map(|path| self.file_of(module, path, LONGEST_CHAIN)).collect()
+    /// The files that the file of a module uses, itself included, each with one name that is used.
+    fn uses(&self, module: &[&'t str]) -> BTreeMap<usize, &'t str> {
+        let Some(&own) = self.by_path.get(module) else { return BTreeMap::new() };
+        let used = |path: &NamePath<'t>| Some((self.file_of(module, path, LONGEST_CHAIN)?, *path.last()?));
+        self.modules[own].paths.iter().filter_map(used).collect()
     }
 
     /// The file that defines the item of a path as seen from a module; none for modules and for other crates.
@@ -228,7 +248,7 @@ mod tests {
             files.iter().map(|&(path, text)| File { path: path.to_owned(), text: text.to_owned() }).collect();
         let tokens: Vec<Vec<Token<'_>>> = files.iter().map(|file| without_tests(&tokens(&file.text))).collect();
         let found = circles(&files, &tokens);
-        found.iter().map(|circle| circle.iter().map(|&i| files[i].path.clone()).collect()).collect()
+        found.iter().map(|circle| circle.files.iter().map(|&i| files[i].path.clone()).collect()).collect()
     }
 
     #[test]

@@ -106,8 +106,13 @@ impl House {
             }
         }
         for circle in imports::circles(&one.files, &product) {
-            let files: Vec<&str> = circle.iter().map(|&i| one.files[i].path.as_str()).collect();
-            self.circles.push(format!("{}: {}", one.name, files.join(" ")));
+            let path = |i: usize| one.files[i].path.as_str();
+            let files: Vec<&str> = circle.files.iter().map(|&i| path(i)).collect();
+            let uses = circle
+                .uses
+                .iter()
+                .map(|(user, used, name)| format!("\n    {} uses {name} of {}", path(*user), path(*used)));
+            self.circles.push(format!("{}: {}{}", one.name, files.join(" "), uses.collect::<String>()));
         }
     }
 

@@ -1,6 +1,7 @@
 //! `ambulo events`: foot strikes and toe-offs, from every source that a recording has.
 
 use crate::args::EventsArgs;
+use crate::printer::{EventSource, SourceAgreement};
 use crate::{Verdict, files, printer};
 use ambulo::analysis::{EventAgreement, LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
@@ -16,22 +17,6 @@ use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 use std::fmt::Write;
 use std::fs;
-
-/// Events from one source, in order of time.
-pub(crate) struct Source {
-    /// One word, for tables.
-    pub(crate) word: &'static str,
-    /// For people.
-    pub(crate) title: String,
-    pub(crate) events: Vec<Event>,
-}
-
-/// How well one source agrees with another.
-pub(crate) struct Agreed {
-    pub(crate) found: &'static str,
-    pub(crate) reference: &'static str,
-    pub(crate) kinds: [EventAgreement; 2],
-}
 
 pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
     let bytes = files::read(&args.input)?;
@@ -55,20 +40,20 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
     Ok(Verdict::Accepted)
 }
 
-fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let LaboratoryFile { recording, events, .. } = LaboratoryFile::from_c3d(bytes, shown, findings)?;
     let LaboratoryRecording { markers, plates, .. } = in_world(&recording, findings);
     let motion = foot_motion(&markers, findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
     let of_plates = of_plates(&feet, &plates);
     Ok(vec![
-        Source { word: "plates", title: "force plates (20 N)".into(), events: of_plates },
+        EventSource { word: "plates", title: "force plates (20 N)".into(), events: of_plates },
         of_motion(motion),
-        Source { word: "file", title: "the file's own list".into(), events },
+        EventSource { word: "file", title: "the file's own list".into(), events },
     ])
 }
 
-fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+fn from_trc(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let file = LaboratoryFile::from_trc(bytes, shown, findings)?;
     Ok(markers_alone(&in_world(&file.recording, findings).markers, findings))
 }
@@ -79,7 +64,7 @@ fn in_world(recording: &LaboratoryRecording, findings: &mut Findings) -> Laborat
     turned
 }
 
-fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let (bvh, remarks) = Bvh::read(bytes)?;
     files::note_remarks(shown, &remarks, findings);
     let skeleton = skeleton_from_bvh(&bvh, shown, None, findings)?;
@@ -88,12 +73,12 @@ fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<So
     Ok(markers_alone(&straight, findings))
 }
 
-fn markers_alone(markers: &MarkerRecording, findings: &mut Findings) -> Vec<Source> {
+fn markers_alone(markers: &MarkerRecording, findings: &mut Findings) -> Vec<EventSource> {
     vec![of_motion(foot_motion(markers, findings))]
 }
 
 /// Ground forces by their usual columns: what stands before `vy`, with a side in its name or the usual order of the two feet.
-fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Source>> {
+fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let (table, remarks) = Table::read_storage(bytes)?;
     files::note_remarks(shown, &remarks, findings);
     let times = table.times().context("no column `time`; expected it first")?;
@@ -111,7 +96,7 @@ fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec
             push(&mut events, side, contact.strike_s, contact.off_s);
         }
     }
-    Ok(vec![Source { word: "plates", title: "ground forces (20 N)".into(), events: sorted(events) }])
+    Ok(vec![EventSource { word: "plates", title: "ground forces (20 N)".into(), events: sorted(events) }])
 }
 
 /// The upward forces of both feet.
@@ -140,9 +125,9 @@ fn of_plates(feet: &FeetOnPlates, plates: &[PlateRecording]) -> Vec<Event> {
     sorted(events)
 }
 
-fn of_motion(motion: FootMotion) -> Source {
+fn of_motion(motion: FootMotion) -> EventSource {
     let methods = motion.by_method.len();
-    Source { word: "motion", title: format!("motion of the feet ({methods} methods)"), events: motion.events }
+    EventSource { word: "motion", title: format!("motion of the feet ({methods} methods)"), events: motion.events }
 }
 
 fn push(events: &mut Vec<Event>, side: Side, strike_s: Option<f64>, off_s: Option<f64>) {
@@ -156,10 +141,10 @@ fn sorted(mut events: Vec<Event>) -> Vec<Event> {
 }
 
 /// Each source against the ones before it that have events.
-fn agreements(sources: &[Source]) -> Vec<Agreed> {
-    let filled: Vec<&Source> = sources.iter().filter(|source| !source.events.is_empty()).collect();
+fn agreements(sources: &[EventSource]) -> Vec<SourceAgreement> {
+    let filled: Vec<&EventSource> = sources.iter().filter(|source| !source.events.is_empty()).collect();
     let pairs = (0..filled.len()).flat_map(|k| (k + 1..filled.len()).map(move |later| (k, later)));
-    let agreed = |(reference, found): (usize, usize)| Agreed {
+    let agreed = |(reference, found): (usize, usize)| SourceAgreement {
         found: filled[found].word,
         reference: filled[reference].word,
         kinds: event_agreement(&filled[reference].events, &filled[found].events),
@@ -167,7 +152,7 @@ fn agreements(sources: &[Source]) -> Vec<Agreed> {
     pairs.map(agreed).collect()
 }
 
-fn csv(sources: &[Source]) -> String {
+fn csv(sources: &[EventSource]) -> String {
     let mut out = String::from("side,event,time,source\n");
     for source in sources {
         for Event { side, kind, time_s } in &source.events {

@@ -2,7 +2,9 @@
 
 use crate::args::ReproduceArgs;
 use crate::{Verdict, files, printer};
-use ambulo::reproduction::{Claim, Corrected, Evidence, Mode, Request, Scope, claims, paper_walk, sensitivities};
+use ambulo::reproduction::{
+    Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
+};
 use ambulo_report::{reproduction_files, reproduction_page};
 use anyhow::Result;
 use std::time::Instant;
@@ -10,10 +12,10 @@ use std::time::Instant;
 pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
-    let mut mode = |request: &Request<'_>| paper_walk(request);
+    let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
-    let mut mode = Corrected::default();
-    let corrected = gather("the corrected mode", &mut |request: &Request<'_>| mode.walk(request), &clock, args)?;
+    let mut mode = CorrectedMode::default();
+    let corrected = gather("the corrected mode", &mut |trial: &TrialSettings<'_>| mode.walk(trial), &clock, args)?;
     let claims: Vec<Claim> = claims(&paper, Some(&corrected));
     let others = if args.brief {
         Vec::new()

@@ -15,7 +15,7 @@ pub(crate) use forces::forces;
 pub(crate) use report::{report, view};
 pub(crate) use reproduce::reproduce;
 pub(crate) use simulate::simulate;
-pub(crate) use tools::{ComparedColumn, compare, convert, events, info};
+pub(crate) use tools::{ComparedColumn, EventSource, SourceAgreement, compare, convert, events, info};
 
 use crate::args::Voice;
 use crate::hints;

@@ -2,7 +2,7 @@
 
 use super::{print_findings, print_verdict, say};
 use crate::args::Voice;
-use ambulo_results::SceneSummary;
+use ambulo_results::{ContactSummary, SceneSummary, WorldSummary};
 use anyhow::Result;
 use std::path::Path;
 
@@ -17,21 +17,7 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
     }
     let (world, energy, convergence) = (&summary.world, &summary.energy, &summary.convergence);
     say(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
-    let counted = |count: usize, one: &str, many: &str| match count {
-        0 => String::new(),
-        1 => format!(", 1 {one}"),
-        _ => format!(", {count} {many}"),
-    };
-    say(&format!(
-        "  world       {} bod{}, {:.2} kg{}{}{}{}",
-        world.bodies,
-        if world.bodies == 1 { "y" } else { "ies" },
-        world.mass_kg,
-        counted(world.figures, "figure", "figures"),
-        counted(world.joints, "joint", "joints"),
-        counted(world.closures, "closure", "closures"),
-        counted(world.obstacles, "obstacle", "obstacles"),
-    ))?;
+    print_world(world)?;
     let [from, to] = summary.window_s;
     let each_us = 1e3 * summary.timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
     say(&format!(
@@ -46,14 +32,7 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
         say(&format!("  joint error {:.1e} m at most", summary.joint_error_max_m))?;
     }
     if world.surfaces > 0 {
-        let contacts = &summary.contacts;
-        say(&format!(
-            "  contacts    {} points at most, {:.2} N at one of them, overlap {:.1e} m{}",
-            contacts.points_max,
-            contacts.normal_force_max_n,
-            contacts.overlap_max_m,
-            counted(contacts.impacts, "collision within a step", "collisions within steps"),
-        ))?;
+        print_contacts(&summary.contacts)?;
     }
     say(&format!(
         "  iterations  {:.1} a step, {} at most; residual {:.1e} at most, {} step{} not converged",
@@ -69,6 +48,40 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
         print_verdict(&judged.verdict)?;
     }
     say(&format!("  written     {}", output.display()))
+}
+
+/// Bodies, masses and joints of the world.
+fn print_world(world: &WorldSummary) -> Result<()> {
+    say(&format!(
+        "  world       {} bod{}, {:.2} kg{}{}{}{}",
+        world.bodies,
+        if world.bodies == 1 { "y" } else { "ies" },
+        world.mass_kg,
+        counted(world.figures, "figure", "figures"),
+        counted(world.joints, "joint", "joints"),
+        counted(world.closures, "closure", "closures"),
+        counted(world.obstacles, "obstacle", "obstacles"),
+    ))
+}
+
+/// Largest contact force and overlap.
+fn print_contacts(contacts: &ContactSummary) -> Result<()> {
+    say(&format!(
+        "  contacts    {} points at most, {:.2} N at one of them, overlap {:.1e} m{}",
+        contacts.points_max,
+        contacts.normal_force_max_n,
+        contacts.overlap_max_m,
+        counted(contacts.impacts, "collision within a step", "collisions within steps"),
+    ))
+}
+
+/// `, 2 joints`; nothing for none.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    match count {
+        0 => String::new(),
+        1 => format!(", 1 {one}"),
+        _ => format!(", {count} {many}"),
+    }
 }
 
 /// Efforts of the coordinates that have some.

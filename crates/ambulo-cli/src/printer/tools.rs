@@ -2,10 +2,10 @@
 
 use super::{print_findings, say};
 use crate::args::Voice;
-use crate::commands::events::{Agreed, Source};
 use crate::commands::info::Sheet;
-use ambulo::analysis::Agreement;
+use ambulo::analysis::{Agreement, EventAgreement};
 use ambulo::findings::Findings;
+use ambulo::motion::Event;
 use anyhow::Result;
 use serde::Serialize;
 
@@ -93,8 +93,29 @@ pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, voic
     written.iter().try_for_each(|path| say(&format!("written: {path}")))
 }
 
+/// Events from one source, in order of time.
+pub(crate) struct EventSource {
+    /// One word, for tables.
+    pub(crate) word: &'static str,
+    /// For people.
+    pub(crate) title: String,
+    pub(crate) events: Vec<Event>,
+}
+
+/// How well one source agrees with another.
+pub(crate) struct SourceAgreement {
+    pub(crate) found: &'static str,
+    pub(crate) reference: &'static str,
+    pub(crate) kinds: [EventAgreement; 2],
+}
+
 /// The outcome of `events`.
-pub(crate) fn events(sources: &[Source], agreements: &[Agreed], findings: &Findings, voice: Voice) -> Result<()> {
+pub(crate) fn events(
+    sources: &[EventSource],
+    agreements: &[SourceAgreement],
+    findings: &Findings,
+    voice: Voice,
+) -> Result<()> {
     if voice.quiet {
         return Ok(());
     }
@@ -108,7 +129,7 @@ pub(crate) fn events(sources: &[Source], agreements: &[Agreed], findings: &Findi
             say(&format!("  {:8.3} s  {:5}  {}", event.time_s, event.side.to_string(), event.kind.word()))?;
         }
     }
-    for Agreed { found, reference, kinds } in agreements {
+    for SourceAgreement { found, reference, kinds } in agreements {
         for kind in kinds.iter().filter(|kind| kind.pairs > 0) {
             say(&format!(
                 "{found} against {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} more",
@@ -126,7 +147,7 @@ pub(crate) fn events(sources: &[Source], agreements: &[Agreed], findings: &Findi
     Ok(())
 }
 
-fn events_json(sources: &[Source], agreements: &[Agreed], findings: &Findings) -> serde_json::Value {
+fn events_json(sources: &[EventSource], agreements: &[SourceAgreement], findings: &Findings) -> serde_json::Value {
     let events = sources.iter().flat_map(|source| {
         source.events.iter().map(|event| {
             let (side, kind) = (event.side.letter(), event.kind.word());

@@ -13,7 +13,6 @@ mod frame;
 mod function;
 mod joint;
 mod write;
-mod write_function;
 
 pub use constraint::OsimConstraint;
 pub use function::{Knots, OsimFunction};

@@ -1,19 +1,20 @@
-//! Swing of the arms against the legs, after Boulic, Magnenat-Thalmann, Thalmann 1990, made C².
+//! Arm swing opposite to the legs, after Boulic, Magnenat-Thalmann, Thalmann 1990, made C².
 //!
-//! With relative speed R = V/H [1/s], H = thigh + shank, t [cycles] from contact of the same side's foot; angles in degrees:
+//! With relative speed R = V/H [1/s], H = thigh + shank, t [cycles] from foot strike of the same side; angles in degrees:
 //!
 //! ```text
-//! shoulder flexion = 3 - 4.94 R - 9.88 R cos(2π t)        backwards at the same foot's contact
+//! shoulder flexion = 3 - 4.94 R - 9.88 R cos(2π t)        backwards at foot strike of the same side
 //! elbow flexion    : (5 %, 6 R + 3) (50 %, 34 R + 3) (90 %, 10 R + 3) for R < 0.5
 //!                    (5 %, 6 + 8 x) (50 %, 20 + 24 x) (90 %, 8 + 9 x), x = (R - 0.5)/0.8, up to R = 1.3
 //!                    (5 %, 14 - 6 w) (51 %, 44 + 26 w) (90 %, 17 - 6 w), w = (R - 1.3)/1.7, above
 //! ```
 //!
-//! The formulas were read in a public port of that paper (a MATLAB function that cites it). It joins the elbow's points by monotone
-//! cubics, which have jumps of acceleration, and its lines in R have kinks. Here quintics pass through the points with slope zero
-//! and the curvature of the cosine arcs on both sides, averaged; the lines are one quadratic through R = 0.46, 1.3 and 2.53 (0.4, 1.1
-//! and 2.2 m/s), at most 2.7° off; times stay (the paper's wander by 1 % and, above R = 1.3, by up to 7 %). The paper's R is not dimensionless. So that equal dimensionless speeds have equal arms, R is taken for
-//! an adult with H = 0.884 m on a leg of L = H/0.926 (H is 0.491, L 0.530 of stature): R = V* √(gL)/H.
+//! The formulas are from a public port of that paper (a MATLAB function that cites it). The port joins the points of the elbow by monotone
+//! cubics, whose acceleration is not continuous, and its lines in R have kinks. Here quintics pass through the points with zero slope and
+//! the mean curvature of the cosine arcs on both sides. One quadratic through R = 0.46, 1.3 and 2.53 (0.4, 1.1 and 2.2 m/s) replaces the
+//! lines, with an error of at most 2.7°. Times are constant (in the paper they vary by 1 % and, above R = 1.3, by up to 7 %). The R of the
+//! paper is not dimensionless. Here R is computed for an adult with H = 0.884 m and L = H/0.926 (H is 0.491, L 0.530 of stature), so that equal
+//! dimensionless speeds give equal angles: R = V* √(gL)/H.
 
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::jet::Jet;
@@ -25,20 +26,20 @@ const DEGREE: f64 = PI / 180.0;
 const THIGH_AND_SHANK: f64 = 0.884;
 /// H / L.
 const SHARE_OF_LEG: f64 = 0.926;
-/// Times of the elbow's points [cycles].
+/// Times of the points of the elbow [cycles].
 const ELBOW_TIMES: [f64; 3] = [0.05, 0.5, 0.9];
-/// The elbow's points [deg] at the three relative speeds.
+/// The points of the elbow [deg] at the three relative speeds.
 const ELBOW_POINTS: [[f64; 3]; 3] = [[5.76, 14.0, 9.66], [18.64, 44.0, 62.81], [7.6, 17.0, 12.66]];
 /// Relative speeds R [1/s].
 const ELBOW_SPEEDS: [f64; 3] = [0.46, 1.3, 2.53];
 
-/// Shoulder and elbow of one side.
+/// The curves of shoulder and elbow of one side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArmCurves {
     elbow: CyclicCurve,
 }
 
-/// R for each unit of V* [1/s].
+/// R at V* = 1 [1/s].
 fn relative_speed() -> f64 {
     (GRAVITY * THIGH_AND_SHANK / SHARE_OF_LEG).sqrt() / THIGH_AND_SHANK
 }
@@ -50,7 +51,7 @@ impl Default for ArmCurves {
 }
 
 impl ArmCurves {
-    /// The curves; the elbow's knots are laws of dimensionless speed.
+    /// The curves; the knots of the elbow depend on the dimensionless speed.
     #[must_use]
     pub fn new() -> ArmCurves {
         let angles =
@@ -94,7 +95,7 @@ fn parabola([x0, x1, x2]: [f64; 3], [y0, y1, y2]: [f64; 3]) -> SpeedLaw {
     SpeedLaw { coefficients: [y0 - first * x0 + bend * x0 * x1, first - bend * (x0 + x1), bend] }
 }
 
-/// Curvature at `here` of the cosine arc to `there`, which takes `time` cycles (less whole ones): π² (there - here)/(2 time²).
+/// Curvature at `here` of the cosine arc to `there` of a duration of `time` cycles (without whole cycles): π² (there - here)/(2 time²).
 fn cosine_curvature(here: &SpeedLaw, there: &SpeedLaw, time: f64) -> SpeedLaw {
     let time = time - time.round();
     let factor = 0.5 * (PI / time).powi(2);

@@ -1,9 +1,9 @@
-//! A posture as coordinates of a model, by name.
+//! Converts a posture to coordinates of a model, by their names.
 //!
 //! The signs of the models (docs/CONVENTIONS.md) differ from clinical ones at the knee (extension +), at the pelvis and at the
-//! lumbar joint (backwards +). A model's pelvis stands at 0 in upright standing, where the clinical one is tilted forwards by
-//! [`STANDING_TILT`](super::STANDING_TILT): the tilt counts from there. What is kept in every case is the direction of the thigh,
-//! hip flexion less pelvis tilt.
+//! lumbar joint (backwards +). The pelvic tilt of a model is 0 in upright standing; the clinical tilt is then
+//! [`STANDING_TILT`](super::STANDING_TILT) forwards, which is subtracted. The direction of the thigh, hip flexion minus pelvic tilt, is the
+//! same in all conventions.
 //!
 //! ```text
 //! thigh = hip - tilt                                                     forward of the vertical
@@ -16,24 +16,24 @@ use super::jet::Jet;
 use super::walk::WalkPosture;
 use crate::model::{CoordinateId, Model};
 
-/// Whether the model's pelvis moves against its trunk.
+/// Whether the pelvis of a model moves relative to its trunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trunk {
     /// Pelvis and trunk are two bodies with the joint `lumbar_extension`.
     WithPelvis,
-    /// One body.
+    /// Pelvis and trunk are one body.
     OneBody,
 }
 
 impl Trunk {
-    /// What a model has.
+    /// The trunk of a model.
     #[must_use]
     pub fn of(model: &Model) -> Trunk {
         if model.coordinate("lumbar_extension").is_some() { Trunk::WithPelvis } else { Trunk::OneBody }
     }
 }
 
-/// Names of the coordinates that a posture gives, in the order of [`coordinates`].
+/// Names of the coordinates of a posture, in the order of [`coordinates`].
 pub const COORDINATE_NAMES: [&str; 12] = [
     "pelvis_tilt",
     "lumbar_extension",
@@ -82,13 +82,13 @@ pub struct WalkCoordinates {
 }
 
 impl WalkCoordinates {
-    /// The coordinates of a model that have the names of [`COORDINATE_NAMES`]; others are left alone.
+    /// The coordinates of a model with the names of [`COORDINATE_NAMES`]; others are not changed.
     #[must_use]
     pub fn of(model: &Model) -> WalkCoordinates {
         WalkCoordinates { trunk: Trunk::of(model), ids: COORDINATE_NAMES.map(|name| model.coordinate(name)) }
     }
 
-    /// Writes coordinates, rates and accelerations of a posture into a model's arrays.
+    /// Writes coordinates, rates and accelerations of a posture to arrays of a model.
     pub fn write(&self, posture: &WalkPosture, q: &mut [f64], qd: &mut [f64], qdd: &mut [f64]) {
         for (id, jet) in self.ids.iter().zip(coordinates(posture, self.trunk)) {
             if let Some(id) = id {
@@ -99,7 +99,7 @@ impl WalkCoordinates {
         }
     }
 
-    /// Names of the coordinates that it writes.
+    /// Names of the coordinates that are written.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.ids.iter().zip(COORDINATE_NAMES).filter_map(|(id, name)| id.map(|_| name))
     }

@@ -1,21 +1,21 @@
-//! What a curve must satisfy to be walked with: knots in order, angles that a joint can have; of laws in style 1997 also that
-//! a sub-cycle which extends at one speed extends at every speed.
+//! Checks of a joint curve: knots in order and angles in the range of the joint; in style 1997 also that a sub-cycle that extends at one
+//! speed extends at every speed.
 
 use super::cyclic_curve::CyclicCurve;
 use super::jet::Jet;
 use super::joint::Joint;
 
-/// Least distance of knots [cycles]; closer ones make accelerations without bound.
+/// Smallest distance of knots [cycles]; closer knots cause excessive accelerations.
 const CLOSEST_KNOTS: f64 = 0.005;
-/// Samples of a cycle on which angles are looked at; half a percent apart.
+/// Samples of a cycle at which angles are checked; half a percent apart.
 const SAMPLES: usize = 200;
-/// Free walking, where sub-cycles have the sense that their names say.
+/// Free walking, where the direction of sub-cycles agrees with their names.
 const REFERENCE_SPEED: f64 = 0.429;
 
-/// What is wrong with a curve.
+/// An error of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CurveFault {
-    /// The knot at fault, or that begins the segment at fault.
+    /// The knot with the error, or at the start of the segment with the error.
     pub(super) knot: usize,
     /// What was found and what was expected.
     pub(super) message: String,
@@ -37,7 +37,7 @@ fn check_order(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
             let [before, here] = [before, here].map(|phase| 100.0 * phase);
             let message = format!(
                 "found {here:.1} % after {before:.1} % at dimensionless speed {speed:.3}; expected knots in the order of \
-                 their times, {} % or more apart, within one cycle",
+                 their times, at least {} % apart, within one cycle",
                 100.0 * CLOSEST_KNOTS
             );
             return Err(CurveFault { knot: k % curve.knots().len(), message });
@@ -66,7 +66,7 @@ fn check_angles(curve: &CyclicCurve, joint: Joint, speed: f64) -> Result<(), Cur
     Ok(())
 }
 
-/// Checks that no sub-cycle turns the other way at some dimensionless speeds.
+/// Checks that no sub-cycle reverses its direction at some dimensionless speeds.
 pub(super) fn check_senses(curve: &CyclicCurve, speeds: &[f64]) -> Result<(), CurveFault> {
     speeds.iter().try_for_each(|speed| check_sense(curve, *speed))
 }
@@ -79,7 +79,7 @@ fn check_sense(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
         if here * usual < 0.0 {
             let message = format!(
                 "found a sub-cycle that turns by {:.2}° at dimensionless speed {speed:.3} and by {:.2}° at {REFERENCE_SPEED}; \
-                 expected one sense at every speed",
+                 expected the same direction at every speed",
                 here.to_degrees(),
                 usual.to_degrees()
             );

@@ -1,21 +1,21 @@
-//! Curves in TOML: `[[knee.knot]]` and `[[knee.sub_cycle]]`, in the files of the crate and in those of users.
+//! Reads curves from TOML: `[[knee.knot]]` and `[[knee.sub_cycle]]`, in built-in files and files of users.
 //!
 //! Numbers are constants or polynomials of dimensionless speed, `[c0, c1, c2]`; times in percent of the cycle, angles in
-//! degrees, slopes in degrees a cycle, curvatures in degrees a cycle². docs/GAITS.md describes the keys.
+//! degrees, slopes in degrees per cycle, curvatures in degrees per cycle². docs/GAITS.md describes the keys.
 
 use super::curve_check::{check, check_senses};
 use super::cyclic_curve::{CyclicCurve, Knot};
+use super::gait_settings::Style;
 use super::joint::Joint;
 use super::speed_law::SpeedLaw;
-use super::style::Style;
 use crate::toml_reader::{Place, Table, TomlError, Value};
 
-/// Percent that two ends of sub-cycles may differ by and be the same; degrees likewise.
+/// Two ends of sub-cycles are equal if they differ by less than this [cycles, rad].
 const SAME: f64 = 1e-9;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const PERCENT: f64 = 0.01;
 
-/// The curve of a joint, if the file gives one; checked at these dimensionless speeds.
+/// The curve of a joint, if the file has one, checked at these dimensionless speeds.
 pub(super) fn read_curve(
     root: &Table<'_>,
     joint: Joint,
@@ -56,10 +56,10 @@ fn knot(table: &Table<'_>) -> Result<Knot, TomlError> {
     Ok(Knot {
         name: table.need("name", "the name of the knot")?.filled_text()?,
         begins,
-        phase: law(table, "at_percent", "when the knot comes, in percent of the cycle")?.scaled(PERCENT),
+        phase: law(table, "at_percent", "the time of the knot in percent of the cycle")?.scaled(PERCENT),
         angle: law(table, "angle_deg", "the angle at the knot")?.scaled(DEGREE),
-        slope: law(table, "slope_deg", "the slope at the knot in degrees a cycle")?.scaled(DEGREE),
-        curvature: law(table, "curvature_deg", "the curvature at the knot in degrees a cycle²")?.scaled(DEGREE),
+        slope: law(table, "slope_deg", "the slope at the knot in degrees per cycle")?.scaled(DEGREE),
+        curvature: law(table, "curvature_deg", "the curvature at the knot in degrees per cycle²")?.scaled(DEGREE),
         height_share: height_share(table)?,
     })
 }
@@ -90,14 +90,14 @@ pub(super) fn law_of(value: &Value<'_>) -> Result<SpeedLaw, TomlError> {
     Ok(SpeedLaw { coefficients })
 }
 
-/// A sub-cycle as the file has it.
+/// A sub-cycle in the file.
 struct Span {
     name: String,
     end: Option<String>,
-    /// Activation and end [cycles].
+    /// Start and end [cycles].
     from: SpeedLaw,
     to: SpeedLaw,
-    /// Angles there [rad].
+    /// Angles at start and end [rad].
     from_angle: SpeedLaw,
     to_angle: SpeedLaw,
     height_share: f64,
@@ -108,25 +108,25 @@ fn span(table: &Table<'_>) -> Result<Span, TomlError> {
     let linear = |key: &str, meaning: &str| {
         let value = table.need(key, meaning)?;
         let law = law_of(&value)?;
-        let expected = "a number, or a linear law [c0, c1] of dimensionless speed, as style \"1997\" has them";
+        let expected = "a number, or a linear law [c0, c1] of dimensionless speed, because the style is \"1997\"";
         if law.is_linear() { Ok(law) } else { Err(value.wrong(expected)) }
     };
     Ok(Span {
         name: table.need("name", "the name of the sub-cycle")?.filled_text()?,
         end: table.get("end").map(|value| value.filled_text()).transpose()?,
-        from: linear("from_percent", "when the sub-cycle is activated, in percent of the cycle")?.scaled(PERCENT),
-        to: linear("to_percent", "when the sub-cycle ends, in percent of the cycle")?.scaled(PERCENT),
-        from_angle: linear("from_deg", "the angle at its activation")?.scaled(DEGREE),
+        from: linear("from_percent", "the start of the sub-cycle in percent of the cycle")?.scaled(PERCENT),
+        to: linear("to_percent", "the end of the sub-cycle in percent of the cycle")?.scaled(PERCENT),
+        from_angle: linear("from_deg", "the angle at its start")?.scaled(DEGREE),
         to_angle: linear("to_deg", "the angle at its end")?.scaled(DEGREE),
         height_share: height_share(table)?,
     })
 }
 
-/// Knots at the activations of sub-cycles that tile the cycle.
+/// Knots at the starts of sub-cycles that cover the cycle without gaps.
 fn sub_cycles(tables: &[Table<'_>]) -> Result<Vec<Knot>, TomlError> {
     let spans = tables.iter().map(span).collect::<Result<Vec<Span>, TomlError>>()?;
     let mut knots: Vec<Knot> = Vec::new();
-    // Whole cycles by which times have run on over 100 %, where the file counts from 0 again.
+    // Whole cycles to add where the times in the file start again from 0 %.
     let mut laps = 0.0;
     for (k, here) in spans.iter().enumerate() {
         let before = &spans[(k + spans.len() - 1) % spans.len()];
@@ -147,10 +147,10 @@ fn sub_cycles(tables: &[Table<'_>]) -> Result<Vec<Knot>, TomlError> {
     Ok(knots)
 }
 
-/// A speed in the middle of those on which laws are fitted.
+/// A speed in the middle of the range on which laws are fitted.
 const MIDDLE: f64 = 0.43;
 
-/// Whether a sub-cycle is activated where and when the one before it ends.
+/// Checks that a sub-cycle starts at the time and angle at which the previous one ends.
 fn follows(before: &Span, here: &Span) -> Result<(), String> {
     let differ = |a: &SpeedLaw, b: &SpeedLaw| (0..3).any(|i| (a.coefficients[i] - b.coefficients[i]).abs() > SAME);
     let gap = here.from.at(MIDDLE) - before.to.at(MIDDLE);
@@ -159,8 +159,8 @@ fn follows(before: &Span, here: &Span) -> Result<(), String> {
         let gap = 100.0 * (gap - whole);
         let kind = if gap < 0.0 { "overlaps" } else { "leaves a gap after" };
         return Err(format!(
-            "sub-cycle {} {kind} sub-cycle {} (by {:.1} % of the cycle at free speed); expected `from_percent` to be the \
-             `to_percent` of the one before",
+            "sub-cycle {} {kind} sub-cycle {} (by {:.1} % of the cycle at free speed); expected `from_percent` to be equal to \
+             `to_percent` of the previous one",
             here.name,
             before.name,
             gap.abs()
@@ -168,7 +168,7 @@ fn follows(before: &Span, here: &Span) -> Result<(), String> {
     }
     if differ(&here.from_angle, &before.to_angle) {
         return Err(format!(
-            "sub-cycle {} begins at another angle than sub-cycle {} ends; expected `from_deg` to be the `to_deg` of the one before",
+            "sub-cycle {} starts at another angle than the end of sub-cycle {}; expected `from_deg` to be equal to `to_deg` of the previous one",
             here.name, before.name
         ));
     }

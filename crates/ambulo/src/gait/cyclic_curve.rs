@@ -1,4 +1,4 @@
-//! A periodic angle: knots whose time, angle, slope and curvature follow speed, quintics between them.
+//! A periodic angle: knots whose time, angle, slope and curvature depend on speed, joined by quintics.
 //!
 //! On the segment between knots k and k+1, with phase φ [cycles] and dimensionless speed V*:
 //!
@@ -6,15 +6,15 @@
 //! w = p_{k+1}(V*) - p_k(V*),   u = (φ - p_k(V*)) / w,   angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
 //! ```
 //!
-//! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), w being above zero. Let D be the difference
+//! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), because w is above zero. Let D be the difference
 //! of the segments on both sides of knot k. On the line φ = p_k(V*) both sides have angle a_k, slope s_k and curvature c_k,
 //! so D = ∂D/∂φ = ∂²D/∂φ² = 0 there for every V*. By Taylor's theorem D = (φ - p_k(V*))³ E(φ, V*) with E smooth, and
-//! every derivative of D up to the second, in φ, in V* or mixed, keeps a factor φ - p_k(V*): all vanish on the line. So
-//! angle(φ(t), V*(t)) is C² in t whenever φ and V* are.
+//! every derivative of D up to the second, in φ, in V* or mixed, has a factor φ - p_k(V*) and vanishes on the line. Hence
+//! angle(φ(t), V*(t)) is C² in t if φ and V* are.
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
-//! | `phase` | φ, p_k | cycles, 0 at contact of the curve's own foot |
+//! | `phase` | φ, p_k | cycles, 0 at foot strike of the same side |
 //! | `angle` | a_k | rad |
 //! | `slope` | s_k | rad/cycle |
 //! | `curvature` | c_k | rad/cycle² |
@@ -25,12 +25,12 @@ use super::jet::Jet;
 use super::quintic::{End, quintic};
 use super::speed_law::SpeedLaw;
 
-/// A knot of a curve against dimensionless speed.
+/// A knot of a curve; its numbers depend on the dimensionless speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Knot {
     /// Name, such as `swing peak`.
     pub name: String,
-    /// The sub-cycle that is activated here, if one is.
+    /// The sub-cycle that starts here.
     pub begins: Option<String>,
     /// Time [cycles].
     pub phase: SpeedLaw,
@@ -40,12 +40,12 @@ pub struct Knot {
     pub slope: SpeedLaw,
     /// Second derivative [rad/cycle²].
     pub curvature: SpeedLaw,
-    /// Share of a change of step height that this knot takes, 0 to 1.
+    /// How much of a change of step height applies to this knot, 0 to 1.
     pub height_share: f64,
 }
 
 impl Knot {
-    /// The knot with its distance from the joint's neutral angle times a factor.
+    /// The knot with slope, curvature and distance from the neutral angle of the joint multiplied by a factor.
     #[must_use]
     pub fn scaled_about(&self, neutral: f64, factor: f64) -> Knot {
         Knot {
@@ -83,20 +83,20 @@ impl CyclicCurve {
         &self.knots
     }
 
-    /// The curve with each knot replaced by its image.
+    /// The curve with each knot replaced by the result of a function.
     #[must_use]
     pub fn mapped(&self, image: impl FnMut(&Knot) -> Knot) -> CyclicCurve {
         CyclicCurve { knots: self.knots.iter().map(image).collect() }
     }
 
-    /// Phase of knot k [cycles], counted on over the end of the cycle: knot n is knot 0 one cycle later.
+    /// Phase of knot k [cycles]; beyond the end of the cycle, knot n is knot 0 one cycle later.
     #[must_use]
     pub fn knot_phase(&self, k: usize, speed: f64) -> f64 {
         let n = self.knots.len();
         self.knots[k % n].phase.at(speed) + (k / n) as f64
     }
 
-    /// The phase of a cycle that begins at knot 0: `phase` less the whole cycles.
+    /// The phase in a cycle that starts at knot 0: `phase` without whole cycles.
     fn wrapped(&self, phase: Jet, speed: f64) -> Jet {
         let first = self.knot_phase(0, speed);
         let whole = (phase.value - first).floor();
@@ -105,7 +105,7 @@ impl CyclicCurve {
         if phase.value - first < 1.0 { phase } else { phase - 1.0 }
     }
 
-    /// The segment that a phase lies on; segment k begins at knot k.
+    /// The segment of a phase; segment k starts at knot k.
     #[must_use]
     pub fn segment_at(&self, phase: f64, speed: f64) -> usize {
         let phase = self.wrapped(Jet::constant(phase), speed).value;
@@ -119,7 +119,7 @@ impl CyclicCurve {
         self.on_segment(self.segment_at(phase.value, speed.value), phase, speed)
     }
 
-    /// The polynomial of one segment, which is meant for phases on it.
+    /// The angle [rad] by the polynomial of one segment, for phases on that segment.
     #[must_use]
     pub fn on_segment(&self, k: usize, phase: Jet, speed: Jet) -> Jet {
         let n = self.knots.len();

@@ -1,37 +1,38 @@
-//! What can be wrong with a gait.
+//! Errors of gaits.
 
-use super::request::Gait;
 use crate::toml_reader::TomlError;
 
-/// Why a gait cannot be walked: what was found, what was allowed, what to do.
+/// A gait is not possible. The message contains what was found, what was expected, and a hint.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GaitError {
-    /// A gait file is wrong.
+    /// A gait file is not valid.
     #[error(transparent)]
     Toml(#[from] TomlError),
     /// No built-in gait has this name.
-    #[error("gait: found `{name}`; expected one of {}{hint}", Gait::NAMES.join(", "))]
+    #[error("gait: found `{name}`; expected one of {known}{hint}")]
     UnknownGait {
-        /// What was asked for.
+        /// Name that was found.
         name: String,
-        /// The name that was probably meant.
+        /// Names of the built-in gaits.
+        known: String,
+        /// A similar name, or another way to give a gait.
         hint: String,
     },
-    /// A number that no gait can have.
+    /// A number is not possible.
     #[error("{what}: found {found}; expected {expected}")]
     Number {
         /// Quantity and unit.
         what: &'static str,
-        /// What was asked for.
+        /// Number that was found.
         found: f64,
-        /// What is allowed.
+        /// Allowed numbers.
         expected: &'static str,
     },
-    /// Speed, step length and frequency that contradict each other.
+    /// Speed, step length and step frequency contradict each other.
     #[error(
-        "speed {speed:.4} m/s: found a step length of {step_length:.4} m and {step_frequency:.4} steps/s, which make {:.4} m/s; \
-         expected speed = step length × frequency. hint: leave one of the three out", step_length * step_frequency
+        "speed {speed:.4} m/s: found a step length of {step_length:.4} m and {step_frequency:.4} steps/s, whose product is {:.4} m/s; \
+         expected speed = step length × step frequency. hint: leave out one of the three", step_length * step_frequency
     )]
     Contradiction {
         /// Walking speed [m/s].
@@ -46,40 +47,29 @@ pub enum GaitError {
     UnknownKnot {
         /// Joint.
         joint: &'static str,
-        /// What was named.
+        /// Name that was found.
         knot: String,
-        /// What there is.
+        /// Names of the knots of the curve.
         known: String,
     },
-    /// The curve that step length, height and changes make of a joint.
-    #[error("{joint}, knot `{knot}`, as changed and scaled for this gait: {message}")]
+    /// The curve of a joint is not possible after scaling and changes.
+    #[error("{joint}, knot `{knot}`, after the changes and scaling of this gait: {message}")]
     Curve {
         /// Joint.
         joint: &'static str,
-        /// The knot at fault.
+        /// Knot with the error.
         knot: String,
         /// What was found and what was expected.
         message: String,
     },
-    /// A change of speed that begins before the one before it has ended.
+    /// A change of speed begins before the previous one has ended.
     #[error(
-        "change of speed: found a start at {start_s} s; expected {earliest_s} s or later, when the change before it has ended"
+        "change of speed: found a start at {start_s} s; expected {earliest_s} s or later, after the end of the previous change"
     )]
     OverlappingChange {
         /// Its start [s].
         start_s: f64,
-        /// End of the change before it [s].
+        /// End of the previous change [s].
         earliest_s: f64,
     },
-}
-
-impl GaitError {
-    pub(super) fn unknown(name: &str) -> GaitError {
-        let near = crate::toml_reader::nearest(name, Gait::NAMES.into_iter());
-        let hint = match near {
-            Some(near) => format!(". hint: is `{near}` meant?"),
-            None => String::from(", or a TOML file (docs/GAITS.md)"),
-        };
-        GaitError::UnknownGait { name: name.to_owned(), hint }
-    }
 }

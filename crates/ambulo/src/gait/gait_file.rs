@@ -1,17 +1,16 @@
-//! Gaits from TOML (docs/GAITS.md): what is read is checked, and refused with line and key.
+//! Reads gaits from TOML (docs/GAITS.md). Errors contain line and key.
 
 use super::curve_check::check;
 use super::curve_table::read_curve;
 use super::error::GaitError;
+use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 use super::joint::Joint;
 use super::laws::{DOCUMENT, Laws, checked_speeds};
 use super::pace::AGREEMENT;
-use super::request::{Gait, KnotChange, Pace, Pelvis, Speed};
-use super::style::Style;
 use super::walk::changed;
 use crate::toml_reader::{Source, Table, TomlError, Value, nearest};
 
-/// Keys of the file itself.
+/// Keys at the top level of the file.
 const KEYS: [&str; 17] = [
     "name",
     "base",
@@ -31,7 +30,7 @@ const KEYS: [&str; 17] = [
     "knee",
     "ankle",
 ];
-/// Factors on steps beyond these are slips of the pen.
+/// Accepted factors on steps; others are probably typing errors.
 const SCALES: [f64; 2] = [0.1, 10.0];
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -39,7 +38,7 @@ impl Gait {
     /// A gait from a TOML file.
     ///
     /// # Errors
-    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<Gait, GaitError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
@@ -61,7 +60,7 @@ impl Gait {
     }
 }
 
-/// The gait to begin with: a built-in one, or nothing but a style.
+/// The gait to start from: a built-in gait, or free walking in a style.
 fn base(root: &Table<'_>) -> Result<Gait, GaitError> {
     let style = root.get("style").map(|value| value.choice(&Style::WORDS)).transpose()?;
     let mut gait = match root.get("base") {
@@ -81,7 +80,7 @@ fn base(root: &Table<'_>) -> Result<Gait, GaitError> {
     Ok(gait)
 }
 
-/// A pace; speed, step length and frequency of the base count only where the file gives none of them.
+/// The pace. Speed, step length and frequency of the base are used only if the file gives none of them.
 fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
     let speed = one_of(root, "speed", "dimensionless_speed")?;
     let frequency = one_of(root, "cadence", "cycle_s")?;
@@ -104,14 +103,14 @@ fn pace(root: &Table<'_>, base: Pace) -> Result<Pace, TomlError> {
     if let Some(value) = root.get("cadence_exponent") {
         let exponent = value.number()?;
         if !(0.0..1.0).contains(&exponent) {
-            return Err(value.wrong("a share of speed from 0 to below 1"));
+            return Err(value.wrong("an exponent from 0 to below 1"));
         }
         pace.cadence_exponent = Some(exponent);
     }
     Ok(pace)
 }
 
-/// The value under one of two keys; both at once are refused.
+/// The value of one of two keys; an error if both are present.
 fn one_of<'t>(root: &Table<'t>, first: &str, second: &str) -> Result<Option<Value<'t>>, TomlError> {
     match (root.get(first), root.get(second)) {
         (Some(_), Some(value)) => {
@@ -131,7 +130,7 @@ fn refuse_contradiction(root: &Table<'_>, pace: &Pace) -> Result<(), TomlError> 
     match root.get("speed") {
         Some(value) if (made - speed).abs() > AGREEMENT * speed => Err(value
             .wrong(&format!("the step length times the step frequency, {made:.4} m/s"))
-            .hint("leave one of speed, step length and frequency out")),
+            .hint("leave out one of speed, step length and frequency")),
         _ => Ok(()),
     }
 }
@@ -166,7 +165,7 @@ fn curve_of<'a>(gait: &'a Gait, laws: &'a Laws, joint: Joint) -> &'a super::Cycl
     gait.curves[joint as usize].as_ref().unwrap_or_else(|| laws.legs.of(joint))
 }
 
-/// A change, and the number of its joint.
+/// A change and the number of its joint.
 fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChange, usize), TomlError> {
     table.only(&[&["joint", "knot", "scale", "angle_deg", "slope_deg", "curvature_deg", "time_percent"]])?;
     let words = Joint::ALL.map(|joint| (joint.name(), joint));
@@ -185,7 +184,7 @@ fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChang
     if gait.style == Style::Paper1997
         && let Some(value) = table.get("slope_deg").or(table.get("curvature_deg"))
     {
-        let message = "found a change of slope or curvature in style \"1997\"; expected none, which are zero at every bound there";
+        let message = "found a change of slope or curvature in style \"1997\"; expected none, because both are zero at every bound in this style";
         return Err(value.place().error(message));
     }
     let number = |key: &str, unit: f64| Ok::<f64, TomlError>(table.number_or(key, 0.0)? * unit);

@@ -7,8 +7,8 @@
 //! f(x)''    = f''(x) x'² + f'(x) x''
 //! ```
 //!
-//! Curves evaluated in this arithmetic give angle, angular velocity and angular acceleration at once, exact to rounding also
-//! while speed changes. Pinned by: tests/gait_curves.rs.
+//! Curves that are evaluated in this arithmetic give angle, angular velocity and angular acceleration at once, exact to rounding, also
+//! while the speed changes. Pinned by: tests/gait_curves.rs.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
@@ -24,10 +24,10 @@ pub struct Jet {
 }
 
 impl Jet {
-    /// Zero that stays zero.
+    /// The constant zero.
     pub const ZERO: Jet = Jet::constant(0.0);
 
-    /// A number that does not change.
+    /// A constant.
     #[must_use]
     pub const fn constant(value: f64) -> Jet {
         Jet { value, rate: 0.0, acceleration: 0.0 }

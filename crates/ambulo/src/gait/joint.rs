@@ -1,4 +1,4 @@
-//! The joints of a leg, as far as gait moves them.
+//! The joints of a leg that a gait moves.
 
 pub use crate::model::full_body::STANDING_TILT;
 
@@ -8,7 +8,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// A joint of the leg in the sagittal plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Joint {
-    /// Hip; flexion +, thigh against pelvis.
+    /// Hip; flexion +, thigh relative to pelvis.
     Hip,
     /// Knee; flexion +.
     Knee,
@@ -30,7 +30,7 @@ impl Joint {
         }
     }
 
-    /// Angle in upright standing [rad]; step length and height scale what goes beyond it.
+    /// Angle in upright standing [rad]; step length and step height scale the difference from it.
     #[must_use]
     pub fn neutral(self) -> f64 {
         match self {
@@ -39,8 +39,8 @@ impl Joint {
         }
     }
 
-    /// Angles that a gait may ask for [rad]; beyond them a slip of the pen is likelier than a gait. A chosen margin around
-    /// the passive ranges that textbooks give for adults (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
+    /// Accepted angles [rad]; angles outside are probably typing errors. The range has a margin around the passive ranges of adults in
+    /// textbooks (hip -30°..120°, knee -10°..150°, ankle -50°..30°; unverified).
     #[must_use]
     pub fn plausible(self) -> [f64; 2] {
         match self {

@@ -1,31 +1,31 @@
-//! How walking follows speed: the curves of the joints, the waves of the trunk, the share of support.
+//! The laws of walking against speed: joint curves, waves of the trunk, duration of stance.
 //!
 //! The numbers are data, not code: `crates/ambulo/data/gait/*.toml`, written by `cargo xtask fit-gait` from the mean curves of
-//! Schwartz, Rozumalski, Trost 2008 (five speeds); each file's header tells source, licence, fit and errors.
+//! Schwartz, Rozumalski, Trost 2008 (five speeds). The header of each file gives source, licence, fit and errors.
 
 use super::curve_table::{law_of, read_curve};
 use super::cyclic_curve::CyclicCurve;
+use super::gait_settings::Style;
 use super::joint::Joint;
 use super::speed_law::SpeedRange;
-use super::style::Style;
 use super::wave::{Harmonic, Wave};
 use crate::toml_reader::{Source, Table, TomlError};
 use std::sync::LazyLock;
 
-/// Knots of the default style, trunk and support.
+/// Knots of the default style, trunk and stance.
 const KNOTS: &str = include_str!("../../data/gait/knots.toml");
-/// Sub-cycles of the paper's style.
+/// Sub-cycles of style 1997.
 const SUB_CYCLES: &str = include_str!("../../data/gait/sub_cycles_1997.toml");
-/// Where such files are described.
+/// The document that describes such files.
 pub(super) const DOCUMENT: &str = "docs/GAITS.md";
-/// Speeds at which curves are checked, as shares of the way from the slowest to the fastest.
+/// Speeds at which curves are checked, as shares of the range from the slowest to the fastest.
 const CHECKED: [f64; 7] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0];
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// The curves of a leg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegCurves {
-    /// Hip flexion against the pelvis.
+    /// Hip flexion relative to the pelvis.
     pub hip: CyclicCurve,
     /// Knee flexion.
     pub knee: CyclicCurve,
@@ -53,25 +53,25 @@ impl LegCurves {
     }
 }
 
-/// Duration of support against duration of the cycle, both in leg times √(L/g): linear, as Nilsson, Thorstensson,
-/// Halbertsma 1985 found (abstract).
+/// Duration of stance against duration of the cycle, both in leg times √(L/g): linear, as found by Nilsson, Thorstensson,
+/// Halbertsma 1985 (abstract).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportLaw {
-    /// Support gained for each unit of cycle.
+    /// Increase of stance per increase of the cycle.
     pub slope: f64,
-    /// Support of a cycle without duration, negative [leg times].
+    /// Stance extrapolated to a cycle of zero duration, negative [leg times].
     pub offset: f64,
 }
 
 impl SupportLaw {
-    /// Foot off as a share of the cycle, kept between 0.52 (a walk has double support) and 0.8.
+    /// Foot off as a share of the cycle, limited to 0.52 (a walk has double support) and 0.8.
     #[must_use]
     pub fn share(&self, cycle_in_leg_times: f64) -> f64 {
         (self.slope + self.offset / cycle_in_leg_times).clamp(0.52, 0.8)
     }
 }
 
-/// What the default style's file holds.
+/// All laws of a style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Laws {
     /// Dimensionless speeds of the data.
@@ -82,15 +82,15 @@ pub struct Laws {
     pub pelvis_tilt: Wave,
     /// Forward lean of the trunk.
     pub trunk_lean: Wave,
-    /// Duration of support.
+    /// Duration of stance.
     pub support: SupportLaw,
 }
 
 impl Laws {
-    /// Laws of the default style from a file as `cargo xtask fit-gait` writes it.
+    /// Laws of the default style from a file in the format of `cargo xtask fit-gait`.
     ///
     /// # Errors
-    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<Laws, TomlError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
@@ -100,13 +100,13 @@ impl Laws {
         Ok(Laws {
             range,
             legs: read_legs(&root, Style::Knots, &checked_speeds(&range))?,
-            pelvis_tilt: read_wave(&root, "pelvis_tilt")?,
-            trunk_lean: read_wave(&root, "trunk_lean")?,
+            pelvis_tilt: read_wave(&root, "pelvis_tilt", &ANGLE)?,
+            trunk_lean: read_wave(&root, "trunk_lean", &ANGLE)?,
             support: read_support(&root)?,
         })
     }
 
-    /// The laws of the crate: curves of a style, all else alike.
+    /// The built-in laws; styles differ only in the joint curves.
     ///
     /// # Errors
     /// None; a test reads both files.
@@ -120,10 +120,10 @@ impl Laws {
         }
     }
 
-    /// The same laws with the curves of the paper's style, from a file as `cargo xtask fit-gait` writes it.
+    /// The same laws with the joint curves of style 1997, from a file in the format of `cargo xtask fit-gait`.
     ///
     /// # Errors
-    /// Whatever is not as docs/GAITS.md has it, with line and key.
+    /// Anything that differs from docs/GAITS.md, with line and key.
     pub fn with_sub_cycles(self, text: &str) -> Result<Laws, TomlError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
@@ -159,26 +159,36 @@ fn read_legs(root: &Table<'_>, style: Style, speeds: &[f64]) -> Result<LegCurves
     Ok(LegCurves { hip: curve(Joint::Hip)?, knee: curve(Joint::Knee)?, ankle: curve(Joint::Ankle)? })
 }
 
-fn read_wave(root: &Table<'_>, key: &str) -> Result<Wave, TomlError> {
+/// Keys of mean, cosine and sine of a wave in a file, and the unit of their numbers.
+pub(super) struct WaveKeys {
+    pub(super) mean: &'static str,
+    pub(super) cos: &'static str,
+    pub(super) sin: &'static str,
+    pub(super) unit: f64,
+}
+
+const ANGLE: WaveKeys = WaveKeys { mean: "mean_deg", cos: "cos_deg", sin: "sin_deg", unit: DEGREE };
+
+pub(super) fn read_wave(root: &Table<'_>, key: &str, keys: &WaveKeys) -> Result<Wave, TomlError> {
     let table = root.need(key, "mean and harmonics")?.table("a table with mean and harmonics")?;
-    table.only(&[&["mean_deg", "harmonic"]])?;
-    let mean = law_of(&table.need("mean_deg", "the mean over the cycle")?)?.scaled(DEGREE);
+    table.only(&[&[keys.mean, "harmonic"]])?;
+    let mean = law_of(&table.need(keys.mean, "the mean over the cycle")?)?.scaled(keys.unit);
     let harmonic = |entry: &Table<'_>| {
-        entry.only(&[&["order", "cos_deg", "sin_deg"]])?;
+        entry.only(&[&["order", keys.cos, keys.sin]])?;
         Ok(Harmonic {
-            order: entry.need("order", "periods in a cycle")?.count()?,
-            cos: law_of(&entry.need("cos_deg", "factor of the cosine")?)?.scaled(DEGREE),
-            sin: law_of(&entry.need("sin_deg", "factor of the sine")?)?.scaled(DEGREE),
+            order: entry.need("order", "periods per cycle")?.count()?,
+            cos: law_of(&entry.need(keys.cos, "factor of the cosine")?)?.scaled(keys.unit),
+            sin: law_of(&entry.need(keys.sin, "factor of the sine")?)?.scaled(keys.unit),
         })
     };
     Ok(Wave { mean, harmonics: table.tables("harmonic")?.iter().map(harmonic).collect::<Result<_, TomlError>>()? })
 }
 
 fn read_support(root: &Table<'_>) -> Result<SupportLaw, TomlError> {
-    let table = root.need("support", "the duration of support")?.table("a table with slope and offset")?;
+    let table = root.need("support", "the duration of stance")?.table("a table with slope and offset")?;
     table.only(&[&["slope", "offset"]])?;
     Ok(SupportLaw {
-        slope: table.need("slope", "support for each unit of cycle")?.number()?,
-        offset: table.need("offset", "support of a cycle without duration")?.number()?,
+        slope: table.need("slope", "increase of stance per increase of the cycle")?.number()?,
+        offset: table.need("offset", "stance of a cycle of zero duration")?.number()?,
     })
 }

@@ -1,13 +1,13 @@
-//! Synthetic walking: angles of the joints, with velocity and acceleration, from speed and style.
+//! Synthetic walking: joint angles with velocity and acceleration, from speed and style.
 //!
-//! A [`Gait`] is what is asked for, by name or from TOML (docs/GAITS.md). A [`Walk`] is a gait on a leg length; [`Walk::at`] gives
-//! the posture at any time, and speed may change while walking. The same postures come from hierarchical state machines
-//! ([`machine`]). [`coordinates`] turns them into coordinates of a model.
+//! A [`Gait`] has the settings of a walk, by name or from TOML (docs/GAITS.md). A [`Walk`] is a gait for a leg length; [`Walk::at`] returns
+//! the posture at any time, and the speed may change while walking. Hierarchical state machines ([`machine`]) give the same postures.
+//! [`coordinates`] converts a posture to coordinates of a model.
 //!
 //! Clinical signs throughout: hip flexion +, knee flexion +, ankle dorsiflexion +, pelvis tilt anterior +, trunk lean forward +,
 //! shoulder and elbow flexion + [rad].
 //!
-//! Where to start reading: `cyclic_curve` (how a joint's curve follows phase and speed), then `walk`, `speed_plan`, `stride`.
+//! Start reading at `cyclic_curve` (how the curve of a joint depends on phase and speed), then `walk`, `speed_plan`, `stride`.
 //!
 //! ```
 //! use ambulo::findings::Findings;
@@ -23,44 +23,43 @@
 //! ```
 
 mod arms;
-mod coordinates;
 mod curve_check;
 mod curve_table;
 mod cyclic_curve;
-mod error;
-mod gait_file;
 mod ground_force;
 mod jet;
 mod joint;
 mod laws;
+mod quintic;
+mod speed_law;
+mod sub_cycle;
+mod wave;
+
+mod coordinates;
+mod error;
+mod gait_file;
+mod gait_settings;
 pub mod machine;
 mod pace;
-mod quintic;
-mod request;
-mod speed_law;
 mod speed_plan;
 mod stride;
-mod style;
-mod sub_cycle;
 mod walk;
-mod wave;
 
 pub use arms::ArmCurves;
 pub use coordinates::{COORDINATE_NAMES, Trunk, WalkCoordinates, coordinates};
 pub use cyclic_curve::{CyclicCurve, Knot};
 pub use error::GaitError;
+pub use gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 pub use ground_force::GroundForceLaws;
 pub use jet::Jet;
 pub use joint::{Joint, STANDING_TILT};
 pub use laws::{Laws, LegCurves, SupportLaw};
 pub use quintic::{End, quintic};
-pub use request::{Gait, KnotChange, Pace, Pelvis, Speed};
 pub use speed_law::{GRAVITY, SpeedLaw, SpeedRange};
 pub use speed_plan::{Clock, SpeedChange};
 pub use stride::{
     ADULT_EXPONENT, CHILD_EXPONENT, EXPONENT_1997, REFERENCE_LEG, StrideLaw, WALKING_SPEEDS, walking_speeds,
 };
-pub use style::Style;
 pub use sub_cycle::SubCycle;
 pub use walk::{LegAngles, Phases, Walk, WalkPosture};
 pub use wave::{Harmonic, Wave};

@@ -1,35 +1,34 @@
-//! Speed, step length and step frequency of a gait on a leg: what is asked for, completed by V = step length × frequency.
+//! Completes speed, step length and step frequency of a gait for a leg length by V = step length × frequency.
 //!
-//! | asked for | law speed | step length | frequency |
+//! | given | law speed | step length | frequency |
 //! |---|---|---|---|
 //! | nothing | free walking | preferred | preferred |
 //! | speed | speed | preferred | preferred |
 //! | step length, or frequency | the speed at which it is preferred | preferred | preferred |
-//! | step length and frequency, style 1997 | the speed at which the step is preferred | preferred | as asked |
-//! | two of the three otherwise, or all | speed | as asked or V / frequency | as asked or V / step length |
+//! | step length and frequency, style 1997 | the speed at which the step is preferred | preferred | as given |
+//! | two of the three otherwise, or all | speed | as given or V / frequency | as given or V / step length |
 //!
-//! The factors on step length and frequency act on what this gives, and scale speed with it. The law speed is the one at which
-//! curves are read; a step length beside the preferred one scales them ([`Walk`](super::Walk)).
+//! The factors on step length and frequency are applied to these results and scale the speed as well. The curves are evaluated at the law
+//! speed; a step length that differs from the preferred one scales them ([`Walk`](super::Walk)).
 
 use super::error::GaitError;
+use super::gait_settings::{Gait, Pace, Speed, Style};
 use super::jet::Jet;
-use super::request::{Gait, Pace, Speed};
 use super::stride::StrideLaw;
-use super::style::Style;
 
-/// Leg lengths of people who walk [m].
+/// Accepted leg lengths [m].
 const LEG_LENGTHS: [f64; 2] = [0.25, 1.5];
-/// Relative error within which three numbers still agree that any two of them determine.
+/// Largest relative error of speed = step length × frequency if all three are given.
 pub(super) const AGREEMENT: f64 = 1e-6;
 
-/// Speed, step length and frequency of a gait on a leg, and the law speed.
+/// The law of step length and frequency of a gait for a leg length, and the law speed.
 pub(super) fn resolve(gait: &Gait, leg_length: f64) -> Result<(StrideLaw, f64), GaitError> {
     if !(LEG_LENGTHS[0]..=LEG_LENGTHS[1]).contains(&leg_length) {
         return Err(number("leg length [m]", leg_length, "0.25 m to 1.5 m"));
     }
     let exponent = gait.cadence_exponent();
     if !(0.0..1.0).contains(&exponent) {
-        return Err(number("cadence exponent", exponent, "a share of speed from 0 to below 1"));
+        return Err(number("cadence exponent", exponent, "an exponent from 0 to below 1"));
     }
     let pace = &gait.pace;
     for (what, factor) in [
@@ -46,7 +45,7 @@ pub(super) fn resolve(gait: &Gait, leg_length: f64) -> Result<(StrideLaw, f64), 
     Ok((StrideLaw { length_scale, cadence_scale, ..preferred }, law_speed))
 }
 
-/// Law speed, and step length and frequency against the preferred ones there.
+/// Law speed, and step length and frequency relative to the preferred ones at that speed.
 fn share(pace: &Pace, style: Style, preferred: &StrideLaw) -> Result<(f64, f64, f64), GaitError> {
     let speed = match pace.speed {
         Some(Speed::MetersPerSecond(speed)) => Some(above_zero("speed [m/s]", speed)?),
@@ -61,11 +60,11 @@ fn share(pace: &Pace, style: Style, preferred: &StrideLaw) -> Result<(f64, f64, 
         (Some(speed), None, None) => return Ok((preferred.law_speed(speed), 1.0, 1.0)),
         (None, Some(step), None) => return Ok((preferred.law_speed_of_step(step), 1.0, 1.0)),
         (None, None, Some(frequency)) => {
-            let expected = "above 0 if step frequency alone is given, or a speed beside it";
+            let expected = "a number above 0 if the step frequency is given without a speed";
             let law_speed = preferred.law_speed_of_frequency(frequency);
             return Ok((law_speed.ok_or(number("cadence exponent", preferred.exponent, expected))?, 1.0, 1.0));
         }
-        // A change of frequency leaves the angles alone: in the paper's style they follow the step.
+        // In the style of the paper the angles follow the step length, not the frequency.
         (None, Some(step), Some(frequency)) if style == Style::Paper1997 => {
             let law_speed = preferred.law_speed_of_step(step);
             return Ok((law_speed, 1.0, frequency / frequency_at(law_speed)));
@@ -79,7 +78,7 @@ fn share(pace: &Pace, style: Style, preferred: &StrideLaw) -> Result<(f64, f64, 
     Ok((law_speed, step / preferred.step_length(law_speed), frequency / frequency_at(law_speed)))
 }
 
-/// Step length and frequency of all three, which must agree.
+/// Step length and frequency if all three are given, which must satisfy speed = step length × frequency.
 fn agreed(speed: f64, step_length: f64, step_frequency: f64) -> Result<(f64, f64), GaitError> {
     if (step_length * step_frequency - speed).abs() > AGREEMENT * speed {
         return Err(GaitError::Contradiction { speed, step_length, step_frequency });

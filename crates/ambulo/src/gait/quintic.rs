@@ -1,4 +1,4 @@
-//! The polynomial of degree five through two ends with value, slope and curvature each.
+//! The polynomial of degree five between two ends with given value, slope and curvature.
 //!
 //! On u in [0, 1], with ends (a₀, s₀, c₀) and (a₁, s₁, c₁) and Δ = a₁ - a₀:
 //!
@@ -10,13 +10,13 @@
 //! ```
 //!
 //! With s = c = 0 at both ends it is the paper's interpolation a₀ + Δ (10 u³ - 15 u⁴ + 6 u⁵), whose slope 30 Δ u² (1 - u)²
-//! has one sign (Faure, Debunne, Cani-Gascuel, Multon 1997, section 2.2).
+//! does not change its sign (Faure, Debunne, Cani-Gascuel, Multon 1997, section 2.2).
 //!
 //! Pinned by: tests/gait_curves.rs.
 
 use super::jet::Jet;
 
-/// An end of a polynomial: value [unit], slope [unit/1], curvature [unit/1²], in the curve's own argument.
+/// An end of a polynomial: value, slope and curvature with respect to u.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct End {
     /// Value.
@@ -27,7 +27,7 @@ pub struct End {
     pub curvature: Jet,
 }
 
-/// h(u) between two ends; everything may change in time.
+/// h(u) between two ends; all arguments may change in time.
 #[must_use]
 pub fn quintic(from: End, to: End, u: Jet) -> Jet {
     let (a0, s0, c0) = (from.value, from.slope, from.curvature);

@@ -1,4 +1,4 @@
-//! How a number of a gait follows walking speed: a polynomial of dimensionless speed.
+//! Numbers of a gait as polynomials of dimensionless speed.
 //!
 //! ```text
 //! law(V*) = c₀ + c₁ V* + c₂ V*²,    V* = V / √(g L)
@@ -9,12 +9,12 @@
 //! | `speed` | V* | 1 |
 //! | L | leg length, hip to floor | m |
 //!
-//! The laws were fitted between the slowest and the fastest speed of the data. Outside, V* is bent smoothly into a constant
-//! ([`held`]), so that no law is carried far beyond what was measured.
+//! The laws were fitted between the slowest and the fastest speed of the data. Outside of this range V* changes smoothly into a constant
+//! ([`held`]), so that no law is extrapolated far.
 
 use super::jet::Jet;
 
-/// Acceleration of gravity that makes speeds dimensionless [m/s²].
+/// Acceleration of gravity in dimensionless speeds [m/s²].
 pub const GRAVITY: f64 = 9.81;
 
 /// A number against dimensionless speed.
@@ -25,7 +25,7 @@ pub struct SpeedLaw {
 }
 
 impl SpeedLaw {
-    /// A number that speed leaves alone.
+    /// A number that does not depend on speed.
     #[must_use]
     pub const fn constant(value: f64) -> SpeedLaw {
         SpeedLaw { coefficients: [value, 0.0, 0.0] }
@@ -65,24 +65,24 @@ impl SpeedLaw {
     }
 }
 
-/// Speeds on which laws were fitted, and how far beyond them speed still counts.
+/// The range of speeds on which laws were fitted, and how far they are extrapolated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedRange {
     /// Slowest dimensionless speed of the data.
     pub low: f64,
     /// Fastest dimensionless speed of the data.
     pub high: f64,
-    /// How far below `low` laws may be carried.
+    /// Largest extrapolation below `low`.
     pub below: f64,
-    /// How far above `high` laws may be carried.
+    /// Largest extrapolation above `high`.
     pub above: f64,
 }
 
 impl SpeedRange {
-    /// V* itself inside the range; beyond it bent into a constant, `below` or `above` away, with three continuous derivatives.
+    /// V* itself inside the range; outside, it changes into a constant at a distance of `below` or `above`, with three continuous derivatives.
     ///
     /// With d = (V* - high)/above: the slope falls from 1 to 0 on d in [0, 2] as 1 - (10 v³ - 15 v⁴ + 6 v⁵), v = d/2, so the
-    /// sum of the slope is d - 2 (5/2 v⁴ - 3 v⁵ + v⁶), and 1 from d = 2 on.
+    /// integral of the slope is d - 2 (5/2 v⁴ - 3 v⁵ + v⁶), and 1 from d = 2 on.
     #[must_use]
     pub fn held(&self, speed: Jet) -> Jet {
         if speed.value > self.high {
@@ -94,7 +94,7 @@ impl SpeedRange {
         }
     }
 
-    /// Slowest and fastest speed that [`SpeedRange::held`] gives.
+    /// Slowest and fastest speed that [`SpeedRange::held`] returns.
     #[must_use]
     pub fn ends(&self) -> [f64; 2] {
         [self.low - self.below, self.high + self.above]

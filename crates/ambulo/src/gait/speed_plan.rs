@@ -1,4 +1,4 @@
-//! Speed and phase against time, while speed changes.
+//! Speed and phase as functions of time while the speed changes.
 //!
 //! Speed is constant between changes; each change is a quintic ramp r(u) = 10 u³ - 15 u⁴ + 6 u⁵, so V is C². Phase is the
 //! integral of the cycle rate f(V):
@@ -7,8 +7,8 @@
 //! φ(t) = φ₀ + ∫ f(V(τ)) dτ,    φ' = f(V),    φ'' = f'(V) V'
 //! ```
 //!
-//! Products on constant stretches; on ramps, where f(V) = c Vᵇ is smooth, Gauss and Legendre's rule with 16 points on each half
-//! of the way. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000 panels: 1e-12 cycles).
+//! On constant speed the integral is a product. On ramps, where f(V) = c Vᵇ is smooth, it is computed by Gauss-Legendre quadrature with 16
+//! points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000 panels: 1e-12 cycles).
 
 use super::jet::Jet;
 use super::stride::StrideLaw;
@@ -16,11 +16,11 @@ use super::stride::StrideLaw;
 /// A change of speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedChange {
-    /// When it begins [s].
+    /// Start [s].
     pub start_s: f64,
-    /// How long it takes [s].
+    /// Duration [s].
     pub duration_s: f64,
-    /// Walking speed at its end [m/s].
+    /// Walking speed at the end [m/s].
     pub speed: f64,
 }
 
@@ -32,7 +32,7 @@ struct Ramp {
     /// Dimensionless law speeds.
     from: f64,
     to: f64,
-    /// Phase at its start and its end [cycles].
+    /// Phase at start and end [cycles].
     phases: [f64; 2],
 }
 
@@ -48,9 +48,9 @@ pub(super) struct SpeedPlan {
 /// Phase of the right foot and law speed at one instant.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Clock {
-    /// Cycles of the right foot since its first contact.
+    /// Cycles of the right foot since its first foot strike.
     pub phase: Jet,
-    /// Dimensionless speed at which the laws of the gait are read.
+    /// Dimensionless speed at which the laws of the gait are evaluated.
     pub law_speed: Jet,
 }
 
@@ -64,12 +64,12 @@ impl SpeedPlan {
         &self.law
     }
 
-    /// When the last ramp ends [s].
+    /// End of the last ramp [s].
     pub(super) fn end_s(&self) -> Option<f64> {
         self.ramps.last().map(|ramp| ramp.start_s + ramp.duration_s)
     }
 
-    /// Adds a ramp, which begins no earlier than the one before it ends.
+    /// Adds a ramp, which must not start before the end of the previous one.
     pub(super) fn add(&mut self, start_s: f64, duration_s: f64, to: f64) {
         let start = self.at(start_s);
         let from = self.ramps.last().map_or(self.initial, |ramp| ramp.to);
@@ -122,7 +122,7 @@ impl Ramp {
     }
 }
 
-/// Positive zeros of Legendre's polynomial of degree 16, and the weights of the rule on them.
+/// Positive zeros of the Legendre polynomial of degree 16, and the weights of the quadrature.
 const NODES: [f64; 8] = [
     0.095_012_509_837_637_44,
     0.281_603_550_779_258_9,

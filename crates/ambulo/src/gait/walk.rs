@@ -1,24 +1,23 @@
-//! A gait on a leg: joint angles with velocity and acceleration at any time.
+//! A gait for a leg length: joint angles with velocity and acceleration at any time.
 //!
-//! All angles come from two numbers, the phase of the right foot and the dimensionless speed, both C² in time while speed
-//! changes ([`SpeedChange`]); the left leg is half a cycle behind. Sub-cycles and states are synchronised by construction: their
-//! bounds are read at the speed of the moment. Pinned by: tests/gait_walk.rs, tests/gait_speed.rs.
+//! All angles are functions of two numbers, the phase of the right foot and the dimensionless speed. Both are C² in time while the speed
+//! changes ([`SpeedChange`]). The left leg is half a cycle behind. Sub-cycles and states remain synchronised because their bounds are
+//! evaluated at the current speed. Pinned by: tests/gait_walk.rs, tests/gait_speed.rs.
 
 use super::arms::ArmCurves;
 use super::curve_check::check;
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
+use super::gait_settings::{Gait, KnotChange, Pelvis, Style};
 use super::jet::Jet;
 use super::joint::{Joint, STANDING_TILT};
 use super::laws::{Laws, LegCurves, checked_speeds};
 use super::pace::{above_zero, number, resolve};
-use super::request::{Gait, KnotChange, Pelvis};
 use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
 use super::stride::{StrideLaw, walking_speeds};
-use super::style::Style;
 use crate::findings::{Code, Findings};
 
-/// A gait resolved on a leg length.
+/// A gait for a leg length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Walk {
     plan: SpeedPlan,
@@ -32,7 +31,7 @@ pub struct Walk {
 /// Angles of one leg [rad].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LegAngles {
-    /// Flexion of the thigh against the pelvis.
+    /// Flexion of the thigh relative to the pelvis.
     pub hip: Jet,
     /// Flexion.
     pub knee: Jet,
@@ -49,34 +48,34 @@ pub struct WalkPosture {
     pub left: LegAngles,
     /// Anterior tilt of the pelvis.
     pub pelvis_tilt: Jet,
-    /// Tilt of the pelvis in upright standing, against which a model's pelvis counts; 0 where the pelvis is held vertical.
+    /// Tilt of the pelvis in upright standing, the zero of a model's pelvis; 0 if the pelvis is held vertical.
     pub standing_tilt: f64,
-    /// Forward lean of the trunk against the vertical.
+    /// Forward lean of the trunk from the vertical.
     pub trunk_lean: Jet,
     /// Flexion of right and left shoulder.
     pub shoulders: [Jet; 2],
     /// Flexion of right and left elbow.
     pub elbows: [Jet; 2],
-    /// Where in the cycle the legs are.
+    /// Phases of the legs.
     pub phases: Phases,
 }
 
-/// Where in their cycles the legs are.
+/// Phases of both legs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Phases {
-    /// Phase of right and left foot since contact, 0 to 1.
+    /// Phase of right and left foot since foot strike, 0 to 1.
     pub cycle: [f64; 2],
-    /// Whether the right and the left foot stand.
+    /// Whether the right and the left foot are in stance.
     pub stance: [bool; 2],
-    /// Foot off as a share of the cycle, at the speed of the moment.
+    /// Foot off as a share of the cycle, at the current speed.
     pub foot_off: f64,
 }
 
 impl Walk {
-    /// A gait on a leg, hip to floor [m], at constant speed.
+    /// A gait for a leg length, hip to floor [m], at constant speed.
     ///
     /// # Errors
-    /// Numbers that no gait can have, contradictions, curves that joints cannot follow.
+    /// Numbers that are not possible, contradictions, curves outside of the range of a joint.
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
         let (law, law_speed) = resolve(gait, leg_length)?;
         let mut laws = Laws::built_in(gait.style)?;
@@ -94,14 +93,14 @@ impl Walk {
         Ok(Walk { plan, laws, arms: ArmCurves::new(), pelvis, style, name })
     }
 
-    /// The same walk with one more change of speed, after all others.
+    /// The same walk with another change of speed, after all others.
     ///
     /// # Errors
-    /// A speed that is not above zero, a duration that is not, a start before the end of the change before.
+    /// A speed or a duration that is not above zero, or a start before the end of the previous change.
     pub fn with_speed_change(mut self, change: SpeedChange, findings: &mut Findings) -> Result<Walk, GaitError> {
         above_zero("speed after a change [m/s]", change.speed)?;
         above_zero("duration of a change of speed [s]", change.duration_s)?;
-        let finite = "a time, zero or more";
+        let finite = "a time of zero or more";
         if !(change.start_s >= 0.0 && change.start_s.is_finite()) {
             return Err(number("start of a change of speed [s]", change.start_s, finite));
         }
@@ -131,13 +130,13 @@ impl Walk {
         self.plan.law().leg_length
     }
 
-    /// How steps and frequency share speed.
+    /// The law of step length and step frequency.
     #[must_use]
     pub fn stride(&self) -> &StrideLaw {
         self.plan.law()
     }
 
-    /// The laws of this walk, changed and scaled as the gait asks.
+    /// The laws of this walk, with the changes and scaling of the gait.
     #[must_use]
     pub fn laws(&self) -> &Laws {
         &self.laws
@@ -185,13 +184,13 @@ impl Walk {
         self.plan.law().step_length(self.plan.at(0.0).law_speed.value)
     }
 
-    /// Phase and law speed at a time [s]; phase 0 is the right foot's contact.
+    /// Phase and law speed at a time [s]; phase 0 is the foot strike of the right foot.
     #[must_use]
     pub fn clock(&self, time_s: f64) -> Clock {
         self.plan.at(time_s)
     }
 
-    /// The speed at which curves are read: the law speed, held where the data end.
+    /// The speed at which curves are evaluated: the law speed, limited to the range of the data.
     #[must_use]
     pub fn curve_speed(&self, clock: &Clock) -> Jet {
         self.laws.range.held(clock.law_speed)
@@ -230,7 +229,7 @@ impl Walk {
         }
     }
 
-    /// What is taken from the hip's curve because the pelvis is held vertical.
+    /// The angle [rad] that is subtracted from the curve of the hip because the pelvis is held vertical.
     #[must_use]
     pub fn hip_offset(&self, speed: Jet) -> Jet {
         match self.pelvis {
@@ -257,7 +256,7 @@ impl Walk {
         }
     }
 
-    /// Tilt of the pelvis in upright standing, as postures have it [rad].
+    /// Tilt of the pelvis in upright standing [rad]; 0 if the pelvis is held vertical.
     #[must_use]
     pub fn standing_tilt(&self) -> f64 {
         match self.pelvis {
@@ -266,7 +265,7 @@ impl Walk {
         }
     }
 
-    /// Where in their cycles the legs are.
+    /// Phases of the legs.
     #[must_use]
     pub fn phases(&self, clock: &Clock) -> Phases {
         let foot_off = self.foot_off(clock);
@@ -274,14 +273,14 @@ impl Walk {
         Phases { cycle, stance: cycle.map(|phase| phase < foot_off), foot_off }
     }
 
-    /// Foot off as a share of the cycle: support duration is linear in cycle duration.
+    /// Foot off as a share of the cycle: the duration of stance is linear in the duration of the cycle.
     #[must_use]
     pub fn foot_off(&self, clock: &Clock) -> f64 {
         self.laws.support.share(1.0 / (clock.phase.rate * self.plan.law().leg_time()))
     }
 }
 
-/// A curve with the changes of its joint.
+/// A curve with the changes for its joint.
 pub(super) fn changed(curve: &CyclicCurve, joint: Joint, changes: &[KnotChange]) -> Result<CyclicCurve, GaitError> {
     let mut curve = curve.clone();
     for change in changes.iter().filter(|change| change.joint == joint) {
@@ -306,7 +305,7 @@ fn moved(knot: &Knot, change: &KnotChange) -> Knot {
     }
 }
 
-/// Step length scales every local state alike, step height each by its share.
+/// Scales a curve: step length acts on all knots alike, step height according to the share of each knot.
 fn scaled(curve: &CyclicCurve, joint: Joint, length: f64, height: f64) -> CyclicCurve {
     curve.mapped(|knot| {
         let factor = length * (1.0 + knot.height_share * (height - 1.0));

@@ -1,10 +1,10 @@
-//! A small periodic angle as a mean and a few harmonics, each following speed.
+//! A periodic quantity as a mean and a few harmonics that depend on speed.
 //!
 //! ```text
 //! angle = m(V*) + Σ_n a_n(V*) cos(2π n φ) + b_n(V*) sin(2π n φ)
 //! ```
 //!
-//! φ [cycles] is the phase of the right foot. Even harmonics alone make a wave that both steps share. Smooth in φ and V*.
+//! φ [cycles] is the phase of the foot. A wave of even harmonics is the same in both steps. It is smooth in φ and V*.
 
 use super::jet::Jet;
 use super::speed_law::SpeedLaw;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// A harmonic of a wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Periods in a cycle.
+    /// Periods per cycle.
     pub order: usize,
     /// Factor of the cosine [rad].
     pub cos: SpeedLaw,

@@ -1,6 +1,6 @@
 //! What cameras saw: the paths of markers, in metres, gaps as not-a-number.
 
-use super::real_points::{one_of_each_name, real_points, shared_prefix};
+use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
@@ -232,4 +232,23 @@ fn drop_impossible_places(recording: &mut MarkerRecording, findings: &mut Findin
 
 fn is_finite(position: &Vec3) -> bool {
     position.iter().all(|x| x.is_finite())
+}
+
+/// Keeps one path per name: the one that was seen longest, at the place of the first.
+fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<MarkerPath> {
+    let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
+    let mut kept: Vec<MarkerPath> = Vec::new();
+    for path in paths {
+        match kept.iter_mut().find(|k| k.name == path.name) {
+            None => kept.push(path),
+            Some(before) => {
+                let message = format!("two points are called {}; the one that was seen longer was kept", path.name);
+                findings.report(Code::MarkersNameTwice, message);
+                if seen(&path) > seen(before) {
+                    *before = path;
+                }
+            }
+        }
+    }
+    kept
 }

@@ -1,7 +1,5 @@
 //! Which points of a C3D file are markers that cameras saw.
 
-use super::marker_recording::MarkerPath;
-use crate::findings::{Code, Findings};
 use ambulo_formats::c3d::{C3d, Point};
 
 /// Parameters of POINT that list points which are no places (Vicon's type groups), or were computed.
@@ -38,23 +36,4 @@ pub(super) fn shared_prefix(names: &[&str]) -> usize {
     let Some(end) = names.first().and_then(|n| n.find(':')).map(|i| i + 1) else { return 0 };
     let prefix = &names[0][..end];
     if names.iter().all(|n| n.len() > end && n.starts_with(prefix)) { end } else { 0 }
-}
-
-/// Of paths with one name the one that was seen longest, at the place of the first.
-pub(super) fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<MarkerPath> {
-    let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
-    let mut kept: Vec<MarkerPath> = Vec::new();
-    for path in paths {
-        match kept.iter_mut().find(|k| k.name == path.name) {
-            None => kept.push(path),
-            Some(before) => {
-                let message = format!("two points are called {}; the one that was seen longer was kept", path.name);
-                findings.report(Code::MarkersNameTwice, message);
-                if seen(&path) > seen(before) {
-                    *before = path;
-                }
-            }
-        }
-    }
-    kept
 }

@@ -1,13 +1,12 @@
-//! (i) "Soft shoes and a better motion reduce the bounce", and (k) interactive speed.
+//! Claim (i): "Soft shoes and a better motion reduce the bounce"; and claim (k): interactive speed.
 
 use super::claim::{Numbers, Statement, number};
 use super::evidence::Scope;
-
 use super::ground_force::bounce;
 
-/// Frames a second of the paper, on an SGI Indigo2.
+/// Computed frames per second in the paper, on an SGI Indigo2.
 const PAPER_FRAMES_PER_S: f64 = 2.5;
-/// Frames a second of its results.
+/// Frames per second of the results of the paper.
 const PAPER_RATE_HZ: f64 = 30.0;
 
 pub(super) const SHOES: Statement = Statement {
@@ -36,8 +35,8 @@ pub(super) const SHOES: Statement = Statement {
         });
         let other = corrected.map_or("not run".to_owned(), table);
         let note = format!(
-            "passes if soft shoes shorten the flight of the paper's motion, and the corrected motion shortens it in either shoes; flight \
-             and landings a step with the paper's motion: {}; with the corrected motion: {other}",
+            "passes if soft shoes shorten the flight phases of the paper's motion, and the corrected motion shortens them in both kinds of \
+             shoes; flight and landings per step with the paper's motion: {}; with the corrected motion: {other}",
             table(paper)
         );
         (softer && better, note)
@@ -46,7 +45,7 @@ pub(super) const SHOES: Statement = Statement {
 
 pub(super) const SPEED: Statement = Statement {
     id: "k",
-    paper: "interactive: 2.5 frames a second on an SGI Indigo2",
+    paper: "interactive: 2.5 frames per second on an SGI Indigo2",
     headline: "frames_per_s",
     scope: Scope::Full,
     measure: |evidence| {
@@ -63,11 +62,11 @@ pub(super) const SPEED: Statement = Statement {
         let frames = number(paper, "frames_per_s");
         let note = if frames > 0.0 {
             format!(
-                "passes above {PAPER_RATE_HZ:.0} frames a second, the paper's rate of results; {frames:.0} steps of the simulator a second of \
-                 one core, recording included"
+                "passes above {PAPER_RATE_HZ:.0} frames per second, the frame rate of the paper's results; found {frames:.0} time steps per second \
+                 on one core, recording included"
             )
         } else {
-            "not timed: nobody held the clock".to_owned()
+            "the computing time was not measured".to_owned()
         };
         (frames > PAPER_RATE_HZ, note)
     },

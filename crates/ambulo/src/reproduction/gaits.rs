@@ -1,10 +1,10 @@
-//! (g) Figure 7: four gaits, and (j) the most plausible of them.
+//! Claim (g), figure 7: four gaits; and claim (j): the most plausible one.
 
 use super::claim::{Numbers, Statement, number};
 use super::evidence::{Evidence, GAITS, Scope};
 use super::steady::{Steady, correlation, extremes, rms};
 
-/// Curves of one global shape.
+/// Correlation of curves with the same global shape.
 const ALIKE: f64 = 0.8;
 const KNEE: &str = "knee_angle_r";
 const HIP: &str = "hip_flexion_r";
@@ -29,8 +29,8 @@ pub(super) const SHAPE: Statement = Statement {
     judge: |paper, _| {
         let (least, most) = extremes(&paper.iter().map(|(_, r)| *r).collect::<Vec<f64>>());
         let note = format!(
-            "passes if each two of the four curves correlate with r >= {ALIKE}; between {least:.2} and {most:.2}. Short and goose steps \
-             strike the ground at other instants of the cycle, some in mid-swing, and the blows decide where torque is high"
+            "passes if each pair of the four curves has a correlation of r >= {ALIKE}; found {least:.2} to {most:.2}. In short and goose steps \
+             the foot strikes the ground at other times, in part in mid-swing, and these impacts determine where the torque is high"
         );
         (least >= ALIKE, note)
     },
@@ -45,9 +45,9 @@ pub(super) const LOWEST: Statement = Statement {
     judge: |paper, _| {
         let lowest = least_of(paper, "rms_nm");
         let note = format!(
-            "passes if short steps have the lowest root mean square of the knee's torque; {lowest} steps have. Accelerations go with step \
-             length over period squared: at 0.62 s short steps would have to be below 0.38 of the standard length to ask for less, and \
-             the paper gives no length. Other lengths: see the table of assumptions"
+            "passes if short steps have the lowest root mean square of the knee torque; {lowest} steps have the lowest. Accelerations are \
+             proportional to step length over period squared: at 0.62 s, short steps need to be below 0.38 of the standard length for lower \
+             torques. The paper gives no length; the table of assumptions has other lengths"
         );
         (lowest == "short", note)
     },
@@ -65,9 +65,9 @@ pub(super) const REGULAR: Statement = Statement {
     judge: |paper, _| {
         let regular = least_of(paper, "speed_peak_to_peak_share");
         let note = format!(
-            "passes if the forward speed of short steps varies least, from end to end, as a share of the speed asked for; {regular} steps vary least. \
-             Scaled as the paper says (all angles alike), short steps lift the foot less: it strikes in mid-swing and, since blows cancel \
-             all velocity, throws the figure back"
+            "passes if the forward speed of short steps has the smallest range relative to the speed of the gait; {regular} steps have the \
+             smallest. With all angles scaled alike, as in the paper, short steps lift the foot less: it strikes the ground in mid-swing \
+             and, because impacts cancel all velocity, pushes the figure backwards"
         );
         (regular == "short", note)
     },
@@ -92,8 +92,8 @@ pub(super) const PLAUSIBLE: Statement = Statement {
     judge: |paper, _| {
         let (regular, lowest) = (least_of(paper, "speed_peak_to_peak_share"), least_of(paper, "largest_torque_nm_kg"));
         let note = format!(
-            "passes if the gait with the most regular speed ({regular}) also has the lowest torques for the body's mass ({lowest}, {:.1} \
-             N.m/kg; measured walking stays below 1.6). The paper's plausible gait is the one with short steps",
+            "passes if the gait with the most regular speed ({regular}) also has the lowest torques relative to body mass ({lowest}, {:.1} \
+             N.m/kg; below 1.6 in measured walking). In the paper, the gait with short steps is the plausible one",
             number(paper, &format!("{lowest}_largest_torque_nm_kg"))
         );
         (regular == lowest, note)
@@ -104,7 +104,7 @@ fn mean_torque(run: &super::mode::Run, coordinate: &str) -> Vec<f64> {
     Steady::of(run).map_or(vec![f64::NAN], |steady| steady.mean_cycle(&steady.effort(coordinate)))
 }
 
-/// Largest less least forward speed of the mid-hip, over the speed that the gait asks for (short steps may come to no speed at all).
+/// Range of the forward speed of the mid-hip relative to the speed of the gait (the mean speed of short steps can be zero).
 pub(super) fn unevenness(run: &super::mode::Run) -> f64 {
     let Ok(steady) = Steady::of(run) else { return f64::NAN };
     let speed = &run.recording.speed()[steady.rows()];
@@ -125,7 +125,7 @@ fn torques(evidence: &Evidence, coordinate: &str) -> Numbers {
     numbers
 }
 
-/// The gait whose number of this name is least.
+/// The gait with the smallest number of this name.
 fn least_of(numbers: &Numbers, what: &str) -> &'static str {
     let of = |gait: &&str| number(numbers, &format!("{gait}_{what}"));
     GAITS.iter().min_by(|a, b| of(a).total_cmp(&of(b))).copied().unwrap_or("no")

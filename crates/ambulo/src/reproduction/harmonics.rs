@@ -1,20 +1,20 @@
-//! Torque curves as a few harmonics: numbers for a controller to begin with.
+//! Torque curves as a few harmonics, for example as a feedforward for a controller.
 //!
-//!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the right foot's nominal contact
+//!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the nominal foot strike of the right foot
 //!
-//! Coefficients are sums over the rows of the steady cycles; blows are left out.
+//! Coefficients are sums over the rows of the steady cycles, without impacts.
 
 use super::mode::Run;
 use super::steady::{Steady, mean};
 use std::f64::consts::TAU;
 
-/// Harmonics kept.
+/// Number of harmonics.
 pub const HARMONICS: usize = 6;
 
 /// The torque of one coordinate over a cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueSeries {
-    /// The model's coordinate; its sign.
+    /// The coordinate of the model, which also gives the sign.
     pub coordinate: String,
     /// Duration of the cycle [s].
     pub cycle_s: f64,
@@ -24,7 +24,7 @@ pub struct TorqueSeries {
     pub cosine: [f64; HARMONICS],
     /// First to last harmonic [N.m].
     pub sine: [f64; HARMONICS],
-    /// Share of the variance that they hold.
+    /// Share of the variance that mean and harmonics represent.
     pub r_squared: f64,
 }
 

@@ -1,15 +1,14 @@
-//! (h) Figure 4: hip, knee and ankle torques of the standard gait.
+//! Claim (h), figure 4: hip, knee and ankle torques of the standard gait.
 
 use super::claim::{Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
 use super::evidence::Scope;
-
 use super::steady::{Steady, correlation, mean, range_of, rms};
 use crate::model::Side;
 
-/// A step of a curve from one millisecond to the next by more than this share of its range is a jump.
+/// A change of a curve within one millisecond by more than this share of its range is a jump.
 const JUMP: f64 = 0.05;
-/// Jumps a cycle that leave a curve rather continuous.
+/// Jumps per cycle up to which a curve counts as rather continuous.
 const FEW: f64 = 4.0;
 
 pub(super) const ORDER: Statement = Statement {
@@ -39,8 +38,8 @@ pub(super) const ORDER: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if the largest torques are in that order. In people the ankle's is the largest (1.2 to 1.6 N.m/kg, hip 0.9): the order is \
-             a mark of the paper's mode, whose trunk is held from outside and whose fore-aft forces are as large as friction allows{better}"
+            "passes if the largest torques are in this order. In people the ankle has the largest torque (1.2 to 1.6 N.m/kg, hip 0.9). The order \
+             is a property of the paper's mode, in which residual forces hold the trunk and fore-aft forces reach the friction limit{better}"
         );
         (pass, note)
     },
@@ -59,7 +58,10 @@ pub(super) const ALIKE: Statement = Statement {
     },
     judge: |paper, _| {
         let r = number(paper, "r_hip_knee");
-        (r >= 0.8, format!("passes with r >= 0.8 between hip flexion and knee extension torque over the cycle; {r:.2}"))
+        (
+            r >= 0.8,
+            format!("passes with r >= 0.8 between hip flexion and knee extension torque over the cycle; r = {r:.2}"),
+        )
     },
 };
 
@@ -78,7 +80,7 @@ pub(super) const CONTINUOUS: Statement = Statement {
             let steps: Vec<f64> = steady
                 .rows()
                 .skip(1)
-                .filter(|row| !steady.near_blow(*row as f64 * step))
+                .filter(|row| !steady.near_impact(*row as f64 * step))
                 .map(|row| (series[row] - series[row - 1]).abs() / range)
                 .collect();
             let cycles = super::steady::STEADY_CYCLES as f64;
@@ -91,8 +93,9 @@ pub(super) const CONTINUOUS: Statement = Statement {
     judge: |paper, _| {
         let most = JOINTS.iter().map(|(joint, _)| number(paper, &format!("{joint}_jumps_a_cycle"))).fold(0.0, f64::max);
         let note = format!(
-            "passes if, outside 20 ms around blows, no curve has more than {FEW:.0} steps a cycle of above {:.0} % of its range from one \
-             millisecond to the next; at most {most:.1}. They stand where the sole turns from sticking to slipping or back, or leaves",
+            "passes if, except for 20 ms around impacts, no curve has more than {FEW:.0} jumps per cycle, which are changes by more than {:.0} % \
+             of its range within one millisecond; at most {most:.1}. They occur where the sole changes between sticking and slipping, or \
+             leaves the ground",
             100.0 * JUMP
         );
         (most <= FEW, note)
@@ -133,8 +136,8 @@ pub(super) const SIGNS: Statement = Statement {
             (of("hip_mean_early_support_nm"), of("hip_mean_late_support_nm"), of("hip_mean_swing_nm"));
         let pass = early < 0.0 && late > 0.0 && swing > 0.0 && swing < of("hip_mean_where_positive_in_support_nm");
         let note = format!(
-            "passes if the hip's torque (flexion +) is negative on average over the first half of support, positive over the second, and \
-             positive but lower than that in swing: {early:.0}, {late:.0}, {swing:.0} N.m"
+            "passes if the hip torque (flexion +) is on average negative in the first half of stance, positive in the second half, and \
+             positive but lower in swing: {early:.0}, {late:.0}, {swing:.0} N.m"
         );
         (pass, note)
     },

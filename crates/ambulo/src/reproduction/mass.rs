@@ -1,12 +1,13 @@
-//! (f) Figure 6: the mass of the figure and its hip torque.
+//! Claim (f), figure 6: the effect of the mass of the figure on the hip torque.
 
 use super::claim::{Numbers, Statement, number, numbers};
-use super::evidence::{MASS, MASSES, Scope};
+use super::evidence::{MASSES, Scope};
 use super::mode::Run;
+use super::paper_human::MASS;
 use super::steady::{Steady, correlation, rms};
 use crate::model::Side;
 
-/// Largest departure of torques from the ratio of the masses that is rounding.
+/// The largest difference of torques from the ratio of the masses that is a rounding error.
 const EXACT: f64 = 1e-6;
 
 pub(super) const EXACTLY: Statement = Statement {
@@ -27,8 +28,9 @@ pub(super) const EXACTLY: Statement = Statement {
     judge: |paper, _| {
         let worst = number(paper, "departure_60_kg").max(number(paper, "departure_100_kg"));
         let note = format!(
-            "passes if all torques at 60 and 100 kg are those at 80 kg times the ratio of the masses within {EXACT:e} of the largest, with \
-             lengths and radii as they were, rigid soles and the motion prescribed: then mass is but the unit of force; {worst:.1e}"
+            "passes if all torques at 60 and 100 kg are equal to those at 80 kg times the ratio of the masses, within {EXACT:e} of the largest, \
+             with the same lengths and radii, rigid soles and a prescribed motion, where the mass only sets the unit of force; found \
+             {worst:.1e}"
         );
         (worst < EXACT, note)
     },
@@ -44,7 +46,7 @@ pub(super) const NEARLY: Statement = Statement {
         for (what, runs) in [("soft", &evidence.soft_masses), ("dense", &evidence.dense_masses)] {
             for (run, mass) in runs.iter().zip(MASSES).filter(|(_, mass)| (mass - MASS).abs() > 1.0) {
                 let parts = compare(&runs[1], run, mass / MASS);
-                for (part, Parts { ratio, difference, shape }) in [("stance", parts[0]), ("swing", parts[1])] {
+                for (part, Comparison { ratio, difference, shape }) in [("stance", parts[0]), ("swing", parts[1])] {
                     all.push((format!("{what}_{mass:.0}_kg_{part}_ratio"), ratio));
                     all.push((format!("{what}_{mass:.0}_kg_{part}_difference_percent"), 100.0 * difference));
                     all.push((format!("{what}_{mass:.0}_kg_{part}_shape_r"), shape));
@@ -60,10 +62,10 @@ pub(super) const NEARLY: Statement = Statement {
         };
         let worst = most("dense", "swing");
         let note = format!(
-            "passes if, with segments and soles as thick as the density asks, the hip's torque in swing differs after scaling by the mass \
-             by more than rounding and by less than 20 % of its root mean square: at most {worst:.2} % (in stance {:.2} %). With lengths \
-             and radii as they were nothing differs (f1); the paper does not say which of its radii grew with the mass. In soft shoes of \
-             one stiffness, which the paper did not have yet: {:.1} % (in stance {:.1} %)",
+            "passes if, with the same density and therefore other radii of segments and soles, the hip torque in swing, scaled by the mass, \
+             differs by more than rounding and by less than 20 % of its root mean square: at most {worst:.2} % (in stance {:.2} %). With the \
+             same lengths and radii there is no difference (f1); the paper does not say which radii grew with the mass. In soft shoes of \
+             constant stiffness, which the paper did not use: {:.1} % (in stance {:.1} %)",
             most("dense", "stance"),
             most("soft", "swing"),
             most("soft", "stance"),
@@ -86,9 +88,9 @@ fn departure(base: &Run, run: &Run, ratio: f64) -> f64 {
     worst / largest
 }
 
-/// A part of the cycle, compared.
+/// Comparison of a part of the cycle.
 #[derive(Clone, Copy)]
-struct Parts {
+struct Comparison {
     /// Root mean square over that of the base.
     ratio: f64,
     /// Root mean square of the difference after scaling, over that of the base.
@@ -97,9 +99,9 @@ struct Parts {
     shape: f64,
 }
 
-/// Hip torque of the right leg while its foot presses in the base, and while it does not.
-fn compare(base: &Run, run: &Run, ratio: f64) -> [Parts; 2] {
-    let nothing = Parts { ratio: f64::NAN, difference: f64::NAN, shape: f64::NAN };
+/// Compares the hip torque of the right leg while its foot is loaded in the base, and while it is not.
+fn compare(base: &Run, run: &Run, ratio: f64) -> [Comparison; 2] {
+    let nothing = Comparison { ratio: f64::NAN, difference: f64::NAN, shape: f64::NAN };
     let (Ok(base), Ok(other)) = (Steady::of(base), Steady::of(run)) else { return [nothing; 2] };
     let (a, b) = (base.effort("hip_flexion_r"), other.effort("hip_flexion_r"));
     let foot = base.run.recording.foot(Side::Right);
@@ -108,6 +110,6 @@ fn compare(base: &Run, run: &Run, ratio: f64) -> [Parts; 2] {
         let of = |series: &[f64]| rows.iter().map(|row| series[*row]).collect::<Vec<f64>>();
         let (a, b) = (of(&a), of(&b));
         let off: Vec<f64> = a.iter().zip(&b).map(|(a, b)| b / ratio - a).collect();
-        Parts { ratio: rms(&b) / rms(&a), difference: rms(&off) / rms(&a), shape: correlation(&a, &b) }
+        Comparison { ratio: rms(&b) / rms(&a), difference: rms(&off) / rms(&a), shape: correlation(&a, &b) }
     })
 }

@@ -1,4 +1,4 @@
-//! Ways to make a figure walk: as in 1997, or put right. Each is a function from a request to a recorded walk.
+//! Modes of walking: functions from settings to a recorded walk. This file has the mode of the paper.
 
 use super::error::ReproductionError;
 use super::paper_settings::PaperSettings;
@@ -8,84 +8,84 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker};
 use crate::simulation::{ImpactLaw, StepSettings};
 
-/// A walk that a claim needs.
+/// The settings of a walk that a claim needs.
 #[derive(Debug, Clone, Copy)]
-pub struct Request<'a> {
+pub struct TrialSettings<'a> {
     /// The gait.
     pub gait: &'a Gait,
     /// The figure.
     pub human: &'a Human,
-    /// What the soles are made of.
+    /// Contact law of the soles.
     pub shoes: Footwear,
     /// Coefficient of friction μ of rigid soles.
     pub friction: f64,
-    /// Steps of the simulator in a second [Hz].
+    /// Time steps of the simulator per second [Hz].
     pub rate_hz: f64,
-    /// Cycles to walk.
+    /// Number of cycles.
     pub cycles: usize,
 }
 
-/// What the soles are made of.
+/// Contact law of the soles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Footwear {
-    /// Whatever the mode takes of itself.
+    /// The default of the mode.
     Own,
-    /// They do not give, and what strikes loses all its velocity.
+    /// Rigid soles; an impact cancels the whole velocity of the point.
     Rigid,
-    /// They give, by Hunt and Crossley's law.
+    /// Soft soles by the law of Hunt and Crossley.
     Soft,
 }
 
-/// A walk, and what was asked of it.
+/// A recorded walk with the values of its gait.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// What happened.
+    /// Motion and forces.
     pub recording: WalkRecording,
     /// Name of the gait.
     pub gait: String,
     /// Soles of the figure.
     pub soles: Vec<ContactSphere>,
-    /// Duration of a cycle [s]; row 0 is the right foot's nominal contact.
+    /// Duration of a cycle [s]; row 0 is the nominal foot strike of the right foot.
     pub cycle_s: f64,
-    /// Speed that the gait asks for [m/s].
+    /// Speed of the gait [m/s].
     pub speed: f64,
-    /// Step length that the gait asks for [m].
+    /// Step length of the gait [m].
     pub step_length: f64,
-    /// Foot off as a share of the cycle, as the gait has it.
+    /// Foot off of the gait as a share of the cycle.
     pub foot_off: f64,
 }
 
-/// A mode: how it walks.
-pub type Mode<'a> = dyn FnMut(&Request<'_>) -> Result<Run, ReproductionError> + 'a;
+/// A mode: simulates a walk with given settings.
+pub type Mode<'a> = dyn FnMut(&TrialSettings<'_>) -> Result<Run, ReproductionError> + 'a;
 
-/// Walks as the paper did: joints driven as the gait has them, the trunk held upright, the root free to slide, rigid
-/// contacts whose blows cancel the whole velocity of the point, Coulomb's friction. What the paper does not give is as in
-/// [`assumptions`](super::assumptions).
+/// Simulates a walk as in the paper: joints driven by the gait, the trunk held upright, the root free to slide, rigid contacts whose impacts
+/// cancel the whole velocity of the point, Coulomb friction. Values that the paper does not give are those of
+/// [`PaperSettings::default`].
 ///
 /// # Errors
-/// A gait that the figure cannot have, or a walk that cannot be simulated.
-pub fn paper_walk(request: &Request<'_>) -> Result<Run, ReproductionError> {
-    paper_walk_with(&PaperSettings::default(), request)
+/// A gait that is not possible for the figure, or a walk that cannot be simulated.
+pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
+    paper_walk_with(&PaperSettings::default(), trial)
 }
 
-/// The same with other values for what the paper does not give.
+/// Simulates a walk as in the paper, with other values for quantities that the paper does not give.
 ///
 /// # Errors
-/// A gait that the figure cannot have, or a walk that cannot be simulated.
-pub fn paper_walk_with(settings: &PaperSettings, request: &Request<'_>) -> Result<Run, ReproductionError> {
-    // Nobody is told of what is odd on the way: speeds outside of the gait's data, and steps that contacts leave unsolved, which the
-    // recording counts.
+/// A gait that is not possible for the figure, or a walk that cannot be simulated.
+pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
+    // Warnings are discarded: some claims need speeds outside of the data of the gait, and the recording counts time steps whose contacts
+    // were not solved.
     let mut findings = Findings::default();
-    let human = settings.figure(request.human)?;
-    let walk = Walk::new(&settings.gait(request.gait), human.dimensions.leg_length, &mut findings)?;
-    let (shoes, impact) = match request.shoes {
+    let human = settings.figure(trial.human)?;
+    let walk = Walk::new(&settings.gait(trial.gait), human.dimensions.leg_length, &mut findings)?;
+    let (shoes, impact) = match trial.shoes {
         Footwear::Own | Footwear::Rigid => (Shoes::Rigid, settings.impact),
         Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), ImpactLaw::Coulomb),
     };
-    let ground = Ground { friction: request.friction, shoes, impact };
+    let ground = Ground { friction: trial.friction, shoes, impact };
     let walker = Walker::new(&human, settings.signals(&walk, &human.model), &ground, walk.speed())?;
-    let steps = StepSettings { step_s: 1.0 / request.rate_hz, ..StepSettings::default() };
-    let duration_s = walk.cycle_s() * request.cycles as f64;
+    let steps = StepSettings { step_s: 1.0 / trial.rate_hz, ..StepSettings::default() };
+    let duration_s = walk.cycle_s() * trial.cycles as f64;
     let recording = walker.walk(&steps, duration_s, &mut findings)?;
     Ok(Run {
         recording,

@@ -1,7 +1,7 @@
-//! What net joint moments say about muscles: which group's moment outweighs the other's, and whether it shortens or is stretched.
+//! The dominant muscle group by net joint moment, and whether it shortens or lengthens.
 //!
-//! Net moments only: where both groups pull at once (co-contraction) each does more than this shows, and what ligaments and the
-//! ends of joints bear is in it too.
+//! Only net moments are known: if both groups act at once (co-contraction), each has a larger moment, and the moments of ligaments and joint
+//! stops are included.
 
 use super::mode::Run;
 use super::steady::{STEADY_CYCLES, Steady, mean};
@@ -16,13 +16,13 @@ pub const PHASES: [(&str, f64, f64); 7] = [
     ("mid swing", 0.75, 0.87),
     ("terminal swing", 0.87, 1.0),
 ];
-/// Coordinate, and the group whose moment counts positive and negative.
+/// Joint, coordinate, and the groups with positive and negative moment.
 const GROUPS: [(&str, &str, [&str; 2]); 3] = [
     ("hip", "hip_flexion_r", ["flexors", "extensors"]),
     ("knee", "knee_angle_r", ["extensors", "flexors"]),
     ("ankle", "ankle_angle_r", ["dorsiflexors", "plantarflexors"]),
 ];
-/// Mean power below this is neither [W/kg].
+/// A mean power below this counts as isometric [W/kg].
 const NEITHER_W_KG: f64 = 0.02;
 
 /// One joint in one part of the cycle; right leg, mean over the steady cycles.
@@ -32,17 +32,17 @@ pub struct MuscleRow {
     pub joint: &'static str,
     /// The part of the cycle.
     pub phase: &'static str,
-    /// The group that outweighs the other.
+    /// The dominant muscle group.
     pub group: &'static str,
-    /// `concentric` (it shortens and gives work), `eccentric` (it is stretched and takes work), or `isometric`.
+    /// `concentric` (it shortens and generates energy), `eccentric` (it lengthens and absorbs energy), or `isometric`.
     pub action: &'static str,
-    /// Share of the part in which that group outweighs.
+    /// Share of the part of the cycle in which this group dominates.
     pub share: f64,
     /// Mean moment, with the sign of the model's coordinate [N.m/kg].
     pub moment_nm_kg: f64,
     /// Mean power [W/kg].
     pub power_w_kg: f64,
-    /// Work over the part, without that of blows [J/kg].
+    /// Work over the part of the cycle, without impacts [J/kg].
     pub work_j_kg: f64,
 }
 

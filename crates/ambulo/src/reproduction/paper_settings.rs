@@ -1,7 +1,7 @@
-//! Values for what the paper does not give, and what they make of figure, gait and signals.
+//! Values that the paper does not give, and their effect on figure, gait and signals.
 
 use super::error::ReproductionError;
-use super::figures_of_mass::{rebuilt, with_soles, with_thickness};
+use super::paper_human::{rebuilt, with_soles, with_thickness};
 use crate::contact::HuntCrossley;
 use crate::gait::{Gait, Pelvis, Style, Walk};
 use crate::model::anthropometry::Human;
@@ -9,28 +9,28 @@ use crate::model::{Function, Model};
 use crate::simulation::walking::gait_signals;
 use crate::simulation::{ImpactLaw, Signal};
 
-/// What the paper leaves open. The default is what its mode takes.
+/// Values that the paper does not give. The default is used in the paper's mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperSettings {
-    /// Stature [m]; `None` leaves the figure's.
+    /// Stature [m]; `None` for that of the figure.
     pub height: Option<f64>,
-    /// Cross-section of the segments against the figure's.
+    /// Factor on the cross-section of the segments.
     pub thickness: f64,
-    /// Radii of the soles' spheres against the figure's; the sole plane stays.
+    /// Factor on the radii of the spheres of the soles; the plane of the sole is kept.
     pub sole_radii: f64,
     /// Whether there is a sphere under the tip of the toes.
     pub toe_spheres: bool,
-    /// Swing of shoulders and elbows against the gait's.
+    /// Factor on the swing of shoulders and elbows.
     pub arm_swing: f64,
-    /// Added to both hips' flexion [rad].
+    /// Angle that is added to the flexion of both hips [rad].
     pub hip_offset: f64,
-    /// How the joint curves run between their knots; `None` leaves the gait's. Of no effect on gaits with changes of knots.
+    /// Interpolation of the joint curves; `None` for that of the gait. It has no effect on gaits with changes of knots.
     pub style: Option<Style>,
-    /// Step length of all gaits against their own.
+    /// Factor on the step length of all gaits.
     pub step_length: f64,
-    /// Step height of all gaits against their own.
+    /// Factor on the step height of all gaits.
     pub step_height: f64,
-    /// Step length of one gait against the standard one, in place of its own.
+    /// Step length of one gait relative to the standard gait, instead of its own.
     pub own_length: Option<(&'static str, f64)>,
     /// What becomes of the velocity of what strikes.
     pub impact: ImpactLaw,
@@ -70,7 +70,7 @@ impl PaperSettings {
         Ok(figure)
     }
 
-    /// The trunk is held at a constant angle, whatever the gait has.
+    /// The gait with these settings; the trunk is always held at a constant angle.
     pub(super) fn gait(&self, gait: &Gait) -> Gait {
         let mut gait = Gait { pelvis: Pelvis::Vertical, ..gait.clone() };
         gait.pace.length_scale *= self.step_length;

@@ -1,16 +1,18 @@
-//! (d) "We could not prevent the character from sliding, even with a friction coefficient as high as 1."
+//! Claim (d): "We could not prevent the character from sliding, even with a friction coefficient as high as 1."
 //!
-//! Two causes are told apart. On one foot, the sole slips where the ground would have to push harder than friction can: more
-//! friction ends that. On both, a figure whose joints all follow and whose trunk is held has two motions left for the four that
-//! two soles would have to stop: where the joint curves give the feet different speeds, one must slip whatever the friction.
+//! There are two causes. In single support the sole slips where the horizontal force exceeds the friction limit; more friction prevents this.
+//! In double support the figure, with prescribed joints and a held trunk, has two degrees of freedom for the four that two resting soles
+//! would fix: where the joint curves give the feet different speeds, one foot must slip with any friction.
 
 use super::claim::{Numbers, Statement, number, numbers};
 use super::evidence::{Evidence, FRICTION, FRICTIONS, Scope};
-use super::feet::lowest_points;
 use super::mode::Run;
 use super::steady::{STEADY_CYCLES, Steady, rms};
+use crate::kinematics::each_body_motion;
+use crate::model::Side;
+use crate::model::anthropometry::ContactSphere;
 
-/// Slip over a step that is none [m].
+/// Slip per step that counts as none [m].
 const NO_SLIP_M: f64 = 1e-3;
 
 pub(super) const SINGLE: Statement = Statement {
@@ -24,13 +26,13 @@ pub(super) const SINGLE: Statement = Statement {
         let stop = number(paper, "friction_that_stops_it");
         let ends = if stop.is_finite() {
             let below = FRICTIONS.iter().copied().filter(|mu| *mu < stop).fold(0.0, f64::max);
-            format!("it ends (below {:.0} mm) with a friction between {below} and {stop}", 1e3 * NO_SLIP_M)
+            format!("it falls below {:.0} mm at a friction between {below} and {stop}", 1e3 * NO_SLIP_M)
         } else {
-            format!("it does not end with any friction up to {:.0}", FRICTIONS[FRICTIONS.len() - 1])
+            format!("it does not end at any friction up to {:.0}", FRICTIONS[FRICTIONS.len() - 1])
         };
         let note = format!(
-            "passes if the standing foot slips more than {:.0} mm a step at μ = {FRICTION}; it slips {slip:.1} mm, at the limit of \
-             friction for {:.0} % of the time on one foot; {ends}",
+            "passes if the foot in single support slips more than {:.0} mm per step at μ = {FRICTION}; it slips {slip:.1} mm and is at the \
+             friction limit for {:.0} % of single support; {ends}",
             1e3 * NO_SLIP_M,
             100.0 * number(paper, "share_at_limit_on_one_foot"),
         );
@@ -40,7 +42,7 @@ pub(super) const SINGLE: Statement = Statement {
 
 pub(super) const FORCED: Statement = Statement {
     id: "d2",
-    paper: "(not in the paper) sliding that no friction can stop: both feet down with different speeds",
+    paper: "(not in the paper) sliding that no friction can prevent: in double support the feet have different speeds",
     headline: "forced_slip_mm_a_step",
     scope: Scope::Brief,
     measure: measure_forced,
@@ -48,9 +50,9 @@ pub(super) const FORCED: Statement = Statement {
         let (rub, apart) = (number(paper, "forced_slip_mm_a_step"), number(paper, "feet_apart_in_height_mm"));
         let stands = number(paper, "share_on_both_feet");
         let own = if stands > 0.0 {
-            format!("both feet press for {:.1} % of the time", 100.0 * stands)
+            format!("both feet are loaded for {:.1} % of the time", 100.0 * stands)
         } else {
-            "the two feet never press at once in the steady walk, so nothing is forced: what slips does so at the limit"
+            "in the steady walk the feet are never loaded at the same time, so no slip is forced: a foot slips only at the friction limit"
                 .to_owned()
         };
         let better = corrected.map_or(String::new(), |numbers| {
@@ -61,8 +63,8 @@ pub(super) const FORCED: Statement = Statement {
             )
         });
         let note = format!(
-            "passes if in the gait's own double support the lowest points of the two feet would have to rub more than {:.0} mm a step \
-             against each other: {rub:.1} mm, root mean square {:.2} m/s; they are {apart:.1} mm apart in height{better}; {own}",
+            "passes if in the double support of the gait the lowest points of the feet move more than {:.0} mm per step relative to each other: \
+             {rub:.1} mm, root mean square {:.2} m/s; their heights differ by {apart:.1} mm{better}; {own}",
             1e3 * NO_SLIP_M,
             number(paper, "feet_apart_in_speed_m_s"),
         );
@@ -70,7 +72,7 @@ pub(super) const FORCED: Statement = Statement {
     },
 };
 
-/// Distances slipped a step [m], and shares of time.
+/// Slip per step [m], and the share of time at the friction limit.
 struct Slip {
     on_one_foot: f64,
     on_both: f64,
@@ -120,7 +122,7 @@ fn measure_forced(evidence: &Evidence) -> Numbers {
     let run = evidence.standard();
     let Ok(steady) = Steady::of(run) else { return Numbers::new() };
     let (points, step) = (lowest_points(run), run.recording.grid().step_s);
-    // Each foot lands half a cycle after the other, and lifts at `foot_off`.
+    // Each foot strikes half a cycle after the other foot and leaves the ground at `foot_off`.
     let both = run.foot_off - 0.5;
     let (mut apart, mut speeds) = (Vec::new(), Vec::new());
     for row in steady.rows() {
@@ -146,4 +148,33 @@ fn measure_forced(evidence: &Evidence) -> Numbers {
         ("slip_on_both_feet_at_friction_1_mm_a_step", slipped(1.0)),
         ("slip_on_both_feet_at_friction_1000_mm_a_step", slipped(1000.0)),
     ])
+}
+
+/// The lowest point of each foot, right and left, in one row.
+#[derive(Debug, Clone, Copy, Default)]
+struct Lowest {
+    /// Height [m].
+    height: [f64; 2],
+    /// Forward velocity [m/s].
+    velocity: [f64; 2],
+}
+
+/// The lowest points of both feet in all rows. Differences between the feet do not depend on where the root goes.
+fn lowest_points(run: &Run) -> Vec<Lowest> {
+    let mut rows = Vec::with_capacity(run.recording.grid().frames);
+    each_body_motion(&run.recording.model, &run.recording.trajectory, |_, motions| {
+        let mut lowest = Lowest { height: [f64::INFINITY; 2], velocity: [0.0; 2] };
+        for ContactSphere { side, body, center, radius, .. } in &run.soles {
+            let motion = &motions[body.index()];
+            let place = motion.pose.place(*center);
+            let foot = usize::from(*side == Side::Left);
+            if place.y - radius < lowest.height[foot] {
+                let bottom = place - crate::spatial::Vec3::y() * *radius;
+                lowest.height[foot] = place.y - radius;
+                lowest.velocity[foot] = motion.twist.velocity_at(bottom - motion.center).x;
+            }
+        }
+        rows.push(lowest);
+    });
+    rows
 }

@@ -1,16 +1,16 @@
-//! The steady part of a walk: its last cycles, by phase.
+//! The steady part of a walk, its last cycles, as functions of the phase.
 
 use super::error::ReproductionError;
 use super::mode::Run;
 use crate::model::Side;
 use std::ops::Range;
 
-/// Cycles that count: the last ones, after the start has died down.
+/// Number of cycles at the end that are evaluated, after the transient of the start.
 pub const STEADY_CYCLES: usize = 6;
 /// Points of a cycle: 0 to 100 %.
 pub const POINTS: usize = 101;
-/// Around a blow, torques do not count for so long before and after [s].
-pub const BLOW_MARGIN_S: f64 = 0.02;
+/// Torques are not evaluated within this time before and after an impact [s].
+pub const IMPACT_MARGIN_S: f64 = 0.02;
 
 /// The last cycles of a run.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ impl<'a> Steady<'a> {
     /// A run that is too short.
     pub fn of(run: &'a Run) -> Result<Steady<'a>, ReproductionError> {
         let grid = run.recording.grid();
-        // A cycle counts if its last row is there.
+        // A cycle is complete if its last row exists.
         let whole = ((grid.end_s() + grid.step_s) / run.cycle_s + 1e-9).floor() as usize;
         if whole < STEADY_CYCLES + 1 {
             let (gait, expected) = (run.gait.clone(), STEADY_CYCLES + 1);
@@ -56,20 +56,20 @@ impl<'a> Steady<'a> {
         row(self.start_s())..row(self.end_s()).min(self.run.recording.grid().frames)
     }
 
-    /// Blows within the steady cycles: when [s].
-    pub fn blows(&self) -> impl Iterator<Item = f64> + '_ {
+    /// Times of the impacts within the steady cycles [s].
+    pub fn impacts(&self) -> impl Iterator<Item = f64> + '_ {
         let (start, end) = (self.start_s(), self.end_s());
-        self.run.recording.impacts.iter().map(|blow| blow.time_s).filter(move |t| (start..end).contains(t))
+        self.run.recording.impacts.iter().map(|impact| impact.time_s).filter(move |t| (start..end).contains(t))
     }
 
-    /// Values of a series at 0 to 100 % of each cycle, on straight lines between rows; the end of the last cycle is that of
-    /// its last row.
+    /// Values of a series at 0 to 100 % of each cycle, interpolated linearly between rows; the last cycle ends with the value of its last
+    /// row.
     #[must_use]
     pub fn cycles(&self, series: &[f64]) -> Vec<Vec<f64>> {
         self.cycles_from(series, 0.0)
     }
 
-    /// The same, beginning at another phase [cycles], 0 to below 1; one cycle fewer unless that is 0.
+    /// The same, starting at another phase [cycles], 0 to below 1; one cycle fewer unless the phase is 0.
     #[must_use]
     pub fn cycles_from(&self, series: &[f64], phase: f64) -> Vec<Vec<f64>> {
         let count = if phase > 0.0 { STEADY_CYCLES - 1 } else { STEADY_CYCLES };
@@ -94,7 +94,7 @@ impl<'a> Steady<'a> {
         mean_of(&self.cycles(series))
     }
 
-    /// What drives a coordinate [N.m]; zeros if the model has no such coordinate.
+    /// Torque of a coordinate [N.m]; zeros if the model does not have this coordinate.
     #[must_use]
     pub fn effort(&self, name: &str) -> Vec<f64> {
         self.run.recording.effort(name).map_or_else(|| vec![0.0; self.run.recording.grid().frames], <[f64]>::to_vec)
@@ -106,53 +106,53 @@ impl<'a> Steady<'a> {
         self.run.recording.foot(side).force.iter().map(|force| force.y).collect()
     }
 
-    /// Share of rows of the steady cycles of which something is true.
+    /// Share of the rows of the steady cycles for which a condition is true.
     #[must_use]
     pub fn share(&self, of: impl Fn(usize) -> bool) -> f64 {
         let rows = self.rows();
         rows.clone().filter(|row| of(*row)).count() as f64 / rows.len() as f64
     }
 
-    /// Whether an instant lies within a margin of a blow.
+    /// Whether an instant is within [`IMPACT_MARGIN_S`] of an impact.
     #[must_use]
-    pub fn near_blow(&self, time_s: f64) -> bool {
-        self.run.recording.impacts.iter().any(|blow| (blow.time_s - time_s).abs() < BLOW_MARGIN_S)
+    pub fn near_impact(&self, time_s: f64) -> bool {
+        self.run.recording.impacts.iter().any(|impact| (impact.time_s - time_s).abs() < IMPACT_MARGIN_S)
     }
 }
 
-/// Point by point.
+/// Mean of curves, point by point.
 #[must_use]
 pub fn mean_of(curves: &[Vec<f64>]) -> Vec<f64> {
     let count = curves.len().max(1) as f64;
     (0..POINTS).map(|point| curves.iter().map(|curve| curve[point]).sum::<f64>() / count).collect()
 }
 
-/// Largest less least.
+/// Largest minus smallest value.
 #[must_use]
 pub fn range_of(values: &[f64]) -> f64 {
     let (low, high) = extremes(values);
     high - low
 }
 
-/// Least and largest.
+/// Smallest and largest value.
 #[must_use]
 pub fn extremes(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
-/// Mean.
+/// Mean of values.
 #[must_use]
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
-/// Root mean square.
+/// Root mean square of values.
 #[must_use]
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
-/// Pearson's correlation of two curves of one length; 0 if one is flat.
+/// Pearson correlation of two curves of the same length; 0 if one is constant.
 #[must_use]
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (x, y) = (mean(a), mean(b));

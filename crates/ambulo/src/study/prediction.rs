@@ -3,7 +3,6 @@
 use super::events::with_events_of_markers;
 use super::observation::{Followed, Observation, Origin};
 use super::outcome::PredictedGround;
-use super::run::Found;
 use super::settings::Settings;
 use crate::analysis::{
     self, Analysis, AnalysisError, CheckSettings, MassSource, PlateCoverage, PredictedAnalysis, PredictionInput,
@@ -15,6 +14,14 @@ use crate::motion::{Event, Motion};
 
 /// A shorter motion has no whole cycle [s].
 const SHORT_S: f64 = 1.0;
+
+/// Forces and what goes with them, before residual reduction and verdict.
+pub(super) struct Found {
+    pub(super) analysis: Analysis,
+    pub(super) prediction: Option<PredictedGround>,
+    /// Foot strikes and foot offs that plates measured.
+    pub(super) measured_events: Vec<Event>,
+}
 
 /// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
 pub(super) fn predicted(

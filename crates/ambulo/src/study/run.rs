@@ -4,13 +4,13 @@ use super::error::StudyError;
 use super::mass::MassKnowledge;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedMarkers, Tracking};
-use super::prediction::{predicted, with_markers};
+use super::prediction::{Found, predicted, with_markers};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::feasibility::{self, Evidence};
+use crate::analysis::feasibility::{self, Evidence, Person, Thresholds, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, AnalysisError, ForceSource, Progress, Stage, analyse_measured, analyse_with_progress,
-    reduce_residual, times_and_distances,
+    self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
+    analyse_with_progress, reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::findings::{Code, Findings};
@@ -37,14 +37,6 @@ pub fn run_observed(
     observer: &mut dyn FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Outcome, StudyError> {
     road(source, settings, findings, &mut Progress::watched_by(observer))
-}
-
-/// Forces and what goes with them, before residual reduction and verdict.
-pub(super) struct Found {
-    pub(super) analysis: Analysis,
-    pub(super) prediction: Option<PredictedGround>,
-    /// Foot strikes and foot offs that plates measured.
-    pub(super) measured_events: Vec<Event>,
 }
 
 fn road(
@@ -77,10 +69,8 @@ fn road(
             .report(Code::CyclesNone, "no whole gait cycle in the window: cycles.csv and the figure were not written");
     }
     let checks = prediction.as_ref().map(|prediction| &prediction.checks);
-    let Analysis { trajectory, forces, ground, .. } = &analysis;
-    let evidence = Evidence { model: &model, trajectory, forces, ground, device: device.as_deref() };
-    let mut verdict = feasibility::check(&evidence, &person, &settings.thresholds, findings);
-    verdict.oppose(checks.map_or(&[], |checks| &checks.reasons));
+    let judged = Judged { model: &model, person: &person, analysis: &analysis, device: device.as_deref(), checks };
+    let verdict = judged.verdict(&settings.thresholds, findings);
     progress.end(Stage::Feasibility)?;
     let analysis = Analysis { verdict: Some(verdict.clone()), ..analysis };
     Ok(Outcome {
@@ -101,6 +91,26 @@ fn road(
             window: processing.window,
         },
     })
+}
+
+/// What a verdict is about.
+struct Judged<'a> {
+    model: &'a Model,
+    person: &'a Person,
+    analysis: &'a Analysis,
+    device: Option<&'a [Vec<f64>]>,
+    checks: Option<&'a PredictionChecks>,
+}
+
+impl Judged<'_> {
+    /// Whether a person could do this, and whether predicted forces can be right.
+    fn verdict(&self, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
+        let Analysis { trajectory, forces, ground, .. } = self.analysis;
+        let evidence = Evidence { model: self.model, trajectory, forces, ground, device: self.device };
+        let mut verdict = feasibility::check(&evidence, self.person, thresholds, findings);
+        verdict.oppose(self.checks.map_or(&[], |checks| &checks.reasons));
+        verdict
+    }
 }
 
 /// Filters and time range for this recording.

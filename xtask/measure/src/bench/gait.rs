@@ -7,7 +7,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::Posture;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::reproduction::{Footwear, Request, paper_human, paper_walk};
+use ambulo::reproduction::{Footwear, TrialSettings, paper_human, paper_walk};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
@@ -108,10 +108,10 @@ fn paper() -> Result<Timing, String> {
     let human = paper_human().map_err(|e| e.to_string())?;
     let gait = Gait::named("standard").map_err(|e| e.to_string())?;
     let (shoes, friction) = (Footwear::Own, 1.0);
-    let request = Request { gait: &gait, human: &human, shoes, friction, rate_hz: 1.0 / STEP_S, cycles: CYCLES };
-    let steps = paper_walk(&request).map_err(|e| e.to_string())?.recording.grid().frames;
+    let trial = TrialSettings { gait: &gait, human: &human, shoes, friction, rate_hz: 1.0 / STEP_S, cycles: CYCLES };
+    let steps = paper_walk(&trial).map_err(|e| e.to_string())?.recording.grid().frames;
     Ok(cpu_us(steps, || {
-        black_box(paper_walk(&request).is_ok());
+        black_box(paper_walk(&trial).is_ok());
     }))
 }
 

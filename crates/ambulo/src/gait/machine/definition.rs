@@ -1,15 +1,62 @@
-//! What a machine is: states, transitions, children, activity.
+//! The description of a machine: states, transitions, children, activity; and the data that these can read.
 
-use super::running::{Children, Sight};
 use crate::gait::jet::Jet;
+use crate::gait::speed_plan::Clock;
 use std::fmt;
 
-/// Output of a machine in a state, from what it sees and what its children gave in this step.
-pub(super) type Activity = Box<dyn Fn(usize, &Sight<'_>, &Children<'_>) -> Jet + Send + Sync>;
-/// Whether a transition is to be taken.
-pub(super) type Condition = Box<dyn Fn(&Sight<'_>) -> bool + Send + Sync>;
+/// Data that a machine can read: the clock of this step, and all machines as they were after the previous step.
+#[derive(Debug, Clone, Copy)]
+pub struct MachineInputs<'a> {
+    /// Phase and speed of this step.
+    pub clock: &'a Clock,
+    pub(super) names: &'a [String],
+    pub(super) states: &'a [Vec<String>],
+    pub(super) before: &'a [(usize, Jet)],
+}
 
-/// A machine: description only; [`Running`](super::Running) holds which states are active.
+/// Outputs of a machine's children in this step.
+#[derive(Debug, Clone, Copy)]
+pub struct ChildOutputs<'a> {
+    /// Number of the first machine below this one in the tree.
+    pub(super) first: usize,
+    pub(super) names: &'a [String],
+    pub(super) outputs: &'a [(usize, Jet)],
+}
+
+impl MachineInputs<'_> {
+    fn number(&self, machine: &str) -> Option<usize> {
+        self.names.iter().position(|name| name == machine)
+    }
+
+    /// Name of the active state of a machine after the previous step.
+    #[must_use]
+    pub fn state(&self, machine: &str) -> Option<&str> {
+        let number = self.number(machine)?;
+        Some(&self.states[number][self.before[number].0])
+    }
+
+    /// Output of a machine in the previous step; zero before the first step.
+    #[must_use]
+    pub fn output(&self, machine: &str) -> Option<Jet> {
+        self.number(machine).map(|number| self.before[number].1)
+    }
+}
+
+impl ChildOutputs<'_> {
+    /// Output of a machine below this one; zero if there is none of this name.
+    #[must_use]
+    pub fn output(&self, machine: &str) -> Jet {
+        let found = self.names.iter().position(|name| name == machine);
+        found.map_or(Jet::ZERO, |i| self.outputs[self.first + i].1)
+    }
+}
+
+/// Computes the output of a machine in a state.
+pub(super) type Activity = Box<dyn Fn(usize, &MachineInputs<'_>, &ChildOutputs<'_>) -> Jet + Send + Sync>;
+/// Decides whether a transition is taken.
+pub(super) type Condition = Box<dyn Fn(&MachineInputs<'_>) -> bool + Send + Sync>;
+
+/// The description of a machine; [`RunningMachine`](super::RunningMachine) has the active states.
 pub struct Machine {
     pub(super) name: String,
     pub(super) states: Vec<State>,
@@ -23,56 +70,56 @@ pub struct Machine {
 pub struct State {
     /// Name.
     pub name: String,
-    /// When it is active and which angles bound it, for readers.
+    /// Time and angles of the state, for tables and figures.
     pub span: Option<Span>,
 }
 
-/// When a state is active, and the angles at both ends.
+/// The time in which a state is active, and the angles at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// Activation and end in cycles of the machine's own foot (of the right foot for the global cycle).
+    /// Start and end in cycles of the foot of the machine (of the right foot for the global cycle).
     pub window: [f64; 2],
-    /// Angles there [rad].
+    /// Angles at start and end [rad].
     pub bounds: Option<[f64; 2]>,
 }
 
 impl State {
-    /// A state of which nothing more is told.
+    /// A state without times and angles.
     #[must_use]
     pub fn named(name: &str) -> State {
         State { name: name.to_owned(), span: None }
     }
 }
 
-/// A way from one state to another.
+/// A change from one state to another.
 pub struct Transition {
     /// Index of the state that is left.
     pub from: usize,
     /// Index of the state that is entered.
     pub to: usize,
-    /// When, in words.
+    /// Description of the condition.
     pub when: String,
     pub(super) condition: Condition,
 }
 
 impl Transition {
-    /// A transition that is taken whenever the condition holds.
+    /// A transition that is taken when the condition is true.
     pub fn new(
         from: usize,
         to: usize,
         when: impl Into<String>,
-        condition: impl Fn(&Sight<'_>) -> bool + Send + Sync + 'static,
+        condition: impl Fn(&MachineInputs<'_>) -> bool + Send + Sync + 'static,
     ) -> Transition {
         Transition { from, to, when: when.into(), condition: Box::new(condition) }
     }
 }
 
 impl Machine {
-    /// A machine that starts in its first state; names of machines must differ within a tree.
+    /// A machine that starts in its first state. Machines in a tree must have different names.
     pub fn new(
         name: &str,
         states: Vec<State>,
-        activity: impl Fn(usize, &Sight<'_>, &Children<'_>) -> Jet + Send + Sync + 'static,
+        activity: impl Fn(usize, &MachineInputs<'_>, &ChildOutputs<'_>) -> Jet + Send + Sync + 'static,
     ) -> Machine {
         let states = if states.is_empty() { vec![State::named("active")] } else { states };
         Machine {
@@ -84,22 +131,23 @@ impl Machine {
         }
     }
 
-    /// With transitions; those that name states that are not there are left out.
+    /// Adds transitions; transitions of states that do not exist are ignored.
     #[must_use]
     pub fn with_transitions(mut self, transitions: impl IntoIterator<Item = Transition>) -> Machine {
         let count = self.states.len();
-        self.transitions.extend(transitions.into_iter().filter(|way| way.from < count && way.to < count));
+        self.transitions
+            .extend(transitions.into_iter().filter(|transition| transition.from < count && transition.to < count));
         self
     }
 
-    /// With machines that run side by side below it.
+    /// Adds machines that run concurrently below this one.
     #[must_use]
     pub fn with_children(mut self, children: impl IntoIterator<Item = Machine>) -> Machine {
         self.children.extend(children);
         self
     }
 
-    /// The same machine, children everywhere in the order of a key of their names: nothing that it gives may change.
+    /// The same machine with the children of all machines sorted by a key of their names. The order does not change any output.
     #[must_use]
     pub fn with_children_ordered(mut self, key: &impl Fn(&str) -> u64) -> Machine {
         self.children = self.children.into_iter().map(|child| child.with_children_ordered(key)).collect();
@@ -113,7 +161,7 @@ impl Machine {
         &self.name
     }
 
-    /// States; the first is where it starts.
+    /// States; the machine starts in the first one.
     #[must_use]
     pub fn states(&self) -> &[State] {
         &self.states
@@ -125,7 +173,7 @@ impl Machine {
         &self.transitions
     }
 
-    /// Machines that run side by side below it.
+    /// Machines that run concurrently below this one.
     #[must_use]
     pub fn children(&self) -> &[Machine] {
         &self.children

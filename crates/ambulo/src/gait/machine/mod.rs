@@ -1,15 +1,15 @@
-//! Hierarchical concurrent state machines (Cremer, Kearney, Papelis, ACM TOMACS 1995), and the one that walks.
+//! Hierarchical concurrent state machines (Cremer, Kearney, Papelis, ACM TOMACS 1995), and the machine of a walk.
 //!
-//! A machine has states with transitions, child machines that run side by side, and an activity function that gives its
-//! output each step from readable external data and its children's outputs. Everything that a machine can see of others is a
-//! snapshot of the step before, so the order of siblings never matters.
+//! A machine has states with transitions, child machines that run concurrently, and an activity function that computes its output in
+//! each step from the clock and the outputs of its children. A machine reads the other machines as they were after the previous step,
+//! so the order of siblings does not matter.
 
 mod definition;
-mod description;
-mod running;
+mod running_machine;
+mod state_table;
 mod walking;
 
-pub use definition::{Machine, Span, State, Transition};
-pub use description::{StateRow, state_rows, state_table};
-pub use running::{Children, Running, Sight};
+pub use definition::{ChildOutputs, Machine, MachineInputs, Span, State, Transition};
+pub use running_machine::RunningMachine;
+pub use state_table::{StateRow, state_rows, state_table};
 pub use walking::{WalkMachine, walking_machine};

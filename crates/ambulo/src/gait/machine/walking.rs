@@ -1,20 +1,19 @@
-//! The machine that walks: the global cycle, with machines for the joints side by side below it.
+//! The machine of a walk: the global cycle, with concurrent machines for the joints below it.
 //!
 //! ```text
 //! walk                      double and single support; output: phase of the right foot [cycles, 0 to 1]
-//! ├ right leg, left leg     stance, swing; output: direction of the foot against the pelvis, hip - knee + ankle [rad]
-//! │ └ hip, knee, ankle      sub-cycles; output: the joint's angle [rad]
+//! ├ right leg, left leg     stance, swing; output: angle of the foot relative to the pelvis, hip - knee + ankle [rad]
+//! │ └ hip, knee, ankle      sub-cycles; output: joint angle [rad]
 //! ├ pelvis, trunk           one state; output: anterior tilt, forward lean [rad]
 //! └ shoulders, elbows       forward and backward swing, flexion and extension; output: flexion [rad]
 //! ```
 //!
-//! Transitions test the clock alone: a state is left when the phase is outside its window, and windows are read at the speed of
-//! the moment, so a change of speed brings all machines into step by itself. In its state a joint's machine evaluates the
-//! polynomial of that sub-cycle, on the same curves that [`Walk::at`] reads: both give the same bits, at any rate of steps
-//! (tests/gait_machine.rs).
+//! Transitions test only the clock: a machine leaves a state when the phase is outside the window of the state. Windows are evaluated at
+//! the current speed, so all machines stay synchronised when the speed changes. The machine of a joint evaluates the polynomial of its
+//! sub-cycle on the same curves as [`Walk::at`]: both give the same bits at any step rate (tests/gait_machine.rs).
 
-use super::definition::{Machine, Span, State, Transition};
-use super::running::{Children, Running, Sight};
+use super::definition::{ChildOutputs, Machine, MachineInputs, Span, State, Transition};
+use super::running_machine::RunningMachine;
 use crate::gait::arms::ArmCurves;
 use crate::gait::cyclic_curve::CyclicCurve;
 use crate::gait::jet::Jet;
@@ -25,7 +24,7 @@ use crate::gait::walk::{LegAngles, Phases, Walk, WalkPosture};
 use crate::model::Side;
 use std::sync::Arc;
 
-/// The walking machine of a walk.
+/// The state machine of a walk.
 #[must_use]
 pub fn walking_machine(walk: &Walk) -> Machine {
     let walk = Arc::new(walk.clone());
@@ -36,7 +35,7 @@ pub fn walking_machine(walk: &Walk) -> Machine {
     global(&walk).with_children(legs).with_children(trunk).with_children(arms)
 }
 
-/// Phase of a side's foot.
+/// Phase of the foot of a side.
 fn phase_of(side: Side, clock: &Clock) -> Jet {
     match side {
         Side::Right => clock.phase,
@@ -62,44 +61,39 @@ fn global(walk: &Arc<Walk>) -> Machine {
         name: NAMES[k].into(),
         span: Some(Span { window: [windows[k], windows[k + 1]], bounds: None }),
     };
-    let way = |k: usize| {
+    let transition = |k: usize| {
         let walk = Arc::clone(walk);
-        Transition::new(k, (k + 1) % 4, EVENTS[k], move |sight: &Sight<'_>| {
-            let windows = support_windows(walk.foot_off(sight.clock));
-            let [phase, _] = walk.phases(sight.clock).cycle;
+        Transition::new(k, (k + 1) % 4, EVENTS[k], move |inputs: &MachineInputs<'_>| {
+            let windows = support_windows(walk.foot_off(inputs.clock));
+            let [phase, _] = walk.phases(inputs.clock).cycle;
             !(windows[k]..windows[k + 1]).contains(&phase)
         })
     };
-    let phase = |_: usize, sight: &Sight<'_>, _: &Children<'_>| sight.clock.phase - sight.clock.phase.value.floor();
-    Machine::new("walk", (0..4).map(state).collect(), phase).with_transitions((0..4).map(way))
+    let phase = |_: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
+        inputs.clock.phase - inputs.clock.phase.value.floor()
+    };
+    Machine::new("walk", (0..4).map(state).collect(), phase).with_transitions((0..4).map(transition))
 }
 
 fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
     let off = walk.foot_off(&walk.clock(0.0));
     let state = |name: &str, window: [f64; 2]| State { name: name.into(), span: Some(Span { window, bounds: None }) };
     let states = vec![state("stance", [0.0, off]), state("swing", [off, 1.0])];
-    let way = |from: usize, when: &str| {
+    let transition = |from: usize, when: &str| {
         let walk = Arc::clone(walk);
-        Transition::new(from, 1 - from, when, move |sight: &Sight<'_>| {
-            let stands = walk.phases(sight.clock).stance[side_index(side)];
+        Transition::new(from, 1 - from, when, move |inputs: &MachineInputs<'_>| {
+            let stands = walk.phases(inputs.clock).stance[side as usize];
             stands != (from == 0)
         })
     };
     let names = Joint::ALL.map(|joint| joint_name(side, joint));
-    let foot = move |_: usize, _: &Sight<'_>, children: &Children<'_>| {
+    let foot = move |_: usize, _: &MachineInputs<'_>, children: &ChildOutputs<'_>| {
         let [hip, knee, ankle] = [0, 1, 2].map(|i| children.output(&names[i]));
         hip - knee + ankle
     };
     Machine::new(&format!("{side} leg"), states, foot)
-        .with_transitions([way(0, "foot off"), way(1, "contact")])
+        .with_transitions([transition(0, "foot off"), transition(1, "contact")])
         .with_children(Joint::ALL.map(|joint| joint_machine(walk, side, joint)))
-}
-
-fn side_index(side: Side) -> usize {
-    match side {
-        Side::Right => 0,
-        Side::Left => 1,
-    }
 }
 
 fn joint_name(side: Side, joint: Joint) -> String {
@@ -114,7 +108,7 @@ fn joint_machine(walk: &Arc<Walk>, side: Side, joint: Joint) -> Machine {
     curve_machine(walk, &joint_name(side, joint), side, walk.legs().of(joint), offset)
 }
 
-/// A machine whose states are the sub-cycles of a curve; `offset` is taken from the curve.
+/// A machine whose states are the sub-cycles of a curve; `offset` is subtracted from the curve.
 fn curve_machine(
     walk: &Arc<Walk>,
     name: &str,
@@ -132,40 +126,40 @@ fn curve_machine(
         State { name: part.name.clone(), span: Some(span) }
     };
     let count = sub_cycles.len();
-    let way = |k: usize| {
+    let transition = |k: usize| {
         let (walk, curve, parts) = (Arc::clone(walk), Arc::clone(&curve), Arc::clone(&sub_cycles));
         let end = parts[k].to % curve.knots().len();
         let when = curve.knots()[end].name.clone();
-        Transition::new(k, (k + 1) % count, when, move |sight: &Sight<'_>| {
-            let speed = walk.curve_speed(sight.clock).value;
-            let segment = curve.segment_at(phase_of(side, sight.clock).value, speed);
+        Transition::new(k, (k + 1) % count, when, move |inputs: &MachineInputs<'_>| {
+            let speed = walk.curve_speed(inputs.clock).value;
+            let segment = curve.segment_at(phase_of(side, inputs.clock).value, speed);
             !parts[k].has_segment(segment, curve.knots().len())
         })
     };
     let states = sub_cycles.iter().map(state).collect();
-    let ways: Vec<Transition> = if count > 1 { (0..count).map(way).collect() } else { Vec::new() };
+    let transitions: Vec<Transition> = if count > 1 { (0..count).map(transition).collect() } else { Vec::new() };
     let activity = {
         let (walk, curve, parts) = (Arc::clone(walk), Arc::clone(&curve), Arc::clone(&sub_cycles));
-        move |state: usize, sight: &Sight<'_>, _: &Children<'_>| {
-            let (phase, speed) = (phase_of(side, sight.clock), walk.curve_speed(sight.clock));
+        move |state: usize, inputs: &MachineInputs<'_>, _: &ChildOutputs<'_>| {
+            let (phase, speed) = (phase_of(side, inputs.clock), walk.curve_speed(inputs.clock));
             let segment = parts[state].segment(&curve, phase.value, speed.value);
             curve.on_segment(segment, phase, speed) - offset(speed)
         }
     };
-    Machine::new(name, states, activity).with_transitions(ways)
+    Machine::new(name, states, activity).with_transitions(transitions)
 }
 
 fn pelvis(walk: &Arc<Walk>) -> Machine {
     let walk = Arc::clone(walk);
-    Machine::new("pelvis", vec![State::named("tilting")], move |_, sight, _| {
-        walk.pelvis_tilt(sight.clock.phase, walk.curve_speed(sight.clock))
+    Machine::new("pelvis", vec![State::named("tilting")], move |_, inputs, _| {
+        walk.pelvis_tilt(inputs.clock.phase, walk.curve_speed(inputs.clock))
     })
 }
 
 fn lean(walk: &Arc<Walk>) -> Machine {
     let walk = Arc::clone(walk);
-    Machine::new("trunk", vec![State::named("leaning")], move |_, sight, _| {
-        walk.trunk_lean(sight.clock.phase, walk.curve_speed(sight.clock))
+    Machine::new("trunk", vec![State::named("leaning")], move |_, inputs, _| {
+        walk.trunk_lean(inputs.clock.phase, walk.curve_speed(inputs.clock))
     })
 }
 
@@ -177,29 +171,29 @@ fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
         State { name: name.into(), span: Some(span) }
     };
     let states = vec![state("forward swing", [0.0, 0.5]), state("backward swing", [0.5, 1.0])];
-    let way = |from: usize, when: &str| {
-        Transition::new(from, 1 - from, when, move |sight: &Sight<'_>| {
-            let phase = phase_of(side, sight.clock).value;
+    let transition = |from: usize, when: &str| {
+        Transition::new(from, 1 - from, when, move |inputs: &MachineInputs<'_>| {
+            let phase = phase_of(side, inputs.clock).value;
             (phase - phase.floor() < 0.5) != (from == 0)
         })
     };
     let walk = Arc::clone(walk);
-    Machine::new(&format!("{side} shoulder"), states, move |_, sight, _| {
-        ArmCurves::shoulder(phase_of(side, sight.clock), walk.curve_speed(sight.clock))
+    Machine::new(&format!("{side} shoulder"), states, move |_, inputs, _| {
+        ArmCurves::shoulder(phase_of(side, inputs.clock), walk.curve_speed(inputs.clock))
     })
-    .with_transitions([way(0, "the other foot's contact"), way(1, "contact")])
+    .with_transitions([transition(0, "the other foot's contact"), transition(1, "contact")])
 }
 
 fn elbow(walk: &Arc<Walk>, side: Side) -> Machine {
     curve_machine(walk, &format!("{side} elbow"), side, walk.arms().elbow(), |_| Jet::ZERO)
 }
 
-/// A walk driven by its machine.
+/// A walk that is driven by its state machine.
 #[derive(Debug)]
 pub struct WalkMachine {
     walk: Walk,
-    running: Running,
-    /// Numbers of the machines whose outputs make a posture.
+    running: RunningMachine,
+    /// Numbers of the machines whose outputs are parts of the posture.
     legs: [usize; 2],
     joints: [[usize; 3]; 2],
     trunk: [usize; 2],
@@ -213,14 +207,14 @@ impl WalkMachine {
         WalkMachine::with(walk, walking_machine(walk))
     }
 
-    /// The same, with the machine's children in another order.
+    /// The same machine with the children sorted by a key of their names.
     #[must_use]
     pub fn ordered(walk: &Walk, key: &impl Fn(&str) -> u64) -> WalkMachine {
         WalkMachine::with(walk, walking_machine(walk).with_children_ordered(key))
     }
 
     fn with(walk: &Walk, machine: Machine) -> WalkMachine {
-        let running = Running::new(machine);
+        let running = RunningMachine::new(machine);
         // Every name is one that `walking_machine` gave.
         let number = |name: &str| running.number(name).unwrap_or(0);
         WalkMachine {
@@ -233,7 +227,7 @@ impl WalkMachine {
         }
     }
 
-    /// Runs all machines once at a time [s], and gives the posture of their outputs.
+    /// Runs all machines once at a time [s] and returns the posture of their outputs.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         self.running.step(&clock);
@@ -254,7 +248,7 @@ impl WalkMachine {
 
     /// The machines with their states.
     #[must_use]
-    pub fn running(&self) -> &Running {
+    pub fn running(&self) -> &RunningMachine {
         &self.running
     }
 }

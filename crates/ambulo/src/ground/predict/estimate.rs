@@ -16,11 +16,10 @@
 //! thousand steps on. Memory: 370 bytes a frame held, 2.3 kB while it is made (docs/STREAMING.md).
 //! Not handled: hands and objects. What would pull is put right afterwards ([`super::unilateral`]).
 
-use super::center_path::center_path;
 use super::expected::Expectation;
 use super::geometry::Geometry;
 use super::loads::{FootLoads, loads};
-use super::samples::Samples;
+use super::samples::{Evidence, Samples};
 use super::stance_curves::StanceCurves;
 use super::stances::{Measure, Stance};
 use super::system::System;
@@ -31,34 +30,6 @@ use super::{Known, PredictError};
 use crate::model::BySide;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
-
-/// What is estimated from.
-pub(super) struct Evidence<'a> {
-    pub(super) grid: TimeGrid,
-    pub(super) geometry: &'a Geometry,
-    /// Half the breadth of right and left sole [m].
-    pub(super) half_widths: BySide<f64>,
-    pub(super) stances: &'a [Stance],
-    /// About the world's origin.
-    pub(super) total: &'a [Wrench],
-    pub(super) measure: &'a Measure,
-    pub(super) weights: &'a Weights,
-    pub(super) known: &'a Known,
-}
-
-impl Evidence<'_> {
-    /// The centre of pressure that is expected at a frame [m].
-    pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
-        let place = &self.geometry.feet[stance.side][frame];
-        let path = || center_path(place, stance, self.grid.time(frame), self.measure, self.weights);
-        self.known.center_at(stance.side, frame).unwrap_or_else(path)
-    }
-
-    /// The total wrench about the mass centre.
-    pub(super) fn about_mass_center(&self, frame: usize) -> Wrench {
-        self.total[frame].about(-self.geometry.center[frame])
-    }
-}
 
 /// Loads of right and left foot.
 ///

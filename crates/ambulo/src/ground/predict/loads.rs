@@ -1,9 +1,8 @@
 //! The estimate read out: forces, centres of pressure and free moments of a foot in every frame, with standard deviations.
 
 use super::FootDeviation;
-use super::estimate::Evidence;
 use super::expected::Expectation;
-use super::samples::{Part, frames_of, sample};
+use super::samples::{Evidence, Part, frames_of, sample};
 use super::stances::Gait;
 use super::system::Solution;
 use super::unknowns::{Curve, Unknowns};

@@ -1,11 +1,44 @@
 //! What is expected of every stance, and how its unknowns act, on the instants that the estimate looks at.
 
-use super::estimate::Evidence;
+use super::center_path::center_path;
 use super::expected::{Component, Expectation};
-use super::stances::Stance;
+use super::geometry::Geometry;
+use super::known::Known;
+use super::stances::{Measure, Stance};
 use super::unknowns::{Active, Curve};
+use super::weights::Weights;
+use crate::model::BySide;
+use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
+
+/// What the estimate is made from: the motion of feet and mass centre, the stances and the total wrench.
+pub(super) struct Evidence<'a> {
+    pub(super) grid: TimeGrid,
+    pub(super) geometry: &'a Geometry,
+    /// Half the breadth of right and left sole [m].
+    pub(super) half_widths: BySide<f64>,
+    pub(super) stances: &'a [Stance],
+    /// About the world's origin.
+    pub(super) total: &'a [Wrench],
+    pub(super) measure: &'a Measure,
+    pub(super) weights: &'a Weights,
+    pub(super) known: &'a Known,
+}
+
+impl Evidence<'_> {
+    /// The centre of pressure that is expected at a frame [m].
+    pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
+        let place = &self.geometry.feet[stance.side][frame];
+        let path = || center_path(place, stance, self.grid.time(frame), self.measure, self.weights);
+        self.known.center_at(stance.side, frame).unwrap_or_else(path)
+    }
+
+    /// The total wrench about the mass centre.
+    pub(super) fn about_mass_center(&self, frame: usize) -> Wrench {
+        self.total[frame].about(-self.geometry.center[frame])
+    }
+}
 
 /// One component at one instant.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,7 @@
 //! The normal equations of the estimate: expectations and evidence, by number of the unknowns.
 
 use super::PredictError;
-use super::estimate::Evidence;
-use super::samples::Samples;
+use super::samples::{Evidence, Samples};
 use super::stances::Stance;
 use super::taps::Taps;
 use super::unknowns::Unknowns;

@@ -2,7 +2,7 @@
 
 use super::Leg;
 use crate::model::anthropometry::ContactSphere;
-use crate::model::anthropometry::foot::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
+use crate::model::anthropometry::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WIDTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
 use crate::model::{BodyId, Side};
 use crate::spatial::{Mat3, Pose, Vec3};
 

@@ -7,7 +7,7 @@
 //! mass of its own (it is in the head's and the upper trunk's).
 //! The foot's longitudinal axis runs from heel to toe; its sagittal axis, that of a pointed foot, is then the vertical.
 
-use super::foot::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
+use super::dimensions::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
 use super::proportions::{Lengths, Lump, Proportions, Row};
 
 /// The rows of one sex. Radii: sagittal, longitudinal, transverse.

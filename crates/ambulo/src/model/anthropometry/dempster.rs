@@ -4,7 +4,7 @@
 //! gyration about the mass centre, as transcribed in BMClab/BMC (`data/BSP_DempsterWinter.txt`), read. Lengths: Drillis and
 //! Contini 1966 as in Winter, figure 4.1 (unverified).
 
-use super::foot::{ANKLE_HEIGHT, BALL_RADIUS, FOOT_LENGTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
+use super::dimensions::{ANKLE_HEIGHT, BALL_RADIUS, FOOT_LENGTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
 use super::proportions::{Lengths, Lump, Proportions, Row};
 
 /// Shares of stature. Shoulder and mid-hip stand at 0.818 and 0.530.

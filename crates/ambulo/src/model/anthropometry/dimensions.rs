@@ -1,12 +1,28 @@
 //! Lengths of one figure.
 
-use super::foot::{BALL_RADIUS, FOOT_WIDTH, HEEL_RADIUS, HEEL_TO_ANKLE, HEEL_TO_BALL, TOE_RADIUS};
 use super::proportions::Lengths;
 
 /// Distance of the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read there).
 const HIP_WIDTH: f64 = 0.093;
 /// Distance of the shoulder centres, the same source.
 const SHOULDER_WIDTH: f64 = 0.2401;
+
+/// Heel to ankle, share of the foot's length: the ankle of Gait2392 (1.80 m) lies 49 mm before the origin of its calcaneus,
+/// about 20 mm of soft tissue lie behind that, of 274 mm.
+pub(crate) const HEEL_TO_ANKLE: f64 = 0.25;
+/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot's length: men 201 of 271 mm, women 182 of 246
+/// mm in the US Army survey of 2012 (unverified).
+pub(crate) const HEEL_TO_BALL: f64 = 0.74;
+// Shares of stature: Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
+pub(crate) const FOOT_LENGTH: f64 = 0.152;
+pub(crate) const FOOT_WIDTH: f64 = 0.055;
+pub(crate) const ANKLE_HEIGHT: f64 = 0.039;
+/// 35 mm at 1.80 m: the heel sphere of OpenSim Moco's `2D_gait.osim`; others have 30 to 50 mm.
+pub(super) const HEEL_RADIUS: f64 = 0.035 / 1.80;
+/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and those of Falisse 2022 (32 mm).
+pub(super) const BALL_RADIUS: f64 = 0.025 / 1.80;
+/// 15 mm at 1.80 m: the front sphere of `2D_gait.osim`.
+pub(super) const TOE_RADIUS: f64 = 0.015 / 1.80;
 
 /// Lengths of a figure [m].
 #[derive(Debug, Clone, Copy, PartialEq)]

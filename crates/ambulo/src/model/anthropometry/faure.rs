@@ -3,7 +3,7 @@
 //! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking", table 1 and section 4.1: "uniform density and a
 //! cylindrical shape". The paper gives no density and no stature; both stand below.
 
-use super::foot::{ANKLE_HEIGHT, FOOT_LENGTH, HEEL_TO_ANKLE};
+use super::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, HEEL_TO_ANKLE};
 use super::proportions::{Lengths, Lump, Proportions};
 use std::f64::consts::PI;
 

@@ -4,22 +4,6 @@ use super::dimensions::Dimensions;
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 
-/// Heel to ankle, share of the foot's length: the ankle of Gait2392 (1.80 m) lies 49 mm before the origin of its calcaneus,
-/// about 20 mm of soft tissue lie behind that, of 274 mm.
-pub(crate) const HEEL_TO_ANKLE: f64 = 0.25;
-/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot's length: men 201 of 271 mm, women 182 of 246
-/// mm in the US Army survey of 2012 (unverified).
-pub(crate) const HEEL_TO_BALL: f64 = 0.74;
-// Shares of stature: Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
-pub(crate) const FOOT_LENGTH: f64 = 0.152;
-pub(crate) const FOOT_WIDTH: f64 = 0.055;
-pub(crate) const ANKLE_HEIGHT: f64 = 0.039;
-/// 35 mm at 1.80 m: the heel sphere of OpenSim Moco's `2D_gait.osim`; others have 30 to 50 mm.
-pub(super) const HEEL_RADIUS: f64 = 0.035 / 1.80;
-/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and those of Falisse 2022 (32 mm).
-pub(super) const BALL_RADIUS: f64 = 0.025 / 1.80;
-/// 15 mm at 1.80 m: the front sphere of `2D_gait.osim`.
-pub(super) const TOE_RADIUS: f64 = 0.015 / 1.80;
 /// Mass of the toes, share of the foot's: `toes_r` over `calcn_r` and `toes_r` of Gait2392, 0.2166 of 1.4666 kg.
 const TOES_MASS: f64 = 0.148;
 

@@ -1,45 +1,45 @@
-//! What a gait is asked to be: style, pace, posture of the trunk, changes of the curves.
+//! The settings of a gait: style, pace, posture of the trunk, changes of the curves; and the built-in gaits.
 
+use super::cyclic_curve::CyclicCurve;
 use super::error::GaitError;
 use super::joint::Joint;
 use super::stride::{ADULT_EXPONENT, EXPONENT_1997};
-use super::style::Style;
-use crate::gait::CyclicCurve;
+use crate::toml_reader::nearest;
 
-/// A gait as asked for; [`Walk::new`](super::Walk::new) resolves it on a leg.
+/// The settings of a gait; [`Walk::new`](super::Walk::new) applies them to a leg length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gait {
     /// Name.
     pub name: String,
-    /// How curves run between their knots.
+    /// Interpolation of the curves.
     pub style: Style,
-    /// How fast, with which steps.
+    /// Speed and steps.
     pub pace: Pace,
-    /// What step height is of the natural one; scales what lifts the swinging foot.
+    /// Step height relative to the natural one; scales the lift of the swinging foot.
     pub step_height: f64,
     /// Whether pelvis and trunk move.
     pub pelvis: Pelvis,
     /// Changes of single knots, in order.
     pub changes: Vec<KnotChange>,
-    /// Curves of its own, for the joints hip, knee and ankle; where there is none, those of the style.
+    /// Curves of hip, knee and ankle; `None` for the curve of the style.
     pub curves: [Option<CyclicCurve>; 3],
 }
 
-/// Speed, step length and frequency, as far as they are asked for. With V = step length × frequency two of them give the third;
-/// one alone leaves the rest to the cadence exponent; none is free walking.
+/// Speed, step length and step frequency, as far as they are given. With V = step length × frequency, two of them determine the third;
+/// if one is given, the cadence exponent determines the others; none means free walking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Walking speed.
     pub speed: Option<Speed>,
-    /// Step length [m], contact of one foot to contact of the other.
+    /// Step length [m], from the foot strike of one foot to that of the other.
     pub step_length: Option<f64>,
     /// Step frequency [steps/s].
     pub step_frequency: Option<f64>,
-    /// Share of speed that frequency takes when speed changes; `None`: the style's own.
+    /// Exponent b of step frequency ~ V^b; `None` for that of the style.
     pub cadence_exponent: Option<f64>,
-    /// Factor on the step length that the rest gives; scales the angles, and speed with them.
+    /// Factor on the resulting step length; also scales the angles and the speed.
     pub length_scale: f64,
-    /// Factor on the frequency that the rest gives; leaves the angles alone, and scales speed.
+    /// Factor on the resulting step frequency; scales the speed and does not change the angles.
     pub cadence_scale: f64,
 }
 
@@ -52,23 +52,23 @@ pub enum Speed {
     Dimensionless(f64),
 }
 
-/// What pelvis and trunk do.
+/// Motion of pelvis and trunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pelvis {
-    /// The pelvis tilts and the trunk leans as in people; hips are measured against the pelvis.
+    /// The pelvis tilts and the trunk leans as measured; hip angles are relative to the pelvis.
     Moving,
-    /// Pelvis and trunk are held upright; hips are measured against the vertical: less the mean tilt at that speed.
+    /// Pelvis and trunk are held upright; hip angles are relative to the vertical: reduced by the mean pelvic tilt at that speed.
     Vertical,
 }
 
-/// A change of one knot, both legs alike: angle, slope and curvature are scaled about upright standing, then added to.
+/// A change of one knot in both legs: angle, slope and curvature are scaled about upright standing, then the offsets are added.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnotChange {
     /// Joint.
     pub joint: Joint,
-    /// Name of the knot; in style 1997 the bound at which a sub-cycle ends.
+    /// Name of the knot; in style 1997, of the bound at which a sub-cycle ends.
     pub knot: String,
-    /// Factor on angle (what goes beyond standing), slope and curvature.
+    /// Factor on slope, curvature and the distance of the angle from standing.
     pub scale: f64,
     /// Added to the angle [rad].
     pub angle: f64,
@@ -81,7 +81,7 @@ pub struct KnotChange {
 }
 
 impl KnotChange {
-    /// No change yet.
+    /// A change of nothing, to be completed.
     #[must_use]
     pub fn of(joint: Joint, knot: &str) -> KnotChange {
         KnotChange { joint, knot: knot.to_owned(), scale: 1.0, angle: 0.0, slope: 0.0, curvature: 0.0, phase: 0.0 }
@@ -101,9 +101,41 @@ impl Default for Pace {
     }
 }
 
+/// Interpolation of joint curves between their knots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// Knots with angle, velocity and acceleration, at extremes and velocity peaks.
+    Knots,
+    /// The interpolation of the 1997 paper: sub-cycles between extremes, zero velocity and acceleration at their bounds, linear laws.
+    Paper1997,
+}
+
+impl Style {
+    /// Default motion of pelvis and trunk in this style; the paper holds the trunk at a constant angle.
+    #[must_use]
+    pub fn pelvis(self) -> Pelvis {
+        match self {
+            Style::Knots => Pelvis::Moving,
+            Style::Paper1997 => Pelvis::Vertical,
+        }
+    }
+
+    /// Names in files and commands.
+    pub const WORDS: [(&'static str, Style); 2] = [("knots", Style::Knots), ("1997", Style::Paper1997)];
+
+    /// Name of the style.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Style::Knots => "knots",
+            Style::Paper1997 => "1997",
+        }
+    }
+}
+
 /// V* of free walking.
 const FREE_SPEED: f64 = 0.429;
-/// V* of the paper's slow and fast walkers: the data's own slow and fast.
+/// V* of slow and fast walking: the speeds with these names in the data.
 const SLOW_SPEED: f64 = 0.290;
 const FAST_SPEED: f64 = 0.560;
 /// Speed and period of the paper's standard walk (section 4.2: "an average velocity of 1.5 m/s"; 4.1: "one second").
@@ -112,11 +144,11 @@ const STANDARD_PERIOD_S: f64 = 1.0;
 /// Periods of the paper's other gaits (section 4.5).
 const SHORT_PERIOD_S: f64 = 0.62;
 const GOOSE_PERIOD_S: f64 = 0.82;
-/// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step at which the linear laws keep
-/// every joint inside what people show at their fastest (hip 45°, knee 62°).
+/// Long steps: the paper gives no length. A fifth longer than standard, 0.90 m: near the longest step for which the linear laws keep
+/// every joint within the measured range of fast walking (hip 45°, knee 62°).
 const LONG_STEP: f64 = 1.2;
-/// Goose step: the paper gives no angles. Nearly stiff knees (a fifth of their flexion) and hips that swing 1.6 times as high; the
-/// highest point comes 8 % of the cycle earlier, so that the leg is not thrown down faster than up (100 and 80 rad/s² at the hip).
+/// Goose step: the paper gives no angles. Nearly stiff knees (a fifth of their flexion) and 1.6 times the largest hip flexion, which
+/// comes 8 % of the cycle earlier, so that the leg is not lowered faster than raised (100 and 80 rad/s² at the hip).
 const GOOSE_KNEE: f64 = 0.2;
 const GOOSE_HIP: f64 = 1.6;
 const GOOSE_EARLIER: f64 = 0.08;
@@ -153,14 +185,14 @@ impl Gait {
             "fast" => Ok(at_speed(FAST_SPEED)),
             "standard" => Ok(standard()),
             "long" => Ok(paced(LONG_STEP, STANDARD_PERIOD_S)),
-            // The paper gives no length: at the standard's mean speed, steps are shorter as the period is.
+            // The paper gives no length. At the mean speed of `standard`, the step length is proportional to the period.
             "short" => Ok(paced(SHORT_PERIOD_S / STANDARD_PERIOD_S, SHORT_PERIOD_S)),
             "goose" => Ok(Gait { changes: goose_changes(), ..paced(1.0, GOOSE_PERIOD_S) }),
-            _ => Err(GaitError::unknown(name)),
+            _ => Err(unknown_gait(name)),
         }
     }
 
-    /// Free walking in a style, with nothing else asked for.
+    /// Free walking in a style.
     #[must_use]
     pub fn new(name: &str, style: Style) -> Gait {
         Gait {
@@ -174,13 +206,13 @@ impl Gait {
         }
     }
 
-    /// The same gait in another style, on the pelvis that goes with it.
+    /// The same gait in another style, with the motion of the pelvis of that style.
     #[must_use]
     pub fn in_style(self, style: Style) -> Gait {
         Gait { style, pelvis: style.pelvis(), ..self }
     }
 
-    /// Share of speed that frequency takes.
+    /// Exponent b of step frequency ~ V^b.
     #[must_use]
     pub fn cadence_exponent(&self) -> f64 {
         self.pace.cadence_exponent.unwrap_or(match self.style {
@@ -189,7 +221,7 @@ impl Gait {
         })
     }
 
-    /// Dimensionless speed of a pace that asks for nothing.
+    /// Dimensionless speed if the pace gives nothing.
     pub(super) const DEFAULT_SPEED: f64 = FREE_SPEED;
 }
 
@@ -199,4 +231,12 @@ fn goose_changes() -> Vec<KnotChange> {
     let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(Joint::Knee, knot, GOOSE_KNEE)).collect();
     changes.push(KnotChange { phase: -GOOSE_EARLIER, ..scaled(Joint::Hip, "largest flexion", GOOSE_HIP) });
     changes
+}
+
+fn unknown_gait(name: &str) -> GaitError {
+    let hint = match nearest(name, Gait::NAMES.into_iter()) {
+        Some(near) => format!(". hint: is `{near}` meant?"),
+        None => String::from(", or a TOML file (docs/GAITS.md)"),
+    };
+    GaitError::UnknownGait { name: name.to_owned(), known: Gait::NAMES.join(", "), hint }
 }

@@ -1,29 +1,43 @@
-//! The paper's figure with another mass, stature or thickness.
+//! The figure of the paper, also with another mass, stature or thickness.
 
 use super::error::ReproductionError;
-use super::evidence::{HEIGHT, MASS};
 use crate::model::anthropometry::{Build, BuildError, Human, SegmentTable};
 use crate::model::{Body, Model};
 use crate::spatial::{Inertia, Mat3};
 
-/// The paper's figure of another mass [kg]: all lengths, and the radii of segments and soles, as they were.
+/// Mass of the paper's figure [kg].
+pub const MASS: f64 = 80.0;
+/// Its stature, which the paper does not give [m].
+pub const HEIGHT: f64 = 1.80;
+
+/// The figure of the paper: Table 1, 80 kg.
+///
+/// # Errors
+/// None is known.
+pub fn paper_human() -> Result<Human, ReproductionError> {
+    let build = Build { table: SegmentTable::Faure1997, mass: MASS, height: HEIGHT, toe_joint: false };
+    Ok(build.human()?)
+}
+
+/// The figure of the paper with another mass [kg] and the same lengths and radii of segments and soles.
 pub(super) fn of_mass(mass: f64) -> Result<Human, ReproductionError> {
     let build = Build { table: SegmentTable::Faure1997, mass, height: HEIGHT, toe_joint: false };
     Ok(build.human()?)
 }
 
-/// The same build at another stature [m].
+/// The same build with another stature [m].
 pub(super) fn rebuilt(human: &Human, height: f64) -> Result<Human, ReproductionError> {
     Ok(Build { height, ..human.build }.human()?)
 }
 
-/// The figure with its density kept at that of [`MASS`]: segments of the same lengths and soles as thick as that asks.
+/// The figure with the density that it has at [`MASS`]: segments of the same length, with other radii of segments and soles.
 pub(super) fn denser(human: &Human) -> Result<Human, ReproductionError> {
     let ratio = human.build.mass / MASS;
     Ok(with_soles(with_thickness(human, ratio)?, ratio.sqrt()))
 }
 
-/// Cylinders whose cross-section is `ratio` of what it was: m Δ(r²)/4 more across them and m Δ(r²)/2 more about them.
+/// Multiplies the cross-section of the cylinders by `ratio`: the moment of inertia grows by m Δ(r²)/4 about transverse axes and by
+/// m Δ(r²)/2 about the axis of the cylinder.
 pub(super) fn with_thickness(human: &Human, ratio: f64) -> Result<Human, ReproductionError> {
     let mut figure = human.clone();
     let bodies = figure.model.bodies().iter().map(|body| thicker(body, ratio)).collect::<Result<Vec<Body>, _>>()?;
@@ -33,7 +47,7 @@ pub(super) fn with_thickness(human: &Human, ratio: f64) -> Result<Human, Reprodu
     Ok(figure)
 }
 
-/// Soles whose spheres have radii `factor` of what they were, on the same sole plane.
+/// Multiplies the radii of the spheres of the soles by `factor` and keeps the plane of the sole.
 pub(super) fn with_soles(mut human: Human, factor: f64) -> Human {
     for sole in &mut human.soles {
         let radius = sole.radius * factor;
@@ -43,7 +57,7 @@ pub(super) fn with_soles(mut human: Human, factor: f64) -> Human {
     human
 }
 
-/// The axis of least inertia is that of the cylinder, about which I = m r²/2.
+/// The axis with the smallest moment of inertia is the axis of the cylinder, with I = m r²/2.
 fn thicker(body: &Body, ratio: f64) -> Result<Body, ReproductionError> {
     let (mass, own) = (body.inertia.mass(), body.inertia.about_center());
     let along = (0..3).min_by(|a, b| own[(*a, *a)].total_cmp(&own[(*b, *b)])).unwrap_or(1);

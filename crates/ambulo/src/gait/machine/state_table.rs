@@ -1,26 +1,26 @@
-//! Machines as rows and as a table of text: the tree, each state with its window, its bound values and where it leads.
+//! Lists the states of a machine as rows and as a table of text, with their windows, angles and transitions.
 
 use super::definition::{Machine, Span, State};
 use super::walking_machine;
 use crate::gait::walk::Walk;
 use std::fmt::Write;
 
-/// A state of a machine of the tree.
+/// A state of one machine of a tree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateRow {
-    /// How deep the machine stands in the tree; 0 for the root.
+    /// Depth of the machine in the tree; 0 for the root.
     pub depth: usize,
     /// Name of the machine.
     pub machine: String,
     /// Name of the state.
     pub state: String,
-    /// When it is active, and the angles at both ends.
+    /// The time in which it is active, and the angles at both ends.
     pub span: Option<Span>,
-    /// Transitions out of it: condition and name of the state entered.
+    /// Transitions from it: condition and name of the next state.
     pub leads: Vec<(String, String)>,
 }
 
-/// All states of a tree, parents before children.
+/// All states of a tree of machines, parents before children.
 #[must_use]
 pub fn state_rows(machine: &Machine) -> Vec<StateRow> {
     let mut rows = Vec::new();
@@ -30,8 +30,10 @@ pub fn state_rows(machine: &Machine) -> Vec<StateRow> {
 
 fn collect(machine: &Machine, depth: usize, rows: &mut Vec<StateRow>) {
     for (k, state) in machine.states().iter().enumerate() {
-        let ways = machine.transitions().iter().filter(|way| way.from == k);
-        let leads = ways.map(|way| (way.when.clone(), machine.states()[way.to].name.clone())).collect();
+        let transitions = machine.transitions().iter().filter(|transition| transition.from == k);
+        let leads = transitions
+            .map(|transition| (transition.when.clone(), machine.states()[transition.to].name.clone()))
+            .collect();
         let State { name, span } = state.clone();
         rows.push(StateRow { depth, machine: machine.name().to_owned(), state: name, span, leads });
     }
@@ -40,8 +42,8 @@ fn collect(machine: &Machine, depth: usize, rows: &mut Vec<StateRow>) {
     }
 }
 
-/// The walking machine of a walk as text: windows in percent of the cycle of the machine's own foot, angles in degrees, at the
-/// speed at which the walk begins.
+/// The state machine of a walk as text: windows in percent of the cycle of the machine's foot, angles in degrees, at the initial
+/// speed of the walk.
 #[must_use]
 pub fn state_table(walk: &Walk) -> String {
     let mut text = format!(
@@ -68,7 +70,7 @@ pub fn state_table(walk: &Walk) -> String {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
             let (width, numeric) = (widths[column], (2..6).contains(&column));
-            // A string takes whatever is written.
+            // Writing to a string cannot fail.
             let _ = if numeric { write!(line, "{cell:>width$}  ") } else { write!(line, "{cell:<width$}  ") };
         }
         text.push_str(line.trim_end());
@@ -91,7 +93,7 @@ fn cells(row: &StateRow, first: bool) -> [String; 7] {
     [machine, row.state.clone(), from, to, low, high, leads.join("; ")]
 }
 
-/// A window in percent of the cycle, its activation below 100.
+/// A window in percent of the cycle, with a start below 100.
 fn percents([from, to]: [f64; 2]) -> [f64; 2] {
     let [from, to] = [from, to].map(|phase| 100.0 * (phase - phase.floor()));
     // The end of a cycle is 100 %, not 0 %.

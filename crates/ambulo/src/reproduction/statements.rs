@@ -1,0 +1,43 @@
+//! The list of all claims, and their judgement.
+
+use super::claim::{Claim, Judgement, Statement};
+use super::evidence::{Evidence, Scope};
+use super::{bounce, convergence, forward, gaits, ground_force, joints, mass, sliding};
+
+/// All statements, in the order of the figures in the paper.
+const STATEMENTS: [Statement; 22] = [
+    convergence::TORQUE,
+    convergence::IMPULSE,
+    convergence::PERIOD,
+    forward::STOPS,
+    forward::AMPLITUDE,
+    forward::SLOW,
+    sliding::SINGLE,
+    sliding::FORCED,
+    ground_force::HUMPS,
+    ground_force::FLIGHT,
+    mass::EXACTLY,
+    mass::NEARLY,
+    gaits::SHAPE,
+    gaits::LOWEST,
+    gaits::REGULAR,
+    joints::ORDER,
+    joints::ALIKE,
+    joints::CONTINUOUS,
+    joints::SIGNS,
+    bounce::SHOES,
+    gaits::PLAUSIBLE,
+    bounce::SPEED,
+];
+
+/// Judges every claim in the paper's mode, with the numbers of the corrected mode for comparison.
+#[must_use]
+pub fn claims(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Claim> {
+    STATEMENTS.iter().map(|statement| statement.claim(paper, corrected)).collect()
+}
+
+/// Judges the claims for which brief evidence is sufficient.
+#[must_use]
+pub fn judgements(paper: &Evidence) -> Vec<Judgement> {
+    STATEMENTS.iter().filter(|statement| statement.scope == Scope::Brief).map(|s| s.judgement(paper)).collect()
+}
