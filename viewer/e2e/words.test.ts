@@ -31,7 +31,7 @@ const SAID: [string, RegExp][] = [
   ["no_ground", /without ground forces|no ground forces/i],
   ["one_leg", /left/i],
   ["no_cycles", /cycle/i],
-  ["gaps", /was not seen at 1\.50/],
+  ["gaps", /is missing at 1\.50/],
 ];
 
 for (const [name, words] of SAID) {

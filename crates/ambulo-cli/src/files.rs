@@ -65,6 +65,8 @@ const RESULTS: &[&str] = &[
     "grf_sd.mot",
     "external_loads.xml",
     "events.csv",
+    "clinical.csv",
+    "times_and_distances.csv",
     "cycles.csv",
     "figures/kinematics.svg",
     "figures/moments.svg",

@@ -200,7 +200,7 @@ fn without_ground_forces_they_are_predicted_and_the_user_is_told_what_else_there
     let bench = Workbench::new("no_ground");
     let run = bench.run(&FORCES[..4]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
-    run.says(&["note: no ground forces were given; they are predicted", "hint: --grf", "--no-ground"]);
+    run.says(&["note: no ground forces were given; they are predicted", "hint: `--grf`", "--no-ground"]);
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
     bench.run(&[&FORCES[..4], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
     bench.run(&[&FORCES[..4], &["--no-ground"], &RAW].concat()).done();

@@ -8,9 +8,11 @@ mod shared_data;
 mod svg_reader;
 mod workbench;
 
-use ambulo::model::Side;
+use ambulo::findings::Findings;
+use ambulo::model::{Model, Side};
 use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo_report::normative::band;
+use ambulo_results::Convention;
 use std::collections::BTreeMap;
 use svg_reader::{Figure, Panel};
 use workbench::Workbench;
@@ -18,22 +20,25 @@ use workbench::Workbench;
 /// Figures over the gait cycle.
 const CYCLE_FIGURES: [&str; 6] = ["kinematics", "moments", "powers", "ground_forces", "sagittal_2col", "sagittal_1col"];
 
-/// `cycles.csv`: values by quantity, side and cycle.
-struct Cycles(BTreeMap<(String, String, usize), Vec<f64>>);
+/// `cycles.csv`: values by quantity, side and cycle; and the meaning of the coordinates.
+struct Cycles(BTreeMap<(String, String, usize), Vec<f64>>, ClinicalNames);
 
 impl Cycles {
-    fn read(text: &str) -> Cycles {
+    fn read(bench: &Workbench) -> Cycles {
+        let text = bench.text("out/cycles.csv");
+        let body = if bench.exists("out/subject.osim") { "out/subject.osim" } else { "out/figure.osim" };
+        let model = Model::from_osim(bench.text(body).as_bytes(), &mut Findings::default()).unwrap();
         let mut rows: BTreeMap<_, Vec<f64>> = BTreeMap::new();
         for line in text.lines().skip(1) {
             let cells: Vec<&str> = line.split(',').collect();
             let key = (cells[0].to_owned(), cells[1].to_owned(), cells[2].parse().unwrap());
             rows.entry(key).or_default().push(cells[4].parse().unwrap());
         }
-        Cycles(rows)
+        Cycles(rows, ClinicalNames::of_model(&model))
     }
 
     fn quantities(&self) -> Vec<ClinicalQuantity> {
-        clinical_quantities(&ClinicalNames::usual(), |name| self.0.keys().any(|(quantity, _, _)| quantity == name))
+        clinical_quantities(&self.1, |name| self.0.keys().any(|(quantity, _, _)| quantity == name))
     }
 
     /// The mean over a side's cycles as a panel shows it; `None` without any.
@@ -62,10 +67,10 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 
 /// Correlation of what is shown with the band, for both sides.
 fn with_band(bench: &Workbench, id: &str, speed: f64) -> Vec<f64> {
-    let cycles = Cycles::read(&bench.text("out/cycles.csv"));
+    let cycles = Cycles::read(bench);
     let mass_kg = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
     let quantity = cycles.quantities().into_iter().find(|q| q.id == id).unwrap_or_else(|| panic!("no {id}"));
-    let expected = band(id, speed).unwrap().mean;
+    let expected = band(id, speed, Convention::Opensim).unwrap().mean;
     let means = Side::BOTH.into_iter().filter_map(|side| cycles.mean(&quantity, side, mass_kg));
     means.map(|mean| correlation(&mean.iter().copied().step_by(2).collect::<Vec<f64>>(), &expected)).collect()
 }
@@ -79,7 +84,7 @@ fn place(panel: &Panel) -> f64 {
 fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_signs() {
     let bench = Workbench::empty("figures_walk");
     bench.run(&["walk", "--cycles", "2", "-o", "out"]).done();
-    let cycles = Cycles::read(&bench.text("out/cycles.csv"));
+    let cycles = Cycles::read(&bench);
     let mass_kg = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
     let quantities = cycles.quantities();
     let mut compared = 0;
@@ -159,7 +164,7 @@ fn frontal_and_transverse_signs_agree_with_healthy_people_on_both_sides() {
         assert!(found.len() == 2 && found.iter().all(|r| *r > 0.6), "{id}: {found:?}");
     }
     // Feet are pushed towards the middle in single support.
-    let cycles = Cycles::read(&bench.text("out/cycles.csv"));
+    let cycles = Cycles::read(&bench);
     let lateral = cycles.quantities().into_iter().find(|q| q.id == "ground_force_lateral").unwrap();
     for side in Side::BOTH {
         let mean = cycles.mean(&lateral, side, 1.0).unwrap();

@@ -21,8 +21,8 @@ use ambulo::study::{
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
-use ambulo_report::outcome_figures;
-use ambulo_results::{GroundSource, Input, outcome_summary, outcome_tables};
+use ambulo_report::{clinical_file, outcome_figures};
+use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -113,10 +113,12 @@ fn unnamed() -> Input {
 /// The files of the library: name and bytes.
 fn library_files(source: &Source, settings: &Settings, mut findings: Findings) -> (BTreeMap<String, Vec<u8>>, Value) {
     let outcome = study::run(source, settings, &mut findings).unwrap();
-    let files = outcome_tables(&outcome).unwrap().into_iter().chain(outcome_figures(&outcome).unwrap());
+    let (clinical, convention) = clinical_file(&outcome, Convention::default()).unwrap();
+    let files =
+        outcome_tables(&outcome).unwrap().into_iter().chain(outcome_figures(&outcome).unwrap()).chain([clinical]);
     let mut files: BTreeMap<String, Vec<u8>> = files.map(|file| (file.name, file.bytes)).collect();
     files.insert("subject.osim".to_owned(), to_osim(&outcome.body).unwrap().write().unwrap());
-    let summary = outcome_summary(&outcome, unnamed(), &findings);
+    let summary = Summary { convention: Some(convention), ..outcome_summary(&outcome, unnamed(), &findings) };
     (files, serde_json::to_value(&summary).unwrap())
 }
 

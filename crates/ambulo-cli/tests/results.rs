@@ -93,7 +93,7 @@ fn the_summary_has_its_stable_keys() {
         "ground",
         "residual",
         "peaks",
-        "convergence",
+        "times_and_distances",
         "findings",
         "verdict",
         "comparison",

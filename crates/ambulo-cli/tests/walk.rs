@@ -137,7 +137,7 @@ fn the_papers_mode_walks_and_is_no_feasible_walk() {
 fn a_gait_that_cannot_be_put_right_is_said_to_be_so_and_judged() {
     let bench = Workbench::empty("walk_goose");
     let run = bench.run(&["walk", "--gait", "goose", "--cycles", "1", "-o", "out"]).infeasible();
-    run.says(&["warning: no small change makes this gait one that the ground carries", "hint: "]);
+    run.says(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
     let findings = bench.json("out/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
 }

@@ -118,11 +118,8 @@ fn a_motion_in_memory_must_be_whole() {
     assert_eq!(error(one(), 1.0, &[vec![f64::INFINITY]]), format!("{start} an infinite value; {numbers}"));
     let behind = "expected each joint directly before its children";
     let late = vec![joint("a", None), joint("b", Some(0)), joint("c", Some(0)), joint("d", Some(1))];
-    assert_eq!(error(late, 1.0, &[]), format!("{start} joint `d` not behind its parent; {behind}"));
-    assert_eq!(
-        error(vec![joint("a", Some(0))], 1.0, &[]),
-        format!("{start} joint `a` not behind its parent; {behind}")
-    );
+    assert_eq!(error(late, 1.0, &[]), format!("{start} joint `d` before its parent; {behind}"));
+    assert_eq!(error(vec![joint("a", Some(0))], 1.0, &[]), format!("{start} joint `a` before its parent; {behind}"));
     assert_eq!(
         error(vec![joint("a{", None)], 1.0, &[]),
         format!("{start} the name `a{{`; expected a name without braces")

@@ -170,6 +170,12 @@ impl ClinicalQuantity {
         }
     }
 
+    /// The column of a side in `clinical.csv`: `knee_flexion_r`, `knee_flexion_moment_r`.
+    #[must_use]
+    pub fn clinical_column(&self, side: Side) -> String {
+        format!("{}_{}", self.id.strip_suffix("_angle").unwrap_or(self.id), side.letter())
+    }
+
     /// Whether a name of `cycles.csv` is this quantity's.
     #[must_use]
     pub fn has_column(&self, name: &str) -> bool {

@@ -1,6 +1,7 @@
 //! Pictures and pages from results: clinical curves and norms, figures, the report page, exchange formats.
 
 pub mod clinical;
+mod clinical_file;
 mod exchange;
 mod figure_files;
 pub mod figures;
@@ -13,6 +14,7 @@ mod scene_shapes;
 mod stage;
 pub mod style;
 
+pub use clinical_file::clinical_file;
 pub use exchange::{
     ExchangeError, Glb, GroundReactions, LaboratoryError, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder,
     glb_of_motion, ground_reactions, laboratory_recording, marker_paths, skeleton_of, standing_recording,

@@ -6,6 +6,7 @@
 //! size as far as their gait is a scaled one.
 
 use ambulo::gait::STANDING_TILT;
+use ambulo_results::Convention;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -39,7 +40,7 @@ const MEASURED: [&str; 20] = [
     "ground_force_vertical",
     "ground_force_fore_aft",
 ];
-/// Those that count from the pelvis: the laboratory's stands at [`STANDING_TILT`] where a model's stands at 0.
+/// The angles of pelvis and hips that the bands measure in the clinical convention, and models from upright standing.
 const FROM_PELVIS: [&str; 2] = ["pelvis_tilt_angle", "hip_flexion_angle"];
 
 /// Mean and standard deviation of a quantity over the gait cycle, in the signs and units of its
@@ -59,11 +60,12 @@ pub struct NormativeBand {
 /// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed; `None` of those
 /// that were not measured, and of speeds that are no numbers.
 #[must_use]
-pub fn band(quantity_id: &str, speed_dimensionless: f64) -> Option<NormativeBand> {
+pub fn band(quantity_id: &str, speed_dimensionless: f64, convention: Convention) -> Option<NormativeBand> {
     let bands = Bands::built_in().ok()?;
     let (_, curves) = bands.curves.iter().find(|(name, _)| *name == quantity_id)?;
     let place = bands.place(speed_dimensionless)?;
-    let zero = if FROM_PELVIS.contains(&quantity_id) { STANDING_TILT.to_degrees() } else { 0.0 };
+    let is_shifted = convention == Convention::Opensim && FROM_PELVIS.contains(&quantity_id);
+    let zero = if is_shifted { STANDING_TILT.to_degrees() } else { 0.0 };
     let between = |rows: &[[f64; BAND_SAMPLES]; SPEEDS]| {
         (0..BAND_SAMPLES).map(|i| place.between(|k| rows[k][i])).collect::<Vec<f64>>()
     };

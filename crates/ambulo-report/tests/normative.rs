@@ -4,6 +4,7 @@
 
 use ambulo_report::clinical::{ClinicalNames, clinical_quantities};
 use ambulo_report::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
+use ambulo_results::Convention;
 
 /// Dimensionless speeds that were measured.
 const SPEEDS: [f64; 5] = [0.172, 0.290, 0.429, 0.560, 0.694];
@@ -20,7 +21,7 @@ const BANDLESS: [&str; 7] = [
 ];
 
 fn mean(id: &str, speed: f64) -> Vec<f64> {
-    band(id, speed).unwrap().mean
+    band(id, speed, Convention::Opensim).unwrap().mean
 }
 
 /// The largest value with its percent of the cycle.
@@ -33,10 +34,10 @@ fn peak(values: &[f64], sign: f64) -> (f64, f64) {
 fn every_quantity_has_a_band_or_a_reason() {
     let all = clinical_quantities(&ClinicalNames::usual(), |_| true);
     for quantity in &all {
-        let known = band(quantity.id, FREE);
+        let known = band(quantity.id, FREE, Convention::Opensim);
         assert_eq!(known.is_none(), BANDLESS.contains(&quantity.id), "{}", quantity.id);
         for speed in SPEEDS {
-            let Some(band) = band(quantity.id, speed) else { continue };
+            let Some(band) = band(quantity.id, speed, Convention::Opensim) else { continue };
             assert!(band.mean.len() == BAND_SAMPLES && band.sd.len() == BAND_SAMPLES && !band.outside_of_speeds);
             assert!(band.mean.iter().all(|x| x.is_finite()) && band.sd.iter().all(|sd| *sd >= 0.0), "{}", quantity.id);
             assert!(band.sd.iter().any(|sd| *sd > 0.0), "{}", quantity.id);
@@ -45,7 +46,10 @@ fn every_quantity_has_a_band_or_a_reason() {
             }
         }
     }
-    assert!(band("hip_flexion_angle", f64::NAN).is_none() && band("", FREE).is_none());
+    assert!(
+        band("hip_flexion_angle", f64::NAN, Convention::Opensim).is_none()
+            && band("", FREE, Convention::Opensim).is_none()
+    );
 }
 
 /// Peaks at the free speed as shared by the source: value and percent of the cycle. The signs are those of the panels.
@@ -89,8 +93,10 @@ fn between_the_speeds_a_straight_line_and_outside_the_nearest() {
         }
     }
     for (outside, nearest) in [(0.05, 0.172), (1.1, 0.694)] {
-        let (found, expected) =
-            (band("hip_flexion_power", outside).unwrap(), band("hip_flexion_power", nearest).unwrap());
+        let (found, expected) = (
+            band("hip_flexion_power", outside, Convention::Opensim).unwrap(),
+            band("hip_flexion_power", nearest, Convention::Opensim).unwrap(),
+        );
         assert!(found.outside_of_speeds && found.mean == expected.mean && found.sd == expected.sd);
         assert!(found.citation.contains("nearest"), "{}", found.citation);
     }

@@ -1,11 +1,12 @@
 //! The part of `summary.json` that motions made to agree with the forces have.
 
 use ambulo::dynamics::residual_reduction::{ReducedMotion, RootResidual};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// How a motion was changed to obey the forces.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ConsistencySummary {
     /// First and last instant at which the laws were enforced [s].
     pub window_s: [f64; 2],
@@ -30,7 +31,7 @@ pub struct ConsistencySummary {
 }
 
 /// Size of what nothing supplies at the root.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResidualSize {
     /// Root mean square of the force in body weights.
     pub force_rms_bw: f64,
@@ -43,18 +44,40 @@ pub struct ResidualSize {
 }
 
 /// Size of a coordinate's change.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateSize {
     /// Root mean square in the window.
     pub rms: f64,
     /// Largest anywhere.
     pub max: f64,
-    /// `deg` or `mm`.
-    pub unit: &'static str,
+    /// Unit of both.
+    pub unit: ChangeUnit,
+}
+
+/// Unit of a coordinate's change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ChangeUnit {
+    /// Degrees, of rotations.
+    #[serde(rename = "deg")]
+    Degree,
+    /// Millimetres, of translations.
+    #[serde(rename = "mm")]
+    Millimetre,
+}
+
+impl ChangeUnit {
+    /// The unit as in files.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            ChangeUnit::Degree => "deg",
+            ChangeUnit::Millimetre => "mm",
+        }
+    }
 }
 
 /// How far a foot was moved [mm].
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FootSize {
     /// Root mean square in the window.
     pub rms: f64,
@@ -67,7 +90,10 @@ impl ConsistencySummary {
     #[must_use]
     pub fn of(consistent: &ReducedMotion) -> ConsistencySummary {
         let changes = consistent.changes.iter().map(|change| {
-            let (scale, unit) = if change.unit == "rad" { (1.0_f64.to_degrees(), "deg") } else { (1e3, "mm") };
+            let (scale, unit) = match change.unit {
+                "rad" => (1.0_f64.to_degrees(), ChangeUnit::Degree),
+                _ => (1e3, ChangeUnit::Millimetre),
+            };
             (change.name.clone(), CoordinateSize { rms: scale * change.rms, max: scale * change.max, unit })
         });
         let feet = consistent.feet.iter();
@@ -91,5 +117,11 @@ impl ResidualSize {
     fn of(residual: RootResidual) -> ResidualSize {
         let RootResidual { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm } = residual;
         ResidualSize { force_rms_bw, force_peak_bw, moment_rms_nm, moment_peak_nm }
+    }
+}
+
+impl fmt::Display for ChangeUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol())
     }
 }

@@ -1,32 +1,50 @@
-//! Results as bytes: the tables and the summary that a shell writes to files.
+//! What a run found, as types that are written to files and read back: summary, tables and file names.
 
 mod consistency_summary;
+mod convention;
 mod cycle_table;
 mod files;
+mod folder;
 mod outcome;
 mod prediction_files;
+mod run_summary;
 mod scene_summary;
 mod scene_tables;
+mod sound;
 mod subject_summary;
 mod summary;
 mod tables;
 mod walk_summary;
+mod walking_summary;
 
-pub use consistency_summary::{ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
+pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
+pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use files::{OutputFile, output_files};
+pub use folder::{Folder, ResultsError, error_chain};
 pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
 pub use prediction_files::prediction_files;
+pub use run_summary::{RunSummary, summary_json};
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
 };
 pub use scene_tables::SceneTables;
+pub use sound::{EXPECTED, is_sound};
 pub use subject_summary::{
-    EventAgreementSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
+    EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
     SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterSummary, Filters, Ground, GroundSource, Input, MassKnowledge, PeakSummary, ResidualSummary, Summary, summary,
+    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, GroundSource, Input, MassKnowledge,
+    PeakSummary, ResidualSummary, Summary, summary,
 };
 pub use tables::ground_columns;
 pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};
+pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
+
+/// Name of the summary in a result folder.
+pub const SUMMARY: &str = "summary.json";
+/// Name of the table of clinical curves in a result folder.
+pub const CLINICAL: &str = "clinical.csv";
+/// Name of the table of times and distances in a result folder.
+pub const TIMES_AND_DISTANCES: &str = "times_and_distances.csv";

@@ -5,6 +5,7 @@ use crate::files::{OutputFile, output_files};
 use crate::prediction_files::prediction_files;
 use crate::subject_summary::SubjectSummary;
 use crate::summary::{GroundSource, Input, MassKnowledge, Summary, summary};
+use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::{PredictedAnalysis, Settings};
 use ambulo::findings::Findings;
 use ambulo::study::{self, ForceOrigin, Outcome, Processing, Tracking};
@@ -16,6 +17,10 @@ use ambulo_formats::Error;
 /// Column names that no table can hold.
 pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
     let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
+    let walking = WalkingSummary::of(&outcome.times_and_distances);
+    if !walking.quantities.is_empty() {
+        files.push(walking.file());
+    }
     if let Some(predicted) = predicted_analysis(outcome) {
         files.extend(prediction_files(&outcome.body, &predicted)?);
     }
@@ -46,6 +51,8 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     };
     let input = Input { ground_source, ..input };
     let mut summary = summary(&outcome.body, &outcome.analysis, &settings, input, findings);
+    let walking = WalkingSummary::of(&outcome.times_and_distances);
+    summary.times_and_distances = Some(walking).filter(|walking| !walking.quantities.is_empty());
     summary.height_m = outcome.height_m();
     summary.subject = outcome.tracking.as_ref().map(subject);
     summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);

@@ -1,26 +1,26 @@
 //! `summary.json` of a simulated scene (docs/OUTPUTS.md).
 
-use crate::summary::PeakSummary;
+use crate::summary::{ForceUnit, PeakSummary};
 use ambulo::analysis::SceneVerdict;
 use ambulo::findings::{Finding, Findings};
 use ambulo::simulation::scene::{RunStatistics, Scene, SceneFrame};
 use ambulo::simulation::{Integrator, Owner};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The summary of one run. Keys that a run cannot fill are `null`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SceneSummary {
     /// Version of the program.
-    pub version: &'static str,
+    pub version: String,
     /// What went in.
     pub input: SceneInput,
     /// What the scene is called.
     pub title: Option<String>,
     /// How many of each there are.
     pub world: WorldSummary,
-    /// `impulse` or `runge-kutta`.
-    pub integrator: &'static str,
+    /// How positions and velocities follow from forces.
+    pub integrator: Integrator,
     /// Time step [s].
     pub step_s: f64,
     /// Steps made in this run.
@@ -43,14 +43,12 @@ pub struct SceneSummary {
     pub findings: Vec<Finding>,
     /// Whether people could do what the figures that walk do; `None` if none does.
     pub verdict: Option<SceneVerdict>,
-    /// Nothing to compare with.
-    pub comparison: Option<()>,
     /// Time that each stage took [ms].
     pub timing_ms: BTreeMap<String, f64>,
 }
 
 /// What went in.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SceneInput {
     /// The scene file.
     pub scene: String,
@@ -61,7 +59,7 @@ pub struct SceneInput {
 }
 
 /// How many of each there are.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WorldSummary {
     /// Bodies that forces move, those of figures too.
     pub bodies: usize,
@@ -80,7 +78,7 @@ pub struct WorldSummary {
 }
 
 /// Energies [J].
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergySummary {
     /// Total at the first instant.
     pub start_j: f64,
@@ -95,7 +93,7 @@ pub struct EnergySummary {
 }
 
 /// Contacts.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactSummary {
     /// Most points that push at once.
     pub points_max: usize,
@@ -110,7 +108,7 @@ pub struct ContactSummary {
 }
 
 /// How the solver did over all steps.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ConvergenceSummary {
     /// Tree solves a step.
     pub iterations_mean: f64,
@@ -181,20 +179,20 @@ impl SceneExtremes {
         for (joint, efforts) in world.joints.iter().zip(&forces.efforts) {
             for (k, effort) in efforts.iter().enumerate() {
                 let quantity = format!("{}/{}", joint.name, joint.kind.coordinate_names()[k]);
-                self.peak(quantity, if joint.kind.turns(k) { "N.m" } else { "N" }, *effort, time_s);
+                self.peak(quantity, ForceUnit::of_rotation(joint.kind.turns(k)), *effort, time_s);
             }
         }
         let figures = frame.scene.generalized_forces(forces);
         for ((name, figure), values) in frame.scene.figure_names().zip(&world.figures).zip(figures) {
             let columns = figure.model.force_names().into_iter().zip(figure.model.coordinates());
             for ((column, coordinate), [_, _, force]) in columns.zip(values) {
-                let unit = if coordinate.kind.force_suffix() == "moment" { "N.m" } else { "N" };
+                let unit = ForceUnit::of_rotation(coordinate.kind.force_suffix() == "moment");
                 self.peak(format!("{name}/{column}"), unit, force, time_s);
             }
         }
     }
 
-    fn peak(&mut self, quantity: String, unit: &'static str, value: f64, time_s: f64) {
+    fn peak(&mut self, quantity: String, unit: ForceUnit, value: f64, time_s: f64) {
         match self.efforts.iter_mut().find(|peak| peak.quantity == quantity) {
             Some(peak) => {
                 if value > peak.max {
@@ -227,7 +225,7 @@ impl SceneExtremes {
         let world = scene.world();
         let each = |count: usize| count as f64 / statistics.steps.max(1) as f64;
         SceneSummary {
-            version: env!("CARGO_PKG_VERSION"),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
             input,
             title: Some(scene.title().to_owned()).filter(|title| !title.is_empty()),
             world: WorldSummary {
@@ -239,10 +237,7 @@ impl SceneExtremes {
                 surfaces: world.surfaces.len(),
                 mass_kg: world.mass(),
             },
-            integrator: match scene.settings().integrator {
-                Integrator::Impulse => "impulse",
-                Integrator::RungeKutta => "runge-kutta",
-            },
+            integrator: scene.settings().integrator,
             step_s: scene.settings().step_s,
             steps: statistics.steps,
             window_s: [self.start_s, scene.state().time_s],
@@ -260,7 +255,6 @@ impl SceneExtremes {
             },
             findings: findings.as_slice().to_vec(),
             verdict: None,
-            comparison: None,
             timing_ms: BTreeMap::new(),
         }
     }

@@ -1,18 +1,21 @@
 //! How markers became a body in motion: `subject` of `summary.json` (docs/OUTPUTS.md).
 
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
-use ambulo::ground::plates::PlateContact;
+use ambulo::ground::plates::{ContactQuality, PlateContact};
 use ambulo::kinematics::calibration::SegmentScale;
 use ambulo::kinematics::marker_fit::MarkerFit;
 use ambulo::model::Side;
 use ambulo::motion::PlateRecording;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// How markers became a body in motion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SubjectSummary {
     /// How the laboratory's axes and unit were turned into the world's, in one line.
     pub axes: String,
+    /// How far the body turns on its way [deg]; `null` where it walks straight or not at all.
+    pub turn_deg: Option<f64>,
     /// The sets of markers whose names were found; none with an OpenSim model.
     pub marker_sets: Vec<String>,
     /// How well the body follows the markers.
@@ -33,7 +36,7 @@ pub struct SubjectSummary {
 }
 
 /// How well a body follows markers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MarkersSummary {
     /// Mean over the frames of the root mean square distance of the markers [mm].
     pub rms_mm: Option<f64>,
@@ -44,7 +47,7 @@ pub struct MarkersSummary {
 }
 
 /// How far one marker stayed from its place on the body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MarkerErrorSummary {
     /// Name of the marker.
     pub name: String,
@@ -59,26 +62,26 @@ pub struct MarkerErrorSummary {
 }
 
 /// A time during which a force plate was loaded.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlateContactSummary {
     /// Name of the plate.
     pub plate: String,
-    /// `r`, `l`, or nobody knows.
-    pub side: Option<&'static str>,
+    /// The foot on it; `null` where it is not known.
+    pub side: Option<Side>,
     /// First loaded instant [s].
     pub start_s: f64,
     /// Last loaded instant [s].
     pub end_s: f64,
     /// Largest vertical force [N].
     pub peak_n: f64,
-    /// `clean`, `shared`, `partial`, `two feet` or `unassigned`.
-    pub quality: &'static str,
+    /// How much of the foot's load the plate measured.
+    pub quality: ContactQuality,
     /// Why it is not clean; empty if it is.
     pub reason: String,
 }
 
 /// Where a force plate lies.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlateCornersSummary {
     /// Name of the plate.
     pub plate: String,
@@ -87,18 +90,42 @@ pub struct PlateCornersSummary {
 }
 
 /// How well two sources of foot strikes and toe-offs agree.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EventAgreementSummary {
-    /// What is compared: `motion`, `file`.
-    pub found: &'static str,
-    /// With what: `plates`.
-    pub reference: &'static str,
+    /// The events that are compared.
+    pub found: EventOrigin,
+    /// The events that they are compared with.
+    pub reference: EventOrigin,
     /// Strikes, then offs.
     pub kinds: Vec<EventAgreement>,
 }
 
+/// Where events come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EventOrigin {
+    /// Forces of plates.
+    Plates,
+    /// Motion of the feet.
+    Motion,
+    /// A list in the recording's file.
+    File,
+}
+
+impl EventOrigin {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            EventOrigin::Plates => "plates",
+            EventOrigin::Motion => "motion",
+            EventOrigin::File => "file",
+        }
+    }
+}
+
 /// The size of a segment of the built-in body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SegmentSummary {
     /// Name of the body.
     pub body: String,
@@ -115,6 +142,7 @@ impl SubjectSummary {
         let report = body.subject.calibration.as_ref();
         let segments = report.map_or(&[][..], |report| &report.segments);
         SubjectSummary {
+            turn_deg: body.laboratory.turn_deg,
             marker_sets: body.subject.sets.clone(),
             segments: segments.iter().map(SegmentSummary::new).collect(),
             plates: plate_contacts(body),
@@ -131,6 +159,7 @@ impl SubjectSummary {
     pub fn of_skeleton(axes: &str, fit: &MarkerFit) -> SubjectSummary {
         SubjectSummary {
             axes: axes.to_owned(),
+            turn_deg: None,
             marker_sets: Vec::new(),
             markers: MarkersSummary::new(fit),
             segments: Vec::new(),
@@ -146,11 +175,11 @@ impl SubjectSummary {
 fn plate_contacts(body: &BodyInMotion) -> Vec<PlateContactSummary> {
     let summary = |contact: &PlateContact| PlateContactSummary {
         plate: body.plates[contact.plate].name.clone(),
-        side: contact.side.map(Side::letter),
+        side: contact.side,
         start_s: contact.start_s,
         end_s: contact.end_s,
         peak_n: contact.peak_n,
-        quality: contact.quality.word(),
+        quality: contact.quality,
         reason: contact.reason.clone(),
     };
     body.on_plates.contacts.iter().map(summary).collect()
@@ -158,10 +187,11 @@ fn plate_contacts(body: &BodyInMotion) -> Vec<PlateContactSummary> {
 
 /// Motion and file against plates; the file against the motion where there are no plates.
 fn agreements(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> Vec<EventAgreementSummary> {
-    let sources = [("plates", measured), ("motion", &body.feet.events[..]), ("file", listed)];
+    let sources =
+        [(EventOrigin::Plates, measured), (EventOrigin::Motion, &body.feet.events[..]), (EventOrigin::File, listed)];
     let filled: Vec<_> = sources.into_iter().filter(|(_, events)| !events.is_empty()).collect();
-    let Some(((reference, events), others)) = filled.split_first() else { return Vec::new() };
-    let agreement = |(found, with): &(&'static str, &[Event])| EventAgreementSummary {
+    let Some((&(reference, events), others)) = filled.split_first() else { return Vec::new() };
+    let agreement = |&(found, with): &(EventOrigin, &[Event])| EventAgreementSummary {
         found,
         reference,
         kinds: event_agreement(events, with).to_vec(),
@@ -197,5 +227,11 @@ impl MarkersSummary {
             frames_not_converged: fit.converged.iter().filter(|converged| !**converged).count(),
             errors: errors.collect(),
         }
+    }
+}
+
+impl fmt::Display for EventOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
     }
 }

@@ -1,33 +1,38 @@
 //! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
 
 use crate::consistency_summary::ConsistencySummary;
+use crate::convention::ConventionSummary;
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::walk_summary::WalkSummary;
+use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PredictionChecks, Settings, peak};
 use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// The summary of one run. Keys that a run cannot fill are `null`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Version of the program.
-    pub version: &'static str,
+    pub version: String,
     /// What went in.
     pub input: Input,
     /// Name of the model.
     pub model: String,
     /// Body mass [kg]; results are normalised by it.
     pub mass_kg: f64,
+    /// Gravity [m/s²].
+    pub gravity_m_s2: f64,
     /// The model's mass, which the dynamics use [kg].
     pub mass_model_kg: f64,
-    /// `plates` (whole gait cycles), `standing` (plates in the standing trial) or `model`.
-    pub mass_source: &'static str,
+    /// Where the body mass comes from.
+    pub mass_source: MassSource,
     /// Whether anything but the model vouches for the mass.
     pub mass: MassKnowledge,
     /// Stature [m], where it was given.
@@ -44,14 +49,16 @@ pub struct Summary {
     pub frames: usize,
     /// Filters of motion and forces, in words.
     pub filter: Filters,
+    /// How angles of pelvis and hips are measured in `clinical.csv`; `null` without that file.
+    pub convention: Option<ConventionSummary>,
+    /// Times and distances of the strides; `null` where no feet were seen to walk.
+    pub times_and_distances: Option<WalkingSummary>,
     /// Where the ground forces come from.
     pub ground: Ground,
     /// What motion and forces disagree by, at the root.
     pub residual: Option<ResidualSummary>,
     /// Extremes of every generalised force.
     pub peaks: Vec<PeakSummary>,
-    /// Iterations and residual of a solver; inverse dynamics with known ground forces needs none.
-    pub convergence: Option<()>,
     /// What was odd on the way.
     pub findings: Vec<Finding>,
     /// Whether a person could do this.
@@ -71,7 +78,7 @@ pub struct Summary {
 }
 
 /// What went in.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Input {
     /// The recorded motion.
     pub motion: String,
@@ -94,7 +101,7 @@ pub struct Input {
 }
 
 /// How ground forces came about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum GroundSource {
     /// By force plates or other sensors.
     Measured,
@@ -109,12 +116,13 @@ pub enum GroundSource {
         rule: &'static str,
     },
     /// There are none.
+    #[default]
     None,
 }
 
 /// Whether a mass is known from more than a model. From motion alone every force scales with the mass, so that a wrong one shows only
 /// against plates, a standing trial or what somebody states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MassKnowledge {
     /// Weighed by plates, or stated.
@@ -126,7 +134,7 @@ pub enum MassKnowledge {
 }
 
 /// The filters in words and numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Filters {
     /// Filter of the motion.
     pub motion: FilterSummary,
@@ -135,29 +143,80 @@ pub struct Filters {
 }
 
 /// One filter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FilterSummary {
-    /// `butterworth`, `spline` or `off`.
-    pub kind: &'static str,
+    /// What kind of filter it is.
+    pub kind: FilterKind,
     /// Cut-off of one pass [Hz].
     pub cutoff_hz: Option<f64>,
     /// Order of one pass; the filter runs forwards and backwards.
     pub order: Option<usize>,
 }
 
+/// A kind of filter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FilterKind {
+    /// Butterworth low-pass, forwards and backwards.
+    Butterworth,
+    /// Smoothing spline.
+    Spline,
+    /// No filter.
+    Off,
+}
+
+impl FilterKind {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            FilterKind::Butterworth => "butterworth",
+            FilterKind::Spline => "spline",
+            FilterKind::Off => "off",
+        }
+    }
+}
+
+/// Where the ground forces of a run come from, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GroundOrigin {
+    /// Force plates or other sensors.
+    Measured,
+    /// The motion itself.
+    Predicted,
+    /// A simulation of the motion.
+    Simulated,
+    /// There are none.
+    None,
+}
+
+impl GroundOrigin {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            GroundOrigin::Measured => "measured",
+            GroundOrigin::Predicted => "predicted",
+            GroundOrigin::Simulated => "simulated",
+            GroundOrigin::None => "none",
+        }
+    }
+}
+
 /// Where the ground forces come from.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ground {
-    /// `measured`, `predicted`, `simulated` or `none`.
-    pub source: &'static str,
+    /// Their source.
+    pub source: GroundOrigin,
     /// How double support was resolved; measured forces need no rule.
-    pub rule: Option<&'static str>,
+    pub rule: Option<String>,
     /// Below this vertical force a foot counts as unloaded [N].
     pub threshold_n: f64,
 }
 
 /// The residual at the root.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResidualSummary {
     /// Root mean square of the force [N].
     pub force_rms_n: f64,
@@ -172,12 +231,12 @@ pub struct ResidualSummary {
 }
 
 /// Extremes of one generalised force.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PeakSummary {
     /// Column of `moments.sto`.
     pub quantity: String,
-    /// `N.m` or `N`.
-    pub unit: &'static str,
+    /// Its unit.
+    pub unit: ForceUnit,
     /// Largest value.
     pub max: f64,
     /// When [s].
@@ -188,27 +247,51 @@ pub struct PeakSummary {
     pub min_at_s: f64,
 }
 
+/// Unit of a generalised force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ForceUnit {
+    /// Of moments about rotations.
+    #[serde(rename = "N.m")]
+    NewtonMetre,
+    /// Of forces along translations.
+    #[serde(rename = "N")]
+    Newton,
+}
+
+impl ForceUnit {
+    /// The unit as in files.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            ForceUnit::NewtonMetre => "N.m",
+            ForceUnit::Newton => "N",
+        }
+    }
+
+    /// Newton metres if the coordinate is a rotation.
+    pub(crate) fn of_rotation(is_rotation: bool) -> ForceUnit {
+        if is_rotation { ForceUnit::NewtonMetre } else { ForceUnit::Newton }
+    }
+}
+
 /// The summary of an analysis; the shell adds the last timings.
 #[must_use]
 pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: Input, findings: &Findings) -> Summary {
     let grid = analysis.trajectory.grid();
     let (source, rule) = match input.ground_source {
-        GroundSource::Measured => ("measured", None),
-        GroundSource::Predicted { rule } => ("predicted", Some(rule)),
-        GroundSource::Simulated { rule } => ("simulated", Some(rule)),
-        GroundSource::None => ("none", None),
+        GroundSource::Measured => (GroundOrigin::Measured, None),
+        GroundSource::Predicted { rule } => (GroundOrigin::Predicted, Some(rule.to_owned())),
+        GroundSource::Simulated { rule } => (GroundOrigin::Simulated, Some(rule.to_owned())),
+        GroundSource::None => (GroundOrigin::None, None),
     };
     Summary {
-        version: env!("CARGO_PKG_VERSION"),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
         input,
         model: model.name().to_owned(),
         mass_kg: analysis.mass.kg,
+        gravity_m_s2: model.gravity().norm(),
         mass_model_kg: model.mass(),
-        mass_source: match analysis.mass.source {
-            MassSource::Plates => "plates",
-            MassSource::Standing => "standing",
-            MassSource::Model => "model",
-        },
+        mass_source: analysis.mass.source,
         mass: match analysis.mass.source {
             MassSource::Plates | MassSource::Standing => MassKnowledge::Verified,
             MassSource::Model => MassKnowledge::Unverified,
@@ -221,9 +304,10 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         frames: grid.frames,
         filter: filters(settings),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
+        convention: None,
+        times_and_distances: None,
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
-        convergence: None,
         findings: findings.as_slice().to_vec(),
         verdict: analysis.verdict.clone(),
         prediction: None,
@@ -236,14 +320,17 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
 }
 
 fn filters(settings: &Settings) -> Filters {
-    let off = FilterSummary { kind: "off", cutoff_hz: None, order: None };
-    let low_pass =
-        |f: LowPass| FilterSummary { kind: "butterworth", cutoff_hz: Some(f.cutoff_hz), order: Some(f.order) };
+    let off = FilterSummary { kind: FilterKind::Off, cutoff_hz: None, order: None };
+    let low_pass = |f: LowPass| FilterSummary {
+        kind: FilterKind::Butterworth,
+        cutoff_hz: Some(f.cutoff_hz),
+        order: Some(f.order),
+    };
     Filters {
         motion: match settings.smoother {
             Smoother::Off => off.clone(),
             Smoother::Butterworth(f) => low_pass(f),
-            Smoother::Spline => FilterSummary { kind: "spline", ..off.clone() },
+            Smoother::Spline => FilterSummary { kind: FilterKind::Spline, ..off.clone() },
         },
         force: settings.force_filter.map_or(off, low_pass),
     }
@@ -267,8 +354,26 @@ fn peaks(model: &Model, analysis: &Analysis) -> Vec<PeakSummary> {
     series
         .filter_map(|((quantity, coordinate), values)| {
             let p = peak(grid, values)?;
-            let unit = if coordinate.kind.force_suffix() == "moment" { "N.m" } else { "N" };
+            let unit = ForceUnit::of_rotation(coordinate.kind.force_suffix() == "moment");
             Some(PeakSummary { quantity, unit, max: p.max, max_at_s: p.max_at_s, min: p.min, min_at_s: p.min_at_s })
         })
         .collect()
+}
+
+impl fmt::Display for FilterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl fmt::Display for GroundOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl fmt::Display for ForceUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol())
+    }
 }

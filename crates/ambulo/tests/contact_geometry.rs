@@ -528,11 +528,11 @@ fn heights_that_fit_no_grid_are_errors() {
     let message = |shape: Result<Shape, _>| shape.map(|_| ()).unwrap_err_text();
     assert_eq!(
         message(Shape::height_field(2, 3, &[0.0; 5], 1.0, 1.0)),
-        "a height field of 2 x 3 has 5 heights; expected rows x columns of them, at least 2 x 2"
+        "a height field of 2 x 3 has 5 heights; expected rows x columns heights, at least 2 x 2"
     );
     assert_eq!(
         message(Shape::height_field(1, 3, &[0.0; 3], 1.0, 1.0)),
-        "a height field of 1 x 3 has 3 heights; expected rows x columns of them, at least 2 x 2"
+        "a height field of 1 x 3 has 3 heights; expected rows x columns heights, at least 2 x 2"
     );
     assert_eq!(
         message(Shape::height_field(2, 2, &[0.0, f64::NAN, 0.0, 0.0], 1.0, 1.0)),
@@ -551,7 +551,7 @@ fn points_that_span_no_volume_are_errors() {
     for points in [&flat[..], &line[..], &flat[..3], &[], &[Vec3::x(); 6]] {
         let text = Shape::convex(points).map(|_| ()).unwrap_err_text();
         assert!(text.starts_with(&format!("the hull of {} points has a volume of ", points.len())), "{text}");
-        assert!(text.ends_with("expected a solid: four points or more, not in one plane"), "{text}");
+        assert!(text.ends_with("expected at least four points that are not in one plane"), "{text}");
     }
     let text = Shape::convex(&[Vec3::x(), Vec3::y() * f64::NAN]).map(|_| ()).unwrap_err_text();
     assert_eq!(text, "point 1 is (NaN, NaN, NaN) m; expected finite numbers");

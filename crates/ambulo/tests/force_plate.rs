@@ -224,7 +224,7 @@ fn what_the_unloaded_plate_shows_is_removed_from_every_channel() {
     let (plate, findings) = read(&file);
     assert_person(&plate);
     assert!((plate.baseline_n.unwrap() + 25.0).abs() < ROUNDING, "{:?}", plate.baseline_n);
-    assert!(findings.has(Code::PlatesBaseline));
+    assert!(findings.has(Code::PlatesLargeBaseline));
     let keep = PlateSettings { remove_baseline: false };
     let kept = plates_from_c3d(&file.record(), keep, &mut Findings::default()).unwrap();
     assert!((kept[0].vertical(LOADED) - 675.0).abs() < ROUNDING && kept[0].baseline_n.is_none());

@@ -139,7 +139,7 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     };
     let error = refused(model, &BySide { left: None, ..soles }, &PredictSettings::default());
     assert_eq!(error, PredictError::NoSole { model: model.name().to_owned(), side: Side::Left });
-    assert!(error.to_string().contains("left sole") && error.to_string().contains("hint:"), "{error}");
+    assert!(error.to_string().contains("left sole") && error.to_string().contains("expected"), "{error}");
     let known = Known { right_share: Some(vec![0.5; 3]), ..Known::default() };
     let error = refused(model, &soles, &PredictSettings { known, ..PredictSettings::default() });
     assert!(error.to_string().contains("3 frames"), "{error}");

@@ -260,7 +260,7 @@ fn the_offset_of_an_unloaded_plate_is_removed_and_told() {
         let trial = trial(&data, &format!("c3d-format-variants/Eb015{letters}.c3d"));
         let offsets: Vec<f64> = trial.plates.iter().map(|p| p.baseline_n.unwrap()).collect();
         assert!((offsets[0] - 21.2).abs() < 0.1 && (offsets[1] - 30.6).abs() < 0.1, "{letters}: {offsets:?}");
-        assert!(trial.findings.has(Code::PlatesBaseline));
+        assert!(trial.findings.has(Code::PlatesLargeBaseline));
         for plate in &trial.plates {
             let start = plate.vertical(0).abs();
             assert!(start < 3.0, "{letters} {}: {start} N at the start", plate.name);

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop where a set cannot be read")]
 
+use ambulo::findings::Code;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::marker_set::{Landmark, MarkerSet, Recognised, Segment};
@@ -184,14 +185,8 @@ fn a_set_of_ones_own_is_read_and_its_faults_are_named() {
 
 #[test]
 fn the_page_lists_every_finding_of_a_calibration() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/kinematics/calibration");
-    let mut codes = std::collections::BTreeSet::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
-        for part in text.split("\"calibration.").skip(1) {
-            codes.insert(format!("calibration.{}", part.split('"').next().unwrap()));
-        }
-    }
+    let names = Code::all().map(Code::name).filter(|name| name.starts_with("calibration."));
+    let codes: std::collections::BTreeSet<String> = names.map(str::to_owned).collect();
     let listed: std::collections::BTreeSet<String> =
         rows("How a body is measured").into_iter().map(|row| row[0].clone()).filter(|c| c.contains('.')).collect();
     assert_eq!(codes, listed);

@@ -76,8 +76,8 @@ fn line(checks: &PredictionChecks) -> String {
     checks.checks.iter().map(value).collect()
 }
 
-fn failed(checks: &PredictionChecks) -> Vec<&'static str> {
-    checks.checks.iter().filter(|check| check.passed == Some(false)).map(|check| check.name).collect()
+fn failed(checks: &PredictionChecks) -> Vec<&str> {
+    checks.checks.iter().filter(|check| check.passed == Some(false)).map(|check| &*check.name).collect()
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_hand_on_a_rail_shows() {
         }
         assert!(findings.has(FOUND), "{what}");
         let reason = checks.reasons.first().unwrap_or_else(|| panic!("{what}: a reason for the verdict"));
-        assert_eq!((reason.check, reason.unit), (Check::CenterOfPressure, "m"), "{what}");
+        assert_eq!((reason.check, &*reason.unit), (Check::CenterOfPressure, "m"), "{what}");
         assert!(reason.value.abs() > reason.limit.abs(), "{what}: {reason:?}");
     }
 }
@@ -235,14 +235,14 @@ fn forces_of_the_feet_that_do_not_balance_the_motion_show() {
             prediction.ground = GroundForces { bodies: bodies.iter().map(of_foot).collect() };
         });
         let codes: Vec<Code> = findings.as_slice().iter().map(|finding| finding.code).collect();
-        (failed(&checks), codes)
+        (failed(&checks).into_iter().map(str::to_owned).collect::<Vec<_>>(), codes)
     };
     assert_eq!(changed(&|f| f), (vec![], vec![]));
-    assert_eq!(changed(&|f| f * 0.9), (vec!["vertical_force_feet"], vec![Code::PredictionWeight]));
+    assert_eq!(changed(&|f| f * 0.9), (vec!["vertical_force_feet".to_owned()], vec![Code::PredictionWeight]));
     let pushed = changed(&|f| f + Vec3::x() * (0.05 * f.y));
-    assert_eq!(pushed, (vec!["fore_aft_impulse"], vec![Code::PredictionImpulse]));
+    assert_eq!(pushed, (vec!["fore_aft_impulse".to_owned()], vec![Code::PredictionImpulse]));
     let slippery = changed(&|f| f + Vec3::z() * (0.8 * f.y));
-    assert_eq!(slippery, (vec!["friction"], vec![Code::PredictionFriction]));
+    assert_eq!(slippery, (vec!["friction".to_owned()], vec![Code::PredictionFriction]));
 }
 
 // ---- mass ----

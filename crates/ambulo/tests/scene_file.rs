@@ -569,7 +569,7 @@ fn an_unknown_key_is_refused_with_those_that_are_known() {
     );
     assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: unknown key; expected `title`"));
     assert!(said("[[event]]", "[[evnt]]").ends_with("hint: is `event` meant?"));
-    assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: this key"));
+    assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: unknown key"));
 }
 
 #[test]
@@ -816,7 +816,7 @@ fn functions_that_are_none_are_refused() {
     );
     assert!(drive("{ sine = { amplitude = 1 } }").contains("drive_deg.sine.frequency_hz`: found no `frequency_hz`"));
     assert!(drive("{ sine = { amplitude = 1, frequency_hz = 0 } }").contains("found 0; expected a number above zero"));
-    assert!(drive("{ sine = { amplitude = 1, frequency_hz = 1 }, from = 1 }").contains("drive_deg.from`: this key"));
+    assert!(drive("{ sine = { amplitude = 1, frequency_hz = 1 }, from = 1 }").contains("drive_deg.from`: unknown key"));
     assert!(drive("{ stops = [[0, 0]], points = [[0, 0]] }").contains("expected a number, or one of"));
     assert!(
         drive("{ ramp = { from = 0, to = 1, start = 1, end = 1 } }").contains("expected an instant after `start`, 1 s")

@@ -19,7 +19,7 @@ OpenSim model, which --static scales. Plates inside a C3D are used unless --grf 
 Without measured ground forces they are predicted from the motion; with --predict they are predicted and compared.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, summary.json, report.html (`ambulo view DIR` opens it), figures/*.svg, subject.osim (the body that was used);
+events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, report.html (`ambulo view DIR` opens it), figures/*.svg, subject.osim (the body that was used);
 with --device moments_biological.sto; with predicted forces grf_sd.mot and, with --predict beside plates, grf_measured.mot. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
 
 Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
@@ -50,6 +50,9 @@ pub(crate) struct ForcesArgs {
     /// Compute without ground forces (a swinging leg, a flight); the whole weight then stands in the root's residual.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,
+    /// How clinical.csv and the page measure angles of pelvis and hips: clinical, from the line through the iliac spines; opensim, the model's own.
+    #[arg(long, value_enum, default_value_t = AngleConvention::Clinical)]
+    pub(crate) convention: AngleConvention,
     /// First instant to analyse [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
@@ -91,6 +94,23 @@ pub(crate) struct ForcesArgs {
 }
 
 /// What may change to make motion and forces agree.
+/// How angles of pelvis and hips are measured.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AngleConvention {
+    #[default]
+    Clinical,
+    Opensim,
+}
+
+impl From<AngleConvention> for ambulo_results::Convention {
+    fn from(convention: AngleConvention) -> Self {
+        match convention {
+            AngleConvention::Clinical => Self::Clinical,
+            AngleConvention::Opensim => Self::Opensim,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Consistency {
     /// The motion alone.

@@ -35,7 +35,7 @@ Of --speed, --step-length and --cadence two make the third; with one, the others
 (docs/GAITS.md, which also describes gait files); the gait's own count no more.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-summary.json, report.html (`ambulo view DIR` opens it), figure.osim, figures/*.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
+clinical.csv, times_and_distances.csv, summary.json, report.html (`ambulo view DIR` opens it), figure.osim, figures/*.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
 describes them.
 
 Exit code 0 if a person could do this, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
@@ -47,6 +47,9 @@ pub(crate) struct WalkArgs {
     /// How the walk is made.
     #[arg(long, value_enum, default_value_t = WalkMode::Corrected)]
     pub(crate) mode: WalkMode,
+    /// How clinical.csv and the page measure angles of pelvis and hips: clinical, from the line through the iliac spines; opensim, the model's own.
+    #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
+    pub(crate) convention: super::forces::AngleConvention,
     /// Whole gait cycles of each foot.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) cycles: usize,

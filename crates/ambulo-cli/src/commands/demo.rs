@@ -10,6 +10,7 @@ use ambulo::gait::Gait;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_report::{laboratory_recording, marker_paths, skeleton_of, standing_recording, trc_of_markers};
+use ambulo_results::Convention;
 use anyhow::Result;
 use std::path::Path;
 
@@ -26,7 +27,13 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
     };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds: Thresholds::default(), read: &[] };
+    let made = Made {
+        walk: &walk,
+        order: &order,
+        thresholds: Thresholds::default(),
+        convention: Convention::default(),
+        read: &[],
+    };
     let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
     write_input(&args.output)?;
     write_recording(&walk, &args.output)?;

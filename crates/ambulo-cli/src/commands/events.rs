@@ -3,7 +3,7 @@
 use crate::args::EventsArgs;
 use crate::printer::{EventSource, SourceAgreement};
 use crate::{Verdict, files, printer};
-use ambulo::analysis::{EventAgreement, LaboratoryRecording, event_agreement};
+use ambulo::analysis::{LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
 use ambulo::ground::phases::contacts;

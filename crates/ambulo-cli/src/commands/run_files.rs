@@ -7,8 +7,8 @@ use crate::{Verdict, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
-use ambulo_report::outcome_figures;
-use ambulo_results::{Input, OutputFile, Summary, WalkSummary, outcome_summary, outcome_tables};
+use ambulo_report::{clinical_file, outcome_figures};
+use ambulo_results::{Convention, Input, OutputFile, Summary, WalkSummary, outcome_summary, outcome_tables};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct RunFiles<'a> {
     pub(super) outcome: &'a Outcome,
     pub(super) input: Input,
+    /// How angles of pelvis and hips are measured.
+    pub(super) convention: Convention,
     /// How a synthetic walk was made.
     pub(super) walk: Option<WalkSummary>,
     /// Files that only this kind of run has.
@@ -29,13 +31,15 @@ pub(super) struct RunFiles<'a> {
 impl RunFiles<'_> {
     /// Writes all files and reports.
     pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
-        let RunFiles { outcome, input, walk, files, read, findings, mut clock } = self;
+        let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
         let mut written = outcome_tables(outcome)?;
+        let (clinical, convention) = clinical_file(outcome, convention)?;
+        written.push(clinical);
         written.extend(outcome_figures(outcome)?);
         written.extend(files);
         files::replace_results(output, &written, read)?;
         clock.lap("write");
-        let mut summary = Summary { walk, ..outcome_summary(outcome, input, &findings) };
+        let mut summary = Summary { walk, convention: Some(convention), ..outcome_summary(outcome, input, &findings) };
         let page = page_of_run(output, &written, &json(&summary)?);
         clock.lap("report");
         match page {

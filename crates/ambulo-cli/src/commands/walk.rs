@@ -13,7 +13,7 @@ use ambulo::model::to_osim;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
-use ambulo_results::{GroundSource, Input, OutputFile, WalkSummary};
+use ambulo_results::{Convention, GroundSource, Input, OutputFile, WalkSummary};
 use anyhow::{Context, Result};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
         SyntheticWalkSettings { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
     let walk = synthesise(&order, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds, read: &read };
+    let made = Made { walk: &walk, order: &order, thresholds, convention: args.convention.into(), read: &read };
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
     made.analyse_and_write(findings, clock, output, args.voice)
 }
@@ -52,6 +52,8 @@ pub(super) struct Made<'a> {
     pub(super) walk: &'a SyntheticWalk,
     pub(super) order: &'a SyntheticWalkSettings<'a>,
     pub(super) thresholds: Thresholds,
+    /// How angles of pelvis and hips are measured.
+    pub(super) convention: Convention,
     pub(super) read: &'a [PathBuf],
 }
 
@@ -73,6 +75,7 @@ impl Made<'_> {
         let files = RunFiles {
             outcome: &outcome,
             input: input(self.order),
+            convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
             read: self.read,

@@ -32,7 +32,7 @@ fn print_foot(foot: &FootAgreement) -> Result<()> {
     for (name, force) in components {
         say(&format!(
             "      {:<6}{:<12}{:>10.2}{:>10.1}{:>9}{:>18.1}{:>18.2}",
-            side(foot.side),
+            foot.side.to_string(),
             name,
             100.0 * force.rmse_bw,
             100.0 * force.rrmse,
@@ -51,7 +51,7 @@ fn center(foot: &FootAgreement) -> String {
         if missing > 0 { format!("   {missing} of {} samples have none", missing + samples) } else { String::new() };
     format!(
         "{:<18}{fore_aft_mm:>13.1}{fore_aft_weighted_mm:>11.1}{lateral_mm:>13.1}{lateral_weighted_mm:>11.1}{gap}",
-        side(foot.side)
+        foot.side.to_string()
     )
 }
 
@@ -70,10 +70,6 @@ fn events(agreement: &EventAgreement) -> String {
         "{kind}: {pairs} in common, {mean_absolute_ms:.1} ms apart, {:.1} ms {direction} on average; {missed} missed, {extra} more",
         bias_ms.abs()
     )
-}
-
-fn side(letter: &str) -> &'static str {
-    if letter == "r" { "right" } else { "left" }
 }
 
 fn correlation(r: f64) -> String {

@@ -1,7 +1,7 @@
 //! How a motion was changed to obey the forces.
 
 use super::say;
-use ambulo_results::{ConsistencySummary, CoordinateSize, ResidualSize};
+use ambulo_results::{ChangeUnit, ConsistencySummary, CoordinateSize, ResidualSize};
 use anyhow::Result;
 
 /// Coordinates shown of each unit, those that changed most.
@@ -15,7 +15,7 @@ pub(super) fn print(summary: &ConsistencySummary) -> Result<()> {
         say(&residual_line(when, residual))?;
     }
     say("    changed                           rms          largest")?;
-    for unit in ["deg", "mm"] {
+    for unit in [ChangeUnit::Degree, ChangeUnit::Millimetre] {
         for (name, size) in largest(summary, unit) {
             say(&format!("    {name:<28} {:>8.2} {:>16.2} {unit}", size.rms, size.max))?;
         }
@@ -44,7 +44,7 @@ fn residual_line(when: &str, residual: &ResidualSize) -> String {
 }
 
 /// Coordinates of a unit, the one that changed most first.
-fn largest<'a>(summary: &'a ConsistencySummary, unit: &str) -> Vec<(&'a String, &'a CoordinateSize)> {
+fn largest(summary: &ConsistencySummary, unit: ChangeUnit) -> Vec<(&String, &CoordinateSize)> {
     let mut list: Vec<_> = summary.changes.iter().filter(|(_, size)| size.unit == unit).collect();
     list.sort_by(|a, b| b.1.max.total_cmp(&a.1.max));
     list.truncate(SHOWN);

@@ -3,7 +3,7 @@
 use super::{comparison, consistency, print_findings, print_verdict, say, subject};
 use crate::args::Voice;
 use ambulo::analysis::PredictionCheck;
-use ambulo_results::{FilterSummary, Ground, MassKnowledge, Summary, WalkSummary};
+use ambulo_results::{FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
 
@@ -19,11 +19,11 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     }
     say(&format!("{}, {}", summary.model, summary.input.motion))?;
     let known = match summary.mass {
-        MassKnowledge::Unverified if summary.ground.source == "predicted" => ", unverified",
+        MassKnowledge::Unverified if summary.ground.source == GroundOrigin::Predicted => ", unverified",
         MassKnowledge::Contradicted => ", but plates carry another",
         MassKnowledge::Verified | MassKnowledge::Unverified => "",
     };
-    say(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source))?;
+    say(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
     if let Some(subject) = &summary.subject {
         subject::print(subject)?;
     }
@@ -95,19 +95,20 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
 
 fn print_ground(summary: &Summary) -> Result<()> {
     let motion = filter(&summary.filter.motion);
-    let Ground { source, threshold_n, .. } = summary.ground;
-    if source == "none" {
+    let Ground { source, ref rule, threshold_n } = summary.ground;
+    if source == GroundOrigin::None {
         return say(&format!("  filter    motion {motion}\n  ground    none"));
     }
     say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
-    let rule = summary.ground.rule.filter(|_| source == "predicted").map_or(String::new(), |rule| format!(", {rule}"));
+    let rule = rule.as_ref().filter(|_| source == GroundOrigin::Predicted);
+    let rule = rule.map_or(String::new(), |rule| format!(", {rule}"));
     say(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
 }
 
 /// Which checks of a prediction passed; values of those that did not.
 fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
-    let names = |passed: Option<bool>| of(passed).map(|check| check.name).collect::<Vec<_>>().join(", ");
+    let names = |passed: Option<bool>| of(passed).map(|check| &*check.name).collect::<Vec<_>>().join(", ");
     let off = |check: &PredictionCheck| {
         let unit = if check.unit == "1" { String::new() } else { format!(" {}", check.unit) };
         let allowed = match check.allowed {
@@ -129,7 +130,7 @@ fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
 
 fn print_peaks(summary: &Summary) -> Result<()> {
     say("  peaks                               min          max")?;
-    for peak in summary.peaks.iter().filter(|p| p.unit == "N.m") {
+    for peak in summary.peaks.iter().filter(|p| p.unit == ForceUnit::NewtonMetre) {
         say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
     Ok(())
@@ -138,6 +139,6 @@ fn print_peaks(summary: &Summary) -> Result<()> {
 fn filter(filter: &FilterSummary) -> String {
     match (filter.cutoff_hz, filter.order) {
         (Some(hz), Some(order)) => format!("{} {hz} Hz (order {order}, forwards and backwards)", filter.kind),
-        _ => filter.kind.to_owned(),
+        _ => filter.kind.word().to_owned(),
     }
 }

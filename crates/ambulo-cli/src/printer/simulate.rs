@@ -22,7 +22,9 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
     let each_us = 1e3 * summary.timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
     say(&format!(
         "  time        {from} to {to} s, {} steps of {} s ({}), {each_us:.1} us each",
-        summary.steps, summary.step_s, summary.integrator
+        summary.steps,
+        summary.step_s,
+        summary.integrator.word()
     ))?;
     say(&format!(
         "  energy      {:.6} J at the start, {:.6} J at the end; between {:.6} and {:.6} J",

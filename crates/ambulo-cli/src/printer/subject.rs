@@ -36,7 +36,11 @@ fn markers(subject: &SubjectSummary) -> String {
 
 fn on_plate(contact: &PlateContactSummary) -> String {
     let PlateContactSummary { side, start_s, end_s, peak_n, quality, .. } = contact;
-    format!("{} {start_s:.3} to {end_s:.3} s, peak {peak_n:.0} N, {quality}", side.unwrap_or("nobody"))
+    format!(
+        "{} {start_s:.3} to {end_s:.3} s, peak {peak_n:.0} N, {}",
+        side.map_or("nobody", ambulo::model::Side::letter),
+        quality.word()
+    )
 }
 
 fn events(agreement: &EventAgreementSummary) -> String {

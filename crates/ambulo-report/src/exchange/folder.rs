@@ -3,10 +3,10 @@
 use super::glb::glb;
 use super::long_table::long_table;
 use super::skeleton::skeleton_of;
-use crate::page::{Folder, PageError};
 use crate::stage::{FolderMotion, Stage, folder_motion};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::Model;
+use ambulo_results::{Folder, ResultsError};
 
 /// Why a folder, or a motion, makes no file.
 #[derive(Debug, thiserror::Error)]
@@ -14,7 +14,7 @@ use ambulo::model::Model;
 pub enum ExchangeError {
     /// A file of the folder that is not what its name says.
     #[error(transparent)]
-    Folder(#[from] PageError),
+    Folder(#[from] ResultsError),
     /// A folder that lacks what the file is made of.
     #[error("{folder}: {reason}")]
     Nothing {

@@ -3,10 +3,10 @@
 //! `time` [s], `quantity` (the column in its file), `unit`, `value`. Where a foot is unloaded its centre of pressure and free moment have
 //! no rows: the zeros of `grf.mot` there are no measurements.
 
-use crate::page::{Folder, PageError};
 use crate::stage::folder_motion;
 use ambulo::model::{CoordinateKind, Model};
 use ambulo_formats::table::Table;
+use ambulo_results::{Folder, ResultsError};
 use std::fmt::Write;
 
 const HEAD: &str = "time,quantity,unit,value\n";
@@ -23,7 +23,7 @@ const TABLES: [(&str, &str); 6] = [
 const UNITS: [(&str, &str); 3] = [("_moment", "N.m"), ("_force", "N"), ("_power", "W")];
 
 /// The table of a folder; else why there is none.
-pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, PageError> {
+pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, ResultsError> {
     let mut text = HEAD.to_owned();
     let motion = folder_motion(folder)?;
     if let Ok(motion) = &motion {

@@ -93,7 +93,8 @@ impl<'a> Axes<'a> {
         for (number, _) in self.ticks[1].labels(self.up).ticks {
             drawing.line([left, self.y(number)], [right, self.y(number)], grid);
         }
-        if self.up[0] < 0.0 && self.up[1] > 0.0 {
+        // A given tick at zero, for example of a logarithm, is not the zero of the quantity.
+        if self.ticks[1] == Ticks::Round && self.up[0] < 0.0 && self.up[1] > 0.0 {
             let zero = Stroke::solid(&style.quiet.color, style.lines_pt.zero);
             drawing.line([left, self.y(0.0)], [right, self.y(0.0)], zero);
         }

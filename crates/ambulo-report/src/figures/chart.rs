@@ -23,6 +23,8 @@ const SCALE_MARGIN: f64 = 0.03;
 /// The smallest range of an ordinate, as a share of its largest number, and as a number.
 const LEAST_SHARE: f64 = 1e-4;
 const LEAST: f64 = 1e-12;
+/// The range of an ordinate whose numbers are all zero.
+const LEAST_OF_ZEROS: f64 = 1.0;
 
 /// A figure of curves.
 #[derive(Debug, Clone, PartialEq)]
@@ -191,7 +193,8 @@ impl ChartPanel {
         });
         let up = self.ordinate.range.unwrap_or_else(|| {
             let largest = numbers(1).filter(|y| y.is_finite()).fold(0.0_f64, |largest, y| largest.max(y.abs()));
-            range(numbers(1), (LEAST_SHARE * largest).max(LEAST))
+            let least = if largest > 0.0 { (LEAST_SHARE * largest).max(LEAST) } else { LEAST_OF_ZEROS };
+            range(numbers(1), least)
         });
         [along, up]
     }

@@ -8,6 +8,7 @@ use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_q
 use crate::normative;
 use crate::style::{Style, style};
 use ambulo::model::Side;
+use ambulo_results::Convention;
 use ambulo_results::CycleRow;
 use ambulo_results::OutputFile;
 use std::ops::Range;
@@ -177,7 +178,7 @@ impl CycleFigures<'_> {
         // Sideways forces of a figure that moves in a plane, joints that are locked.
         quantities.retain(|q| self.rows.iter().any(|row| q.has_column(&row.quantity) && moves(row.unit, &row.values)));
         let speed = self.speed_dimensionless.filter(|_| !self.runs());
-        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed));
+        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed, Convention::Opensim));
         let panel = |quantity: ClinicalQuantity| {
             let band = band(quantity.id);
             CyclePanel::new(quantity, self.rows, self.mass_kg, band)

@@ -5,26 +5,21 @@
 
 mod block;
 mod contract;
-mod folder;
-mod numbers;
 mod session;
 mod shell;
-mod summary_check;
 mod view;
 
+use ambulo_results::{Folder, ResultsError};
 use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
-pub(crate) use folder::chain;
-pub use folder::{Folder, PageError};
-pub(crate) use numbers::{EXPECTED, is_sound};
 
 /// `report.html` of a folder, with up to two others to compare it with.
 ///
 /// # Errors
 /// A folder without a `summary.json` of this program, a table that cannot be read.
-pub fn report_page(folders: &[Folder<'_>]) -> Result<String, PageError> {
+pub fn report_page(folders: &[Folder<'_>]) -> Result<String, ResultsError> {
     let mut block = Block::default();
     let mut sessions =
         folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;

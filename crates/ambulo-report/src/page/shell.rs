@@ -5,8 +5,8 @@
 
 use super::block::Block;
 use super::contract::Page;
-use super::folder::PageError;
 use crate::html::Document;
+use ambulo_results::ResultsError;
 
 const SCRIPT: &str = include_str!("../../data/report/viewer.js");
 const STYLE: &str = include_str!("../../data/report/viewer.css");
@@ -14,7 +14,7 @@ const POLICY: &str =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:";
 
 /// The page as one HTML file.
-pub(super) fn html(page: &Page, block: &Block) -> Result<String, PageError> {
+pub(super) fn html(page: &Page, block: &Block) -> Result<String, ResultsError> {
     let data = serde_json::to_string(page)?.replace('<', "\\u003c");
     let numbers = block.encode();
     let body = format!(

@@ -3,9 +3,9 @@
 
 use super::StageForce;
 use super::csv_rows::Row;
-use crate::page::{Folder, PageError};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
+use ambulo_results::{Folder, ResultsError};
 use std::collections::BTreeMap;
 
 pub(super) const FILE: &str = "contacts.csv";
@@ -27,7 +27,7 @@ pub(super) fn read(
     folder: &Folder<'_>,
     text: &str,
     times: &[String],
-) -> Result<(Vec<StageForce>, Option<String>), PageError> {
+) -> Result<(Vec<StageForce>, Option<String>), ResultsError> {
     let instants: BTreeMap<&str, usize> = times.iter().enumerate().map(|(i, time)| (time.as_str(), i)).collect();
     let mut pairs: BTreeMap<(String, String), BTreeMap<usize, Sum>> = BTreeMap::new();
     for row in Row::all(folder, FILE, text, HEAD)? {

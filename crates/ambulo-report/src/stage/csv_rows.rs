@@ -1,6 +1,6 @@
 //! Rows of the tables of a scene, which hold names beside numbers.
 
-use crate::page::{EXPECTED, Folder, PageError, is_sound};
+use ambulo_results::{EXPECTED, Folder, ResultsError, is_sound};
 
 /// A row with its number in the file.
 pub(crate) struct Row<'a> {
@@ -17,7 +17,7 @@ impl<'a> Row<'a> {
         file: &'static str,
         text: &'t str,
         head: &str,
-    ) -> Result<impl Iterator<Item = Row<'a>> + use<'a, 't>, PageError> {
+    ) -> Result<impl Iterator<Item = Row<'a>> + use<'a, 't>, ResultsError> {
         let found = text.lines().next().unwrap_or_default();
         if !found.starts_with(head) {
             let found: String = found.chars().take(80).collect();
@@ -28,12 +28,12 @@ impl<'a> Row<'a> {
     }
 
     /// A word.
-    pub(crate) fn word(&self, column: usize) -> Result<&str, PageError> {
+    pub(crate) fn word(&self, column: usize) -> Result<&str, ResultsError> {
         self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
     }
 
     /// Numbers from a column on that results can be.
-    pub(crate) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], PageError> {
+    pub(crate) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], ResultsError> {
         let mut numbers = [0.0; N];
         for (column, number) in (from..).zip(&mut numbers) {
             let cell = self.cells.get(column).map_or("the end of the line", String::as_str);
@@ -44,14 +44,14 @@ impl<'a> Row<'a> {
     }
 
     /// Such a number, or not a number where the cell is empty.
-    pub(crate) fn number_or_gap(&self, column: usize) -> Result<f64, PageError> {
+    pub(crate) fn number_or_gap(&self, column: usize) -> Result<f64, ResultsError> {
         match self.cells.get(column).map(String::as_str) {
             Some("") => Ok(f64::NAN),
             _ => Ok(self.numbers::<1>(column)?[0]),
         }
     }
 
-    fn refused(&self, column: usize, found: &str, expected: &str) -> PageError {
+    fn refused(&self, column: usize, found: &str, expected: &str) -> ResultsError {
         let found: String = found.chars().take(40).collect();
         self.folder.unreadable(
             self.file,

@@ -5,7 +5,7 @@ use super::limb::{dot, limb};
 use super::part::Part;
 use super::path::BodyPath;
 use super::{Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
-use crate::page::{Folder, PageError, ViewShape, chain};
+use crate::page::ViewShape;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anthropometry::Dimensions;
@@ -13,7 +13,7 @@ use ambulo::model::{BodyId, Model, from_osim};
 use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use serde_json::Value;
+use ambulo_results::{Folder, ResultsError, RunSummary, Summary, error_chain};
 
 /// Names that the body of a folder may have: a recording's, a synthetic walk's.
 const MODELS: [&str; 2] = ["subject.osim", "figure.osim"];
@@ -30,7 +30,7 @@ pub(crate) struct FolderMotion {
 }
 
 /// Body and motion of a folder; else why there is none.
-pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, PageError> {
+pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, ResultsError> {
     let Some(angles) = folder.table(MOTION)? else {
         return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
     };
@@ -46,13 +46,16 @@ impl Stage {
     ///
     /// # Errors
     /// A file that is not what its name says.
-    pub(crate) fn of_figure(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+    pub(crate) fn of_figure(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let FolderMotion { model, angles, trajectory } = match folder_motion(folder)? {
             Ok(motion) => motion,
             Err(reason) => return Ok(Err(reason)),
         };
-        let summary = folder.summary()?;
-        let mut stage = Stage::of_motion(&model, &trajectory, summary["height_m"].as_f64());
+        let summary = match folder.summary()? {
+            RunSummary::Motion(summary) => summary,
+            RunSummary::Scene(_) => return Ok(Err("No figure: this is the summary of a scene.".to_owned())),
+        };
+        let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
         stage.plates = plates(&summary);
         for (file, beside) in [("grf.mot", false), ("grf_measured.mot", true)] {
             if let Some(table) = same_rows(folder, file, &angles)? {
@@ -60,11 +63,10 @@ impl Stage {
             }
         }
         if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
-            let mass_kg = summary["mass_kg"].as_f64().filter(|mass| *mass > 0.0).unwrap_or_else(|| model.mass());
-            stage.torques = torque::torques(&model, &moments, mass_kg);
+            stage.torques = torque::torques(&model, &moments, summary.mass_kg);
         }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
-        stage.put_soles_on_the_floor(&model, summary["height_m"].as_f64());
+        stage.put_soles_on_the_floor(&model, summary.height_m);
         stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(MOTION, reason)))
     }
 
@@ -150,7 +152,7 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
     paths
 }
 
-fn model(folder: &Folder<'_>) -> Result<Option<Model>, PageError> {
+fn model(folder: &Folder<'_>) -> Result<Option<Model>, ResultsError> {
     let found = MODELS.into_iter().find_map(|file| Some((file, (folder.file)(file)?)));
     let Some((file, bytes)) = found else { return Ok(None) };
     let document = OsimModel::read(&bytes).map_err(|error| folder.refused(file, &error))?;
@@ -159,7 +161,7 @@ fn model(folder: &Folder<'_>) -> Result<Option<Model>, PageError> {
 
 /// The coordinates exactly as the file has them; what it lacks is at its default. Rates do not matter here.
 fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
-    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| chain(&e))?;
+    let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| error_chain(&e))?;
     let Motion { times, columns, .. } = motion;
     let grid = grid(&times).ok_or("the times do not rise evenly; expected the even steps that this program writes")?;
     let still = |values: Vec<f64>| {
@@ -168,7 +170,7 @@ fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
     };
     let noise = vec![None; columns.len()];
     let motion = SmoothMotion { grid, columns: columns.into_iter().map(|c| c.map(still)).collect(), noise };
-    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| chain(&error))
+    Trajectory::complete(model, &motion, &mut Findings::default()).map_err(|error| error_chain(&error))
 }
 
 fn grid(times: &[f64]) -> Option<TimeGrid> {
@@ -179,7 +181,7 @@ fn grid(times: &[f64]) -> Option<TimeGrid> {
 }
 
 /// A table that has a row for every row of the motion.
-fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<Table>, PageError> {
+fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<Table>, ResultsError> {
     let Some(table) = folder.table(file)? else { return Ok(None) };
     if table.rows() == angles.rows() {
         return Ok(Some(table));
@@ -189,13 +191,7 @@ fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<T
 }
 
 /// `subject.plate_corners_m` of the summary.
-fn plates(summary: &Value) -> Vec<StagePlate> {
-    let plates = summary["subject"]["plate_corners_m"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let plate = |plate: &Value| {
-        Some(StagePlate {
-            name: plate["plate"].as_str()?.to_owned(),
-            corners: serde_json::from_value(plate["corners_m"].clone()).ok()?,
-        })
-    };
-    plates.iter().filter_map(plate).collect()
+fn plates(summary: &Summary) -> Vec<StagePlate> {
+    let plates = summary.subject.as_ref().map_or(&[][..], |subject| &subject.plate_corners_m);
+    plates.iter().map(|plate| StagePlate { name: plate.plate.clone(), corners: plate.corners_m }).collect()
 }

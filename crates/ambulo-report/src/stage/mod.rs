@@ -24,10 +24,11 @@ mod trunk;
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
 pub(crate) use path::BodyPath;
 
-use super::page::{Folder, PageError, ViewShape};
+use super::page::ViewShape;
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
+use ambulo_results::{Folder, ResultsError};
 
 /// A motion as it is drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +60,7 @@ impl Stage {
     ///
     /// # Errors
     /// A file that is not what its name says.
-    pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+    pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let is_scene = (folder.file)("kinematics.mot").is_none() && (folder.file)("poses.csv").is_some();
         if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
     }

@@ -3,11 +3,12 @@
 use super::csv_rows::Row;
 use super::path::BodyPath;
 use super::{Stage, StageBody, StageForce, contact_forces, ground_plane};
-use crate::page::{Folder, PageError, ViewShape};
+use crate::page::ViewShape;
 use crate::scene_shapes::{FILE, FORMAT, ObstacleShapes, SceneShapes};
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
+use ambulo_results::{Folder, ResultsError};
 use nalgebra::{Quaternion, UnitQuaternion};
 use std::collections::BTreeMap;
 
@@ -21,7 +22,7 @@ impl Stage {
     ///
     /// # Errors
     /// A file that is not what its name says.
-    pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, PageError> {
+    pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(FILE)?) else {
             return Ok(Err(format!("There is no {POSES} with {FILE}, so nothing can be drawn in space.")));
         };
@@ -54,7 +55,7 @@ impl Stage {
     }
 }
 
-fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, PageError> {
+fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, ResultsError> {
     let shapes: SceneShapes = serde_json::from_str(text).map_err(|error| folder.refused(FILE, &error))?;
     if shapes.format != FORMAT {
         return Err(folder.unreadable(FILE, format!("format is {}; expected {FORMAT}", shapes.format)));
@@ -91,7 +92,7 @@ struct Instants {
     paths: BTreeMap<String, Vec<[f64; 7]>>,
 }
 
-fn paths(folder: &Folder<'_>, text: &str) -> Result<Instants, PageError> {
+fn paths(folder: &Folder<'_>, text: &str) -> Result<Instants, ResultsError> {
     let mut instants = Instants { times: Vec::new(), paths: BTreeMap::new() };
     for row in Row::all(folder, POSES, text, HEAD)? {
         let time = row.word(0)?;
@@ -142,7 +143,7 @@ fn bodies(
     shapes: &SceneShapes,
     mut paths: BTreeMap<String, Vec<[f64; 7]>>,
     kept: &Kept,
-) -> Result<Vec<StageBody>, PageError> {
+) -> Result<Vec<StageBody>, ResultsError> {
     let side = |letter: Option<char>| match letter {
         Some('r') => Some(Side::Right),
         Some('l') => Some(Side::Left),

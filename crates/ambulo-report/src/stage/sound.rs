@@ -1,8 +1,9 @@
 //! Whether a stage can be drawn: bodies of a broken file may be light years away or have no size at all.
 
 use super::Stage;
-use crate::page::{EXPECTED, ViewShape, is_sound};
+use crate::page::ViewShape;
 use ambulo::spatial::Vec3;
+use ambulo_results::{EXPECTED, is_sound};
 
 impl Stage {
     /// What cannot be drawn, with what was found and expected.

@@ -1,13 +1,15 @@
 //! What stages hold, from folders made in memory.
 
 use super::{Stage, StageForce};
-use crate::page::{Folder, ViewShape};
+use crate::page::ViewShape;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Model, to_osim};
 use ambulo::spatial::{Pose, Vec3};
 use ambulo_formats::table::Table;
+use ambulo_results::Folder;
 use nalgebra::Rotation3;
+use serde_json::json;
 use std::collections::BTreeMap;
 
 const FRAMES: usize = 40;
@@ -50,9 +52,22 @@ fn folder(model: &Model) -> Files {
     let files = [
         ("subject.osim", to_osim(model).unwrap().write().unwrap()),
         ("kinematics.mot", motion(model).write_storage()),
-        ("summary.json", b"{\"mass_kg\": 61.0, \"height_m\": 1.68}".to_vec()),
+        ("summary.json", summary(1.68)),
     ];
     files.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect()
+}
+
+/// The summary of a run without forces for a person of this stature [m].
+fn summary(height_m: f64) -> Vec<u8> {
+    let off = json!({"kind": "off", "cutoff_hz": null, "order": null});
+    let summary = json!({
+        "version": "0.1.0", "input": {"motion": "walk.mot", "model": "built-in", "added_mass": []}, "model": "figure",
+        "mass_kg": 61.0, "gravity_m_s2": 9.80665, "mass_model_kg": 61.0, "mass_source": "model", "mass": "unverified",
+        "height_m": height_m, "window_s": [0.5, 1.0], "window_asked_s": [null, null], "rate_hz": 100.0, "frames": FRAMES,
+        "filter": {"motion": off, "force": off}, "ground": {"source": "none", "rule": null, "threshold_n": 20.0},
+        "peaks": [], "findings": [], "timing_ms": {},
+    });
+    summary.to_string().into_bytes()
 }
 
 fn at(stage: &Stage, name: &str) -> usize {

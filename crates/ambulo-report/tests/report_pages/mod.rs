@@ -12,7 +12,8 @@ use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings}
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::figure_files;
-use ambulo_report::page::{Folder, PageError, report_page};
+use ambulo_report::page::report_page;
+use ambulo_results::{Folder, ResultsError};
 use ambulo_results::{GroundSource, Input, output_files, prediction_files, summary};
 use base64::Engine;
 use serde_json::Value;
@@ -121,7 +122,7 @@ pub(crate) fn keep_lines(files: &mut Files, name: &str, keep: impl Fn(&str) -> b
 }
 
 /// The page of one folder.
-pub(crate) fn page_of(name: &str, files: &Files) -> Result<String, PageError> {
+pub(crate) fn page_of(name: &str, files: &Files) -> Result<String, ResultsError> {
     let file = |name: &str| files.get(name).cloned();
     report_page(&[Folder { name: name.to_owned(), file: &file }])
 }

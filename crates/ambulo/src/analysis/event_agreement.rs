@@ -4,16 +4,17 @@
 //! Pinned by: tests/foot_motion.rs
 
 use super::events::{Event, EventKind};
-use serde::Serialize;
+use crate::numerics::or_nan;
+use serde::{Deserialize, Serialize};
 
 /// Events further apart than this are not the same [s]: a third of a fast step.
 const FARTHEST_S: f64 = 0.15;
 
 /// Agreement of the events of one kind.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EventAgreement {
     /// `strike` or `off`.
-    pub kind: &'static str,
+    pub kind: EventKind,
     /// Pairs.
     pub pairs: usize,
     /// Events of the reference without a partner.
@@ -21,8 +22,10 @@ pub struct EventAgreement {
     /// Events found without a partner, among those inside the span that the reference covers.
     pub extra: usize,
     /// Mean of |found - reference| over the pairs [ms]; not a number without pairs.
+    #[serde(deserialize_with = "or_nan")]
     pub mean_absolute_ms: f64,
     /// Mean of found - reference [ms]: positive if found late.
+    #[serde(deserialize_with = "or_nan")]
     pub bias_ms: f64,
 }
 
@@ -42,7 +45,7 @@ fn of_kind(reference: &[Event], found: &[Event], kind: EventKind) -> EventAgreem
     let covered = found.iter().filter(|e| (first - FARTHEST_S..=last + FARTHEST_S).contains(&e.time_s)).count();
     let mean_ms = |sum: f64| 1000.0 * sum / differences.len() as f64;
     EventAgreement {
-        kind: kind.word(),
+        kind,
         pairs: differences.len(),
         missed: reference.len() - differences.len(),
         extra: covered.saturating_sub(differences.len()),

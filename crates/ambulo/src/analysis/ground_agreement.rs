@@ -24,8 +24,9 @@ use crate::ground::predict::{FootDeviation, Prediction};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet, upward};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
+use crate::numerics::or_nan;
 use crate::spatial::Vec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Shorter stances are left out [s].
 const SHORTEST_STANCE_S: f64 = 0.2;
@@ -50,7 +51,7 @@ pub struct PlateCoverage {
 }
 
 /// Agreement of predicted with measured forces.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GroundAgreement {
     /// Body mass that body weights are made of [kg].
     pub mass_kg: f64,
@@ -65,10 +66,10 @@ pub struct GroundAgreement {
 }
 
 /// Agreement of one foot over its stances.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FootAgreement {
     /// `r` or `l`.
-    pub side: &'static str,
+    pub side: Side,
     /// From strike to off [s].
     pub stances_s: Vec<[f64; 2]>,
     /// Samples.
@@ -84,58 +85,70 @@ pub struct FootAgreement {
 }
 
 /// Agreement of one component of a force.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ForceAgreement {
     /// Root-mean-square difference in body weights.
+    #[serde(deserialize_with = "or_nan")]
     pub rmse_bw: f64,
     /// RMSE over the mean of the two ranges.
+    #[serde(deserialize_with = "or_nan")]
     pub rrmse: f64,
     /// Pearson's correlation.
+    #[serde(deserialize_with = "or_nan")]
     pub r: f64,
     /// How honest the standard deviations are.
     pub band: BandAgreement,
 }
 
 /// A band of 1.645 standard deviations about the prediction.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BandAgreement {
     /// Share of the measured samples inside it.
+    #[serde(deserialize_with = "or_nan")]
     pub holds: f64,
     /// Its mean half-width over the RMSE.
+    #[serde(deserialize_with = "or_nan")]
     pub half_width_over_rmse: f64,
 }
 
 /// Agreement of the centre of pressure [mm].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CenterAgreement {
     /// Samples in which both have one.
     pub samples: usize,
     /// Samples in which the plate has one and the prediction does not.
     pub missing: usize,
     /// RMS along the walking direction.
+    #[serde(deserialize_with = "or_nan")]
     pub fore_aft_mm: f64,
     /// RMS across it.
+    #[serde(deserialize_with = "or_nan")]
     pub lateral_mm: f64,
     /// RMS along the walking direction, samples weighted by the measured vertical force.
+    #[serde(deserialize_with = "or_nan")]
     pub fore_aft_weighted_mm: f64,
     /// RMS across it, weighted likewise.
+    #[serde(deserialize_with = "or_nan")]
     pub lateral_weighted_mm: f64,
 }
 
 /// Agreement of one joint moment.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MomentAgreement {
     /// Column of `moments.sto`.
     pub quantity: String,
     /// `r` or `l`.
-    pub side: &'static str,
+    pub side: Side,
     /// Samples.
     pub samples: usize,
     /// Root-mean-square difference [N.m].
+    #[serde(deserialize_with = "or_nan")]
     pub rmse_nm: f64,
     /// The same over body mass [N.m/kg].
+    #[serde(deserialize_with = "or_nan")]
     pub rmse_nm_kg: f64,
     /// Pearson's correlation.
+    #[serde(deserialize_with = "or_nan")]
     pub r: f64,
 }
 
@@ -259,7 +272,7 @@ fn moment(compared: &Compared<'_>, side: Side, movement: Movement, frames: &[usi
     let agreed = agreement(&pairs);
     Some(MomentAgreement {
         quantity: model.force_names()[id].clone(),
-        side: side.letter(),
+        side,
         samples: agreed.samples,
         rmse_nm: agreed.rmse,
         rmse_nm_kg: agreed.rmse / measured.mass.kg,
@@ -324,7 +337,7 @@ impl Judge {
         }
         let force = |axis: usize| self.force(&samples, axis, found, truth, deviation);
         Some(FootAgreement {
-            side: side.letter(),
+            side,
             stances_s: stances.to_vec(),
             samples: samples.len(),
             vertical: force(0),

@@ -10,7 +10,7 @@ use crate::spatial::Vec3;
 
 /// A residual above this share of body weight is said. Walking data with every foot on a plate leave 4 to 7 % (the
 /// recordings that the tests use); plates of another person 47 to 98 %.
-const LARGE_RESIDUAL_BW: f64 = 0.15;
+pub const LARGE_RESIDUAL_BW: f64 = 0.15;
 /// A coordinate may leave its stated range by this much [rad] before it is said; ranges are often drawn tightly.
 const RANGE_SLACK_RAD: f64 = 0.35;
 

@@ -67,7 +67,8 @@ pub struct Mass {
 }
 
 /// Where a mass comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MassSource {
     /// Mean vertical force over whole gait cycles.
     Plates,
@@ -75,6 +76,18 @@ pub enum MassSource {
     Standing,
     /// The model's own mass.
     Model,
+}
+
+impl MassSource {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            MassSource::Plates => "plates",
+            MassSource::Standing => "standing",
+            MassSource::Model => "model",
+        }
+    }
 }
 
 /// Why a recording could not be analysed.

@@ -9,10 +9,10 @@ use crate::model::{CoordinateKind, Model};
 use crate::simulation::scene::{FigureWalk, Scene};
 use crate::simulation::walking::WalkRecording;
 use crate::spatial::{Vec3, Wrench};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The verdict on all figures of a scene that walk.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SceneVerdict {
     /// Nothing was found against any of them.
     pub feasible: bool,
@@ -21,7 +21,7 @@ pub struct SceneVerdict {
 }
 
 /// The verdict on one figure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FigureVerdict {
     /// Its name.
     pub figure: String,

@@ -1,13 +1,16 @@
 //! Right and left.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A side of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Side {
     /// Right.
+    #[serde(rename = "r")]
     Right,
     /// Left.
+    #[serde(rename = "l")]
     Left,
 }
 

@@ -3,12 +3,14 @@
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use ambulo_formats::c3d::C3d;
+use std::fmt;
 
 /// Events of one kind and side closer than this are one [s].
 const REPEATED_S: f64 = 0.005;
 
 /// What happened.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum EventKind {
     /// The foot meets the ground.
     Strike,
@@ -102,4 +104,10 @@ fn side_of(context: &str, label: &str) -> Option<Side> {
         || label.to_ascii_lowercase().starts_with("left")
         || label.to_ascii_lowercase().starts_with("right");
     of_context.or_else(|| if short { side(first(label)) } else { None })
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
 }

@@ -14,6 +14,8 @@ mod spline_fitter;
 mod spline_grid;
 mod uniform_spline;
 
+use serde::Deserialize;
+
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub use least_squares::{NormalEquations, Progress, Residuals, minimise};
 pub use median::median;
@@ -21,3 +23,8 @@ pub use natural_spline::{NaturalSpline, SplineDegree, SplineError};
 pub use periodic_spline::{OVERLAP, PeriodicSplines, SplineValues};
 pub use spline_fitter::{Smoothing, SplineFitter, smoothing_parameter_for_cutoff};
 pub use uniform_spline::{SPLINES_AT_ONCE, UniformSplines};
+
+/// Reads a number that files write as `null` where it is not one.
+pub(crate) fn or_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+}

@@ -47,10 +47,21 @@ impl Sensitivity {
 /// All values that the paper does not give, with other values to try.
 #[must_use]
 pub fn assumptions() -> Vec<Assumption> {
-    let taken = PaperSettings::default();
-    let softer = |factor: f64| HuntCrossley { stiffness: factor * taken.soft_shoes.stiffness, ..taken.soft_shoes };
-    let degrees = |angle: f64| angle.to_radians();
-    let with = |what, value, why, others| Assumption { what, value, why, others };
+    [about_the_figure(), about_the_gait(), about_the_ground()].concat()
+}
+
+fn assumption(
+    what: &'static str,
+    value: &'static str,
+    why: &'static str,
+    others: Vec<(&'static str, PaperSettings)>,
+) -> Assumption {
+    Assumption { what, value, why, others }
+}
+
+/// Size, mass, soles and arms of the figure.
+fn about_the_figure() -> Vec<Assumption> {
+    let (taken, with) = (PaperSettings::default(), assumption);
     vec![
         with(
             "stature",
@@ -94,6 +105,13 @@ pub fn assumptions() -> Vec<Assumption> {
                 ("1.5 times the swing", PaperSettings { arm_swing: 1.5, ..taken }),
             ],
         ),
+    ]
+}
+
+/// Joint curves, step lengths and step heights.
+fn about_the_gait() -> Vec<Assumption> {
+    let (taken, with) = (PaperSettings::default(), assumption);
+    vec![
         with(
             "Nilsson's tables: the curves of the joints",
             "extremes of Schwartz, Rozumalski, Trost 2008, joined by the paper's quintics",
@@ -108,8 +126,8 @@ pub fn assumptions() -> Vec<Assumption> {
             "thigh relative to the vertical: reduced by the mean pelvic tilt",
             "the trunk is held upright",
             vec![
-                ("5° more flexed", PaperSettings { hip_offset: degrees(5.0), ..taken }),
-                ("5° more extended", PaperSettings { hip_offset: degrees(-5.0), ..taken }),
+                ("5° more flexed", PaperSettings { hip_offset: 5.0_f64.to_radians(), ..taken }),
+                ("5° more extended", PaperSettings { hip_offset: (-5.0_f64).to_radians(), ..taken }),
             ],
         ),
         with(
@@ -146,6 +164,14 @@ pub fn assumptions() -> Vec<Assumption> {
                 ("2.0 times all heights", PaperSettings { step_height: 2.0, ..taken }),
             ],
         ),
+    ]
+}
+
+/// Impacts and soft shoes.
+fn about_the_ground() -> Vec<Assumption> {
+    let (taken, with) = (PaperSettings::default(), assumption);
+    let softer = |factor: f64| HuntCrossley { stiffness: factor * taken.soft_shoes.stiffness, ..taken.soft_shoes };
+    vec![
         with(
             "velocities after an impact while other points are at rest",
             "the striking point loses all its velocity, the others obey Coulomb's law",

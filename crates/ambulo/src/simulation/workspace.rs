@@ -22,12 +22,24 @@ pub struct StepSettings {
 }
 
 /// Time integration method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// First order, with impulses at velocity level; handles contacts, impacts, friction and limits.
     Impulse,
     /// Fourth order (Runge-Kutta) where motion is smooth; impulses where surfaces stay in contact.
     RungeKutta,
+}
+
+impl Integrator {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Integrator::Impulse => "impulse",
+            Integrator::RungeKutta => "runge-kutta",
+        }
+    }
 }
 
 impl Default for StepSettings {

@@ -139,10 +139,9 @@ impl Case {
         stances.filter_map(|(side, span)| self.of_stance(&prediction, side, span)).collect()
     }
 
-    fn of_stance(&self, prediction: &Prediction, letter: &str, [from_s, to_s]: [f64; 2]) -> Option<StanceSamples> {
+    fn of_stance(&self, prediction: &Prediction, side: Side, [from_s, to_s]: [f64; 2]) -> Option<StanceSamples> {
         let model = &self.outcome.body;
         let weight = self.measured.mass.kg * model.gravity().norm();
-        let side = Side::BOTH.into_iter().find(|side| side.letter() == letter)?;
         let foot = |ground| feet(model, ground).into_iter().find(|(of, _)| *of == side).map(|(_, foot)| foot);
         let (found, truth) = (foot(&prediction.ground)?, foot(&self.measured.ground)?);
         let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side)?;

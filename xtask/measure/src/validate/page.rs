@@ -90,7 +90,7 @@ fn bars(trials: &[Trial]) -> Vec<Bar> {
     }
     for trial in trials.iter().filter(|trial| trial.group == Group::Turning) {
         for foot in &trial.agreement.feet {
-            let what = format!("{} {}, vertical RMSE %BW", trial.label, foot.side);
+            let what = format!("{} {}, vertical RMSE %BW", trial.label, foot.side.letter());
             add(what, 100.0 * foot.vertical.rmse_bw, [None, Some(7.0)], 2);
         }
     }
@@ -131,7 +131,7 @@ fn forces(trials: &[Trial]) -> String {
                 table.row([
                     trial.label.to_owned(),
                     trial.group.word().to_owned(),
-                    foot.side.to_owned(),
+                    foot.side.letter().to_owned(),
                     foot.stances_s.len().to_string(),
                     name.to_owned(),
                     number(100.0 * force.rmse_bw, 2),
@@ -177,7 +177,7 @@ fn centers(trials: &[Trial]) -> String {
             let center = &foot.center_of_pressure;
             table.row([
                 trial.label.to_owned(),
-                foot.side.to_owned(),
+                foot.side.letter().to_owned(),
                 number(center.fore_aft_mm, 1),
                 number(center.fore_aft_weighted_mm, 1),
                 number(center.lateral_mm, 1),
@@ -217,7 +217,7 @@ fn events(trials: &[Trial]) -> String {
         for event in &trial.agreement.events {
             table.row([
                 trial.label.to_owned(),
-                event.kind.to_owned(),
+                event.kind.word().to_owned(),
                 event.pairs.to_string(),
                 event.missed.to_string(),
                 event.extra.to_string(),

@@ -4,8 +4,8 @@ use super::{Converted, lost};
 use crate::args::ConvertArgs;
 use crate::commands::result_folder::ResultFolder;
 use ambulo::findings::{Code, Findings};
-use ambulo_report::page::Folder;
 use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder};
+use ambulo_results::Folder;
 use anyhow::{Result, bail};
 
 /// What can be made of a folder.

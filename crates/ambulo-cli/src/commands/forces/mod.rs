@@ -98,6 +98,7 @@ fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Rea
     let files = RunFiles {
         outcome: &outcome,
         input: input(args, ground.as_deref(), &outcome),
+        convention: args.convention.into(),
         walk: None,
         files: body.into_iter().collect(),
         read: &read,

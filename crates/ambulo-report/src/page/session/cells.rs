@@ -1,7 +1,6 @@
-//! Cells of tables, and tables from lists in the summary.
+//! Cells of tables, and tables from lists of the results.
 
 use crate::page::contract::{Cell, Table};
-use serde_json::Value;
 
 /// A cell of words.
 pub(super) fn text(words: &str) -> Cell {
@@ -46,45 +45,18 @@ pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) 
     cell
 }
 
-/// A column of a table that shows a list of the summary.
-pub(super) struct Column {
-    pub(super) head: &'static str,
-    /// Path in an entry of the list: `/vertical/rmse_bw`.
-    pub(super) path: &'static str,
-    pub(super) form: Form,
-}
-
-/// How an entry is shown.
-pub(super) enum Form {
-    /// As it stands.
-    Words,
-    /// A name in words: `center_of_pressure`.
-    Check,
-    /// A unit; none of what is a ratio.
-    Unit,
-    /// A side by its letter.
-    Side,
-    /// This factor times a number, with so many digits.
-    Number(f64, usize),
-    /// The same, and what is more stands out.
-    AtMost(f64, usize, f64),
-    /// Yes or no.
-    Answer,
-}
-
-pub(super) const fn column(head: &'static str, path: &'static str, form: Form) -> Column {
-    Column { head, path, form }
-}
+/// A column of a table: its heading, and the cell that it has of a row.
+pub(super) type Column<T> = (&'static str, fn(&T) -> Cell);
 
 /// A table of a list; `None` where the list is empty.
-pub(super) fn listed<'a>(
+pub(super) fn listed<'a, T: 'a>(
     [id, title, note]: [&str; 3],
-    rows: impl IntoIterator<Item = &'a Value>,
-    columns: &[Column],
+    rows: impl IntoIterator<Item = &'a T>,
+    columns: &[Column<T>],
 ) -> Option<Table> {
-    let cells = |row: &Value| columns.iter().map(|column| cell(row.pointer(column.path), &column.form)).collect();
+    let cells = |row: &T| columns.iter().map(|(_, cell)| cell(row)).collect();
     let rows: Vec<Vec<Cell>> = rows.into_iter().map(cells).collect();
-    let columns = columns.iter().map(|column| column.head.to_owned()).collect();
+    let columns = columns.iter().map(|(head, _)| (*head).to_owned()).collect();
     (!rows.is_empty()).then(|| table([id, title, note], columns, rows))
 }
 
@@ -94,31 +66,24 @@ pub(super) fn table([id, title, note]: [&str; 3], columns: Vec<String>, rows: Ve
     Table { id: id.to_owned(), title: title.to_owned(), note, columns, rows, empty: None }
 }
 
-fn cell(value: Option<&Value>, form: &Form) -> Cell {
-    let words = value.and_then(Value::as_str);
-    let scaled = |factor: f64| value.and_then(Value::as_f64).map(|x| factor * x);
-    match form {
-        Form::Words => text(words.unwrap_or("-")),
-        Form::Check => text(&words.unwrap_or("-").replace('_', " ")),
-        Form::Unit => text(words.filter(|unit| *unit != "1").unwrap_or("")),
-        Form::Side => text(side_word(words)),
-        Form::Number(factor, digits) => number(scaled(*factor), *digits, None),
-        Form::AtMost(factor, digits, most) => number(scaled(*factor), *digits, Some([f64::NEG_INFINITY, *most])),
-        Form::Answer => text(match value.and_then(Value::as_bool) {
-            Some(true) => "yes",
-            Some(false) => "no",
-            None => "-",
-        }),
-    }
+/// A count; one above zero stands out.
+pub(super) fn at_most_none(count: usize) -> Cell {
+    number(Some(count as f64), 0, Some([f64::NEG_INFINITY, 0.5]))
 }
 
-/// `right`, `left` or a dash.
-pub(super) fn side_word(letter: Option<&str>) -> &'static str {
-    match letter {
-        Some("r") => "right",
-        Some("l") => "left",
-        _ => "-",
-    }
+/// A count.
+pub(super) fn count(count: usize) -> Cell {
+    number(Some(count as f64), 0, None)
+}
+
+/// A unit; nothing for ratios.
+pub(super) fn unit(unit: &str) -> Cell {
+    text(if unit == "1" { "" } else { unit })
+}
+
+/// A name of the files in words: `center_of_pressure`.
+pub(super) fn name(name: &str) -> Cell {
+    text(&name.replace('_', " "))
 }
 
 #[cfg(test)]

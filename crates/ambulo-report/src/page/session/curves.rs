@@ -5,11 +5,15 @@ use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
 use super::sides;
 use super::size::BodySize;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
+use crate::clinical_file::PELVIS_AND_HIPS;
 use crate::normative;
 use crate::page::block::Block;
-use crate::page::contract::{Band, CycleCurve, MeanCurve, Origin, Panel, Role, Series, Trace};
+use crate::page::contract::{Band, CycleCurve, MeanCurve, Origin, PageCycle, Panel, Role, Series, Trace};
+use ambulo::analysis::CYCLE_SAMPLES;
 use ambulo::model::Side;
+use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
+use ambulo_results::{CLINICAL, Convention};
 
 /// Columns of `grf.mot` by the names of `cycles.csv`.
 pub(super) const GROUND_AXES: [(&str, &str); 3] =
@@ -39,7 +43,7 @@ pub(super) fn panel(
         negative: quantity.negative.to_owned(),
         cycles,
         means,
-        band: band(size, quantity, block),
+        band: band(size, quantity, results.convention(), block),
         traces,
         red: Vec::new(),
         empty: nothing.then(|| empty.to_owned()),
@@ -47,8 +51,8 @@ pub(super) fn panel(
 }
 
 /// What healthy people do at this speed, where it and the size of the body are known.
-fn band(size: &BodySize, quantity: &ClinicalQuantity, block: &mut Block) -> Option<Band> {
-    let normal = normative::band(quantity.id, size.walking_speed()?)?;
+fn band(size: &BodySize, quantity: &ClinicalQuantity, convention: Convention, block: &mut Block) -> Option<Band> {
+    let normal = normative::band(quantity.id, size.walking_speed()?, convention)?;
     Some(Band { mean: block.add(&normal.mean), sd: block.add(&normal.sd), citation: normal.citation })
 }
 
@@ -69,6 +73,10 @@ impl ShownCurve {
 
 /// The cycles of a foot, in the file's order.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
+    let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
+    if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
+        return results.cycles_of(side).map(|cycle| over_cycle(results, cycle, side, &column, values)).collect();
+    }
     let factor = quantity.factor(results.mass_kg, side);
     let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.columns[side]);
     let shown = |curve: &CycleValues| {
@@ -81,6 +89,19 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
         }
     };
     rows.map(shown).collect()
+}
+
+/// A column of `clinical.csv` over a cycle.
+fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, values: &[f64]) -> ShownCurve {
+    let PageCycle { number, start_s, end_s, .. } = *cycle;
+    let last = (CYCLE_SAMPLES - 1) as f64;
+    let at = |k: usize| interpolate(&results.times, values, start_s + (end_s - start_s) * k as f64 / last);
+    ShownCurve {
+        side,
+        number,
+        values: (0..CYCLE_SAMPLES).map(at).collect(),
+        origin: Origin { file: CLINICAL.to_owned(), column: column.to_owned(), factor: 1.0 },
+    }
 }
 
 fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
@@ -125,7 +146,13 @@ fn trace(
 ) -> Option<Trace> {
     let Place { table, file, column, divisor } = Place::of(results, quantity, side)?;
     let factor = factor / divisor;
-    let values = scaled(table.column(&column)?, factor, block);
+    let of_file = table.column(&column)?;
+    let (values, origin) = match results.clinical_column(quantity, side.unwrap_or(Side::Right)) {
+        Some((clinical, values)) => {
+            (block.add(values), Origin { file: CLINICAL.to_owned(), column: clinical, factor: 1.0 })
+        }
+        None => (scaled(of_file, factor, block), Origin { file: file.to_owned(), column: column.clone(), factor }),
+    };
     let deviation = results.deviations.as_ref().filter(|_| file == GROUND);
     let sd = deviation.and_then(|table| table.column(&format!("{column}_sd")));
     Some(Trace {
@@ -134,7 +161,7 @@ fn trace(
         role: Role::Main,
         values,
         sd: sd.map(|sd| scaled(sd, factor.abs(), block)),
-        origin: Some(Origin { file: file.to_owned(), column, factor }),
+        origin: Some(origin),
     })
 }
 

@@ -1,8 +1,8 @@
 //! Curves over the gait cycle, from `cycles.csv`.
 
-use crate::page::folder::{Folder, PageError};
-use crate::page::{EXPECTED, is_sound};
 use ambulo::model::Side;
+use ambulo_results::{EXPECTED, is_sound};
+use ambulo_results::{Folder, ResultsError};
 
 /// Where they stand.
 pub(super) const FILE: &str = "cycles.csv";
@@ -35,7 +35,7 @@ struct Row<'a> {
 }
 
 /// All curves, in the file's order; none without the file.
-pub(super) fn read(folder: &Folder<'_>) -> Result<Vec<CycleValues>, PageError> {
+pub(super) fn read(folder: &Folder<'_>) -> Result<Vec<CycleValues>, ResultsError> {
     let Some(text) = folder.text(FILE)? else { return Ok(Vec::new()) };
     curves(&text).map_err(|reason| folder.unreadable(FILE, reason))
 }

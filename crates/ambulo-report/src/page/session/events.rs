@@ -2,19 +2,19 @@
 
 use super::sides;
 use crate::page::contract::PageEvent;
-use crate::page::folder::{Folder, PageError};
-use crate::page::is_sound;
 use ambulo::model::Side;
+use ambulo_results::is_sound;
+use ambulo_results::{Folder, ResultsError};
 
 const FILE: &str = "events.csv";
 
 /// All events in the file's order; none without the file.
-pub(super) fn events(folder: &Folder<'_>) -> Result<Vec<PageEvent>, PageError> {
+pub(super) fn events(folder: &Folder<'_>) -> Result<Vec<PageEvent>, ResultsError> {
     let text = folder.text(FILE)?.unwrap_or_default();
     text.lines().enumerate().skip(1).map(|(i, line)| event(folder, i + 1, line)).collect()
 }
 
-fn event(folder: &Folder<'_>, number: usize, line: &str) -> Result<PageEvent, PageError> {
+fn event(folder: &Folder<'_>, number: usize, line: &str) -> Result<PageEvent, ResultsError> {
     let cells: Vec<&str> = line.split(',').collect();
     let read = || {
         let [letter, kind, time] = cells[..] else { return None };

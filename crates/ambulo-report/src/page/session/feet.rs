@@ -54,11 +54,11 @@ fn pose_place(results: &Results, model: &Model, time_s: f64, body: usize, point:
 
 /// How the floor moves [m/s]: a belt, if the body stays behind what its feet carry it; else nothing.
 pub(super) fn floor_velocity(results: &Results) -> Vec3 {
-    let (Some(way), Some(speed)) = (pelvis_velocity(results), results.number("/speed_m_s")) else {
+    let (Some(way), Some(speed)) = (pelvis_velocity(results), results.summary.speed_m_s) else {
         return Vec3::zeros();
     };
     // On a curved path, too, the body ends nearer than its speed says.
-    let straight = !results.has_finding("laboratory.turning");
+    let straight = results.turn_deg().is_none();
     match straight && speed > 0.0 && speed - way.norm() > MOVING_FLOOR * speed {
         true => Vec3::x() * (way.x - speed),
         false => Vec3::zeros(),

@@ -6,7 +6,8 @@ use super::size::{BodySize, Known};
 use super::strides::Stride;
 use super::way::Way;
 use crate::page::contract::{Fact, PageSource};
-use serde_json::Value;
+use ambulo::analysis::MassSource;
+use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, MassKnowledge};
 
 /// Below this speed a body does not walk anywhere [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -21,27 +22,28 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
         None => fact(label, "not known", None),
     };
     let lines = [
-        recording(results),
-        subject(results),
+        Some(recording(results)),
+        Some(subject(results)),
         Some(mass(results)),
         Some(metres(&size.stature, "Stature")),
         Some(metres(&size.leg, "Leg length")),
         Some(speed(results, size)),
         cadence(strides),
         direction(results),
-        window(results),
+        Some(window(results)),
         Some(fact("Filter", filters(results), None)),
         changed(results),
         Some(forces(results)),
-        results.text("/subject/axes").map(|axes| fact("Axes", axes.replace("->", "→"), None)),
-        Some(fact("Program", format!("Ambulo {}", results.text("/version").unwrap_or("of unknown version")), None)),
+        Some(convention(results)),
+        results.summary.subject.as_ref().map(|subject| fact("Axes", subject.axes.replace("->", "→"), None)),
+        Some(fact("Program", format!("Ambulo {}", results.summary.version), None)),
     ];
     lines.into_iter().flatten().collect()
 }
 
 /// What the page is called: the recording, the gait.
-pub(super) fn recording_name(results: &Results) -> Option<String> {
-    results.text("/input/motion").map(|motion| file_name(motion).to_owned())
+pub(super) fn recording_name(results: &Results) -> String {
+    file_name(&results.summary.input.motion).to_owned()
 }
 
 /// The last part of a path of any system.
@@ -54,52 +56,47 @@ pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) 
     Fact { label: label.to_owned(), value: value.into(), note }
 }
 
-fn recording(results: &Results) -> Option<Fact> {
-    if let Some(gait) = results.text("/walk/gait") {
-        let style = results.text("/walk/style").unwrap_or_default();
-        let mode = results.text("/walk/mode").unwrap_or_default();
-        return Some(fact("Synthetic walk", gait, Some(format!("style {style}, mode {mode}"))));
+fn recording(results: &Results) -> Fact {
+    if let Some(walk) = &results.summary.walk {
+        return fact("Synthetic walk", &*walk.gait, Some(format!("style {}, mode {}", walk.style, walk.mode)));
     }
-    let standing = results.text("/input/static").map(|file| format!("standing trial: {}", file_name(file)));
-    Some(fact("Recording", file_name(results.text("/input/motion")?), standing))
+    let input = &results.summary.input;
+    let standing = input.standing.as_ref().map(|file| format!("standing trial: {}", file_name(file)));
+    fact("Recording", file_name(&input.motion), standing)
 }
 
-fn subject(results: &Results) -> Option<Fact> {
-    let input = results.text("/input/model").map(|input| match input {
+fn subject(results: &Results) -> Fact {
+    let input = match results.summary.input.model.as_str() {
         "built-in" => "the built-in body, sized by the recording".to_owned(),
         figure if figure.starts_with("figure ") => "a figure of a table of segments".to_owned(),
         file => format!("from {}", file_name(file)),
-    });
-    Some(fact("Subject and model", results.text("/model")?, input))
+    };
+    fact("Subject and model", &*results.summary.model, Some(input))
 }
 
 fn mass(results: &Results) -> Fact {
-    let source = match results.text("/mass_source") {
-        Some("plates") => "weighed by the plates over whole gait cycles",
-        Some("standing") => "weighed by the plates in the standing trial",
-        Some("model") => "that of the model",
-        _ => "of unknown origin",
+    let summary = &results.summary;
+    let source = match summary.mass_source {
+        MassSource::Plates => "weighed by the plates over whole gait cycles",
+        MassSource::Standing => "weighed by the plates in the standing trial",
+        MassSource::Model => "that of the model",
     };
-    let known = match results.text("/mass") {
-        Some("verified") if results.text("/mass_source") == Some("model") => ", as stated",
-        Some("unverified") => "; nobody weighed or stated it",
-        Some("contradicted") => "; the plates carry another mass",
-        _ => "",
+    let known = match summary.mass {
+        MassKnowledge::Verified if summary.mass_source == MassSource::Model => ", as stated",
+        MassKnowledge::Verified => "",
+        MassKnowledge::Unverified => "; neither weighed nor stated",
+        MassKnowledge::Contradicted => "; the plates carry another mass",
     };
-    let value = match results.number("/mass_model_kg") {
-        Some(model) if (model / results.mass_kg - 1.0).abs() > SAME_MASS => {
-            format!(
-                "{:.1} kg (divides moments and powers); {model:.1} kg (of the model, used by dynamics)",
-                results.mass_kg
-            )
-        }
-        _ => format!("{:.1} kg", results.mass_kg),
+    let (mass, model) = (results.mass_kg, summary.mass_model_kg);
+    let value = match (model / mass - 1.0).abs() > SAME_MASS {
+        true => format!("{mass:.1} kg (divides moments and powers); {model:.1} kg (of the model, used by dynamics)"),
+        false => format!("{mass:.1} kg"),
     };
     fact("Body mass", value, Some(format!("{source}{known}")))
 }
 
 fn speed(results: &Results, size: &BodySize) -> Fact {
-    let Some(speed) = results.number("/speed_m_s") else {
+    let Some(speed) = results.summary.speed_m_s else {
         let why = match results.source {
             PageSource::None => "without ground forces no file tells which foot stands",
             _ => "no foot was seen to carry the body",
@@ -146,55 +143,59 @@ fn along(angle_deg: f64) -> String {
     }
 }
 
-fn window(results: &Results) -> Option<Fact> {
-    let (from, to) = (results.number("/window_s/0")?, results.number("/window_s/1")?);
-    let frames = results.grid.frames;
-    let rate = results.grid.rate_hz();
-    let by_markers = results.has_finding("markers.window");
-    let asked = ["/window_asked_s/0", "/window_asked_s/1"].iter().any(|path| results.number(path).is_some());
-    let cut = match () {
-        () if by_markers => ", cut to the longest time in which the markers tell the motion",
-        () if asked => ", cut as asked",
-        () => "",
+fn window(results: &Results) -> Fact {
+    let [from, to] = results.summary.window_s;
+    let (frames, rate) = (results.grid.frames, results.grid.rate_hz());
+    let cut = match results.summary.window_asked_s.iter().any(Option::is_some) {
+        true => ", a part of the recording",
+        false => "",
     };
-    let note = format!("{frames} frames at {rate:.0} Hz{cut}");
-    Some(fact("Time", format!("{from:.2} to {to:.2} s"), Some(note)))
+    fact("Time", format!("{from:.2} to {to:.2} s"), Some(format!("{frames} frames at {rate:.0} Hz{cut}")))
 }
 
 fn filters(results: &Results) -> String {
-    let words = |filter: &Value| match filter["kind"].as_str() {
-        Some("butterworth") => {
-            let cutoff = filter["cutoff_hz"].as_f64().unwrap_or(f64::NAN);
-            let order = filter["order"].as_u64().unwrap_or_default();
+    let words = |filter: &FilterSummary| match (filter.kind, filter.cutoff_hz, filter.order) {
+        (FilterKind::Butterworth, Some(cutoff), Some(order)) => {
             format!("Butterworth, {cutoff} Hz, order {order}, both ways")
         }
-        Some("spline") => "smoothing spline".to_owned(),
-        _ => "none".to_owned(),
+        (FilterKind::Butterworth, ..) => "Butterworth".to_owned(),
+        (FilterKind::Spline, ..) => "smoothing spline".to_owned(),
+        (FilterKind::Off, ..) => "none".to_owned(),
     };
-    let filter = &results.summary["filter"];
-    let motion = format!("motion: {}", words(&filter["motion"]));
+    let filter = &results.summary.filter;
+    let motion = format!("motion: {}", words(&filter.motion));
     match results.source {
         PageSource::None => motion,
-        _ => format!("{motion}; forces: {}", words(&filter["force"])),
+        _ => format!("{motion}; forces: {}", words(&filter.force)),
     }
 }
 
 /// That the motion is not the recorded one, and where it differs most.
 fn changed(results: &Results) -> Option<Fact> {
-    let changes = results.summary.pointer("/consistency/changes")?.as_object()?;
-    let largest = |unit: &str| {
-        let sizes = changes.iter().filter(|(_, size)| size["unit"].as_str() == Some(unit));
-        let sizes = sizes.filter_map(|(name, size)| Some((name, size["max"].as_f64()?)));
-        let (name, size) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(format!("{} by {size:.1} {unit}", name.replace('_', " ")))
+    let changes = &results.summary.consistency.as_ref()?.changes;
+    let largest = |unit: ChangeUnit| {
+        let sizes = changes.iter().filter(|(_, size)| size.unit == unit);
+        let (name, size) = sizes.max_by(|a, b| a.1.max.total_cmp(&b.1.max))?;
+        Some(format!("{} by {:.1} {unit}", name.replace('_', " "), size.max))
     };
-    let most: Vec<String> = ["deg", "mm"].into_iter().filter_map(largest).collect();
+    let most: Vec<String> = [ChangeUnit::Degree, ChangeUnit::Millimetre].into_iter().filter_map(largest).collect();
     let note = (!most.is_empty()).then(|| format!("at most {}", most.join(" and ")));
     Some(fact("Motion", "changed so that it agrees with the ground forces", note))
 }
 
+/// How angles of pelvis and hips are measured.
+fn convention(results: &Results) -> Fact {
+    let value = match results.convention() {
+        Convention::Clinical => {
+            "clinical: pelvic tilt of the line through the iliac spines, hips relative to that pelvis"
+        }
+        Convention::Opensim => "OpenSim: the model's own, counted from upright standing",
+    };
+    fact("Pelvis and hip angles", value, results.summary.convention.as_ref().and_then(|used| used.reason.clone()))
+}
+
 fn forces(results: &Results) -> Fact {
-    let rule = results.text("/ground/rule");
+    let rule = results.summary.ground.rule.as_ref();
     let split = rule.map(|rule| format!("double support by the rule: {rule}"));
     let (value, note) = match results.source {
         PageSource::Measured => {

@@ -28,39 +28,38 @@ mod words;
 
 use super::block::Block;
 use super::contract::Session;
-use super::folder::{Folder, PageError};
 use super::view::{Viewed, view};
+use ambulo_results::{Folder, ResultsError, RunSummary};
 use feasibility::Basis;
 use results::Results;
 use size::BodySize;
 
 /// The session of a folder; its numbers go into `block`.
-pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, PageError> {
-    let summary = folder.summary()?;
-    match summary["world"].is_object() {
-        true => scene::session(folder, &summary, block),
-        false => {
+pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session, ResultsError> {
+    match folder.summary()? {
+        RunSummary::Scene(summary) => scene::session(folder, &summary, block),
+        RunSummary::Motion(summary) => {
             // The figure first: what is wrong with a body is said there with all its causes.
             let viewed = view(folder, block)?;
-            recording(folder, Results::read(folder, summary)?, viewed, block)
+            recording(Results::read(folder, *summary)?, viewed, block)
         }
     }
 }
 
 /// Of a recording or a synthetic walk.
-fn recording(folder: &Folder<'_>, results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, PageError> {
+fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, ResultsError> {
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let (shown, still) = still::divided(&results, &quantities);
     let strides = strides::strides(&results);
     let size = BodySize::of(&results, &strides);
-    let (verdict, basis) = (&results.summary["verdict"], Basis::of(&results));
-    let mut feasibility = feasibility::feasibility(verdict, &basis, &quantities);
+    let (verdict, basis) = (results.summary.verdict.as_ref(), Basis::of(&results));
+    let mut feasibility = verdict.and_then(|verdict| feasibility::feasibility(verdict, &basis, &quantities));
     let values = extracted::extracted(&results, &shown);
     let mut groups = groups::groups(&results, &size, &shown, block);
     let mut quality = quality::quality(&results, &quantities, block);
     missing.extend(missing::missing(&results, &size, &quantities, &still, &strides));
-    if let Some((why, closest)) = feasibility::partly_judged(verdict, &basis, &quantities) {
+    if let Some((why, closest)) = verdict.and_then(|verdict| feasibility::partly_judged(verdict, &basis, &quantities)) {
         missing.push(why);
         quality.tables.push(closest);
     }
@@ -68,7 +67,7 @@ fn recording(folder: &Folder<'_>, results: Results, viewed: Viewed, block: &mut 
         feasibility::mark(&mut [&mut groups, &mut quality.groups], &mut verdict.red);
     }
     Ok(Session {
-        name: header::recording_name(&results).unwrap_or_else(|| folder.name.clone()),
+        name: header::recording_name(&results),
         header: header::header(&results, &size, &strides),
         source: results.source,
         time: results.time(),
@@ -77,7 +76,7 @@ fn recording(folder: &Folder<'_>, results: Results, viewed: Viewed, block: &mut 
             time_distance::table(&results, &size, &strides),
             extracted::table(&values),
             extracted::symmetry(&values, &strides),
-            peaks::peaks(&results.summary),
+            peaks::peaks(&results.summary.peaks),
         ],
         quality,
         feasibility,

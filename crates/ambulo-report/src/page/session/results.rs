@@ -2,23 +2,21 @@
 
 use super::cycles_file::{self, CycleValues};
 use super::{cycles, events};
-use crate::clinical::ClinicalNames;
+use crate::clinical::{ClinicalNames, ClinicalQuantity};
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
-use crate::page::folder::{Folder, PageError};
+use ambulo::analysis::feasibility::Check;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
-use serde_json::Value;
+use ambulo_results::{CLINICAL, Convention, Folder, GroundOrigin, ResultsError, Summary};
 
-/// Standard gravity [m/s²] (CGPM 1901, unverified), which OpenSim's models have unless they say otherwise.
-const STANDARD_GRAVITY: f64 = 9.806_65;
 /// A body in files: of recordings, of synthetic walks.
 const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
 
 /// A recording's or a walk's files.
 pub(super) struct Results {
-    pub(super) summary: Value,
+    pub(super) summary: Summary,
     pub(super) grid: TimeGrid,
     pub(super) times: Vec<f64>,
     pub(super) kinematics: Table,
@@ -27,6 +25,8 @@ pub(super) struct Results {
     pub(super) ground: Option<Table>,
     pub(super) deviations: Option<Table>,
     pub(super) measured: Option<Table>,
+    /// `clinical.csv`.
+    pub(super) clinical: Option<Table>,
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleValues>,
     pub(super) cycles: Vec<PageCycle>,
@@ -41,8 +41,8 @@ pub(super) struct Results {
 
 impl Results {
     /// Reads the files.
-    pub(super) fn read(folder: &Folder<'_>, summary: Value) -> Result<Results, PageError> {
-        let missing = || PageError::Missing { folder: folder.name.clone(), file: KINEMATICS };
+    pub(super) fn read(folder: &Folder<'_>, summary: Summary) -> Result<Results, ResultsError> {
+        let missing = || ResultsError::Missing { folder: folder.name.clone(), file: KINEMATICS };
         let kinematics = folder.table(KINEMATICS)?.ok_or_else(missing)?;
         let times = kinematics.times().unwrap_or_default().to_vec();
         let uneven = || "the time column is not even; expected two or more rows at even steps".to_owned();
@@ -58,7 +58,8 @@ impl Results {
             ground: table(GROUND)?,
             deviations: table(DEVIATIONS)?,
             measured: table(MEASURED)?,
-            weight_n: mass_kg * gravity(body.as_ref().map(|(_, model)| model), &summary),
+            clinical: on_instants(folder, CLINICAL, folder.csv_table(CLINICAL)?, &grid)?,
+            weight_n: mass_kg * summary.gravity_m_s2,
             source: source(&summary),
             summary,
             grid,
@@ -76,6 +77,19 @@ impl Results {
         self.body.as_ref().map_or_else(ClinicalNames::without_model, |(_, model)| ClinicalNames::of_model(model))
     }
 
+    /// How the page measures angles of pelvis and hips.
+    pub(super) fn convention(&self) -> Convention {
+        let of_file = self.summary.convention.as_ref().filter(|_| self.clinical.is_some());
+        of_file.map_or(Convention::Opensim, |convention| convention.used)
+    }
+
+    /// A quantity over time in clinical signs and units, by its column in `clinical.csv`.
+    pub(super) fn clinical_column(&self, quantity: &ClinicalQuantity, side: Side) -> Option<(String, &[f64])> {
+        let column = quantity.clinical_column(side);
+        let values = self.clinical.as_ref()?.column(&column)?;
+        Some((column, values))
+    }
+
     /// The instants as the page has them.
     pub(super) fn time(&self) -> TimeAxis {
         TimeAxis { start_s: self.grid.start_s, step_s: self.grid.step_s, frames: self.grid.frames }
@@ -83,33 +97,18 @@ impl Results {
 
     /// Gravity [m/s²].
     pub(super) fn gravity(&self) -> f64 {
-        self.weight_n / self.mass_kg
+        self.summary.gravity_m_s2
     }
 
-    /// A number of the summary, by its path: `/ground/threshold_n`.
-    pub(super) fn number(&self, path: &str) -> Option<f64> {
-        self.summary.pointer(path)?.as_f64()
-    }
-
-    /// A text of the summary.
-    pub(super) fn text(&self, path: &str) -> Option<&str> {
-        self.summary.pointer(path)?.as_str()
-    }
-
-    /// Whether something odd of this kind was found.
-    pub(super) fn has_finding(&self, code: &str) -> bool {
-        self.list("/findings").iter().any(|finding| finding["code"].as_str() == Some(code))
-    }
-
-    /// A list of the summary, empty where there is none.
-    pub(super) fn list(&self, path: &str) -> &[Value] {
-        self.summary.pointer(path).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+    /// Angle by which the path of markers turns, where it does not run straight [deg].
+    pub(super) fn turn_deg(&self) -> Option<f64> {
+        self.summary.subject.as_ref()?.turn_deg
     }
 
     /// The limit that a check of the verdict judged by.
-    pub(super) fn limit(&self, check: &str) -> Option<f64> {
-        let judged = self.list("/verdict/closest").iter().find(|entry| entry["check"].as_str() == Some(check))?;
-        judged["limit"].as_f64().filter(|limit| limit.is_finite())
+    pub(super) fn limit(&self, check: Check) -> Option<f64> {
+        let judged = self.summary.verdict.as_ref()?.closest.iter().find(|entry| entry.check == check)?;
+        Some(judged.limit).filter(|limit| limit.is_finite())
     }
 
     /// Cycles of one foot.
@@ -127,8 +126,18 @@ pub(super) const GROUND: &str = "grf.mot";
 pub(super) const DEVIATIONS: &str = "grf_sd.mot";
 pub(super) const MEASURED: &str = "grf_measured.mot";
 
-fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, PageError> {
-    let Some(table) = folder.table(file)? else { return Ok(None) };
+fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Option<Table>, ResultsError> {
+    on_instants(folder, file, folder.table(file)?, grid)
+}
+
+/// A table whose rows are at the instants of the motion.
+fn on_instants(
+    folder: &Folder<'_>,
+    file: &str,
+    table: Option<Table>,
+    grid: &TimeGrid,
+) -> Result<Option<Table>, ResultsError> {
+    let Some(table) = table else { return Ok(None) };
     let times = table.times().unwrap_or_default();
     let near = |(i, t): (usize, &f64)| (t - grid.time(i)).abs() < 0.5 * grid.step_s;
     if times.len() == grid.frames && times.iter().enumerate().all(near) {
@@ -138,7 +147,7 @@ fn same_instants(folder: &Folder<'_>, file: &str, grid: &TimeGrid) -> Result<Opt
     Err(folder.unreadable(file, format!("found {} rows; expected {expected}", times.len())))
 }
 
-fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError> {
+fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, ResultsError> {
     for file in BODIES {
         if let Some(bytes) = (folder.file)(file) {
             let model = Model::from_osim(&bytes, &mut Findings::default());
@@ -151,29 +160,18 @@ fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, PageError>
     Ok(None)
 }
 
-fn mass(folder: &Folder<'_>, summary: &Value) -> Result<f64, PageError> {
-    let found = &summary["mass_kg"];
-    let positive = found.as_f64().filter(|mass| mass.is_finite() && *mass > 0.0);
-    positive
-        .ok_or_else(|| folder.unreadable("summary.json", format!("`mass_kg` is {found}; expected a positive number")))
+fn mass(folder: &Folder<'_>, summary: &Summary) -> Result<f64, ResultsError> {
+    let found = summary.mass_kg;
+    let wrong =
+        || folder.unreadable(ambulo_results::SUMMARY, format!("`mass_kg` is {found}; expected a positive number"));
+    Some(found).filter(|mass| *mass > 0.0).ok_or_else(wrong)
 }
 
-/// From the body, or from two numbers of the summary that differ by the weight.
-fn gravity(model: Option<&Model>, summary: &Value) -> f64 {
-    let residual = &summary["residual"];
-    let of_residual = || {
-        let weight = residual["force_rms_n"].as_f64()? / residual["force_rms_bw"].as_f64()?;
-        Some(weight / summary["mass_kg"].as_f64()?)
-    };
-    let known = model.map(|model| model.gravity().norm()).or_else(of_residual);
-    known.filter(|g| g.is_finite() && *g > 0.0).unwrap_or(STANDARD_GRAVITY)
-}
-
-fn source(summary: &Value) -> PageSource {
-    match summary["ground"]["source"].as_str() {
-        Some("measured") => PageSource::Measured,
-        Some("predicted") => PageSource::Predicted,
-        Some("simulated") => PageSource::Simulated,
-        _ => PageSource::None,
+fn source(summary: &Summary) -> PageSource {
+    match summary.ground.source {
+        GroundOrigin::Measured => PageSource::Measured,
+        GroundOrigin::Predicted => PageSource::Predicted,
+        GroundOrigin::Simulated => PageSource::Simulated,
+        GroundOrigin::None => PageSource::None,
     }
 }

@@ -10,9 +10,3 @@ pub(super) fn page(side: Side) -> PageSide {
         Side::Left => PageSide::L,
     }
 }
-
-/// The side that a file names by its letter.
-pub(super) fn of_letter(letter: Option<&str>) -> Option<PageSide> {
-    let letter = letter?;
-    Side::BOTH.into_iter().find(|side| side.letter() == letter).map(page)
-}

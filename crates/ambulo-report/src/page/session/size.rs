@@ -33,7 +33,7 @@ const RUNNING_STANCE: f64 = 50.0;
 impl BodySize {
     pub(super) fn of(results: &Results, strides: &[Stride]) -> BodySize {
         let leg = leg_length(results);
-        let speed = results.number("/speed_m_s").zip(leg.as_ref());
+        let speed = results.summary.speed_m_s.zip(leg.as_ref());
         let stance = strides.iter().map(|stride| stride.stance).sum::<f64>() / strides.len() as f64;
         BodySize {
             runs: stance < RUNNING_STANCE,
@@ -52,16 +52,16 @@ impl BodySize {
 }
 
 fn stature(results: &Results) -> Option<Known> {
-    let given = results.number("/height_m").map(|metres| (metres, "given"));
-    let estimated = || Some((results.number("/verdict/height_m")?, "estimated from the model's thigh and shank"));
+    let given = results.summary.height_m.map(|metres| (metres, "given"));
+    let estimated = || Some((results.summary.verdict.as_ref()?.height_m, "estimated from the model's thigh and shank"));
     let (metres, source) = given.or_else(estimated)?;
     Some(Known { metres, source: source.to_owned() })
 }
 
 /// Of the figure that walks, else of the model's joints.
 fn leg_length(results: &Results) -> Option<Known> {
-    if let Some(metres) = results.number("/walk/leg_length_m") {
-        return Some(Known { metres, source: "hip to floor of the figure".to_owned() });
+    if let Some(walk) = &results.summary.walk {
+        return Some(Known { metres: walk.leg_length_m, source: "hip to floor of the figure".to_owned() });
     }
     let (file, model) = results.body.as_ref()?;
     let has_legs = model.anatomy().legs().values().any(Option::is_some);

@@ -122,7 +122,7 @@ fn speed_rows(results: &Results) -> Vec<Vec<Cell>> {
     let row = |label, speed| vec![text(label), text("m/s"), text(""), text(""), number(speed, 2, None), text("")];
     let along = Way::of(results).and_then(|way| way.longer_speed());
     let along = along.map(|along| row("Speed along the path", Some(along)));
-    std::iter::once(row("Speed", results.number("/speed_m_s"))).chain(along).collect()
+    std::iter::once(row("Speed", results.summary.speed_m_s)).chain(along).collect()
 }
 
 /// What is compared between the sides: name, unit, digits, means of right and left.

@@ -69,7 +69,7 @@ impl Way<'_> {
 /// Whether the path turns.
 pub(super) fn turn(results: &Results) -> Option<Turn> {
     let degrees = largest_angle(&headings(results)).filter(|degrees| *degrees > STRAIGHT_DEG);
-    (degrees.is_some() || results.has_finding("laboratory.turning")).then_some(Turn { degrees })
+    (degrees.is_some() || results.turn_deg().is_some()).then_some(Turn { degrees })
 }
 
 /// Where the pelvis goes in each stride.

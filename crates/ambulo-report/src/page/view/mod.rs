@@ -4,10 +4,10 @@ use super::block::Block;
 use super::contract::{
     PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewPlate, ViewTorque,
 };
-use super::folder::{Folder, PageError};
 use crate::stage::{BodyPath, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
+use ambulo_results::{Folder, ResultsError};
 
 /// The view of a folder.
 pub(super) struct Viewed {
@@ -23,7 +23,7 @@ pub(super) struct Viewed {
 ///
 /// # Errors
 /// A file that is not what its name says.
-pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, PageError> {
+pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, ResultsError> {
     match Stage::of_folder(folder)? {
         Ok(stage) => Ok(drawn(&stage, block)),
         Err(reason) => Ok(Viewed { view: None, time: None, missing: vec![reason] }),

@@ -34,7 +34,7 @@ pub struct Evidence<'a> {
 pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let Evidence { model, trajectory, .. } = *evidence;
     let judge = Judge::new(model, person, thresholds);
-    let tracks = measure(evidence, &judge, findings);
+    let (tracks, frames_unmeasured) = measure(evidence, &judge, findings);
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
@@ -53,7 +53,7 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
                 at_s: grid.time(frame),
                 value: m.value,
                 limit: m.limit,
-                unit: check.unit(),
+                unit: check.unit().into(),
                 share: m.share,
             }
         }));
@@ -63,6 +63,8 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
         reasons,
         closest,
         not_judged: not_judged(evidence, &judge),
+        frames: grid.frames,
+        frames_unmeasured,
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
     }
@@ -95,8 +97,8 @@ fn check_of(model: &Model, slot: usize) -> Check {
     }
 }
 
-/// Every frame, into tracks.
-fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> Vec<Track> {
+/// Every frame, into tracks; and the number of frames in which a foot may stand where nothing measures.
+fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> (Vec<Track>, usize) {
     let Evidence { model, trajectory, forces, ground, device } = *evidence;
     let up = upward(model);
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
@@ -150,7 +152,7 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> V
         );
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
-    tracks
+    (tracks, unseen)
 }
 
 /// Least number of frames in a row that is no noise.
@@ -236,7 +238,7 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
         at_s,
         value: m.value,
         limit: m.limit,
-        unit: m.check.unit(),
+        unit: m.check.unit().into(),
         message,
     }
 }

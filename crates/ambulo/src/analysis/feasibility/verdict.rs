@@ -1,11 +1,12 @@
 //! What a judgement yields.
 
 use crate::model::Side;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 
 /// What is judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
     /// Joint moment against the strength of its muscles at this angle and speed.
@@ -82,7 +83,7 @@ impl fmt::Display for Check {
 }
 
 /// Whether a motion is feasible, and why not.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Nothing was found against it.
     pub feasible: bool,
@@ -92,6 +93,11 @@ pub struct Verdict {
     pub closest: Vec<Closest>,
     /// What could not be judged.
     pub not_judged: Vec<NotJudged>,
+    /// Frames of the motion.
+    pub frames: usize,
+    /// Frames in which a foot may stand where nothing measures its force: moments, powers, flight, support and balance were not judged
+    /// in them.
+    pub frames_unmeasured: usize,
     /// Body mass whose strength was taken [kg].
     pub mass_kg: f64,
     /// Stature whose strength was taken [m].
@@ -108,14 +114,13 @@ impl Verdict {
 }
 
 /// A time during which a limit was exceeded.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reason {
     /// Which check.
     pub check: Check,
     /// What exceeded it: a generalised force, a coordinate, or a foot's quantity.
     pub quantity: String,
     /// Whose, if it belongs to a side.
-    #[serde(serialize_with = "side_letter")]
     pub side: Option<Side>,
     /// First and last instant [s].
     pub time_s: [f64; 2],
@@ -126,13 +131,13 @@ pub struct Reason {
     /// What was allowed there.
     pub limit: f64,
     /// Unit of both.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// The same in a sentence.
     pub message: String,
 }
 
 /// Where a motion came nearest to a limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Closest {
     /// Which check.
     pub check: Check,
@@ -145,21 +150,16 @@ pub struct Closest {
     /// What was allowed there.
     pub limit: f64,
     /// Unit of both.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Share of the allowed that was used; above one in an infeasible instant.
     pub share: f64,
 }
 
 /// A check that was not made.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NotJudged {
     /// Which check.
     pub check: Check,
     /// Why not, and for what.
     pub why: String,
-}
-
-/// `r`, `l` or nothing.
-fn side_letter<S: serde::Serializer>(side: &Option<Side>, serializer: S) -> Result<S::Ok, S::Error> {
-    side.map(Side::letter).serialize(serializer)
 }

@@ -36,11 +36,11 @@ impl<'a> Judgement<'a> {
         let Looked { name, allowed, unit } = looked;
         let passed = (allowed[0]..=allowed[1]).contains(&found.value);
         self.checks.checks.push(PredictionCheck {
-            name,
+            name: name.into(),
             passed: Some(passed),
             value: Some(found.value),
             allowed,
-            unit,
+            unit: unit.into(),
             time_s: Some(found.time_s),
             not_judged: None,
         });
@@ -49,8 +49,15 @@ impl<'a> Judgement<'a> {
 
     pub(super) fn skip(&mut self, looked: Looked, why: &'static str) {
         let Looked { name, allowed, unit } = looked;
-        let check =
-            PredictionCheck { name, passed: None, value: None, allowed, unit, time_s: None, not_judged: Some(why) };
+        let check = PredictionCheck {
+            name: name.into(),
+            passed: None,
+            value: None,
+            allowed,
+            unit: unit.into(),
+            time_s: None,
+            not_judged: Some(why.into()),
+        };
         self.checks.checks.push(check);
     }
 
@@ -73,7 +80,7 @@ impl<'a> Judgement<'a> {
             at_s: 0.5 * (found.time_s[0] + found.time_s[1]),
             value: found.value,
             limit,
-            unit: check.unit(),
+            unit: check.unit().into(),
             message,
         });
     }

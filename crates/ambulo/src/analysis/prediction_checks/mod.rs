@@ -47,7 +47,8 @@ use judgement::Judgement;
 use low_pass::low_passed;
 pub use mass::{CarriedBy, CarriedMass};
 use record::Record;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A prediction and what it was made from.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +70,7 @@ pub struct CheckedPrediction<'a> {
 }
 
 /// What the checks found.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PredictionChecks {
     /// One entry a check.
     pub checks: Vec<PredictionCheck>,
@@ -79,22 +80,29 @@ pub struct PredictionChecks {
 }
 
 /// One check.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PredictionCheck {
     /// What is checked, as in files.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// `None` where there was nothing to judge by.
     pub passed: Option<bool>,
     /// What was found.
     pub value: Option<f64>,
     /// Least and largest value that passes; infinite (`null` in files) where it is open.
+    #[serde(deserialize_with = "open_range")]
     pub allowed: [f64; 2],
     /// Unit of both.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// First and last instant of what was looked at, or of what is off [s].
     pub time_s: Option<[f64; 2]>,
     /// Why it was not judged.
-    pub not_judged: Option<&'static str>,
+    pub not_judged: Option<Cow<'static, str>>,
+}
+
+/// Least and largest value, of which files write `null` for an open end.
+fn open_range<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
+    let [least, largest] = <[Option<f64>; 2]>::deserialize(deserializer)?;
+    Ok([least.unwrap_or(f64::NEG_INFINITY), largest.unwrap_or(f64::INFINITY)])
 }
 
 impl PredictionChecks {

@@ -27,7 +27,8 @@ use crate::spatial::Vec3;
 const VIBRATION: f64 = 0.05;
 
 /// How much of a foot's load a plate saw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ContactQuality {
     /// All of it, and nothing else.
     Clean,
@@ -36,6 +37,7 @@ pub enum ContactQuality {
     /// Part of it, in time or in place.
     Partial,
     /// The load of both feet.
+    #[serde(rename = "two feet")]
     TwoFeet,
     /// Nobody knows whose load.
     Unassigned,

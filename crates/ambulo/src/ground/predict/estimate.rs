@@ -16,20 +16,15 @@
 //! thousand steps on. Memory: 370 bytes a frame held, 2.3 kB while it is made (docs/STREAMING.md).
 //! Not handled: hands and objects. What would pull is put right afterwards ([`super::unilateral`]).
 
+use super::PredictError;
 use super::expected::Expectation;
-use super::geometry::Geometry;
 use super::loads::{FootLoads, loads};
 use super::samples::{Evidence, Samples};
 use super::stance_curves::StanceCurves;
-use super::stances::{Measure, Stance};
 use super::system::System;
 use super::taps::Taps;
 use super::unknowns::Unknowns;
-use super::weights::Weights;
-use super::{Known, PredictError};
 use crate::model::BySide;
-use crate::motion::TimeGrid;
-use crate::spatial::{Vec3, Wrench};
 
 /// Loads of right and left foot.
 ///

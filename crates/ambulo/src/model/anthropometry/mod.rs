@@ -48,7 +48,7 @@
 
 mod de_leva;
 mod dempster;
-mod dimensions;
+pub(super) mod dimensions;
 mod faure;
 mod figure;
 pub(crate) mod foot;

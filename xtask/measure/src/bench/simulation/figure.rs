@@ -12,6 +12,8 @@ const WIDTH_MM: f64 = 178.0;
 const HEIGHT: f64 = 190.0;
 /// Smaller errors are drawn at this value [m]: joints described by coordinates do not come apart.
 const LEAST_M: f64 = 1e-17;
+/// Space between the outermost powers of ten and the ends of an axis, in powers of ten.
+const MARGIN: f64 = 0.2;
 /// Powers of ten that have a label on one axis.
 const MOST_TICKS: usize = 14;
 
@@ -30,7 +32,8 @@ struct Curve {
 
 /// Chains: all engines.
 pub(super) fn scaling(results: &Results) -> Result<String, String> {
-    let named = [(true, "Ambulo, with position projection", OURS), (false, "Ambulo, without", OURS_TOO)];
+    let named =
+        [(true, "Ambulo, with position projection", OURS), (false, "Ambulo, without position projection", OURS_TOO)];
     let ours = named.into_iter().filter_map(|(projection, name, color)| {
         let family = results.scaling.family("chain", projection)?;
         Some(Curve { name: name.to_owned(), color, points: points(&family.sizes) })
@@ -111,10 +114,14 @@ fn panel(
         title: title.to_owned(),
         abscissa: ChartAxis {
             label: sizes.to_owned(),
-            range: Some([left - 0.1, right + 0.1]),
+            range: Some([left - MARGIN, right + MARGIN]),
             ticks: ticks([left, right], |power| grouped(10.0_f64.powf(power))),
         },
-        ordinate: ChartAxis { label: String::new(), range: Some([low, high]), ticks: ticks([low, high], label) },
+        ordinate: ChartAxis {
+            label: String::new(),
+            range: Some([low - MARGIN, high + MARGIN]),
+            ticks: ticks([low, high], label),
+        },
         curves,
         ..ChartPanel::default()
     }

@@ -2,7 +2,8 @@
 
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::results::Results;
-use serde_json::Value;
+use ambulo::analysis::PredictionCheck;
+use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Size, Summary, WalkSummary};
 
 /// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below (finding `residual.large`).
 const RESIDUAL_BW: f64 = 0.1;
@@ -25,99 +26,92 @@ const CHECKS: [(&str, &str, f64, &str, usize); 10] = [
 
 /// All of them that the summary has.
 pub(super) fn facts(results: &Results) -> Vec<Judged> {
-    let mut facts = residual(results);
-    facts.extend(consistency(results));
-    facts.extend(markers(results));
-    facts.extend(results.list("/prediction/checks").iter().filter_map(check));
-    facts.extend(walk(results));
+    let Summary { residual: of_root, consistency, subject, prediction, walk, .. } = &results.summary;
+    let mut facts = of_root.as_ref().map_or_else(Vec::new, |size| residual(results, size));
+    facts.extend(consistency.as_ref().map(changed));
+    facts.extend(subject.iter().flat_map(|subject| markers(&subject.markers)));
+    facts.extend(prediction.iter().flat_map(|prediction| &prediction.checks).map(check));
+    facts.extend(walk.iter().flat_map(of_walk));
     facts
 }
 
-/// A number that nobody judges.
+/// A number without a limit.
 pub(in crate::page::session) fn plain(label: &str, value: String) -> Judged {
     Judged { label: label.to_owned(), value, allowed: None, good: None }
 }
 
-fn residual(results: &Results) -> Vec<Judged> {
-    let number = |key: &str| results.number(&format!("/residual/{key}"));
-    let share = |newtons: f64| 100.0 * newtons / results.weight_n;
+fn residual(results: &Results, size: &ResidualSummary) -> Vec<Judged> {
     // Without ground forces the residual is what the ground would have to do.
     let judged = results.source != PageSource::None;
-    let force = number("force_rms_n").zip(number("force_rms_bw")).map(|(newtons, bw)| Judged {
+    let force = Judged {
         allowed: judged.then(|| format!("below {:.0} %BW while every foot stands on a plate", 100.0 * RESIDUAL_BW)),
-        good: judged.then_some(bw < RESIDUAL_BW),
-        ..plain("Residual force, RMS", format!("{newtons:.1} N ({:.1} %BW)", 100.0 * bw))
-    });
-    let peak = number("force_peak_n").map(|n| plain("Residual force, peak", format!("{n:.1} N ({:.1} %BW)", share(n))));
-    let moment = number("moment_rms_nm")
-        .zip(number("moment_peak_nm"))
-        .map(|(rms, peak)| plain("Residual moment, RMS and peak", format!("{rms:.1} and {peak:.1} N.m")));
-    [force, peak, moment].into_iter().flatten().collect()
+        good: judged.then_some(size.force_rms_bw < RESIDUAL_BW),
+        ..plain("Residual force, RMS", format!("{:.1} N ({:.1} %BW)", size.force_rms_n, 100.0 * size.force_rms_bw))
+    };
+    let share = 100.0 * size.force_peak_n / results.weight_n;
+    let peak = plain("Residual force, peak", format!("{:.1} N ({share:.1} %BW)", size.force_peak_n));
+    let moment = format!("{:.1} and {:.1} N.m", size.moment_rms_nm, size.moment_peak_nm);
+    vec![force, peak, plain("Residual moment, RMS and peak", moment)]
 }
 
-fn consistency(results: &Results) -> Option<Judged> {
-    let share = |when: &str| results.number(&format!("/consistency/residual_{when}/force_rms_bw"));
-    let (before, after) = (share("before")?, share("after")?);
-    Some(Judged {
+fn changed(consistency: &ConsistencySummary) -> Judged {
+    let [before, after] = [&consistency.residual_before, &consistency.residual_after].map(|size| size.force_rms_bw);
+    Judged {
         allowed: Some("at most 1 %BW left".to_owned()),
         good: Some(after <= 0.01),
         ..plain(
             "Motion changed to agree with the forces",
             format!("residual {:.1} %BW before, {:.2} %BW after", 100.0 * before, 100.0 * after),
         )
-    })
+    }
 }
 
-fn markers(results: &Results) -> Vec<Judged> {
-    let rms = results.number("/subject/markers/rms_mm").map(|rms| Judged {
+fn markers(markers: &MarkersSummary) -> Vec<Judged> {
+    let rms = markers.rms_mm.map(|rms| Judged {
         allowed: Some(format!("below {MARKERS_MM:.0} mm")),
         good: Some(rms < MARKERS_MM),
         ..plain("Distance of markers from the body, RMS", format!("{rms:.1} mm"))
     });
-    let unsettled = results.number("/subject/markers/frames_not_converged").map(|count| Judged {
-        allowed: Some("none".to_owned()),
-        good: Some(count < 0.5),
-        ..plain("Frames in which the fit of markers did not settle", format!("{count:.0}"))
-    });
-    [rms, unsettled].into_iter().flatten().collect()
+    let unsettled = none_allowed("Frames in which the fit of markers did not settle", markers.frames_not_converged);
+    rms.into_iter().chain([unsettled]).collect()
 }
 
-/// A check of a prediction; what could not be judged says why.
-fn check(entry: &Value) -> Option<Judged> {
-    let name = entry["name"].as_str()?;
+/// A count of which none is allowed.
+pub(in crate::page::session) fn none_allowed(label: &str, count: usize) -> Judged {
+    Judged { allowed: Some("none".to_owned()), good: Some(count == 0), ..plain(label, count.to_string()) }
+}
+
+/// A check of a prediction; one that was not judged says why.
+fn check(check: &PredictionCheck) -> Judged {
+    let name = &*check.name;
     let known = CHECKS.iter().find(|(known, ..)| *known == name);
-    let (_, label, factor, unit, digits) = known.copied().unwrap_or((name, name, 1.0, entry["unit"].as_str()?, 3));
-    let shown = |value: &Value| value.as_f64().map(|x| format!("{:.digits$}", factor * x));
+    let (_, label, factor, unit, digits) = known.copied().unwrap_or((name, name, 1.0, &check.unit, 3));
+    let shown = |x: f64| format!("{:.digits$}", factor * x);
     let with_unit = |words: String| if unit.is_empty() { words } else { format!("{words} {unit}") };
-    let value = match (shown(&entry["value"]), entry["not_judged"].as_str()) {
-        (Some(value), _) => with_unit(value),
+    let value = match (check.value, &check.not_judged) {
+        (Some(value), _) => with_unit(shown(value)),
         (None, Some(why)) => format!("not judged: {why}"),
         (None, None) => "not judged".to_owned(),
     };
-    let allowed = match (shown(&entry["allowed"][0]), shown(&entry["allowed"][1])) {
-        (Some(low), Some(high)) => Some(with_unit(format!("{low} to {high}"))),
-        (Some(low), None) => Some(with_unit(format!("at least {low}"))),
-        (None, Some(high)) => Some(with_unit(format!("at most {high}"))),
-        (None, None) => None,
+    let [low, high] = check.allowed;
+    let allowed = match (low.is_finite(), high.is_finite()) {
+        (true, true) => Some(with_unit(format!("{} to {}", shown(low), shown(high)))),
+        (true, false) => Some(with_unit(format!("at least {}", shown(low)))),
+        (false, true) => Some(with_unit(format!("at most {}", shown(high)))),
+        (false, false) => None,
     };
-    Some(Judged { label: label.to_owned(), value, allowed, good: entry["passed"].as_bool() })
+    Judged { label: label.to_owned(), value, allowed, good: check.passed }
 }
 
-/// How honest a synthetic walk is.
-fn walk(results: &Results) -> Vec<Judged> {
-    let number = |key: &str| results.number(&format!("/walk/{key}"));
-    let pair = |key: &str| number(&format!("{key}/rms")).zip(number(&format!("{key}/largest")));
-    let in_words = |(rms, largest): (f64, f64), unit: &str| format!("{rms:.1} {unit} RMS, {largest:.1} {unit} at most");
+/// How well a synthetic walk obeys the laws of motion.
+fn of_walk(walk: &WalkSummary) -> Vec<Judged> {
+    let in_words = |size: Size, unit: &str| format!("{:.1} {unit} RMS, {:.1} {unit} at most", size.rms, size.largest);
     let lines = [
-        pair("trunk_torque_nm").map(|size| plain("Torque that holds the trunk from outside", in_words(size, "N.m"))),
-        pair("lacking_force_n").map(|size| plain("Force that the planned motion lacks", in_words(size, "N"))),
-        number("foot_slip_mm").map(|mm| plain("Slip of a standing foot", format!("{mm:.1} mm in the worst stance"))),
-        number("flight_s").map(|s| plain("Time without a foot on the ground", format!("{s:.2} s"))),
-        number("unsolved_steps").map(|steps| Judged {
-            allowed: Some("none".to_owned()),
-            good: Some(steps < 0.5),
-            ..plain("Steps whose contacts were not solved", format!("{steps:.0}"))
-        }),
+        Some(plain("Torque that holds the trunk from outside", in_words(walk.trunk_torque_nm, "N.m"))),
+        walk.lacking_force_n.map(|size| plain("Force that the planned motion lacks", in_words(size, "N"))),
+        walk.foot_slip_mm.map(|mm| plain("Slip of a standing foot", format!("{mm:.1} mm in the worst stance"))),
+        Some(plain("Time without a foot on the ground", format!("{:.2} s", walk.flight_s))),
+        Some(none_allowed("Steps whose contacts were not solved", walk.unsolved_steps)),
     ];
     lines.into_iter().flatten().collect()
 }

@@ -5,7 +5,7 @@ use crate::page::block::Block;
 use crate::page::contract::{Group, Role, Trace};
 use crate::page::session::results::Results;
 use crate::page::session::sides;
-use ambulo::analysis::feasibility::{Thresholds, least_load_n};
+use ambulo::analysis::feasibility::{Check, Thresholds, least_load_n};
 use ambulo::model::Side;
 
 /// Both feet over time with the limit; `None` without ground forces.
@@ -28,7 +28,7 @@ pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
         .iter()
         .map(|(side, values)| trace(&side.to_string(), Some(sides::page(*side)), Role::Main, block.add(values)))
         .collect();
-    let limit = results.limit("friction").unwrap_or(usual.friction);
+    let limit = results.limit(Check::Friction).unwrap_or(usual.friction);
     traces.push(trace("limit", None, Role::Limit, block.add(&vec![limit; results.grid.frames])));
     let note = format!(
         "Horizontal over vertical force of each foot while it carries more than {least_n:.0} N ({:.1} body weights), as the verdict judges it unless it was given another load. The limit is {limit:.2}; what passes it for less than {} s is noise to the verdict.",

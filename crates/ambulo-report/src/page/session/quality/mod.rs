@@ -6,12 +6,13 @@ mod ground_points;
 mod residual;
 mod tables;
 
-pub(super) use facts::plain;
+pub(super) use facts::{none_allowed, plain};
 
 use super::results::Results;
 use crate::clinical::ClinicalQuantity;
 use crate::page::block::Block;
 use crate::page::contract::{Group, PageFinding, Panel, Quality, Trace};
+use ambulo::findings::Finding;
 
 /// Panels that parts of a verdict point at.
 pub(super) const RESIDUAL_FORCE: &str = "residual_force";
@@ -30,27 +31,20 @@ pub(super) fn quality(results: &Results, quantities: &[ClinicalQuantity], block:
         facts: facts::facts(results),
         groups: groups.into_iter().flatten().collect(),
         tables: tables::tables(results, quantities),
-        findings: findings(&results.summary),
-        assumptions: assumptions(results),
+        findings: findings(&results.summary.findings),
+        assumptions: results.summary.subject.as_ref().map_or_else(Vec::new, |subject| subject.assumptions.clone()),
     }
 }
 
-/// Remarks of the program.
-pub(super) fn findings(summary: &serde_json::Value) -> Vec<PageFinding> {
-    let list = summary["findings"].as_array().map_or(&[][..], Vec::as_slice);
-    let words = |finding: &serde_json::Value, key: &str| finding[key].as_str().unwrap_or_default().to_owned();
-    let one = |finding: &serde_json::Value| PageFinding {
-        code: words(finding, "code"),
-        severity: words(finding, "severity"),
-        message: words(finding, "message"),
-        count: finding["count"].as_u64().map_or(1, |count| count as usize),
+/// Warnings and notes of the program.
+pub(super) fn findings(findings: &[Finding]) -> Vec<PageFinding> {
+    let one = |finding: &Finding| PageFinding {
+        code: finding.code.to_string(),
+        severity: finding.severity().to_string(),
+        message: finding.message.clone(),
+        count: finding.count,
     };
-    list.iter().map(one).collect()
-}
-
-fn assumptions(results: &Results) -> Vec<String> {
-    let listed = results.list("/subject/assumptions").iter().filter_map(|sentence| sentence.as_str());
-    listed.map(str::to_owned).collect()
+    findings.iter().map(one).collect()
 }
 
 /// A group of panels over time.

@@ -4,6 +4,7 @@ use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, PageSource, Panel, Role, Trace};
 use crate::page::session::results::{MOMENTS, Results};
+use ambulo::analysis::feasibility::Check;
 use ambulo::model::Movement;
 
 /// A coordinate of the root and its panel: word, heading, unit, directions.
@@ -60,7 +61,7 @@ fn size(results: &Results, block: &mut Block) -> Option<Panel> {
     }
     let lengths: Vec<f64> = (0..results.grid.frames).map(length).collect();
     let mut traces = vec![trace("residual", Role::Main, &lengths, None, block)];
-    if let Some(limit) = results.limit("support").filter(|_| results.source != PageSource::None) {
+    if let Some(limit) = results.limit(Check::Support).filter(|_| results.source != PageSource::None) {
         traces.push(trace("limit", Role::Limit, &vec![100.0 * limit; lengths.len()], None, block));
     }
     Some(over_time([RESIDUAL_FORCE, "Residual force, size", "%BW"], ["", ""], traces))
@@ -79,11 +80,8 @@ fn note(results: &Results) -> String {
 
 /// In which times the residual means something.
 fn windows(results: &Results) -> String {
-    let spans: Vec<String> = results
-        .list("/subject/instrumented_windows_s")
-        .iter()
-        .filter_map(|span| Some(format!("{:.2} to {:.2} s", span[0].as_f64()?, span[1].as_f64()?)))
-        .collect();
+    let windows = results.summary.subject.iter().flat_map(|subject| &subject.instrumented_windows_s);
+    let spans: Vec<String> = windows.map(|[from, to]| format!("{from:.2} to {to:.2} s")).collect();
     match spans.is_empty() || results.source != PageSource::Measured {
         true => String::new(),
         false => format!(

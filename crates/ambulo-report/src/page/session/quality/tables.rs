@@ -2,83 +2,93 @@
 
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::Table;
-use crate::page::session::cells::Form::{Answer, AtMost, Check, Number, Side, Unit, Words};
-use crate::page::session::cells::{Column, column, listed};
+use crate::page::session::cells::{Column, at_most_none, count, listed, name, number, text, unit};
 use crate::page::session::results::Results;
 use crate::page::session::words;
-use serde_json::{Value, json};
+use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgreement};
+use ambulo::model::Side;
+use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Size, Summary};
 
 /// A marker further away than this stands out [mm]: a marker beyond it counts little in the fit (docs/MARKERS.md).
 const FAR_MM: f64 = 40.0;
 
-const MARKERS: [Column; 6] = [
-    column("Marker", "/name", Words),
-    column("RMS [mm]", "/rms_mm", AtMost(1.0, 1, FAR_MM)),
-    column("Largest [mm]", "/max_mm", Number(1.0, 1)),
-    column("Frames seen", "/frames_seen", Number(1.0, 0)),
-    column("Frames in gaps", "/frames_missing", AtMost(1.0, 0, 0.5)),
-    column("Frames not believed", "/frames_refused", AtMost(1.0, 0, 0.5)),
+/// A marker and the frames in which it is missing.
+type MarkerRow = (MarkerErrorSummary, usize);
+/// What is compared, with what, and how they agree.
+type EventRow = (&'static str, &'static str, EventAgreement);
+/// A foot, a component of its force, and how prediction and plates agree on it.
+type ForceRow = (Side, &'static str, ForceAgreement);
+/// What was changed, by how much (root mean square and largest), and the unit.
+type ChangeRow = (String, [f64; 2], &'static str);
+
+const MARKERS: [Column<MarkerRow>; 6] = [
+    ("Marker", |(marker, _)| text(&marker.name)),
+    ("RMS [mm]", |(marker, _)| number(marker.rms_mm, 1, Some([f64::NEG_INFINITY, FAR_MM]))),
+    ("Largest [mm]", |(marker, _)| number(marker.max_mm, 1, None)),
+    ("Frames seen", |(marker, _)| count(marker.frames_seen)),
+    ("Frames in gaps", |(_, missing)| at_most_none(*missing)),
+    ("Frames not believed", |(marker, _)| at_most_none(marker.frames_refused)),
 ];
-const PLATES: [Column; 7] = [
-    column("Plate", "/plate", Words),
-    column("Foot", "/side", Side),
-    column("From [s]", "/start_s", Number(1.0, 2)),
-    column("To [s]", "/end_s", Number(1.0, 2)),
-    column("Peak [N]", "/peak_n", Number(1.0, 0)),
-    column("Contact", "/quality", Words),
-    column("Why not clean", "/reason", Words),
+const PLATES: [Column<PlateContactSummary>; 7] = [
+    ("Plate", |contact| text(&contact.plate)),
+    ("Foot", |contact| text(&contact.side.map_or_else(|| "-".to_owned(), |side| side.to_string()))),
+    ("From [s]", |contact| number(Some(contact.start_s), 2, None)),
+    ("To [s]", |contact| number(Some(contact.end_s), 2, None)),
+    ("Peak [N]", |contact| number(Some(contact.peak_n), 0, None)),
+    ("Contact", |contact| text(contact.quality.word())),
+    ("Why not clean", |contact| text(&contact.reason)),
 ];
-const EVENTS: [Column; 8] = [
-    column("Found by", "/found", Words),
-    column("Held against", "/reference", Words),
-    column("Event", "/kind", Words),
-    column("Pairs", "/pairs", Number(1.0, 0)),
-    column("Missed", "/missed", AtMost(1.0, 0, 0.5)),
-    column("Extra", "/extra", AtMost(1.0, 0, 0.5)),
-    column("Mean distance [ms]", "/mean_absolute_ms", Number(1.0, 0)),
-    column("Later by [ms]", "/bias_ms", Number(1.0, 0)),
+const EVENTS: [Column<EventRow>; 8] = [
+    ("Found by", |(found, ..)| text(found)),
+    ("Compared with", |(_, reference, _)| text(reference)),
+    ("Event", |(.., events)| text(events.kind.word())),
+    ("Pairs", |(.., events)| count(events.pairs)),
+    ("Missed", |(.., events)| at_most_none(events.missed)),
+    ("Extra", |(.., events)| at_most_none(events.extra)),
+    ("Mean distance [ms]", |(.., events)| number(Some(events.mean_absolute_ms), 0, None)),
+    ("Later by [ms]", |(.., events)| number(Some(events.bias_ms), 0, None)),
 ];
-const AGREEMENT: [Column; 6] = [
-    column("Foot", "/side", Side),
-    column("Component", "/component", Words),
-    column("RMSE [%BW]", "/rmse_bw", Number(100.0, 1)),
-    column("RMSE over range [%]", "/rrmse", Number(100.0, 1)),
-    column("r", "/r", Number(1.0, 3)),
-    column("In the 90 % band [%]", "/band/holds", Number(100.0, 0)),
+const AGREEMENT: [Column<ForceRow>; 6] = [
+    ("Foot", |(side, ..)| text(&side.to_string())),
+    ("Component", |(_, component, _)| text(component)),
+    ("RMSE [%BW]", |(.., force)| number(Some(100.0 * force.rmse_bw), 1, None)),
+    ("RMSE over range [%]", |(.., force)| number(Some(100.0 * force.rrmse), 1, None)),
+    ("r", |(.., force)| number(Some(force.r), 3, None)),
+    ("In the 90 % band [%]", |(.., force)| number(Some(100.0 * force.band.holds), 0, None)),
 ];
-const CENTERS: [Column; 5] = [
-    column("Foot", "/side", Side),
-    column("Fore-aft RMS [mm]", "/center_of_pressure/fore_aft_mm", Number(1.0, 0)),
-    column("Sideways RMS [mm]", "/center_of_pressure/lateral_mm", Number(1.0, 0)),
-    column("Samples", "/center_of_pressure/samples", Number(1.0, 0)),
-    column("Samples without a prediction", "/center_of_pressure/missing", Number(1.0, 0)),
+const CENTERS: [Column<FootAgreement>; 5] = [
+    ("Foot", |foot| text(&foot.side.to_string())),
+    ("Fore-aft RMS [mm]", |foot| number(Some(foot.center_of_pressure.fore_aft_mm), 0, None)),
+    ("Sideways RMS [mm]", |foot| number(Some(foot.center_of_pressure.lateral_mm), 0, None)),
+    ("Samples", |foot| count(foot.center_of_pressure.samples)),
+    ("Samples without a prediction", |foot| count(foot.center_of_pressure.missing)),
 ];
-const MOMENTS: [Column; 4] = [
-    column("Moment", "/quantity", Words),
-    column("RMSE [N.m]", "/rmse_nm", Number(1.0, 1)),
-    column("RMSE [N.m/kg]", "/rmse_nm_kg", Number(1.0, 2)),
-    column("r", "/r", Number(1.0, 3)),
+const MOMENTS: [Column<MomentAgreement>; 4] = [
+    ("Moment", |moment| text(&moment.quantity)),
+    ("RMSE [N.m]", |moment| number(Some(moment.rmse_nm), 1, None)),
+    ("RMSE [N.m/kg]", |moment| number(Some(moment.rmse_nm_kg), 2, None)),
+    ("r", |moment| number(Some(moment.r), 3, None)),
 ];
-const CHANGES: [Column; 4] = [
-    column("Changed", "/name", Words),
-    column("RMS", "/rms", Number(1.0, 2)),
-    column("Largest", "/max", Number(1.0, 2)),
-    column("Unit", "/unit", Unit),
+const CHANGES: [Column<ChangeRow>; 4] = [
+    ("Changed", |(name, ..)| text(name)),
+    ("RMS", |(_, [rms, _], _)| number(Some(*rms), 2, None)),
+    ("Largest", |(_, [_, largest], _)| number(Some(*largest), 2, None)),
+    ("Unit", |(.., symbol)| unit(symbol)),
 ];
-const SEGMENTS: [Column; 3] = [
-    column("Segment", "/body", Words),
-    column("Length over the table's", "/factor", Number(1.0, 3)),
-    column("Measured by markers", "/measured", Answer),
+const SEGMENTS: [Column<SegmentSummary>; 3] = [
+    ("Segment", |segment| text(&segment.body)),
+    ("Length over the table's", |segment| number(Some(segment.factor), 3, None)),
+    ("Measured by markers", |segment| text(if segment.measured { "yes" } else { "no" })),
 ];
-const ADJUSTMENT: [Column; 3] = [
-    column("Angle", "/name", Words),
-    column("RMS [deg]", "/rms", Number(1.0, 1)),
-    column("Largest [deg]", "/largest", Number(1.0, 1)),
+const ADJUSTMENT: [Column<(String, Size)>; 3] = [
+    ("Angle", |(name, _)| text(name)),
+    ("RMS [deg]", |(_, size)| number(Some(size.rms), 1, None)),
+    ("Largest [deg]", |(_, size)| number(Some(size.largest), 1, None)),
 ];
-const TIMES: [Column; 3] = [
-    column("Check", "/name", Check),
-    column("From [s]", "/time_s/0", Number(1.0, 2)),
-    column("To [s]", "/time_s/1", Number(1.0, 2)),
+const TIMES: [Column<(String, [f64; 2])>; 3] = [
+    ("Check", |(check, _)| name(check)),
+    ("From [s]", |(_, [from, _])| number(Some(*from), 2, None)),
+    ("To [s]", |(_, [_, to])| number(Some(*to), 2, None)),
 ];
 
 /// Tables whose rows are called as in the files.
@@ -87,32 +97,34 @@ const NAMED_BY_FILES: [&str; 3] = ["moments", "changes", "adjustment"];
 /// All tables that have rows.
 pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Table> {
     let plates = "Whose foot loaded which plate; forces count as one foot's where the contact is clean.";
-    let events = "How far foot strikes and toe-offs of different sources are apart.";
+    let events = "How far foot strikes and foot offs of different sources are apart.";
     let forces = "Over whole stances of feet that stood wholly on a plate of their own. The 90 % band is the prediction ± 1.645 standard deviations; the panels draw ± 1.";
     let segments = "Lengths of the built-in body's segments over those that its table gives for the stature.";
+    let Summary { subject, comparison, prediction, consistency, walk, .. } = &results.summary;
+    let contacts = subject.iter().flat_map(|subject| &subject.plates);
+    let feet = || comparison.iter().flat_map(|comparison| &comparison.feet);
+    let moments = comparison.iter().flat_map(|comparison| &comparison.moments);
+    let checks = prediction.iter().flat_map(|prediction| &prediction.checks);
+    let times: Vec<(String, [f64; 2])> =
+        checks.filter_map(|check| Some((check.name.to_string(), check.time_s?))).collect();
+    let changes: Vec<ChangeRow> = consistency.iter().flat_map(changes).collect();
+    let adjustment = walk.iter().filter_map(|walk| walk.adjustment_deg.clone()).flatten().collect::<Vec<_>>();
+    let lengths = subject.iter().flat_map(|subject| &subject.segments);
     let tables = [
         listed(["markers", "Markers", MARKER_NOTE], &markers(results), &MARKERS),
-        listed(["plates", "Plates and feet", plates], results.list("/subject/plates"), &PLATES),
+        listed(["plates", "Plates and feet", plates], contacts, &PLATES),
         listed(["events", "Events", events], &event_rows(results), &EVENTS),
-        listed(["agreement", "Ground forces, prediction against plates", forces], &force_rows(results), &AGREEMENT),
         listed(
-            ["centers", "Centre of pressure, prediction against plates", ""],
-            results.list("/comparison/feet"),
-            &CENTERS,
+            ["agreement", "Ground forces, prediction against plates", forces],
+            &feet().flat_map(components).collect::<Vec<_>>(),
+            &AGREEMENT,
         ),
-        listed(
-            ["moments", "Moments, by predicted against by measured forces", ""],
-            results.list("/comparison/moments"),
-            &MOMENTS,
-        ),
-        listed(["check_times", "Times of the checks", ""], judged_checks(results), &TIMES),
-        listed(["changes", "Changes to agree with the forces", ""], &changes(results), &CHANGES),
-        listed(
-            ["adjustment", "Changes of the gait's angles", ""],
-            &named(results, "/walk/adjustment_deg"),
-            &ADJUSTMENT,
-        ),
-        listed(["segments", "Segments", segments], results.list("/subject/segments"), &SEGMENTS),
+        listed(["centers", "Centre of pressure, prediction against plates", ""], feet(), &CENTERS),
+        listed(["moments", "Moments, by predicted against by measured forces", ""], moments, &MOMENTS),
+        listed(["check_times", "Times of the checks", ""], &times, &TIMES),
+        listed(["changes", "Changes to agree with the forces", ""], &changes, &CHANGES),
+        listed(["adjustment", "Changes of the gait's angles", ""], &adjustment, &ADJUSTMENT),
+        listed(["segments", "Segments", segments], lengths, &SEGMENTS),
     ];
     let mut tables: Vec<Table> = tables.into_iter().flatten().collect();
     for table in tables.iter_mut().filter(|table| NAMED_BY_FILES.contains(&table.id.as_str())) {
@@ -123,67 +135,37 @@ pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<
 
 const MARKER_NOTE: &str = "Distance of each marker from its place on the body, the worst first. Gaps are frames without the marker; they do not count.";
 
-/// Worst first, with the frames in which the marker was not there.
-fn markers(results: &Results) -> Vec<Value> {
-    let mut rows: Vec<Value> = results.list("/subject/markers/errors").to_vec();
-    for row in &mut rows {
-        if let Some(seen) = row["frames_seen"].as_f64() {
-            row["frames_missing"] = json!((results.grid.frames as f64 - seen).max(0.0));
-        }
-    }
-    let size = |row: &Value| row["rms_mm"].as_f64().unwrap_or(f64::INFINITY);
+/// Worst first, with the frames in which the marker is missing.
+fn markers(results: &Results) -> Vec<MarkerRow> {
+    let errors = results.summary.subject.iter().flat_map(|subject| &subject.markers.errors);
+    let mut rows: Vec<MarkerRow> =
+        errors.map(|error| (error.clone(), results.grid.frames.saturating_sub(error.frames_seen))).collect();
+    let size = |row: &MarkerRow| row.0.rms_mm.unwrap_or(f64::INFINITY);
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     rows
 }
 
-/// A row a source and kind of event.
-fn event_rows(results: &Results) -> Vec<Value> {
-    let of = |found: &Value, reference: &Value, kinds: &[Value]| -> Vec<Value> {
-        kinds.iter().map(|kind| with(kind, &[("found", found.clone()), ("reference", reference.clone())])).collect()
-    };
-    let kinds = |entry: &Value| entry["kinds"].as_array().cloned().unwrap_or_default();
-    let mut rows: Vec<Value> = results
-        .list("/subject/events")
-        .iter()
-        .flat_map(|entry| of(&entry["found"], &entry["reference"], &kinds(entry)))
+/// One row per source and kind of event.
+fn event_rows(results: &Results) -> Vec<EventRow> {
+    let listed = results.summary.subject.iter().flat_map(|subject| &subject.events);
+    let mut rows: Vec<EventRow> = listed
+        .flat_map(|entry| entry.kinds.iter().map(|kind| (entry.found.word(), entry.reference.word(), *kind)))
         .collect();
-    rows.extend(of(&json!("prediction"), &json!("plates"), results.list("/comparison/events")));
+    let compared = results.summary.comparison.iter().flat_map(|comparison| &comparison.events);
+    rows.extend(compared.map(|kind| ("prediction", "plates", *kind)));
     rows
 }
 
-/// A row a foot and component.
-fn force_rows(results: &Results) -> Vec<Value> {
-    const COMPONENTS: [(&str, &str); 3] = [("vertical", "vertical"), ("fore_aft", "fore-aft"), ("lateral", "sideways")];
-    let rows = results.list("/comparison/feet").iter().flat_map(|foot| {
-        COMPONENTS
-            .iter()
-            .map(|(key, word)| with(&foot[*key], &[("side", foot["side"].clone()), ("component", json!(word))]))
-    });
-    rows.collect()
-}
-
-fn judged_checks(results: &Results) -> impl Iterator<Item = &Value> {
-    results.list("/prediction/checks").iter().filter(|check| check["time_s"].is_array())
+/// One row per component of the force on a foot.
+fn components(foot: &FootAgreement) -> [ForceRow; 3] {
+    let rows = [("vertical", foot.vertical), ("fore-aft", foot.fore_aft), ("sideways", foot.lateral)];
+    rows.map(|(component, force)| (foot.side, component, force))
 }
 
 /// Coordinates, and the bodies that carry loads.
-fn changes(results: &Results) -> Vec<Value> {
-    let mut rows = named(results, "/consistency/changes");
-    rows.extend(named(results, "/consistency/feet_mm").iter().map(|foot| with(foot, &[("unit", json!("mm"))])));
-    rows
-}
-
-/// The entries of a map with their keys as `name`.
-fn named(results: &Results, path: &str) -> Vec<Value> {
-    let map = results.summary.pointer(path).and_then(Value::as_object);
-    map.map_or_else(Vec::new, |map| map.iter().map(|(key, entry)| with(entry, &[("name", json!(key))])).collect())
-}
-
-/// An entry with other keys beside its own.
-fn with(entry: &Value, keys: &[(&str, Value)]) -> Value {
-    let mut entry = entry.clone();
-    if let Some(map) = entry.as_object_mut() {
-        map.extend(keys.iter().map(|(key, value)| ((*key).to_owned(), value.clone())));
-    }
-    entry
+fn changes(consistency: &ConsistencySummary) -> Vec<ChangeRow> {
+    let coordinates =
+        consistency.changes.iter().map(|(name, size)| (name.clone(), [size.rms, size.max], size.unit.symbol()));
+    let feet = consistency.feet_mm.iter().map(|(body, size)| (body.clone(), [size.rms, size.max], "mm"));
+    coordinates.chain(feet).collect()
 }

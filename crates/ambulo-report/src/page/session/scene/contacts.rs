@@ -3,11 +3,11 @@
 use super::instants::Instants;
 use crate::page::block::Block;
 use crate::page::contract::{Group, Panel, Role, Trace};
-use crate::page::folder::{Folder, PageError};
 use crate::page::session::quality::over_time;
 use crate::page::session::sides;
 use crate::stage::csv_rows::Row;
 use ambulo::model::Side;
+use ambulo_results::{Folder, ResultsError};
 use std::collections::BTreeMap;
 
 const FILE: &str = "contacts.csv";
@@ -30,7 +30,7 @@ pub(super) fn group(
     instants: &Instants,
     block: &mut Block,
     missing: &mut Vec<String>,
-) -> Result<Option<Group>, PageError> {
+) -> Result<Option<Group>, ResultsError> {
     let Some(text) = folder.text(FILE)? else { return Ok(None) };
     let mut pairs: Vec<(Pair, Sums)> = sums(folder, &text, instants)?.into_iter().collect();
     pairs.sort_by(|a, b| b.1.largest().total_cmp(&a.1.largest()));
@@ -52,7 +52,7 @@ pub(super) fn group(
     }))
 }
 
-fn sums(folder: &Folder<'_>, text: &str, instants: &Instants) -> Result<BTreeMap<Pair, Sums>, PageError> {
+fn sums(folder: &Folder<'_>, text: &str, instants: &Instants) -> Result<BTreeMap<Pair, Sums>, ResultsError> {
     let mut pairs: BTreeMap<Pair, Sums> = BTreeMap::new();
     for row in Row::all(folder, FILE, text, HEAD)? {
         let place = instants.place(row.numbers::<1>(0)?[0]);

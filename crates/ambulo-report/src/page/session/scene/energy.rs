@@ -3,9 +3,9 @@
 use super::instants::Instants;
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Role, Trace};
-use crate::page::folder::{Folder, PageError};
 use crate::page::session::quality::over_time;
 use crate::stage::csv_rows::Row;
+use ambulo_results::{Folder, ResultsError};
 
 const FILE: &str = "energy.csv";
 const HEAD: &str = "time,kinetic,gravity,springs,total,iterations,factorizations,residual";
@@ -22,7 +22,11 @@ const COLUMNS: [(usize, &str, &str, &str); 7] = [
 ];
 
 /// The grid; none without the file.
-pub(super) fn groups(folder: &Folder<'_>, instants: &Instants, block: &mut Block) -> Result<Option<Group>, PageError> {
+pub(super) fn groups(
+    folder: &Folder<'_>,
+    instants: &Instants,
+    block: &mut Block,
+) -> Result<Option<Group>, ResultsError> {
     let Some(text) = folder.text(FILE)? else { return Ok(None) };
     let mut columns: [Vec<(f64, f64)>; 8] = Default::default();
     for row in Row::all(folder, FILE, &text, HEAD)? {

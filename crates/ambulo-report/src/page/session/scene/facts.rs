@@ -2,73 +2,52 @@
 
 use crate::page::contract::{Fact, Judged};
 use crate::page::session::header::{fact, file_name};
-use crate::page::session::quality::plain;
-use serde_json::Value;
-
-/// What a scene may contain, with its plural.
-const KINDS: [(&str, &str, &str); 5] = [
-    ("bodies", "body", "bodies"),
-    ("joints", "joint", "joints"),
-    ("closures", "closure", "closures"),
-    ("obstacles", "obstacle", "obstacles"),
-    ("figures", "figure", "figures"),
-];
+use crate::page::session::quality::{none_allowed, plain};
+use ambulo_results::{SceneSummary, WorldSummary};
 
 /// Lines of the header.
-pub(super) fn header(summary: &Value) -> Vec<Fact> {
-    let number = |path: &str| summary.pointer(path).and_then(Value::as_f64);
-    let words = |path: &str| summary.pointer(path).and_then(Value::as_str);
-    let scene = words("/input/scene").map(file_name);
-    let title = words("/title").or(scene).unwrap_or("without a title");
+pub(super) fn header(summary: &SceneSummary) -> Vec<Fact> {
+    let scene = file_name(&summary.input.scene);
+    let [from, to] = summary.window_s;
+    let resumed = summary.input.resumed.as_ref();
     let lines = [
-        Some(fact("Scene", title, scene.map(|file| format!("from {file}")))),
-        resumed(words("/input/resumed")),
-        Some(fact("World", world(summary), number("/world/mass_kg").map(|kg| format!("{kg:.1} kg in all")))),
-        number("/step_s").map(|step| {
-            let integrator = words("/integrator").unwrap_or("of unknown kind");
-            fact("Integrator", integrator, Some(format!("steps of {:.2} ms", 1e3 * step)))
-        }),
-        number("/window_s/0").zip(number("/window_s/1")).map(|(from, to)| {
-            fact("Time", format!("{from:.2} to {to:.2} s"), number("/steps").map(|steps| format!("{steps:.0} steps")))
-        }),
+        Some(fact("Scene", summary.title.as_deref().unwrap_or(scene), Some(format!("from {scene}")))),
+        resumed.map(|state| fact("Resumed", format!("from {}", file_name(state)), None)),
+        Some(fact("World", world(&summary.world), Some(format!("{:.1} kg in all", summary.world.mass_kg)))),
+        Some(fact("Integrator", summary.integrator.word(), Some(format!("steps of {:.2} ms", 1e3 * summary.step_s)))),
+        Some(fact("Time", format!("{from:.2} to {to:.2} s"), Some(format!("{} steps", summary.steps)))),
         Some(fact("Ground forces", "simulated", Some("by the contacts of the scene; no rule divides them".to_owned()))),
         Some(fact("Axes", "world: x forward, y up, z to the right", None)),
-        Some(fact("Program", format!("Ambulo {}", words("/version").unwrap_or("of unknown version")), None)),
+        Some(fact("Program", format!("Ambulo {}", summary.version), None)),
     ];
     lines.into_iter().flatten().collect()
 }
 
-fn resumed(state: Option<&str>) -> Option<Fact> {
-    Some(fact("Resumed", format!("from {}", file_name(state?)), None))
-}
-
-fn world(summary: &Value) -> String {
-    let counted = KINDS.iter().filter_map(|(key, one, many)| {
-        let count = summary["world"][*key].as_u64().filter(|count| *count > 0)?;
-        Some(format!("{count} {}", if count == 1 { one } else { many }))
-    });
-    let list: Vec<String> = counted.collect();
+fn world(world: &WorldSummary) -> String {
+    let kinds = [
+        (world.bodies, "body", "bodies"),
+        (world.joints, "joint", "joints"),
+        (world.closures, "closure", "closures"),
+        (world.obstacles, "obstacle", "obstacles"),
+        (world.figures, "figure", "figures"),
+    ];
+    let counted = kinds.into_iter().filter(|(count, ..)| *count > 0);
+    let list: Vec<String> =
+        counted.map(|(count, one, many)| format!("{count} {}", if count == 1 { one } else { many })).collect();
     if list.is_empty() { "empty".to_owned() } else { list.join(", ") }
 }
 
-/// How well the simulation kept to its laws.
-pub(super) fn quality(summary: &Value) -> Vec<Judged> {
-    let number = |path: &str| summary.pointer(path).and_then(Value::as_f64);
-    let lines = [
-        number("/energy/start_j").zip(number("/energy/end_j")).map(|(start, end)| {
-            plain("Energy at the beginning and at the end", format!("{start:.2} J and {end:.2} J"))
-        }),
-        number("/joint_error_max_m").map(|m| plain("Largest gap in a joint", format!("{:.2e} mm", 1e3 * m))),
-        number("/contacts/overlap_max_m").map(|m| plain("Largest overlap of bodies", format!("{:.2} mm", 1e3 * m))),
-        number("/contacts/normal_force_max_n").map(|n| plain("Largest force at one point", format!("{n:.0} N"))),
-        number("/contacts/impacts").map(|count| plain("Impacts between rows", format!("{count:.0}"))),
-        number("/convergence/residual_max")
-            .map(|r| plain("Largest residual of the solver, relative", format!("{r:.1e}"))),
-        number("/convergence/not_converged").map(|steps| Judged {
-            allowed: Some("none".to_owned()),
-            good: Some(steps < 0.5),
-            ..plain("Steps above the solver's tolerance", format!("{steps:.0}"))
-        }),
-    ];
-    lines.into_iter().flatten().collect()
+/// How well the simulation obeyed the laws of motion.
+pub(super) fn quality(summary: &SceneSummary) -> Vec<Judged> {
+    let SceneSummary { energy, contacts, convergence, .. } = summary;
+    let ends = format!("{:.2} J and {:.2} J", energy.start_j, energy.end_j);
+    vec![
+        plain("Energy at the beginning and at the end", ends),
+        plain("Largest gap in a joint", format!("{:.2e} mm", 1e3 * summary.joint_error_max_m)),
+        plain("Largest overlap of bodies", format!("{:.2} mm", 1e3 * contacts.overlap_max_m)),
+        plain("Largest force at one point", format!("{:.0} N", contacts.normal_force_max_n)),
+        plain("Impacts between rows", contacts.impacts.to_string()),
+        plain("Largest residual of the solver, relative", format!("{:.1e}", convergence.residual_max)),
+        none_allowed("Steps above the solver's tolerance", convergence.not_converged),
+    ]
 }

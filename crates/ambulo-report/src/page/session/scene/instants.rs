@@ -1,9 +1,9 @@
 //! The instants of a scene's page, and the rows of tables that belong to them.
 
 use crate::page::contract::TimeAxis;
-use crate::page::folder::{Folder, PageError};
 use crate::stage::csv_rows::Row;
 use ambulo::motion::TimeGrid;
+use ambulo_results::{Folder, ResultsError};
 
 /// Files that have a row at every instant, and how they begin.
 const FILES: [(&str, &str); 3] = [("energy.csv", "time,"), ("joints.csv", "time,"), ("poses.csv", "time,")];
@@ -17,7 +17,7 @@ pub(super) struct Instants {
 
 impl Instants {
     /// Those of the 3-D view, else of the first table that there is; none without tables.
-    pub(super) fn of(folder: &Folder<'_>, viewed: Option<TimeAxis>) -> Result<Instants, PageError> {
+    pub(super) fn of(folder: &Folder<'_>, viewed: Option<TimeAxis>) -> Result<Instants, ResultsError> {
         if let Some(TimeAxis { start_s, step_s, frames }) = viewed {
             return Ok(Instants { grid: TimeGrid { start_s, step_s, frames } });
         }

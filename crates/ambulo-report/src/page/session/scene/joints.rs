@@ -3,11 +3,11 @@
 use super::instants::Instants;
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Panel, Role, Trace};
-use crate::page::folder::{Folder, PageError};
 use crate::page::session::quality::over_time;
 use crate::page::session::sides;
 use crate::stage::csv_rows::Row;
 use ambulo::model::Side;
+use ambulo_results::{Folder, ResultsError};
 use std::collections::BTreeMap;
 
 const FILE: &str = "joints.csv";
@@ -31,7 +31,7 @@ pub(super) fn groups(
     instants: &Instants,
     block: &mut Block,
     missing: &mut Vec<String>,
-) -> Result<Vec<Group>, PageError> {
+) -> Result<Vec<Group>, ResultsError> {
     let Some(text) = folder.text(FILE)? else { return Ok(Vec::new()) };
     let coordinates = coordinates(folder, &text)?;
     let mut panels: Vec<Vec<&(String, Coordinate)>> = Vec::new();
@@ -66,7 +66,7 @@ enum What {
     Effort,
 }
 
-fn coordinates(folder: &Folder<'_>, text: &str) -> Result<Vec<(String, Coordinate)>, PageError> {
+fn coordinates(folder: &Folder<'_>, text: &str) -> Result<Vec<(String, Coordinate)>, ResultsError> {
     let mut found: BTreeMap<String, Coordinate> = BTreeMap::new();
     for row in Row::all(folder, FILE, text, HEAD)? {
         let [time] = row.numbers(0)?;

@@ -12,13 +12,12 @@ use super::{feasibility, peaks, quality};
 use crate::clinical::ClinicalQuantity;
 use crate::page::block::Block;
 use crate::page::contract::{Feasibility, PageSource, Quality, RedSpan, Session, Table};
-use crate::page::folder::{Folder, PageError};
 use crate::page::view::view;
+use ambulo_results::{Folder, ResultsError, SceneSummary};
 use instants::Instants;
-use serde_json::Value;
 
 /// The session of a scene's folder.
-pub(super) fn session(folder: &Folder<'_>, summary: &Value, block: &mut Block) -> Result<Session, PageError> {
+pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut Block) -> Result<Session, ResultsError> {
     let viewed = view(folder, block)?;
     let instants = Instants::of(folder, viewed.time)?;
     let mut missing = viewed.missing;
@@ -43,12 +42,12 @@ pub(super) fn session(folder: &Folder<'_>, summary: &Value, block: &mut Block) -
         events: Vec::new(),
         cycles: Vec::new(),
         groups,
-        tables: vec![peaks::peaks(summary)],
+        tables: vec![peaks::peaks(&summary.peaks)],
         quality: Quality {
             facts: facts::quality(summary),
             groups: Vec::new(),
             tables: Vec::new(),
-            findings: quality::findings(summary),
+            findings: quality::findings(&summary.findings),
             assumptions: Vec::new(),
         },
         feasibility,
@@ -58,8 +57,8 @@ pub(super) fn session(folder: &Folder<'_>, summary: &Value, block: &mut Block) -
 }
 
 /// All figures' verdicts in one.
-fn verdict(summary: &Value, figures: &[moments::Figure]) -> Option<Feasibility> {
-    let feasible = summary["verdict"]["feasible"].as_bool()?;
+fn verdict(summary: &SceneSummary, figures: &[moments::Figure]) -> Option<Feasibility> {
+    let feasible = summary.verdict.as_ref()?.feasible;
     let quantities = |figure: &moments::Figure| -> Vec<ClinicalQuantity> { figure.quantities.clone() };
     let (mut red, mut sentences, mut closest): (Vec<RedSpan>, Vec<String>, Option<Table>) = Default::default();
     for figure in figures {

@@ -4,19 +4,20 @@ use super::instants::Instants;
 use crate::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin, Panel, Role, Trace};
-use crate::page::folder::{Folder, PageError};
 use crate::page::session::quality::over_time;
 use crate::page::session::sides;
+use ambulo::analysis::FigureVerdict;
+use ambulo::analysis::feasibility::Verdict;
 use ambulo::model::Side;
 use ambulo_formats::table::Table;
-use serde_json::Value;
+use ambulo_results::{Folder, ResultsError, SceneSummary};
 
 const FILE: &str = "moments.sto";
 
 /// A figure that was judged.
 pub(super) struct Figure {
     pub(super) name: String,
-    pub(super) verdict: Value,
+    pub(super) verdict: Verdict,
     pub(super) quantities: Vec<ClinicalQuantity>,
     /// Before the names of its columns and panels; empty where it is the only figure.
     prefix: String,
@@ -25,16 +26,15 @@ pub(super) struct Figure {
 }
 
 /// All figures of a verdict.
-pub(super) fn figures(folder: &Folder<'_>, summary: &Value) -> Result<Vec<Figure>, PageError> {
-    let list = summary["verdict"]["figures"].as_array().map_or(&[][..], Vec::as_slice);
+pub(super) fn figures(folder: &Folder<'_>, summary: &SceneSummary) -> Result<Vec<Figure>, ResultsError> {
+    let list = summary.verdict.as_ref().map_or(&[][..], |verdict| &verdict.figures);
     let table = folder.table(FILE)?;
-    let several = summary["world"]["figures"].as_u64().unwrap_or_default() > 1;
-    let figure = |verdict: &Value| {
-        let name = verdict["figure"].as_str().unwrap_or("figure").to_owned();
+    let several = summary.world.figures > 1;
+    let figure = |FigureVerdict { figure: name, verdict }: &FigureVerdict| {
         let prefix = if several { format!("{name}/") } else { String::new() };
-        let mass_kg = verdict["mass_kg"].as_f64().filter(|mass| *mass > 0.0).unwrap_or(f64::NAN);
+        let mass_kg = verdict.mass_kg;
         let quantities = table.as_ref().map_or_else(Vec::new, |table| quantities(table, &prefix));
-        Figure { name, verdict: verdict.clone(), quantities, prefix, mass_kg, table: table.clone() }
+        Figure { name: name.clone(), verdict: verdict.clone(), quantities, prefix, mass_kg, table: table.clone() }
     };
     Ok(list.iter().map(figure).collect())
 }

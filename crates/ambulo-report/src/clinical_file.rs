@@ -1,0 +1,167 @@
+//! `clinical.csv`: the motion and its forces in clinical signs and units, as the page draws them.
+//!
+//! | group     | unit         | column                     |
+//! |-----------|--------------|----------------------------|
+//! | angles    | deg          | `knee_flexion_r`           |
+//! | moments   | N.m/kg       | `knee_flexion_moment_r`    |
+//! | powers    | W/kg         | `knee_flexion_power_r`     |
+//! | ground    | body weights | `ground_force_vertical_r`  |
+//!
+//! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips are those of
+//! [`clinical_angles`]; all other numbers are those of the files in OpenSim's signs times a constant.
+
+use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
+use ambulo::analysis::Analysis;
+use ambulo::ground::feet;
+use ambulo::kinematics::{ClinicalAngles, clinical_angles};
+use ambulo::model::anatomy::{PelvicFrame, PelvicFrameError};
+use ambulo::model::{CoordinateId, Model, Side};
+use ambulo::study::{ForceOrigin, Outcome, Tracking};
+use ambulo_formats::Error;
+use ambulo_formats::table::Table;
+use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
+use std::collections::BTreeSet;
+
+/// The angles that the conventions measure differently ([`ClinicalQuantity::id`]).
+pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
+    "pelvis_tilt_angle",
+    "pelvis_obliquity_angle",
+    "pelvis_rotation_angle",
+    "hip_flexion_angle",
+    "hip_adduction_angle",
+    "hip_rotation_angle",
+];
+
+/// `clinical.csv` of a run, and the convention of its angles.
+///
+/// # Errors
+/// Column names that no table can hold.
+pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
+    let (angles, convention) = angles(outcome, chosen);
+    let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
+    let table = Table::new("Clinical curves", curves.columns())?;
+    Ok((OutputFile { name: CLINICAL.to_owned(), bytes: table.write_csv() }, convention))
+}
+
+/// Angles of pelvis and hips in the clinical convention where it is chosen and possible.
+fn angles(outcome: &Outcome, chosen: Convention) -> (Option<ClinicalAngles>, ConventionSummary) {
+    let opensim = |reason| (None, ConventionSummary { used: Convention::Opensim, reason });
+    if chosen == Convention::Opensim {
+        return opensim(None);
+    }
+    match pelvic_frame(outcome) {
+        Ok(frame) => match clinical_angles(&outcome.body, &outcome.analysis.trajectory, &frame) {
+            Some(angles) => (Some(angles), ConventionSummary { used: Convention::Clinical, reason: None }),
+            None => opensim(Some("the model has no legs".to_owned())),
+        },
+        Err(error) => opensim(Some(error.to_string())),
+    }
+}
+
+/// By markers on the iliac spines; built-in bodies without markers have the usual tilt.
+fn pelvic_frame(outcome: &Outcome) -> Result<PelvicFrame, PelvicFrameError> {
+    let of_skeleton = matches!(outcome.tracking, Some(Tracking::Skeleton { .. }));
+    let is_synthetic = matches!(outcome.force_origin, ForceOrigin::Simulated { .. });
+    let of_markers = PelvicFrame::of_model(&outcome.body);
+    of_markers.or_else(|error| match of_skeleton || is_synthetic {
+        true => PelvicFrame::of_built_in(&outcome.body),
+        false => Err(error),
+    })
+}
+
+/// Everything that the columns are made of.
+struct Curves<'a> {
+    model: &'a Model,
+    analysis: &'a Analysis,
+    angles: Option<&'a ClinicalAngles>,
+    /// Columns of `grf.mot` [N, m, N.m].
+    ground: Vec<(String, Vec<f64>)>,
+    weight_n: f64,
+}
+
+impl<'a> Curves<'a> {
+    fn of(model: &'a Model, analysis: &'a Analysis, angles: Option<&'a ClinicalAngles>) -> Curves<'a> {
+        let frames = analysis.trajectory.grid().frames;
+        let ground = match analysis.ground.bodies.is_empty() {
+            true => Vec::new(),
+            false => ground_columns(&feet(model, &analysis.ground), frames),
+        };
+        Curves { model, analysis, angles, ground, weight_n: analysis.mass.kg * model.gravity().norm() }
+    }
+
+    fn columns(&self) -> Vec<(String, Vec<f64>)> {
+        let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
+        for quantity in self.quantities() {
+            for side in Side::BOTH {
+                columns.extend(self.values(&quantity, side).map(|values| (quantity.clinical_column(side), values)));
+            }
+        }
+        columns
+    }
+
+    fn quantities(&self) -> Vec<ClinicalQuantity> {
+        let stems = self.model.coordinate_ids().map(|id| self.model.coordinate_stem(id));
+        let mut names: BTreeSet<String> =
+            stems.flat_map(|stem| ["angle", "moment", "power"].map(|what| format!("{stem}_{what}"))).collect();
+        if !self.ground.is_empty() {
+            names.extend(["vertical", "fore_aft", "lateral"].map(|axis| format!("ground_force_{axis}")));
+        }
+        clinical_quantities(&ClinicalNames::of_model(self.model), |name| names.contains(name))
+    }
+
+    fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
+        let factor = quantity.factor(self.analysis.mass.kg, side);
+        let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
+        let forces = &self.analysis.forces;
+        match quantity.group {
+            ClinicalGroup::Kinematics => self.clinical_angle(quantity.id, side).or_else(|| {
+                let values = self.analysis.trajectory.values(self.coordinate(quantity, side)?);
+                Some(scaled(values, factor * 1.0_f64.to_degrees()))
+            }),
+            ClinicalGroup::Moments => {
+                Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor))
+            }
+            ClinicalGroup::Powers => Some(scaled(&forces.powers[self.coordinate(quantity, side)?.index()], factor)),
+            ClinicalGroup::Ground => {
+                let axis = ground_axis(&quantity.coordinates[side])?;
+                let column = format!("ground_force_{}_v{axis}", side.letter());
+                let (_, values) = self.ground.iter().find(|(name, _)| *name == column)?;
+                Some(scaled(values, factor / self.weight_n))
+            }
+        }
+    }
+
+    /// The coordinate of a quantity on a side; `None` of a leg that the model lacks.
+    fn coordinate(&self, quantity: &ClinicalQuantity, side: Side) -> Option<CoordinateId> {
+        let id = self.model.coordinate(&quantity.coordinates[side])?;
+        let is_own = quantity.central || self.model.anatomy().coordinate_side(id) == Some(side);
+        is_own.then_some(id)
+    }
+
+    /// An angle of pelvis or hip in the clinical convention [deg], for the panel's side.
+    fn clinical_angle(&self, quantity_id: &str, side: Side) -> Option<Vec<f64>> {
+        let angles = self.angles?;
+        let own = if side == Side::Right { 1.0 } else { -1.0 };
+        let hip = || angles.hips[side].as_ref();
+        let (values, sign) = match quantity_id {
+            "pelvis_tilt_angle" => (&angles.pelvic_tilt, 1.0),
+            "pelvis_obliquity_angle" => (&angles.pelvic_obliquity, own),
+            "pelvis_rotation_angle" => (&angles.pelvic_rotation, own),
+            "hip_flexion_angle" => (&hip()?.flexion, 1.0),
+            "hip_adduction_angle" => (&hip()?.adduction, 1.0),
+            "hip_rotation_angle" => (&hip()?.rotation, 1.0),
+            _ => return None,
+        };
+        Some(values.iter().map(|x| sign * x.to_degrees()).collect())
+    }
+}
+
+/// The axis of a ground force in `grf.mot`, by its name in `cycles.csv`.
+pub(crate) fn ground_axis(name: &str) -> Option<&'static str> {
+    match name {
+        "ground_force_fore_aft" => Some("x"),
+        "ground_force_vertical" => Some("y"),
+        "ground_force_lateral" => Some("z"),
+        _ => None,
+    }
+}

@@ -1,0 +1,139 @@
+//! `clinical.csv`: what the page draws, in both conventions.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod report_pages;
+#[path = "../../ambulo/tests/shared_data/mod.rs"]
+mod shared_data;
+
+use ambulo::findings::Findings;
+use ambulo::model::{Model, to_osim};
+use ambulo::motion::coordinates_from_table;
+use ambulo::study::{self, ForceTable, MeasuredForces, Outcome, Settings, Source};
+use ambulo_formats::external_loads::ExternalLoads;
+use ambulo_formats::table::Table;
+use ambulo_report::clinical_file;
+use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables, summary_json};
+use report_pages::{Files, Shown};
+use std::path::Path;
+
+/// Columns of `clinical.csv` and the panels that show them.
+const PANELS: [(&str, &str); 6] = [
+    ("pelvis_tilt", "pelvis_tilt_angle"),
+    ("hip_flexion", "hip_flexion_angle"),
+    ("knee_flexion", "knee_flexion_angle"),
+    ("knee_flexion_moment", "knee_flexion_moment"),
+    ("ankle_dorsiflexion_power", "ankle_dorsiflexion_power"),
+    ("ground_force_vertical", "ground_force_vertical"),
+];
+
+fn outcome(folder: &Path, [model, motion, forces, loads]: [&str; 4]) -> (Outcome, Findings) {
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let mut findings = Findings::default();
+    let model = Model::from_osim(&read(model), &mut findings).unwrap();
+    let table = |name: &str| Table::read_storage(&read(name)).unwrap().0;
+    let coordinates = coordinates_from_table(&model, &table(motion), motion, &mut findings).unwrap();
+    let loads = Some(ExternalLoads::read(&read(loads)).unwrap().0);
+    let measured = MeasuredForces::Table(ForceTable { table: table(forces), loads });
+    let source = Source::coordinates(model, coordinates).with_forces(measured);
+    (study::run(&source, &Settings::default(), &mut findings).unwrap(), findings)
+}
+
+/// The recording of the command's tests, whose pelvis has no markers on its iliac spines.
+fn walk() -> (Outcome, Findings) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-cli/tests/recording");
+    outcome(&folder, ["figure.osim", "walk.mot", "walk_grf.mot", "walk_grf.xml"])
+}
+
+fn files((outcome, findings): &(Outcome, Findings), convention: Convention) -> Files {
+    let (clinical, used) = clinical_file(outcome, convention).unwrap();
+    let input = Input {
+        motion: "walk.mot".to_owned(),
+        model: "figure.osim".to_owned(),
+        standing: None,
+        ground: None,
+        loads: None,
+        device: None,
+        added_mass: Vec::new(),
+        ground_source: GroundSource::None,
+    };
+    let summary = Summary { convention: Some(used), ..outcome_summary(outcome, input, findings) };
+    let tables = outcome_tables(outcome).unwrap().into_iter().chain([clinical]);
+    let mut files: Files = tables.map(|file| (file.name, file.bytes)).collect();
+    files.insert("subject.osim".to_owned(), to_osim(&outcome.body).unwrap().write().unwrap());
+    files.insert("summary.json".to_owned(), summary_json(&summary).unwrap());
+    files
+}
+
+fn clinical(files: &Files) -> Table {
+    Table::read_csv(&files["clinical.csv"]).unwrap().0
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// All traces of these panels are columns of the file.
+#[track_caller]
+fn assert_drawn(files: &Files) {
+    let (shown, table) = (Shown::of(files), clinical(files));
+    for (column, panel) in PANELS {
+        let traces = shown.panel(panel)["traces"].as_array().unwrap();
+        assert!(!traces.is_empty(), "{panel}");
+        for trace in traces {
+            let side = trace["side"].as_str().unwrap_or("r");
+            let expected = table.column(&format!("{column}_{side}")).unwrap();
+            let drawn = shown.series(&trace["values"]);
+            let span = expected.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+                - expected.iter().copied().fold(f64::INFINITY, f64::min);
+            for (drawn, expected) in drawn.iter().zip(expected) {
+                // Numbers of a page have 16 bits.
+                assert!((drawn - expected).abs() <= span / 60_000.0 + 1e-9, "{panel} {side}: {drawn}, {expected}");
+            }
+            assert_eq!(trace["origin"]["file"], "clinical.csv");
+        }
+    }
+}
+
+#[test]
+fn the_page_draws_the_numbers_of_the_file() {
+    let files = files(&walk(), Convention::Opensim);
+    assert_drawn(&files);
+    assert!(Shown::of(&files).header("Pelvis and hip angles").starts_with("OpenSim"));
+}
+
+#[test]
+fn a_pelvis_without_landmarks_keeps_the_models_angles_and_the_page_says_why() {
+    let walk = walk();
+    let (file, used) = clinical_file(&walk.0, Convention::Clinical).unwrap();
+    assert_eq!(used.used, Convention::Opensim);
+    assert!(used.reason.unwrap().contains("iliac spines"));
+    assert_eq!(file, clinical_file(&walk.0, Convention::Opensim).unwrap().0);
+}
+
+#[test]
+fn the_clinical_convention_tilts_the_pelvis_and_flexes_the_hips_by_the_same() {
+    let Some(data) = shared_data::data() else { return };
+    let names =
+        ["subject01_simbody.osim", "subject01_walk1_ik.mot", "subject01_walk1_grf.mot", "subject01_walk1_grf.xml"];
+    let walk = outcome(&data.join("opensim-gait2392-subject01"), names);
+    let [own, clinic] = [Convention::Opensim, Convention::Clinical].map(|convention| files(&walk, convention));
+    assert_drawn(&clinic);
+    let (shown, own_shown) = (Shown::of(&clinic), Shown::of(&own));
+    assert!(shown.header("Pelvis and hip angles").starts_with("clinical"));
+    let offset = |column: &str| {
+        let [own, clinic] = [&own, &clinic].map(|files| mean(clinical(files).column(column).unwrap()));
+        clinic - own
+    };
+    let [tilt, hip, knee] = ["pelvis_tilt_r", "hip_flexion_r", "knee_flexion_r"].map(offset);
+    println!("tilt {tilt:+.1} deg, hip flexion {hip:+.1} deg");
+    assert!((5.0..20.0).contains(&tilt) && (tilt - hip).abs() < 1.0 && knee.abs() < 1e-9);
+    // Curves over the cycle and bands move along.
+    let of_panel = |shown: &Shown, what: &str| match what {
+        "band" => mean(&shown.series(&shown.panel("hip_flexion_angle")["band"]["mean"])),
+        _ => mean(&shown.series(&shown.panel("hip_flexion_angle")["means"][0]["values"])),
+    };
+    let cycles = of_panel(&shown, "means") - of_panel(&own_shown, "means");
+    let bands = of_panel(&shown, "band") - of_panel(&own_shown, "band");
+    assert!((cycles - hip).abs() < 1.0 && (bands - 12.0).abs() < 3.0, "{cycles} {bands}");
+}

@@ -1,0 +1,42 @@
+//! How angles of pelvis and hips are measured in `clinical.csv` and on the page.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// A convention for the angles of pelvis and hips.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Convention {
+    /// As clinics measure them: pelvic tilt is the angle between the ground and the line from the posterior to the anterior iliac
+    /// spines, and hip angles are relative to that pelvis.
+    #[default]
+    Clinical,
+    /// The coordinates of the OpenSim model.
+    Opensim,
+}
+
+impl Convention {
+    /// The name in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Convention::Clinical => "clinical",
+            Convention::Opensim => "opensim",
+        }
+    }
+}
+
+impl fmt::Display for Convention {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// The convention of a run's `clinical.csv`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ConventionSummary {
+    /// The convention that was used.
+    pub used: Convention,
+    /// Why it is not the one that was chosen; `null` if it is.
+    pub reason: Option<String>,
+}

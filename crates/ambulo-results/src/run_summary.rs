@@ -1,0 +1,70 @@
+//! `summary.json` of any run, read and written by the same types.
+
+use crate::scene_summary::SceneSummary;
+use crate::sound::{EXPECTED, unsound};
+use crate::summary::Summary;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+const AGAIN: &str = "hint: run the command that wrote this folder again, with this version of Ambulo";
+
+/// The summary of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum RunSummary {
+    /// Of a simulated scene.
+    Scene(Box<SceneSummary>),
+    /// Of a recording or a synthetic walk.
+    Motion(Box<Summary>),
+}
+
+impl RunSummary {
+    /// Reads `summary.json`.
+    ///
+    /// # Errors
+    /// What was found, what was expected and what to do, in words: text that is not JSON, keys that are missing or of another type,
+    /// numbers that no result can be.
+    pub fn from_json(text: &str) -> Result<RunSummary, String> {
+        let value: Value = serde_json::from_str(text).map_err(|error| {
+            format!("{error}. hint: the file is cut or not JSON; run the command that wrote it again")
+        })?;
+        if !value.is_object() {
+            return Err(format!("found {value}; expected an object with the keys of docs/OUTPUTS.md. {AGAIN}"));
+        }
+        if let Some((path, number)) = unsound(&value, "") {
+            return Err(format!("`{path}` is {number:?}; expected {EXPECTED}"));
+        }
+        match value.get("world") {
+            Some(Value::Object(_)) => Ok(RunSummary::Scene(Box::new(read(&value)?))),
+            _ => Ok(RunSummary::Motion(Box::new(read(&value)?))),
+        }
+    }
+
+    /// Stature [m], where it was given.
+    #[must_use]
+    pub fn height_m(&self) -> Option<f64> {
+        match self {
+            RunSummary::Scene(_) => None,
+            RunSummary::Motion(summary) => summary.height_m,
+        }
+    }
+}
+
+fn read<T: DeserializeOwned>(value: &Value) -> Result<T, String> {
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        let key = Some(error.path().to_string()).filter(|path| path != ".");
+        let key = key.map_or_else(String::new, |path| format!("`{path}`: "));
+        format!("{key}{}; see docs/OUTPUTS.md. {AGAIN}", error.inner())
+    })
+}
+
+/// A summary as the content of `summary.json`.
+///
+/// # Errors
+/// None for summaries of this crate, which hold nothing that JSON lacks.
+pub fn summary_json(summary: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
+    let mut json = serde_json::to_vec_pretty(summary)?;
+    json.push(b'\n');
+    Ok(json)
+}
