@@ -2,17 +2,18 @@
 //!
 //! A shape is described in its own frame; a [`Pose`] `world_from_shape` places it. Lengths in m.
 //!
-//! Inertia of a uniform solid of mass m about its centre:
+//! Inertia of a uniform solid of mass m, C = ∫ x xᵀ dm about the mass centre, I = tr(C) 1 - C:
 //!
-//! | shape    | volume              | I / m                                                                          |
+//! | shape    | volume              | principal entries of C / m                                                     |
 //! |----------|---------------------|--------------------------------------------------------------------------------|
-//! | sphere   | 4/3 π r³            | 2/5 r² about every axis                                                        |
-//! | cuboid   | a b c               | (b² + c²)/12 about a, and so on                                                |
-//! | capsule  | π r² l + 4/3 π r³   | along: w_c r²/2 + 2/5 w_s r²; across: w_c (l²/12 + r²/4) + w_s (2/5 r² + l²/4 + 3/8 l r) |
-//! | hull     | Σ det(a, b, c)/6    | tr(C) 1 - C; C is the sum of (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/20 over tetrahedra (0, a, b, c), s = a + b + c |
+//! | sphere   | 4/3 π r³            | r²/5                                                                           |
+//! | cuboid   | 8 h_x h_y h_z       | h²/3                                                                           |
+//! | capsule  | π r² l + 4/3 π r³   | along: w_c l²/12 + w_s (l²/4 + 3 l r/8 + r²/5); across: w_c r²/4 + w_s r²/5    |
+//! | hull     | Σ det(a, b, c)/6    | per tetrahedron (0, a, b, c): (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/20, s = a + b + c    |
 //!
-//! with w_c, w_s the shares of cylinder and ball in the volume, and l the distance of the capsule's ends. The centre of a half
-//! ball is 3/8 r above its base.
+//! with w_c, w_s the shares of cylinder and ball in the volume, and l the distance of the capsule's ends. A half ball
+//! (mass m_h) has its centre 3r/8 above its base and ∫ z² dm = m_h r²/5 about the base: shifted by l/2 this is
+//! l²/4 + 3 l r/8 + r²/5.
 //!
 //! Source: integrals over the shapes, derived here.
 //! Cost: constant; linear in the faces of a hull.
@@ -225,20 +226,14 @@ impl Shape {
     /// and for a mass that is negative or not finite.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> Option<Inertia> {
-        let (center, of_one_kg) = match &self.form {
-            Form::Sphere { radius } => (Vec3::zeros(), Mat3::identity() * (0.4 * radius * radius)),
-            Form::Capsule { ends: [a, b], radius } => ((a + b) / 2.0, capsule_inertia(b - a, *radius)),
-            Form::Cuboid { half, .. } => {
-                let [a, b, c] = [0, 1, 2].map(|k| (2.0 * half[k]) * (2.0 * half[k]));
-                (Vec3::zeros(), Mat3::from_diagonal(&Vec3::new(b + c, a + c, a + b)) / 12.0)
-            }
-            Form::Convex { solid } => {
-                let (center, spread) = solid.center_and_spread();
-                (center, Mat3::identity() * spread.trace() - spread)
-            }
+        let (center, spread) = match &self.form {
+            Form::Sphere { radius } => (Vec3::zeros(), Mat3::identity() * (radius * radius / 5.0)),
+            Form::Capsule { ends: [a, b], radius } => ((a + b) / 2.0, capsule_spread(b - a, *radius)),
+            Form::Cuboid { half, .. } => (Vec3::zeros(), Mat3::from_diagonal(&(half.component_mul(half) / 3.0))),
+            Form::Convex { solid } => solid.center_and_spread(),
             Form::HalfSpace | Form::HeightField { .. } => return None,
         };
-        Inertia::new(mass, center, of_one_kg * mass).ok()
+        Inertia::new(mass, center, (Mat3::identity() * spread.trace() - spread) * mass).ok()
     }
 
     /// Axis-aligned bounding box of the shape placed by `world_from_shape`: lowest and highest corner [m]. `None` for a
@@ -332,16 +327,15 @@ fn cylinder(r: f64, l: f64) -> f64 {
     PI * r * r * l
 }
 
-/// Inertia about the centre of a capsule of 1 kg whose ends differ by `axis` [m²].
-fn capsule_inertia(axis: Vec3, r: f64) -> Mat3 {
+/// C / m of a capsule whose ends differ by `axis`.
+fn capsule_spread(axis: Vec3, r: f64) -> Mat3 {
     let l = axis.norm();
-    let axis = axis / l;
-    let (cylinder, ball) = (cylinder(r, l), ball(r));
-    let volume = cylinder + ball;
-    let (w_c, w_s) = (cylinder / volume, ball / volume);
-    let along = w_c * r * r / 2.0 + 0.4 * w_s * r * r;
-    let across = w_c * (l * l / 12.0 + r * r / 4.0) + w_s * (0.4 * r * r + l * l / 4.0 + 0.375 * l * r);
-    Mat3::identity() * across + axis * axis.transpose() * (along - across)
+    let u = axis / l;
+    let share_of_ball = ball(r) / (ball(r) + cylinder(r, l));
+    let share_of_cylinder = 1.0 - share_of_ball;
+    let along = share_of_cylinder * l * l / 12.0 + share_of_ball * (l * l / 4.0 + 3.0 * l * r / 8.0 + r * r / 5.0);
+    let across = share_of_cylinder * r * r / 4.0 + share_of_ball * r * r / 5.0;
+    Mat3::identity() * across + u * u.transpose() * (along - across)
 }
 
 /// The triangles of a face, all from its first corner.

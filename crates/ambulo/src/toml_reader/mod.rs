@@ -4,7 +4,6 @@ mod error;
 mod value;
 mod words;
 
-pub(crate) use error::with_causes;
 pub use error::{Place, TomlError};
 pub(crate) use value::{Source, Table, Value};
 pub(crate) use words::{listed, nearest};

@@ -1,26 +1,56 @@
-//! Scene files: a world, its outputs and its duration as a TOML file (docs/SCENES.md).
+//! Scenes: a world, its outputs and its duration as a TOML file (docs/SCENES.md).
 //!
-//! [`SceneFile::parse`] turns text into plain records in SI units and radians, with references resolved and numbers checked. A
-//! [`SceneError`] names line and key. [`Scene::build`] makes a world of the records; the caller reads the files that a scene names
-//! (models, motions). [`Scene::run`] steps the scene to its end.
+//! [`SceneFile::parse`] turns text into plain records, in SI units and radians, every reference resolved and every number
+//! checked; a [`SceneError`] names line and key. Files that a scene names (models, motions) are not opened here: the caller
+//! reads them for [`Scene::build`], which makes a world of the records. [`Scene::run`] steps it to its end.
 
-pub use crate::toml_reader::{Place, TomlError as SceneError};
-
-mod file;
-
+mod body;
 mod build;
-mod figure_recorder;
+mod built;
+mod closing;
+mod closure;
+mod coordinate;
+mod event;
+mod figure;
+mod file;
+mod function;
+mod joint;
+mod material;
+mod names;
+mod obstacle;
+mod output;
+mod placement;
 mod run;
 mod saved;
+mod shape;
+mod solver;
+mod sources;
+mod starting;
+mod surfaces;
+mod synthetic;
+mod tree;
+mod uniform;
+mod walk_keeper;
+mod walker;
 
-pub use build::{ReadFile, Scene, SceneSettings};
-pub use figure_recorder::FigureWalk;
-pub use file::{
-    Anchor, ArmEntry, Attachment, BodyEntry, BuiltCoordinate, BuiltFigure, ClosureEntry, ContactPartner,
-    CoordinateEntry, CoordinateMotion, DriveEntry, DrivenCoordinates, EventAction, EventEntry, FigureEntry,
-    FigureMotion, FigureSource, FigureWalkMode, GaitSource, IgnoredPair, JointAxes, JointEntry, MaterialEntry,
-    ModelFigure, MotorEntry, ObstacleEntry, ObstacleMotionEntry, Outputs, Plot, RootMotion, SceneFile, ShapeEntry,
-    SphereEntry, TimeFunction, WalkEntry, WalkTracking,
-};
+pub use crate::toml_reader::{Place, TomlError as SceneError};
+pub use body::BodyEntry;
+pub use build::{Scene, SceneSettings};
+pub use built::{ArmEntry, BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+pub use closure::{Anchor, ClosureEntry};
+pub use coordinate::{CoordinateEntry, CoordinateKind, DriveEntry, Limits, MotorEntry, Spring};
+pub use event::{EventAction, EventEntry};
+pub use figure::{DrivenCoordinates, FigureEntry, RootMotion, SphereEntry};
+pub use file::{IgnoredPair, SceneFile};
+pub use function::TimeFunction;
+pub use joint::{JointAxes, JointEntry};
+pub use material::{ContactLaw, MaterialEntry};
+pub use names::{Attachment, ContactPartner};
+pub use obstacle::{ObstacleEntry, ObstacleMotion, ObstacleShape};
+pub use output::{Outputs, Plot};
 pub use run::{RunError, RunStatistics, SceneFrame};
 pub use saved::{ResumeError, SavedState};
+pub use shape::{ShapeEntry, Solid};
+pub use solver::{Integrator, Method, Solver};
+pub use sources::ReadFile;
+pub use walk_keeper::FigureWalk;

@@ -1,9 +1,10 @@
-//! Runs a scene: steps, events and output.
+//! A scene stepped through time, its events, and what is seen of it.
 
 use super::build::Scene;
-use super::build::model_figure::{Placed, PlacedFigure};
-use super::figure_recorder::FigureWalk;
-use super::file::{EventAction, Outputs};
+use super::event::EventAction;
+use super::output::Outputs;
+use super::walk_keeper::FigureWalk;
+use super::walker::{Placed, PlacedFigure};
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
@@ -16,18 +17,18 @@ use crate::simulation::workspace::StepSettings;
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Wrench};
 
-/// Instants nearer than this share of a step count as one, because typed times are rounded.
+/// Instants nearer than this share of a step are one: rounding of times that were typed.
 const SAME_INSTANT: f64 = 1e-6;
 
 /// Why a scene could not be stepped to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// Joints that do not form trees.
+    /// Joints that are no forest.
     #[error(transparent)]
     Links(#[from] LinkError),
     /// A number that is not finite.
-    #[error("at {time_s:.6} s the position or velocity of `{body}` is not a finite number. hint: use a shorter step")]
+    #[error("at {time_s:.6} s the place or velocity of `{body}` is no longer a finite number. hint: a shorter step")]
     NotFinite {
         /// The body.
         body: String,
@@ -36,33 +37,33 @@ pub enum RunError {
     },
 }
 
-/// A scene at an instant of output.
+/// What is seen of a scene at an instant of output.
 #[derive(Debug)]
 pub struct SceneFrame<'a> {
-    /// The scene at this instant.
+    /// The scene as it then stands.
     pub scene: &'a Scene,
-    /// Forces of the step that ends here; `None` at the start.
+    /// Forces of the step that ends here; none at the start.
     pub forces: Option<StepForces>,
-    /// Impacts since the last frame: time [s], and a contact whose forces are impulses [N.s].
+    /// Collisions within steps since the last frame: time [s], and impulses [N.s] for forces.
     pub impacts: Vec<(f64, ContactForce)>,
     /// Energies.
     pub energy: Energy,
 }
 
-/// Statistics of a run.
+/// How a run went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RunStatistics {
-    /// Number of steps.
+    /// Steps made.
     pub steps: usize,
-    /// Total number of tree solves.
+    /// Tree solves of all steps.
     pub iterations: usize,
-    /// Largest number of tree solves in one step.
+    /// Most tree solves of one step.
     pub most_iterations: usize,
-    /// Total number of factorisations.
+    /// Factorisations of all steps.
     pub factorizations: usize,
     /// Largest residual of a step.
     pub largest_residual: f64,
-    /// Number of steps whose residual stayed above the tolerance.
+    /// Steps whose residual stayed above the tolerance.
     pub not_converged: usize,
 }
 
@@ -78,37 +79,37 @@ impl RunStatistics {
 }
 
 impl Scene {
-    /// The world. Events add and remove joints and closures.
+    /// What is simulated. Joints and closures come and go with events.
     #[must_use]
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// The present state.
+    /// Where everything is now.
     #[must_use]
     pub fn state(&self) -> &WorldState {
         &self.state
     }
 
-    /// Settings of the steps.
+    /// How it is stepped.
     #[must_use]
     pub fn settings(&self) -> &StepSettings {
         &self.settings
     }
 
-    /// Duration [s].
+    /// The instant at which it ends [s].
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.duration_s
     }
 
-    /// Title; may be empty.
+    /// What it is called; empty if it is not.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The results that are written.
+    /// Which results are kept.
     #[must_use]
     pub fn outputs(&self) -> &Outputs {
         &self.outputs
@@ -122,26 +123,26 @@ impl Scene {
 
     /// Names of the figures, in the order of [`World::figures`].
     pub fn figure_names(&self) -> impl Iterator<Item = &str> {
-        self.figures.iter().map(|figure| figure.name.as_str())
+        self.walkers.iter().map(|walker| walker.name.as_str())
     }
 
-    /// Steps made since the start of the scene, including those before it was resumed.
+    /// Steps made since the beginning of the scene, those before a resumption too.
     #[must_use]
     pub fn steps_made(&self) -> usize {
         self.steps
     }
 
-    /// Number of steps of the whole scene.
+    /// Steps of the whole scene: as many as reach its end.
     #[must_use]
     pub fn steps_in_all(&self) -> usize {
         (self.duration_s / self.settings.step_s - SAME_INSTANT).ceil().max(0.0) as usize
     }
 
-    /// Runs to the end and calls `visit` at the output rate. A scene that has not begun is also visited at its start; a resumed
-    /// scene is not, because that instant was visited before.
+    /// Steps to the end, calling back at the output rate. A scene that has not begun is seen at its start as well; one that was
+    /// resumed is not, as that instant was seen before.
     ///
     /// # Errors
-    /// Joints that do not form trees, or numbers that are no longer finite.
+    /// Joints that are no forest, numbers that run out of bounds.
     pub fn run(
         &mut self,
         findings: &mut Findings,
@@ -157,7 +158,7 @@ impl Scene {
             statistics.add(&self.step(findings)?);
             let of_step = self.workspace.impacts().iter();
             impacts.extend(of_step.flat_map(|impact| impact.contacts.iter().map(|contact| (impact.time_s, *contact))));
-            if self.is_output() {
+            if self.is_seen() {
                 let forces = Some(self.workspace.forces(&self.world));
                 let energy = energy(&self.world, &self.state);
                 visit(&SceneFrame { scene: self, forces, impacts: std::mem::take(&mut impacts), energy });
@@ -166,17 +167,17 @@ impl Scene {
         Ok(statistics)
     }
 
-    /// Applies the events that are due, then makes one step.
+    /// What is due happens, then one step.
     ///
     /// # Errors
     /// As [`Scene::run`].
     pub fn step(&mut self, findings: &mut Findings) -> Result<Convergence, RunError> {
         self.fire_events();
-        if !self.figures.is_empty() {
+        if !self.walkers.is_empty() {
             self.before.clone_from(&self.state.poses);
         }
-        for recorder in &mut self.recorders {
-            recorder.before_step(&self.world, &self.state);
+        for keeper in &mut self.keepers {
+            keeper.before_step(&self.world, &self.state);
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {
@@ -184,18 +185,18 @@ impl Scene {
                 let name = &self.world.closures[closure].name;
                 findings.report(
                     Code::ClosureRedundant,
-                    format!("the closure `{name}` repeats constraints of others, so its forces are not unique; the least-squares solution is reported"),
+                    format!("the closure `{name}` holds what others hold already; of its forces the least-squares ones are given"),
                 );
             }
         }
         self.steps += 1;
-        // Computed from the count, so that rounding does not accumulate.
+        // Counted, so that times do not drift.
         self.state.time_s = self.steps as f64 * self.settings.step_s;
-        if !self.recorders.is_empty() {
+        if !self.keepers.is_empty() {
             self.workspace.read_wrenches();
-            for recorder in &mut self.recorders {
+            for keeper in &mut self.keepers {
                 let (step_s, solved) = (self.settings.step_s, convergence.converged);
-                recorder.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
+                keeper.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
             }
         }
         let finite = |body: usize| {
@@ -218,22 +219,22 @@ impl Scene {
         self.workspace.forces(&self.world)
     }
 
-    /// Recorded walks of the walking figures since the scene was built or resumed, in the order of the file.
+    /// What the figures that walk have done since the scene was built or resumed, in the order of the file.
     ///
     /// # Errors
-    /// If there was no step yet.
+    /// No step yet.
     pub fn walks(&self) -> Result<Vec<FigureWalk>, TrajectoryError> {
-        self.recorders.iter().map(|recorder| recorder.walk(self.settings.step_s)).collect()
+        self.keepers.iter().map(|keeper| keeper.walk(self.settings.step_s)).collect()
     }
 
     /// Whether the last step has passed an instant of output.
-    fn is_output(&self) -> bool {
+    fn is_seen(&self) -> bool {
         let every = self.output_rate_hz * self.settings.step_s;
         let rows = |steps: usize| (steps as f64 * every + SAME_INSTANT).floor();
         rows(self.steps) > rows(self.steps.saturating_sub(1))
     }
 
-    /// Applies all events up to now.
+    /// Events up to now.
     fn fire_events(&mut self) {
         let now = self.state.time_s + SAME_INSTANT * self.settings.step_s;
         while let Some(event) = self.events.get(self.fired).filter(|event| event.time_s <= now) {
@@ -245,22 +246,22 @@ impl Scene {
                     self.world.closures[closure].active = false;
                     self.state.guess.remove(&RowKey::Closure(closure));
                 }
-                EventAction::RemoveJoint(joint) => self.remove_joint(joint),
+                EventAction::RemoveJoint(joint) => self.let_go(joint),
             }
         }
     }
 
     fn close(&mut self, number: usize) {
-        let placement = &self.closure_placements[number];
+        let closing = &self.closings[number];
         let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| self.state.poses[body]);
-        let frames = placement.frames(&pose(Some(placement.first)), &pose(placement.second));
+        let frames = closing.frames(&pose(Some(closing.first)), &pose(closing.second));
         let closure = &mut self.world.closures[number];
         (closure.first_from_joint, closure.second_from_joint) = frames;
         closure.active = true;
     }
 
-    /// Removes a joint of the file; its child is then free.
-    pub(super) fn remove_joint(&mut self, joint: usize) {
+    /// Takes a joint of the file away; its child is free.
+    pub(super) fn let_go(&mut self, joint: usize) {
         let Some(number) = self.joint_numbers[joint].take() else { return };
         self.world.joints.remove(number);
         self.state.coordinates.remove(number);
@@ -271,30 +272,31 @@ impl Scene {
         self.state.guess = guess.into_iter().filter_map(|(key, rows)| Some((without(key, number)?, rows))).collect();
     }
 
-    /// (value, rate, generalised force [N.m or N]) of each coordinate of each figure's model. Forces of free joints are zero; values
-    /// of figures from a model file are those of the recording.
+    /// Generalised forces of each figure, one a coordinate of its model [N.m or N], with the coordinates themselves and
+    /// their rates: (value, rate, force). Zero where nothing holds or drives a joint; values of figures from a model file are those of
+    /// the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
-        self.figures.iter().map(|figure| self.of_figure(figure, forces)).collect()
+        self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
     }
 
-    fn of_figure(&self, placed_figure: &PlacedFigure, forces: &StepForces) -> Vec<[f64; 3]> {
-        if let Some(placed) = &placed_figure.placed {
+    fn of_walker(&self, walker: &PlacedFigure, forces: &StepForces) -> Vec<[f64; 3]> {
+        if let Some(placed) = &walker.placed {
             return self.of_joints(placed, forces);
         }
-        let figure = &self.world.figures[placed_figure.figure];
+        let figure = &self.world.figures[walker.figure];
         let recorded = |time_s: f64| {
             let values = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect::<Vec<[f64; 3]>>();
             [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>())
         };
-        // The forces of a step belong to the posture at its start.
+        // The step's forces belong to the posture at its beginning.
         let [q, qd, qdd] = recorded(self.state.time_s - self.settings.step_s);
         let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
         let motions = body_motion(&figure.model, posture);
         let joint_of = self.world.joint_of_body();
-        // The figure may be placed elsewhere than the recording, so wrenches are rotated with their bodies.
+        // The recording may stand elsewhere than the figure does; what a joint carries is turned with its child.
         let wrench = |(i, motion): (usize, &BodyMotion)| {
-            let body = placed_figure.first_body + i;
+            let body = walker.first_body + i;
             let follows = joint_of[body].is_some_and(|j| self.world.joints[j].follows.is_some());
             let (Some(pose), true) = (self.before.get(body), follows) else { return Wrench::ZERO };
             let turn = motion.pose.rotation * pose.rotation.transpose();
@@ -319,7 +321,7 @@ impl Scene {
         placed.iter().map(of).collect()
     }
 
-    /// Distance of the two points of a closure along its constrained directions [m].
+    /// How far the two points that a closure keeps together are apart, as far as it minds [m].
     #[must_use]
     pub fn closure_gap(&self, closure: usize) -> f64 {
         let (frames, errors) = closure_errors(&self.world, &self.state, closure);
@@ -327,14 +329,14 @@ impl Scene {
         errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Largest position error of any joint or active closure [m].
+    /// Largest distance of any joint or closure from where it holds [m].
     #[must_use]
     pub fn largest_joint_error(&self) -> f64 {
         largest_joint_error(&self.world, &self.state)
     }
 }
 
-/// The key after a joint is removed; `None` if it belonged to that joint.
+/// The key once a joint is gone; `None` if it was the joint's own.
 fn without(key: RowKey, gone: usize) -> Option<RowKey> {
     let rest = |joint: usize| (joint != gone).then(|| joint - usize::from(joint > gone));
     Some(match key {

@@ -1,34 +1,34 @@
-//! Saved states of scenes: plain numbers that resume bit for bit.
+//! The state of a scene as plain numbers: saved and resumed bit for bit.
 
 use super::build::Scene;
-use super::file::{EventAction, EventEntry};
+use super::event::{EventAction, EventEntry};
 use crate::simulation::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// The saved state of a scene. Written as JSON with every digit, it resumes bit for bit with the same scene file.
+/// Where a scene stands. Written as JSON with every digit, it resumes bit for bit on the same scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedState {
     /// Version of the program that wrote it.
     pub version: String,
-    /// Names of the bodies, to check that the state belongs to a scene.
+    /// Names of the bodies, by which it is told whether it belongs to a scene.
     pub bodies: Vec<String>,
     /// Time step [s].
     pub step_s: f64,
-    /// Number of steps made.
+    /// Steps made.
     pub steps: usize,
     /// Time [s].
     pub time_s: f64,
-    /// Number of events that have happened.
+    /// Events that have happened.
     pub events: usize,
-    /// Position [m] and rotation matrix (row by row) of each body.
+    /// Place [m], then the rotation matrix row by row, of each body.
     poses: Vec<[f64; 12]>,
-    /// Angular velocity [rad/s] and velocity [m/s] of each body.
+    /// Angular velocity [rad/s], then velocity [m/s], of each body.
     twists: Vec<[f64; 6]>,
-    /// Coordinates of each remaining joint [rad, m].
+    /// Coordinates of each joint that is still there [rad, m].
     coordinates: Vec<Vec<f64>>,
-    /// Whether each closure is active, and its frames on its two bodies.
+    /// Whether each closure holds, and its frames on its two bodies.
     closures: Vec<(bool, [f64; 12], [f64; 12])>,
     /// Impulses of the last step.
     impulses: Vec<(RowKey, [f64; 6])>,
@@ -47,7 +47,7 @@ pub struct ResumeError {
 }
 
 impl Scene {
-    /// Saves everything that changes in a run.
+    /// Everything that changes in a run.
     #[must_use]
     pub fn save(&self) -> SavedState {
         let state = &self.state;
@@ -71,26 +71,26 @@ impl Scene {
         }
     }
 
-    /// Restores a saved state in a scene just built from its file.
+    /// Takes the scene, as built from its file, to where it was saved.
     ///
     /// # Errors
-    /// If the state belongs to another scene, or to another time step.
+    /// A state of another scene, or of another step.
     pub fn resume(&mut self, saved: &SavedState) -> Result<(), ResumeError> {
         let names: Vec<&str> = self.world.bodies.iter().map(|body| body.name.as_str()).collect();
-        same("the bodies", &saved.bodies.join(", "), &names.join(", "))?;
-        same("the step is", &saved.step_s, &self.settings.step_s)?;
-        same("the number of events that have happened is", &saved.events.min(self.events.len()), &saved.events)?;
-        same("the number of closures is", &saved.closures.len(), &self.world.closures.len())?;
-        same("the number of poses is", &saved.poses.len(), &names.len())?;
-        same("the number of twists is", &saved.twists.len(), &names.len())?;
+        agree("the bodies", &saved.bodies.join(", "), &names.join(", "))?;
+        agree("the step is", &saved.step_s, &self.settings.step_s)?;
+        agree("the number of events that have happened is", &saved.events.min(self.events.len()), &saved.events)?;
+        agree("the number of closures is", &saved.closures.len(), &self.world.closures.len())?;
+        agree("the number of poses is", &saved.poses.len(), &names.len())?;
+        agree("the number of twists is", &saved.twists.len(), &names.len())?;
         let gone = |event: &EventEntry| match event.change {
             EventAction::RemoveJoint(joint) => Some(joint),
             _ => None,
         };
         let gone: Vec<usize> = self.events[..saved.events].iter().filter_map(gone).collect();
-        gone.into_iter().for_each(|joint| self.remove_joint(joint));
+        gone.into_iter().for_each(|joint| self.let_go(joint));
         let counts = |list: &[Vec<f64>]| format!("{:?}", list.iter().map(Vec::len).collect::<Vec<_>>());
-        same("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
+        agree("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
         (self.steps, self.fired) = (saved.steps, saved.events);
         for (closure, (active, first, second)) in self.world.closures.iter_mut().zip(&saved.closures) {
             closure.active = *active;
@@ -105,7 +105,7 @@ impl Scene {
     }
 }
 
-fn same<T: PartialEq + ToString>(what: &'static str, found: &T, expected: &T) -> Result<(), ResumeError> {
+fn agree<T: PartialEq + ToString>(what: &'static str, found: &T, expected: &T) -> Result<(), ResumeError> {
     if found == expected {
         return Ok(());
     }

@@ -1,56 +1,53 @@
-//! Figures of a scene from OpenSim models: their bodies and joints in the world.
+//! Figures of a scene: bodies and joints of an OpenSim model, as the simulator has them.
 //!
-//! A joint whose coordinates all follow the recording prescribes all six directions between its bodies, whatever its kind. Other
-//! joints must be of a kind that the simulator has: rotations about one fixed axis, two perpendicular axes or three, a translation
-//! along one axis, planar motion, or all motions.
+//! A joint whose coordinates all follow the recording prescribes all six directions between its bodies, whatever its kind.
+//! Others must be of a kind that the simulator has: turns about one fixed axis, two square ones or three, slides along one, the
+//! plane, or everything.
 
-use super::input_files::InputFiles;
+use super::figure::{DrivenCoordinates, FigureEntry as Asked, RootMotion};
+use super::joint::JointAxes as AskedJoint;
 use super::placement::place;
+use super::sources::InputFiles;
+use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::findings::Code;
 use crate::kinematics::{BodyMotion, Posture, body_motion};
 use crate::model::{Body, BodyId, CoordinateId, Displacement, Drive, JointAxis, Model};
-use crate::simulation::joint::{JointKind, rotation};
-use crate::simulation::scene::SceneError;
-use crate::simulation::scene::file::{
-    DrivenCoordinates, FigureEntry, FigureMotion, JointAxes, ModelFigure, RootMotion,
-};
+use crate::simulation::joint::rotation;
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
-use crate::toml_reader::{Place, with_causes};
 
-/// Largest cosine of the angle between perpendicular axes.
+/// Cosine of the angle between axes that should be square.
 const SQUARE_SLACK: f64 = 1e-6;
-/// Rounding of slope and offset of a function that equals its coordinate.
+/// Rounding of slopes and offsets of functions that are plain coordinates.
 const ROUNDING: f64 = 1e-12;
 
-/// The bodies and coordinates of a figure in the world.
+/// Where a figure's bodies stand in the world.
 #[derive(Debug, Clone)]
-pub(in crate::simulation::scene) struct PlacedFigure {
-    /// Index of the figure in [`World::figures`].
-    pub(in crate::simulation::scene) figure: usize,
-    /// Index of its first body; the others follow in the model's order.
-    pub(in crate::simulation::scene) first_body: usize,
-    /// Name in the scene file.
-    pub(in crate::simulation::scene) name: String,
-    /// For a built figure, the joint coordinate of each coordinate of its model.
-    pub(in crate::simulation::scene) placed: Option<Vec<Placed>>,
+pub(super) struct PlacedFigure {
+    /// Its number among the figures.
+    pub(super) figure: usize,
+    /// Its first body; the others follow in the model's order.
+    pub(super) first_body: usize,
+    /// Name in the scene.
+    pub(super) name: String,
+    /// Of a built figure: where each coordinate of its model is.
+    pub(super) placed: Option<Vec<Placed>>,
 }
 
-/// The joint coordinate of a coordinate of a figure's model.
+/// A coordinate of a figure's model as that of a joint.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::simulation::scene) struct Placed {
-    /// Index of the joint's child among the bodies of the world.
-    pub(in crate::simulation::scene) body: usize,
-    /// Index of the coordinate in the joint.
-    pub(in crate::simulation::scene) coordinate: usize,
+pub(super) struct Placed {
+    /// The joint's child, among the bodies of the world.
+    pub(super) body: usize,
+    /// Number of the joint's coordinate.
+    pub(super) coordinate: usize,
 }
 
-/// A figure while it is added to the world.
+/// A figure under construction.
 struct FigureAssembly<'a> {
-    entry: &'a FigureEntry,
-    source: &'a ModelFigure,
+    asked: &'a Asked,
     /// Number in the file, from 1.
     number: usize,
     model: Model,
@@ -63,32 +60,33 @@ struct FigureAssembly<'a> {
 /// Adds a figure to the world.
 pub(super) fn add(
     world: &mut World,
-    (entry, source): (&FigureEntry, &ModelFigure),
+    asked: &Asked,
     number: usize,
-    files: &mut InputFiles<'_, '_>,
+    sources: &mut InputFiles<'_, '_>,
 ) -> Result<PlacedFigure, SceneError> {
-    let model = files.model(&source.place, &source.model)?;
-    let model = placed_at(&model, &entry.pose).map_err(|e| source.place.error(format!("{}: {e}", source.model)))?;
-    refuse_unknown(entry, source, number, &model)?;
-    let signals = signals(source, &model, files)?;
+    let model = sources.model(&asked.model_place, &asked.model)?;
+    let model =
+        standing_at(&model, &asked.pose).map_err(|e| asked.model_place.error(format!("{}: {e}", asked.model)))?;
+    refuse_unknown(asked, number, &model)?;
+    let signals = signals(asked, &model, sources)?;
     let values: Vec<[f64; 3]> = signals.iter().map(|signal| signal.at(0.0)).collect();
     let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
     let motions = body_motion(&model, Posture { q: &q, qd: &qd, qdd: &qdd });
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
-    let assembly = FigureAssembly { entry, source, number, model, signals, motions, first_body, figure };
-    for id in assembly.model.body_ids() {
-        world.bodies.push(assembly.body(id));
-        world.joints.extend(assembly.joint(id)?);
+    let making = FigureAssembly { asked, number, model, signals, motions, first_body, figure };
+    for id in making.model.body_ids() {
+        world.bodies.push(making.body(id));
+        world.joints.extend(making.joint(id)?);
     }
-    assembly.refuse_massless(world)?;
-    add_spheres(world, entry, number, &assembly.model, first_body)?;
-    let FigureAssembly { model, signals, .. } = assembly;
+    making.refuse_massless(world)?;
+    add_spheres(world, asked, number, &making.model, first_body)?;
+    let FigureAssembly { model, signals, .. } = making;
     world.figures.push(Figure { model, coordinates: signals });
-    Ok(PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None })
+    Ok(PlacedFigure { figure, first_body, name: asked.name.clone(), placed: None })
 }
 
-/// The model with its ground at a pose.
-fn placed_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::model::ModelError> {
+/// The model with its ground moved.
+fn standing_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::model::ModelError> {
     let mut bodies = model.bodies().to_vec();
     for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
         body.joint.parent_from_joint = *world_from_ground * body.joint.parent_from_joint;
@@ -96,10 +94,9 @@ fn placed_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::mo
     Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), Vec::new())
 }
 
-/// Refuses names of driven coordinates that the model lacks, or that belong to the root.
-fn refuse_unknown(entry: &FigureEntry, source: &ModelFigure, number: usize, model: &Model) -> Result<(), SceneError> {
-    let DrivenCoordinates::Only(names) = &source.driven else { return Ok(()) };
-    let place = Place { line: entry.line, key: format!("figure[{number}].drive") };
+fn refuse_unknown(asked: &Asked, number: usize, model: &Model) -> Result<(), SceneError> {
+    let DrivenCoordinates::Only(names) = &asked.driven else { return Ok(()) };
+    let place = Place { line: asked.line, key: format!("figure[{number}].drive") };
     for name in names {
         let Some(id) = model.coordinate(name) else {
             let known: Vec<&str> = model.coordinates().iter().map(|c| c.name.as_str()).collect();
@@ -108,7 +105,7 @@ fn refuse_unknown(entry: &FigureEntry, source: &ModelFigure, number: usize, mode
         };
         if is_of_root(model, id) {
             let found = format!("found \"{name}\"; expected coordinates of joints within the figure");
-            return Err(place.error(found).hint("this coordinate moves the whole figure; use `root` for it"));
+            return Err(place.error(found).hint("this one carries the whole figure; `root` says what becomes of it"));
         }
     }
     Ok(())
@@ -118,18 +115,19 @@ fn is_of_root(model: &Model, id: CoordinateId) -> bool {
     model.bodies().iter().any(|body| body.joint.parent.is_none() && body.joint.coordinates().contains(&id))
 }
 
-/// One signal per coordinate: recorded, or from the model.
-fn signals(source: &ModelFigure, model: &Model, files: &mut InputFiles<'_, '_>) -> Result<Vec<Signal>, SceneError> {
+/// One signal a coordinate: recorded, or as the model has it.
+fn signals(asked: &Asked, model: &Model, sources: &mut InputFiles<'_, '_>) -> Result<Vec<Signal>, SceneError> {
     let free = |id: CoordinateId| matches!(model.coordinates()[id.index()].drive, Drive::Free);
     let (mut columns, mut start) = (vec![None; model.coordinates().len()], 0.0);
-    if let Some(FigureMotion { place, file, from_s }) = &source.motion {
-        let table = files.table(place, file)?;
+    if let Some(file) = &asked.motion {
+        let place = &asked.motion_place;
+        let table = sources.table(place, file)?;
         let curves = table
-            .coordinates(model, free, files.findings)
-            .map_err(|e| place.error(format!("{file}: {}", with_causes(&e))))?;
-        start = files.start(place, file, curves.span_s, *from_s)?;
+            .coordinates(model, free, sources.findings)
+            .map_err(|e| place.error(format!("{file}: {}", super::sources::chain(&e))))?;
+        start = sources.start(place, file, curves.span_s, asked.from_s)?;
         columns = curves.columns;
-        report_missing(model, &columns, file, files);
+        report_missing(model, &columns, file, sources);
     }
     let own = |(coordinate, column): (&crate::model::Coordinate, Option<_>)| match (&coordinate.drive, column) {
         (Drive::Free, Some(spline)) => Signal::Spline(spline, start),
@@ -145,14 +143,14 @@ fn signals(source: &ModelFigure, model: &Model, files: &mut InputFiles<'_, '_>) 
     Ok(signals)
 }
 
-fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, files: &mut InputFiles<'_, '_>) {
+fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: &mut InputFiles<'_, '_>) {
     let missing = model.coordinates().iter().zip(columns);
     let missing = missing.filter(|(c, column)| matches!(c.drive, Drive::Free) && column.is_none());
     let names: Vec<String> = missing.map(|(c, _)| format!("`{}` ({})", c.name, c.default_value)).collect();
     if !names.is_empty() {
         let names = names.join(", ");
         let message = format!("{file} has no column for {names}; the default values in brackets are used throughout");
-        files.findings.report(Code::MotionMissingCoordinate, message);
+        sources.findings.report(Code::MotionMissingCoordinate, message);
     }
 }
 
@@ -160,7 +158,7 @@ impl FigureAssembly<'_> {
     fn body(&self, id: BodyId) -> RigidBody {
         let (about, motion) = (&self.model.bodies()[id.index()], &self.motions[id.index()]);
         RigidBody {
-            name: format!("{}/{}", self.entry.name, about.name),
+            name: format!("{}/{}", self.asked.name, about.name),
             mass: about.inertia.mass(),
             inertia: about.inertia.about_center(),
             pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
@@ -175,8 +173,8 @@ impl FigureAssembly<'_> {
         match &coordinate.drive {
             Drive::Locked | Drive::Prescribed(_) => true,
             Drive::Coupled(leader, _) => self.follows(*leader),
-            Drive::Free if is_of_root(&self.model, id) => self.source.root == RootMotion::Driven,
-            Drive::Free => match &self.source.driven {
+            Drive::Free if is_of_root(&self.model, id) => self.asked.root == RootMotion::Driven,
+            Drive::Free => match &self.asked.driven {
                 DrivenCoordinates::All => true,
                 DrivenCoordinates::Nothing => false,
                 DrivenCoordinates::Only(names) => names.contains(&coordinate.name),
@@ -184,7 +182,7 @@ impl FigureAssembly<'_> {
         }
     }
 
-    /// The joint of a body; `None` if it is free.
+    /// The joint of a body; none where nothing holds it.
     fn joint(&self, id: BodyId) -> Result<Option<TreeJoint>, SceneError> {
         let body = &self.model.bodies()[id.index()];
         let followed: Vec<bool> = body.joint.coordinates().into_iter().map(|c| self.follows(c)).collect();
@@ -194,12 +192,12 @@ impl FigureAssembly<'_> {
         if followed.contains(&true) {
             return Err(self.unfit(body, "some of its coordinates are driven or locked and others are free"));
         }
-        let free = self.free_joint(id)?;
-        if body.joint.parent.is_none() && matches!(free.axes, JointAxes::Free) {
+        let asked = self.free_joint(id)?;
+        if body.joint.parent.is_none() && matches!(asked.kind, AskedJoint::Free) {
             return Ok(None);
         }
         let center = self.frame_on_child(id).translation;
-        let placed = place(&free.axes, center, &free.values);
+        let placed = place(&asked.kind, center, &asked.values);
         let on = |body: Option<BodyId>, frame: Pose| body.map_or(frame, |b| self.pose(b).inverse() * frame);
         Ok(Some(TreeJoint {
             name: self.joint_name(body),
@@ -214,7 +212,7 @@ impl FigureAssembly<'_> {
     }
 
     fn joint_name(&self, body: &Body) -> String {
-        format!("{}/{}", self.entry.name, body.joint.name)
+        format!("{}/{}", self.asked.name, body.joint.name)
     }
 
     /// `world_from_body`, origin at the mass centre.
@@ -238,13 +236,13 @@ impl FigureAssembly<'_> {
             parent: parent.map(|p| self.first_body + p.index()),
             parent_from_joint: parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint,
             child_from_joint: center(id) * joint.child_from_joint,
-            kind: JointKind::Weld,
+            kind: crate::simulation::joint::JointKind::Weld,
             coordinates: Vec::new(),
             follows: Some(Follows { figure: self.figure, body: id.index(), parent: parent.map(BodyId::index) }),
         }
     }
 
-    /// The simulator's joint for a free joint of the model.
+    /// The simulator's joint that a joint of the model is.
     fn free_joint(&self, id: BodyId) -> Result<FreeJoint, SceneError> {
         let body = &self.model.bodies()[id.index()];
         let joint = &body.joint;
@@ -260,25 +258,25 @@ impl FigureAssembly<'_> {
             frame *= rotation(&(axis.direction * self.value(&axis.displacement)));
         }
         let square = |a: &Axis, b: &Axis| a.direction.dot(&b.direction).abs() <= SQUARE_SLACK;
-        let (axes, values) = match (&turns[..], &slides[..]) {
-            ([a], []) => (JointAxes::Revolute { axis: a.direction }, vec![a.value]),
-            ([], [a]) => (JointAxes::Prismatic { axis: a.direction }, vec![a.value]),
+        let (kind, values) = match (&turns[..], &slides[..]) {
+            ([a], []) => (AskedJoint::Revolute { axis: a.direction }, vec![a.value]),
+            ([], [a]) => (AskedJoint::Prismatic { axis: a.direction }, vec![a.value]),
             ([a, b], []) if square(a, b) => {
-                (JointAxes::Universal { axis: a.direction, second_axis: b.direction }, vec![a.value, b.value])
+                (AskedJoint::Universal { axis: a.direction, second_axis: b.direction }, vec![a.value, b.value])
             }
-            ([_, _, _], []) => (JointAxes::Ball, vec![0.0; 3]),
+            ([_, _, _], []) => (AskedJoint::Ball, vec![0.0; 3]),
             ([n], [a, b]) if square(n, a) && square(n, b) && square(a, b) => {
                 let sense = n.direction.cross(&a.direction).dot(&b.direction).signum();
-                let axes = JointAxes::Planar { normal: n.direction, along: a.direction };
-                (axes, vec![n.value, a.value, sense * b.value])
+                let kind = AskedJoint::Planar { normal: n.direction, along: a.direction };
+                (kind, vec![n.value, a.value, sense * b.value])
             }
-            ([_, _, _], [_, _, _]) => (JointAxes::Free, vec![0.0; 6]),
-            _ => return Err(self.unfit(body, "its motions differ from those of the simulator's joints")),
+            ([_, _, _], [_, _, _]) => (AskedJoint::Free, vec![0.0; 6]),
+            _ => return Err(self.unfit(body, "it turns or slides in another way than the simulator's joints")),
         };
-        Ok(FreeJoint { axes, values })
+        Ok(FreeJoint { kind, values })
     }
 
-    /// An axis that has a coordinate of its own, in the world; `None` for a fixed axis.
+    /// An axis that a coordinate of its own moves, in the world; none if it stays.
     fn moving(&self, body: &Body, axis: &JointAxis, frame: &Mat3) -> Result<Option<Axis>, SceneError> {
         let Displacement::Follows(id, function) = &axis.displacement else { return Ok(None) };
         if function.as_constant().is_some() {
@@ -304,18 +302,18 @@ impl FigureAssembly<'_> {
     }
 
     fn unfit(&self, body: &Body, why: &str) -> SceneError {
-        let place = Place { line: self.entry.line, key: format!("figure[{}]", self.number) };
+        let place = Place { line: self.asked.line, key: format!("figure[{}]", self.number) };
         let of_root = body.joint.parent.is_none();
         let advice = if of_root { "root = \"driven\"" } else { "drive all coordinates of the joint, or none" };
         let message = format!(
-            "found the joint `{}` of the model free to move, but {why}; expected a driven joint, or one that rotates about \
-             one axis, two perpendicular axes or three, translates along one axis, moves in a plane, or moves freely",
+            "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or turns about one \
+             axis, two square axes or three, slides along one, moves in a plane, or moves freely",
             body.joint.name
         );
         place.error(message).hint(advice)
     }
 
-    /// Refuses bodies that are free to move but carry no mass.
+    /// What nothing resists has no motion under forces.
     fn refuse_massless(&self, world: &World) -> Result<(), SceneError> {
         let bodies = self.model.bodies();
         let mut carried: Vec<f64> = bodies.iter().map(|body| body.inertia.mass()).collect();
@@ -328,7 +326,7 @@ impl FigureAssembly<'_> {
             let joint = world.joints.iter().find(|joint| joint.child == self.first_body + i);
             let free = joint.is_none_or(|joint| joint.kind.freedom() > 0);
             if free && carried[i] <= 0.0 {
-                let place = Place { line: self.entry.line, key: format!("figure[{}]", self.number) };
+                let place = Place { line: self.asked.line, key: format!("figure[{}]", self.number) };
                 let found = format!("found the body `{}`, free to move and without mass", body.name);
                 return Err(place.error(found + "; expected a mass, its own or of what it carries"));
             }
@@ -337,15 +335,15 @@ impl FigureAssembly<'_> {
     }
 }
 
-/// Adds the contact spheres of a figure.
+/// Spheres that the scene adds to a figure.
 pub(super) fn add_spheres(
     world: &mut World,
-    entry: &FigureEntry,
+    asked: &Asked,
     number: usize,
     model: &Model,
     first_body: usize,
 ) -> Result<(), SceneError> {
-    for (k, sphere) in entry.spheres.iter().enumerate() {
+    for (k, sphere) in asked.spheres.iter().enumerate() {
         let key = format!("figure[{number}].sphere[{}]", k + 1);
         let Some(id) = model.body(&sphere.body) else {
             let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
@@ -364,10 +362,10 @@ pub(super) fn add_spheres(
     Ok(())
 }
 
-/// A free joint: its axes and initial values.
+/// A joint of the simulator, in the words of a scene.
 struct FreeJoint {
-    axes: JointAxes,
-    /// Initial values of its coordinates, in the order of scene files.
+    kind: AskedJoint,
+    /// Its coordinates at the start, in the order of scene files.
     values: Vec<f64>,
 }
 

@@ -1,25 +1,25 @@
-//! The results that a scene writes.
+//! Which results of a scene are kept.
 
+use super::SceneError;
 use super::names::{Item, Names};
-use crate::simulation::scene::SceneError;
 use crate::toml_reader::{Table, Value};
 
-/// The results that a scene writes and plots.
+/// Which results are kept, and drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outputs {
     /// Poses of the bodies.
     pub poses: bool,
-    /// Coordinates, efforts and reactions of the joints.
+    /// Coordinates, moments of drives and reactions of the joints.
     pub joints: bool,
     /// Contact points, forces, slip.
     pub contacts: bool,
     /// Energies, iterations, residual.
     pub energy: bool,
-    /// Curves to plot over time.
+    /// What is drawn over time.
     pub plots: Vec<Plot>,
 }
 
-/// A curve to plot over time.
+/// A curve over time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plot {
     /// Kinetic, potential and total energy.
@@ -28,19 +28,17 @@ pub enum Plot {
     Solver,
     /// The sum of the contact forces.
     Contacts,
-    /// Position of a body: index in [`SceneFile::bodies`](super::SceneFile::bodies).
+    /// Place of a body: index in [`SceneFile::bodies`](super::SceneFile::bodies).
     Body(usize),
-    /// Coordinates and efforts of a joint: index in [`SceneFile::joints`](super::SceneFile::joints).
+    /// Coordinates and moments of a joint: index in [`SceneFile::joints`](super::SceneFile::joints).
     Joint(usize),
     /// Force of a closure: index in [`SceneFile::closures`](super::SceneFile::closures).
     Closure(usize),
 }
 
-/// The two sets of names of a scene.
+/// Names by what they name: bodies, obstacles and figures; joints and closures.
 pub(super) struct AllNames<'n> {
-    /// Bodies, obstacles and figures.
     pub(super) things: &'n Names,
-    /// Joints and closures.
     pub(super) links: &'n Names,
 }
 

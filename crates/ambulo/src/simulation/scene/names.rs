@@ -1,10 +1,10 @@
-//! Names in a scene file and the entries that they refer to.
+//! Names of a scene and what they refer to.
 
-use crate::simulation::scene::SceneError;
+use super::SceneError;
 use crate::toml_reader::{Table, Value, listed, nearest};
 use std::collections::BTreeMap;
 
-/// What a joint or closure is attached to.
+/// What a joint or closure holds on to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Attachment {
     /// The world, which never moves.
@@ -20,7 +20,7 @@ pub enum Attachment {
     },
 }
 
-/// Something that can be in contact.
+/// What can touch something.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ContactPartner {
     /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
@@ -38,7 +38,7 @@ pub enum ContactPartner {
     },
 }
 
-/// The entry that a name refers to, with its index.
+/// What a name in the scene stands for, with its index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Item {
     Body(usize),
@@ -48,14 +48,14 @@ pub(super) enum Item {
     Closure(usize),
 }
 
-/// Names that must be unique.
+/// Names that must differ from each other.
 #[derive(Default)]
 pub(super) struct Names {
     items: BTreeMap<String, (Item, usize)>,
 }
 
 impl Names {
-    /// Reads the `name` of a table and registers it for an entry.
+    /// Reads the `name` of a table and notes what it stands for.
     pub(super) fn declare(&mut self, table: &Table<'_>, item: Item) -> Result<String, SceneError> {
         let value = table.need("name", "a name")?;
         let name = value.text()?;
@@ -65,16 +65,14 @@ impl Names {
             return Err(value.wrong(expected));
         }
         if let Some((_, line)) = self.items.get(name) {
-            let error = value.wrong(&format!("a unique name; line {line} has this one already"));
-            return Err(
-                error.hint("bodies, obstacles and figures share one set of names; joints and closures share another")
-            );
+            let error = value.wrong(&format!("a name of its own; this one stands in line {line} already"));
+            return Err(error.hint("bodies, obstacles and figures share their names, and so do joints and closures"));
         }
         self.items.insert(name.to_owned(), (item, value.line()));
         Ok(name.to_owned())
     }
 
-    /// As `declare`, after refusing unknown keys, so that a misspelt `name` is reported as an unknown key.
+    /// As `declare`, of a table that knows these keys only: a misspelt `name` is told as such.
     pub(super) fn declare_first(&mut self, table: &Table<'_>, keys: &[&str], item: Item) -> Result<String, SceneError> {
         table.only(&[keys])?;
         self.declare(table, item)
@@ -84,8 +82,8 @@ impl Names {
         self.items.get(name).map(|(item, _)| *item)
     }
 
-    /// What a joint or closure is attached to.
-    pub(super) fn attachment(&self, value: &Value<'_>) -> Result<Attachment, SceneError> {
+    /// What a joint or closure holds on to.
+    pub(super) fn carrier(&self, value: &Value<'_>) -> Result<Attachment, SceneError> {
         let name = value.text()?;
         if name == "world" {
             return Ok(Attachment::World);
@@ -108,8 +106,8 @@ impl Names {
         }
     }
 
-    /// Something that can be in contact.
-    pub(super) fn contact_partner(&self, value: &Value<'_>) -> Result<ContactPartner, SceneError> {
+    /// What can touch something.
+    pub(super) fn partner(&self, value: &Value<'_>) -> Result<ContactPartner, SceneError> {
         let name = value.text()?;
         if let Some((figure, body)) = self.figure_body(name) {
             return Ok(ContactPartner::FigureBody { figure, body });
@@ -130,7 +128,7 @@ impl Names {
         }
     }
 
-    /// The error for a name that refers to nothing, or to an entry of the wrong kind.
+    /// The error that a name stands for nothing, or for something else.
     pub(super) fn unfit(&self, value: &Value<'_>, name: &str, expected: &str, found: Option<Item>) -> SceneError {
         let error = value.wrong(expected);
         let kind = match found {
@@ -142,9 +140,7 @@ impl Names {
                 };
             }
             Some(Item::Body(_)) => "a body",
-            Some(Item::Obstacle(_)) => {
-                "an obstacle; joints attach to bodies. For a moving base, use a body on a driven joint"
-            }
+            Some(Item::Obstacle(_)) => "an obstacle; what joints hold on to is a body, if need be on a driven joint",
             Some(Item::Figure(_)) => "a figure; name one of its bodies as \"figure/body\"",
             Some(Item::Joint(_)) => "a joint",
             Some(Item::Closure(_)) => "a closure",

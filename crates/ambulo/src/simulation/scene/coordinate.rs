@@ -1,48 +1,69 @@
-//! Joint coordinates of scene files: springs, limits, motors, drives.
+//! What acts along a motion that a joint leaves: springs, limits, motors, drives.
 
+use super::SceneError;
 use super::body::BodyEntry;
-use super::time_function::{self, Purpose, TimeFunction};
-use crate::simulation::Spring;
-use crate::simulation::scene::SceneError;
+use super::function::{self, Purpose, TimeFunction};
+use super::joint::JointAxes;
 use crate::toml_reader::{Table, Value};
 
-/// One free motion of a joint, and what acts on it: angles [rad] and moments [N.m], or distances [m] and forces [N].
-#[derive(Debug, Clone)]
+/// One motion that a joint leaves. Angles [rad] and moments [N.m], or lengths [m] and forces [N].
+#[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateEntry {
     /// Line of its header; the joint's where it has none.
     pub line: usize,
-    /// Rotation or translation.
-    pub kind: CoordinateMotion,
-    /// Its value at the initial positions of the bodies. Not used with a `drive`, whose value at time zero counts.
+    /// Turn or slide.
+    pub kind: CoordinateKind,
+    /// What its value is called at the start, where the bodies stand as their positions say. Without meaning if `drive`
+    /// is: then it is the drive's value at time zero.
     pub start: f64,
-    /// Its initial rate [rad/s or m/s]. Not used if the child has its own velocity, or with a `drive`, whose rate at time zero
-    /// counts.
+    /// Its rate at the start [rad/s or m/s]. Without meaning if the child's own velocity is given, or if `drive` is: then
+    /// it is the drive's rate at time zero.
     pub rate: f64,
     /// A spring and damper.
     pub spring: Option<Spring>,
-    /// Lowest and highest value; the lowest is below the highest, and the start lies between.
-    pub limits: (Option<f64>, Option<f64>),
-    /// A proportional-derivative controller; never together with `drive`.
+    /// How far it goes.
+    pub limits: Option<Limits>,
+    /// A proportional and derivative controller; never beside `drive`.
     pub motor: Option<MotorEntry>,
-    /// A prescribed motion; its constraint force is the actuator's moment or force.
+    /// A prescribed motion; its multiplier is the actuator's moment or force.
     pub drive: Option<DriveEntry>,
     /// Largest moment or force of dry friction [N.m or N].
     pub friction: f64,
 }
 
-/// The motion that a coordinate measures.
+/// Whether a coordinate turns or slides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CoordinateMotion {
+pub enum CoordinateKind {
     /// An angle [rad].
     Rotation,
-    /// A distance [m].
+    /// A length [m].
     Translation,
 }
 
-/// A motor: moment or force stiffness (target - value) + damping (target rate - rate), limited to `max`.
-#[derive(Debug, Clone)]
+/// Moment or force -stiffness (value - rest) - damping rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// [N.m/rad or N/m], zero or more.
+    pub stiffness: f64,
+    /// [N.m.s/rad or N.s/m], zero or more.
+    pub damping: f64,
+    /// Value without force.
+    pub rest: f64,
+}
+
+/// Lower is below upper, and the start between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Minus infinity if there is none.
+    pub lower: f64,
+    /// Infinity if there is none.
+    pub upper: f64,
+}
+
+/// Moment or force stiffness (target - value) + damping (target's rate - rate), cut at `max`.
+#[derive(Debug, Clone, PartialEq)]
 pub struct MotorEntry {
-    /// Target value.
+    /// Where it wants to be.
     pub target: TimeFunction,
     /// [N.m/rad or N/m], zero or more.
     pub stiffness: f64,
@@ -53,12 +74,12 @@ pub struct MotorEntry {
 }
 
 /// A prescribed motion.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DriveEntry {
-    /// The value over time.
+    /// Value over time.
     pub function: TimeFunction,
-    /// Largest moment or force [N.m or N]; `None` if not limited.
-    pub max: Option<f64>,
+    /// Largest moment or force [N.m or N]; infinity if not limited.
+    pub max: f64,
 }
 
 pub(super) const KEYS: &[&str] = &[
@@ -75,51 +96,52 @@ pub(super) const KEYS: &[&str] = &[
     "friction",
 ];
 
-impl CoordinateMotion {
-    /// Reads a number: `key_deg` or `key` for a rotation, `key` for a translation.
+impl CoordinateKind {
+    /// Reads a plain value: `key_deg` or `key` for a turn, `key` for a slide.
     fn value(self, table: &Table<'_>, key: &str) -> Result<Option<f64>, SceneError> {
-        if self == CoordinateMotion::Rotation {
+        if self == CoordinateKind::Rotation {
             return table.angle(key);
         }
         if let Some(value) = table.get(&format!("{key}_deg")) {
-            return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate is a distance, not an angle"));
+            return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate slides, it does not turn"));
         }
         table.get(key).map(|value| value.number()).transpose()
     }
 
     fn purpose(self, duration_s: f64) -> Purpose {
-        Purpose { duration_s, angle: self == CoordinateMotion::Rotation }
+        Purpose { duration_s, angle: self == CoordinateKind::Rotation }
     }
 }
 
 impl CoordinateEntry {
-    /// All coordinates of a joint; those missing in the file are free.
+    /// All coordinates of a joint; those that the file leaves out are free.
     pub(super) fn read_all(
         joint: &Table<'_>,
-        kinds: &[CoordinateMotion],
+        kind: JointAxes,
         child: &BodyEntry,
         duration_s: f64,
     ) -> Result<Vec<CoordinateEntry>, SceneError> {
+        let kinds = kind.coordinates();
         let tables = joint.tables("coordinate")?;
         if let Some(table) = tables.get(kinds.len()) {
             let found = format!("found coordinate {}; expected at most {}", kinds.len() + 1, kinds.len());
-            return Err(table.wrong(found).hint("docs/SCENES.md lists the coordinates of each kind of joint"));
+            return Err(table.wrong(found).hint("docs/SCENES.md tells which motions each kind of joint leaves"));
         }
-        let read = |(i, kind): (usize, &CoordinateMotion)| match tables.get(i) {
+        let read = |(i, kind): (usize, &CoordinateKind)| match tables.get(i) {
             Some(table) => CoordinateEntry::read(table, *kind, child, duration_s),
             None => Ok(CoordinateEntry::free(joint.line, *kind)),
         };
         kinds.iter().enumerate().map(read).collect()
     }
 
-    fn free(line: usize, kind: CoordinateMotion) -> CoordinateEntry {
-        let (spring, limits, motor, drive) = (None, (None, None), None, None);
+    fn free(line: usize, kind: CoordinateKind) -> CoordinateEntry {
+        let (spring, limits, motor, drive) = (None, None, None, None);
         CoordinateEntry { line, kind, start: 0.0, rate: 0.0, spring, limits, motor, drive, friction: 0.0 }
     }
 
     fn read(
         table: &Table<'_>,
-        kind: CoordinateMotion,
+        kind: CoordinateKind,
         child: &BodyEntry,
         duration_s: f64,
     ) -> Result<CoordinateEntry, SceneError> {
@@ -129,24 +151,24 @@ impl CoordinateEntry {
         Ok(coordinate)
     }
 
-    /// Reads the keys of a coordinate and ignores other keys. Limits must contain the start if it is known.
+    /// Reads the keys of a coordinate; other keys are not looked at. Limits must hold the start if it is known.
     pub(super) fn read_acting(
         table: &Table<'_>,
-        kind: CoordinateMotion,
-        knows_start: bool,
+        kind: CoordinateKind,
+        start_is_known: bool,
         duration_s: f64,
     ) -> Result<CoordinateEntry, SceneError> {
         let drive = drive(table, kind, duration_s)?;
         refuse_beside_drive(table, drive.is_some())?;
         let start = kind.value(table, "start")?.unwrap_or(0.0);
-        let known_start = (drive.is_none() && knows_start).then_some(start);
+        let unchecked = drive.is_some() || !start_is_known;
         Ok(CoordinateEntry {
             line: table.line,
             kind,
             start,
             rate: kind.value(table, "rate")?.unwrap_or(0.0),
             spring: table.get("spring").map(|value| spring(&value, kind)).transpose()?,
-            limits: table.get("limits").map_or(Ok((None, None)), |value| limits(&value, kind, known_start))?,
+            limits: table.get("limits").map(|value| limits(&value, kind, start, unchecked)).transpose()?,
             motor: table.get("motor").map(|value| motor(&value, kind, duration_s)).transpose()?,
             drive,
             friction: table.zero_or_more_or("friction", 0.0)?,
@@ -154,40 +176,39 @@ impl CoordinateEntry {
     }
 }
 
-/// Refuses keys that could contradict a drive.
+/// What is said twice could contradict itself.
 fn refuse_beside_drive(table: &Table<'_>, driven: bool) -> Result<(), SceneError> {
     let keys = ["start_deg", "start", "rate_deg", "rate", "motor"];
     match keys.iter().find_map(|key| table.get(key)).filter(|_| driven) {
         Some(value) => {
-            let expected = "no such key together with a drive";
-            Err(value.wrong(expected).hint("the drive gives value and rate at time zero"))
+            let expected = "no such key beside a drive";
+            Err(value.wrong(expected).hint("the drive's own value and rate at time zero hold"))
         }
         None => Ok(()),
     }
 }
 
-/// Refuses an initial rate if the child has its own velocity.
 fn refuse_rates_twice(table: &Table<'_>, child: &BodyEntry) -> Result<(), SceneError> {
     let own = child.velocity.is_some() || child.angular_velocity.is_some();
     match ["rate_deg", "rate"].iter().find_map(|key| table.get(key)).filter(|_| own) {
         Some(value) => {
             let expected = format!("no rate, as body \"{}\" has its own velocity (line {})", child.name, child.line);
-            Err(value.wrong(&expected).hint("remove one of them"))
+            Err(value.wrong(&expected).hint("take one of them away"))
         }
         None => Ok(()),
     }
 }
 
-fn drive(table: &Table<'_>, kind: CoordinateMotion, duration_s: f64) -> Result<Option<DriveEntry>, SceneError> {
-    let function = time_function::either_unit(table, "drive", kind.purpose(duration_s))?;
-    let max = table.get("drive_max").map(|value| value.above_zero()).transpose()?;
-    match (function, max) {
+fn drive(table: &Table<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Option<DriveEntry>, SceneError> {
+    let function = function::either_unit(table, "drive", kind.purpose(duration_s))?;
+    let max = table.above_zero_or("drive_max", f64::INFINITY)?;
+    match (function, table.get("drive_max")) {
         (None, Some(_)) => Err(table.missing("drive", "the motion that `drive_max` limits")),
         (function, _) => Ok(function.map(|function| DriveEntry { function, max })),
     }
 }
 
-fn spring(value: &Value<'_>, kind: CoordinateMotion) -> Result<Spring, SceneError> {
+fn spring(value: &Value<'_>, kind: CoordinateKind) -> Result<Spring, SceneError> {
     let table = value.table("{ stiffness = …, damping = 0, rest_deg = 0 }")?;
     table.only(&[&["stiffness", "damping", "rest_deg", "rest"]])?;
     if table.get("stiffness").is_none() && table.get("damping").is_none() {
@@ -200,37 +221,36 @@ fn spring(value: &Value<'_>, kind: CoordinateMotion) -> Result<Spring, SceneErro
     })
 }
 
-/// Reads limits; they must contain the start if it is known.
-fn limits(
-    value: &Value<'_>,
-    kind: CoordinateMotion,
-    start: Option<f64>,
-) -> Result<(Option<f64>, Option<f64>), SceneError> {
+fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, unchecked: bool) -> Result<Limits, SceneError> {
     let table = value.table("{ lower_deg = …, upper_deg = … }")?;
     table.only(&[&["lower_deg", "lower", "upper_deg", "upper"]])?;
-    let limits = (kind.value(&table, "lower")?, kind.value(&table, "upper")?);
-    let range = match limits {
-        (None, None) => return Err(value.wrong("a lower limit, an upper limit, or both")),
-        (lower, upper) => lower.unwrap_or(f64::NEG_INFINITY)..=upper.unwrap_or(f64::INFINITY),
-    };
-    if range.start() >= range.end() {
+    let (lower, upper) = (kind.value(&table, "lower")?, kind.value(&table, "upper")?);
+    if lower.is_none() && upper.is_none() {
+        return Err(value.wrong("a lower limit, an upper limit, or both"));
+    }
+    let limits = Limits { lower: lower.unwrap_or(f64::NEG_INFINITY), upper: upper.unwrap_or(f64::INFINITY) };
+    if limits.lower >= limits.upper {
         return Err(value.wrong("a lower limit below the upper one"));
     }
-    if start.is_some_and(|start| !range.contains(&start)) {
+    if !unchecked && !(limits.lower..=limits.upper).contains(&start) {
         let error = value.wrong("limits around the value at the start");
-        return Err(error.hint("`start_deg` (or `start`) is the value at the bodies' initial positions; default 0"));
+        return Err(
+            error.hint("`start_deg` (or `start`) says what the value is called where the bodies stand; default 0")
+        );
     }
     Ok(limits)
 }
 
-fn motor(value: &Value<'_>, kind: CoordinateMotion, duration_s: f64) -> Result<MotorEntry, SceneError> {
+fn motor(value: &Value<'_>, kind: CoordinateKind, duration_s: f64) -> Result<MotorEntry, SceneError> {
     let table = value.table("{ target_deg = …, stiffness = …, damping = 0 }")?;
     table.only(&[&["target_deg", "target", "stiffness", "damping", "max"]])?;
-    let target = time_function::either_unit(&table, "target", kind.purpose(duration_s))?;
-    let key = if kind == CoordinateMotion::Rotation { "target_deg" } else { "target" };
+    let target = function::either_unit(&table, "target", kind.purpose(duration_s))?;
+    let key = if kind == CoordinateKind::Rotation { "target_deg" } else { "target" };
     Ok(MotorEntry {
-        target: target.ok_or_else(|| table.missing(key, "the target of the motor"))?,
-        stiffness: table.need("stiffness", "the moment per radian, or the force per metre")?.zero_or_more()?,
+        target: target.ok_or_else(|| table.missing(key, "where the motor wants to be"))?,
+        stiffness: table
+            .need("stiffness", "the moment for each radian, or the force for each metre")?
+            .zero_or_more()?,
         damping: table.zero_or_more_or("damping", 0.0)?,
         max: table.above_zero_or("max", f64::INFINITY)?,
     })

@@ -1,23 +1,23 @@
-//! Figures of scene files that the program builds: size, walk, arms, shoes and joints.
+//! Figures that the program builds itself: size, walk, arms, and what acts on their joints.
 
-use super::coordinate::{CoordinateEntry, CoordinateMotion};
-use super::material::{self, MaterialEntry};
+use super::SceneError;
+use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::material::MaterialEntry;
 use crate::gait::Gait;
 use crate::model::anthropometry::{Build, Human, SegmentTable};
-use crate::model::{CoordinateId, CoordinateKind, Side};
-use crate::simulation::scene::SceneError;
-use crate::toml_reader::{Place, Table, Value, with_causes};
+use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
+use crate::toml_reader::{Place, Table, Value};
 
-/// A planar figure of [`crate::model::anthropometry`]. It moves in the upright plane through its place.
-#[derive(Debug, Clone)]
+/// A figure of [`crate::model::anthropometry`], planar, on its own plane through `at`.
+#[derive(Debug, Clone, PartialEq)]
 pub struct BuiltFigure {
-    /// Position of `build` in the scene file.
+    /// Where `build` stands.
     pub place: Place,
-    /// Segment table, mass and height.
+    /// Table, mass, height.
     pub build: Build,
-    /// Its walk; `None` stands upright.
+    /// How it walks; `None` stands upright.
     pub walk: Option<WalkEntry>,
-    /// Abduction of the right and the left arm.
+    /// How the right and the left arm are held sideways.
     pub arms: [ArmEntry; 2],
     /// Material of the soles, an index in [`SceneFile::materials`](super::SceneFile::materials); `None`: soft shoes.
     pub shoes: Option<usize>,
@@ -25,77 +25,77 @@ pub struct BuiltFigure {
     pub coordinates: Vec<BuiltCoordinate>,
 }
 
-/// Abduction of an arm.
+/// How an arm is held sideways.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ArmEntry {
-    /// Abduction angle [rad].
+    /// Angle away from the trunk [rad].
     pub abduction: f64,
-    /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring that holds the angle; `None` if the angle is fixed.
+    /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring that holds it there; `None`: it is fixed.
     pub spring: Option<[f64; 2]>,
 }
 
-/// The walk of a figure.
+/// A walk as asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WalkEntry {
-    /// Position in the scene file.
+    /// Where it stands.
     pub place: Place,
     /// Name of a built-in gait, or the path of a gait file.
     pub gait: GaitSource,
-    /// Speed [m/s]; `None` is the gait's own.
+    /// Speed in place of the gait's own [m/s].
     pub speed: Option<f64>,
-    /// How the joint curves are used.
+    /// What becomes of the curves.
     pub mode: FigureWalkMode,
-    /// Phase at the start: share of the cycle since a strike of the right foot.
+    /// Share of the cycle, from a strike of the right foot, at which the scene begins.
     pub phase: f64,
 }
 
-/// Source of a gait.
+/// Where a gait comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GaitSource {
-    /// Name of a built-in gait.
+    /// A built-in one.
     Named(String),
-    /// Path of a gait file, relative to the scene.
+    /// A file, its path relative to the scene.
     File(String),
 }
 
-/// How the joint curves of a gait are used.
+/// What becomes of the curves of a gait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureWalkMode {
-    /// Changed as little as dynamic consistency needs ([`crate::simulation::consistent_walk`]).
+    /// Changed as little as the ground's forces demand ([`crate::simulation::consistent_walk`]).
     Corrected,
-    /// Followed without change.
+    /// Followed as they are.
     Curves,
 }
 
-/// A coordinate of a built figure with its own actuation.
-#[derive(Debug, Clone)]
+/// A coordinate that does something of its own.
+#[derive(Debug, Clone, PartialEq)]
 pub struct BuiltCoordinate {
     /// Line of its header.
     pub line: usize,
-    /// Name of the coordinate in the figure's model.
+    /// Which one of the figure's model.
     pub name: String,
-    /// What acts on the coordinate.
+    /// What acts on it.
     pub acting: CoordinateEntry,
-    /// Whether initial value and initial rate are given; otherwise they are the walk's.
+    /// Whether value and rate at the start are given; else they are the walk's.
     pub starts: [bool; 2],
-    /// A motor that tracks the walk.
+    /// A motor whose target is the walk.
     pub follow: Option<WalkTracking>,
 }
 
-/// A motor that tracks the walk: moment stiffness (walk - value) + damping (walk's rate - rate), limited to `max`.
+/// Moment stiffness (walk - value) + damping (walk's rate - rate), cut at `max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WalkTracking {
-    /// Stiffness [N.m/rad], zero or more.
+    /// [N.m/rad], zero or more.
     pub stiffness: f64,
-    /// Damping [N.m.s/rad], zero or more.
+    /// [N.m.s/rad], zero or more.
     pub damping: f64,
-    /// Largest moment [N.m]; infinity if not limited.
+    /// [N.m]; infinity if not limited.
     pub max: f64,
 }
 
 /// Keys of a built figure.
 pub(super) const KEYS: &[&str] = &["name", "build", "walk", "arms", "shoes", "coordinate", "at", "rotation", "sphere"];
-/// Largest abduction of an arm [rad].
+/// Arms farther from the trunk than this are slips [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
 impl BuiltFigure {
@@ -106,6 +106,10 @@ impl BuiltFigure {
         duration_s: f64,
     ) -> Result<BuiltFigure, SceneError> {
         let (build, human) = build(value)?;
+        let shoes = table.get("shoes").map(|value| {
+            let words: Vec<(&str, usize)> = materials.iter().enumerate().map(|(i, m)| (m.name.as_str(), i)).collect();
+            value.choice(&words)
+        });
         let own = |entry: &Table<'_>| BuiltCoordinate::read(entry, &human, table.get("walk").is_some(), duration_s);
         let coordinates = table.tables("coordinate")?.iter().map(own).collect::<Result<Vec<_>, _>>()?;
         refuse_repeated(&coordinates, table)?;
@@ -114,7 +118,7 @@ impl BuiltFigure {
             build,
             walk: table.get("walk").map(|value| WalkEntry::read(&value)).transpose()?,
             arms: arms(table)?,
-            shoes: material::index_under(table, "shoes", materials)?,
+            shoes: shoes.transpose()?,
             coordinates,
         })
     }
@@ -125,12 +129,12 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     table.only(&[&["table", "mass", "height", "toe_joint"]])?;
     let words = SegmentTable::ALL.map(|segments| (segments.name(), segments));
     let build = Build {
-        table: table.need("table", "the segment table, such as \"de-leva-female\"")?.choice(&words)?,
+        table: table.need("table", "whose segments, such as \"de-leva-female\"")?.choice(&words)?,
         mass: table.need("mass", "the body mass [kg]")?.above_zero()?,
         height: table.need("height", "the stature [m]")?.above_zero()?,
         toe_joint: table.truth_or("toe_joint", true)?,
     };
-    let human = build.human().map_err(|e| value.place().error(with_causes(&e)))?;
+    let human = build.human().map_err(|e| value.place().error(super::sources::chain(&e)))?;
     Ok((build, human))
 }
 
@@ -150,7 +154,7 @@ impl ArmEntry {
         if let Some((value, unit)) = table.either_unit("abduction")? {
             arm.abduction = value.number()? * unit;
             if !(0.0..=MOST_ABDUCTION).contains(&arm.abduction) {
-                return Err(value.wrong("an abduction angle from 0 to 90 degrees"));
+                return Err(value.wrong("an angle away from the trunk, up to 90 degrees"));
             }
         }
         let damping = table.zero_or_more_or("damping", 0.0)?;
@@ -200,15 +204,15 @@ impl BuiltCoordinate {
             human.model.coordinate_ids().map(|id| (human.model.coordinates()[id.index()].name.as_str(), id)).collect();
         let id = value.choice(&words)?;
         let kind = match human.model.coordinates()[id.index()].kind {
-            CoordinateKind::Translation => CoordinateMotion::Translation,
-            _ => CoordinateMotion::Rotation,
+            ModelKind::Translation => CoordinateKind::Translation,
+            _ => CoordinateKind::Rotation,
         };
         let given = |keys: [&str; 2]| keys.iter().any(|key| table.get(key).is_some());
         let starts = [given(["start", "start_deg"]), given(["rate", "rate_deg"])];
         let acting = CoordinateEntry::read_acting(table, kind, starts[0], duration_s)?;
         let follow = table.get("follow").map(|value| WalkTracking::read(&value)).transpose()?;
         if let (Some(value), true) = (table.get("follow"), acting.drive.is_some() || acting.motor.is_some()) {
-            return Err(value.wrong("no such key together with a drive or a motor"));
+            return Err(value.wrong("no such key beside a drive or a motor"));
         }
         if let (Some(value), false) = (table.get("follow"), walks) {
             return Err(value.wrong("no such key without a `walk` to follow"));
@@ -222,7 +226,7 @@ impl WalkTracking {
         let table = value.table("{ stiffness = …, damping = 0 }")?;
         table.only(&[&["stiffness", "damping", "max"]])?;
         Ok(WalkTracking {
-            stiffness: table.need("stiffness", "the moment per radian [N.m/rad]")?.zero_or_more()?,
+            stiffness: table.need("stiffness", "the moment for each radian [N.m/rad]")?.zero_or_more()?,
             damping: table.zero_or_more_or("damping", 0.0)?,
             max: table.above_zero_or("max", f64::INFINITY)?,
         })
@@ -234,7 +238,7 @@ fn refuse_repeated(coordinates: &[BuiltCoordinate], figure: &Table<'_>) -> Resul
         if let Some(earlier) = coordinates[..i].iter().find(|earlier| earlier.name == own.name) {
             let place = Place { line: own.line, key: format!("{}.coordinate[{}].name", figure.place().key, i + 1) };
             let line = earlier.line;
-            return Err(place.error(format!("found \"{}\" again; line {line} has it already", own.name)));
+            return Err(place.error(format!("found \"{}\" again; it stands in line {line} already", own.name)));
         }
     }
     Ok(())

@@ -1,53 +1,69 @@
-//! Obstacles of scene files, which forces do not move: floors, walls, terrain, solids on a prescribed path.
+//! What forces never move: floors, walls, terrain, and things on rails.
 
+use super::SceneError;
+use super::function::{self, Purpose, TimeFunction};
 use super::material::{self, MaterialEntry};
 use super::names::{Item, Names};
-use super::shape::{SOLID_WORDS, SolidWord};
-use super::time_function::{self, Purpose, TimeFunction};
-use crate::contact::Shape;
-use crate::simulation::joint::rotation;
-use crate::simulation::scene::SceneError;
-use crate::spatial::{Mat3, Pose, Vec3};
+use super::shape::{self, Solid};
+use crate::spatial::{Pose, Vec3};
 use crate::toml_reader::{Table, Value};
-use std::f64::consts::PI;
 
-/// A solid that forces do not move.
-#[derive(Debug, Clone)]
+/// Something that forces never move.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleEntry {
-    /// Name, unique among bodies, obstacles and figures.
+    /// Name, its own among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// Its shape.
-    pub shape: Shape,
-    /// `obstacle_from_shape`.
-    pub obstacle_from_shape: Pose,
-    /// `world_from_obstacle` before its motion.
+    /// What it is, in its own frame.
+    pub shape: ObstacleShape,
+    /// `world_from_obstacle`, before its motion.
     pub pose: Pose,
     /// Index in [`SceneFile::materials`](super::SceneFile::materials).
     pub material: usize,
-    /// Prescribed motion, if any.
-    pub motion: Option<ObstacleMotionEntry>,
+    /// How it moves, if it does.
+    pub motion: Option<ObstacleMotion>,
+}
+
+/// The shape of an obstacle in its own frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ObstacleShape {
+    /// A solid.
+    Solid(Solid),
+    /// The half-space below a plane through the origin.
+    Plane {
+        /// Unit normal, out of the ground.
+        normal: Vec3,
+    },
+    /// Ground with a height at each point of a grid, about the origin.
+    HeightField {
+        /// Heights along y [m]: at least two rows of at least two, all as long; rows run along x, the first at -z/2.
+        heights: Vec<Vec<f64>>,
+        /// Whole length along x [m].
+        size_x: f64,
+        /// Whole length along z [m].
+        size_z: f64,
+    },
 }
 
 /// A prescribed motion: `world_from_obstacle(t)` = (`pose` turned by `angle` about `axis` through its own origin, then
 /// moved by `displacement`).
-#[derive(Debug, Clone)]
-pub struct ObstacleMotionEntry {
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObstacleMotion {
     /// Line of its header.
     pub line: usize,
-    /// Displacement along world x, y, z [m].
+    /// Along world x, y, z [m].
     pub displacement: [TimeFunction; 3],
-    /// Axis of rotation, a unit vector of the world.
+    /// Unit direction in the world.
     pub axis: Vec3,
-    /// Angle about `axis` [rad].
+    /// About `axis` [rad].
     pub angle: TimeFunction,
 }
 
-/// The shapes of obstacles in scene files.
+/// The kinds of obstacle, by their word.
 #[derive(Clone, Copy)]
-enum ShapeWord {
-    Solid(SolidWord),
+enum Word {
+    Solid(shape::Word),
     Plane,
     HeightField,
 }
@@ -74,12 +90,10 @@ impl ObstacleEntry {
         materials: &[MaterialEntry],
         duration_s: f64,
     ) -> Result<ObstacleEntry, SceneError> {
-        let (shape, obstacle_from_shape) = shape(table)?;
         Ok(ObstacleEntry {
             name,
             line: table.line,
-            shape,
-            obstacle_from_shape,
+            shape: shape(table)?,
             pose: table.pose("at")?,
             material: material::of_shape(table, materials)?,
             motion: table.get("motion").map(|value| motion(&value, duration_s)).transpose()?,
@@ -87,29 +101,29 @@ impl ObstacleEntry {
     }
 }
 
-fn shape(table: &Table<'_>) -> Result<(Shape, Pose), SceneError> {
-    let mut words: Vec<(&str, ShapeWord)> = vec![("plane", ShapeWord::Plane), ("height-field", ShapeWord::HeightField)];
-    words.extend(SOLID_WORDS.map(|(text, word)| (text, ShapeWord::Solid(word))));
+fn shape(table: &Table<'_>) -> Result<ObstacleShape, SceneError> {
+    let mut words: Vec<(&str, Word)> = vec![("plane", Word::Plane), ("height-field", Word::HeightField)];
+    words.extend(shape::WORDS.map(|(text, word)| (text, Word::Solid(word))));
     match table.need("kind", "the kind of obstacle, such as \"plane\" or \"box\"")?.choice(&words)? {
-        ShapeWord::Solid(word) => {
+        Word::Solid(word) => {
             table.only(&[KEYS, word.keys()])?;
-            word.read(table).map(|shape| (shape, Pose::IDENTITY))
+            Solid::read(word, table).map(ObstacleShape::Solid)
         }
-        ShapeWord::Plane => {
+        Word::Plane => {
             table.only(&[KEYS, &["normal"]])?;
             let normal = table.get("normal").map_or(Ok(Vec3::y()), |value| value.direction())?;
-            Ok((Shape::half_space(), Pose { rotation: turning_y_to(&normal), translation: Vec3::zeros() }))
+            Ok(ObstacleShape::Plane { normal })
         }
-        ShapeWord::HeightField => {
+        Word::HeightField => {
             table.only(&[KEYS, &["heights", "size"]])?;
-            height_field(table).map(|shape| (shape, Pose::IDENTITY))
+            height_field(table)
         }
     }
 }
 
-fn height_field(table: &Table<'_>) -> Result<Shape, SceneError> {
+fn height_field(table: &Table<'_>) -> Result<ObstacleShape, SceneError> {
     let value = table.need("heights", "rows of heights [m]")?;
-    let expected = "at least two rows of at least two heights [m], all of one length";
+    let expected = "at least two rows of at least two heights [m], all rows as long";
     let row = |row: Value<'_>| row.list("a row of heights [m]")?.iter().map(|height| height.number()).collect();
     let rows: Result<Vec<Vec<f64>>, SceneError> = value.list(expected)?.into_iter().map(row).collect();
     let heights = rows?;
@@ -121,44 +135,32 @@ fn height_field(table: &Table<'_>) -> Result<Shape, SceneError> {
     let expected = "two lengths [x, z] above zero";
     let lengths: Result<Vec<f64>, _> = size.list(expected)?.iter().map(|length| length.above_zero()).collect();
     let [size_x, size_z]: [f64; 2] = lengths?.try_into().map_err(|_| size.wrong(expected))?;
-    let field = Shape::height_field(heights.len(), columns, &heights.concat(), size_x, size_z);
-    field.map_err(|e| table.place().error(e.to_string()))
+    Ok(ObstacleShape::HeightField { heights, size_x, size_z })
 }
 
-fn motion(value: &Value<'_>, duration_s: f64) -> Result<ObstacleMotionEntry, SceneError> {
+fn motion(value: &Value<'_>, duration_s: f64) -> Result<ObstacleMotion, SceneError> {
     let table = value.table("a table: displacement = [x, y, z], axis = [x, y, z], angle_deg = …")?;
     table.only(&[&["displacement", "axis", "angle_deg", "angle"]])?;
-    let angle = time_function::either_unit(&table, "angle", Purpose { duration_s, angle: true })?;
+    let angle = function::either_unit(&table, "angle", Purpose { duration_s, angle: true })?;
     let axis = match (&angle, table.get("axis")) {
         (_, Some(value)) => value.direction()?,
         (Some(_), None) => return Err(table.missing("axis", "the direction to turn about, in the world")),
         (None, None) => Vec3::y(),
     };
-    Ok(ObstacleMotionEntry {
+    Ok(ObstacleMotion {
         line: table.line,
         displacement: displacement(&table, duration_s)?,
         axis,
-        angle: angle.unwrap_or(TimeFunction::constant(0.0)),
+        angle: angle.unwrap_or(TimeFunction::Constant(0.0)),
     })
 }
 
 fn displacement(table: &Table<'_>, duration_s: f64) -> Result<[TimeFunction; 3], SceneError> {
-    let still = || TimeFunction::constant(0.0);
+    let still = || TimeFunction::Constant(0.0);
     let Some(value) = table.get("displacement") else { return Ok([still(), still(), still()]) };
     let expected = "three functions [x, y, z] [m]; 0 where it does not move";
     let purpose = Purpose { duration_s, angle: false };
     let read = |entry: &Value<'_>| TimeFunction::read(entry, 1.0, purpose);
     let functions: Result<Vec<TimeFunction>, _> = value.list(expected)?.iter().map(read).collect();
     functions?.try_into().map_err(|_| value.wrong(expected))
-}
-
-/// The shortest rotation that takes y to a unit vector.
-fn turning_y_to(normal: &Vec3) -> Mat3 {
-    let across = Vec3::y().cross(normal);
-    let angle = across.norm().atan2(normal.y);
-    match across.try_normalize(f64::MIN_POSITIVE) {
-        Some(axis) => rotation(&(axis * angle)),
-        None if normal.y < 0.0 => rotation(&(Vec3::x() * PI)),
-        None => Mat3::identity(),
-    }
 }

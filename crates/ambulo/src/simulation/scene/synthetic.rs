@@ -1,63 +1,57 @@
-//! Built figures of a scene in the world: every coordinate of the model is a joint coordinate.
+//! Built figures as the simulator has them: every coordinate of the model is one of a joint.
 //!
-//! The root moves in the upright plane through the figure's place. Forward and vertical motion are free; the rotation, which holds
-//! the trunk, is driven as in section 4.1 of Faure, Debunne, Cani, Multon 1997. The joint's reaction keeps the figure in its plane.
+//! The root moves in the plane through the figure's place: forward and up freely, its turn, which holds the trunk, driven as
+//! in section 4.1 of Faure, Debunne, Cani, Multon 1997. What keeps the figure in its plane is the joint's reaction.
 
-use super::input_files::InputFiles;
-use super::model_figure::{Placed, PlacedFigure, add_spheres};
+use super::build::acting;
+use super::built::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+use super::figure::FigureEntry as Asked;
+use super::sources::{InputFiles, chain};
+use super::walk_keeper::FigureRecorder;
+use super::walker::{Placed, PlacedFigure, add_spheres};
+use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
 use crate::kinematics::{BodyMotion, Posture, body_motion};
-use crate::model::anthropometry::{Build, Human};
+use crate::model::anthropometry::Human;
 use crate::model::{
     self, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Function, JointAxis, Marker, Model,
     ModelError, Side,
 };
 use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, SOFT_SHOES, make_consistent_walk};
 use crate::simulation::joint::{JointKind, rotation};
-use crate::simulation::scene::SceneError;
-use crate::simulation::scene::figure_recorder::FigureRecorder;
-use crate::simulation::scene::file::{
-    BuiltCoordinate, BuiltFigure, FigureEntry, FigureWalkMode, GaitSource, WalkEntry, WalkTracking,
-};
 use crate::simulation::signal::Signal;
 use crate::simulation::world::{
     ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Owner, RigidBody, Spring, Surface, TreeJoint,
     World,
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
-use crate::toml_reader::with_causes;
 
-/// Position of the grip between the wrist (0) and the tip of the fingers (1).
+/// Where a hand grips, from the wrist to the tip of the fingers.
 const GRIP: f64 = 0.5;
 
-/// Walks that were corrected for figures of the scene; other figures of the same build, gait and speed share them.
-#[derive(Default)]
-pub(super) struct CorrectedWalks(Vec<(Build, GaitSource, Option<f64>, ConsistentWalk)>);
-
-/// The motion of all coordinates, and their initial values and rates.
+/// A motion of all coordinates, and how the scene finds it.
 struct Motion {
     signals: Vec<Signal>,
-    /// Initial coordinates and rates.
+    /// Coordinates and their rates at the start.
     start: [Vec<f64>; 2],
 }
 
 /// Adds a figure to the world.
 pub(super) fn add(
     world: &mut World,
-    entry: &FigureEntry,
+    asked: &Asked,
     built: &BuiltFigure,
     number: usize,
-    files: &mut InputFiles<'_, '_>,
-    corrected: &mut CorrectedWalks,
+    sources: &mut InputFiles<'_, '_>,
 ) -> Result<(PlacedFigure, Option<FigureRecorder>), SceneError> {
-    let wrong = |e: &dyn std::error::Error| built.place.error(with_causes(e));
+    let wrong = |e: &dyn std::error::Error| built.place.error(chain(e));
     let mut human = built.build.human().map_err(|e| wrong(&e))?;
     let mut motion = match &built.walk {
-        Some(walk) => walking(walk, &human, files, corrected)?,
+        Some(walk) => walking(walk, &human, sources)?,
         None => standing(&human.model),
     };
-    human.model = placed_model(&human, entry, built).map_err(|e| wrong(&e))?;
+    human.model = placed_model(&human, asked, built).map_err(|e| wrong(&e))?;
     for coordinate in &human.model.coordinates()[motion.signals.len()..] {
         motion.signals.push(Signal::Constant(coordinate.default_value));
         motion.start[0].push(coordinate.default_value);
@@ -71,66 +65,61 @@ pub(super) fn add(
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
     let mut placed = vec![Placed { body: first_body, coordinate: 0 }; model.coordinates().len()];
     for id in model.body_ids() {
-        world.bodies.push(body(entry, model, id, &motions[id.index()]));
+        world.bodies.push(body(asked, model, id, &motions[id.index()]));
         let coordinates = coordinates_of(model, id);
         for (k, coordinate) in coordinates.iter().enumerate() {
             placed[coordinate.index()] = Placed { body: first_body + id.index(), coordinate: k };
         }
-        let acting = |id: &CoordinateId| acting_on(built, model, *id, &motion.signals, files);
+        let acting = |id: &CoordinateId| acting_on(built, number, model, *id, &motion.signals, sources);
         let acting = coordinates.iter().map(acting).collect::<Result<Vec<_>, _>>()?;
-        world.joints.push(joint(entry, model, id, first_body, acting));
+        world.joints.push(joint(asked, model, id, first_body, acting));
     }
-    add_spheres(world, entry, number, model, first_body)?;
+    add_spheres(world, asked, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let keeper = built.walk.is_some().then(|| FigureRecorder::new(&entry.name, &human, placed.clone(), soles));
-    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: Some(placed) }, keeper))
+    let keeper = built.walk.is_some().then(|| FigureRecorder::new(&asked.name, &human, placed.clone(), soles));
+    Ok((PlacedFigure { figure, first_body, name: asked.name.clone(), placed: Some(placed) }, keeper))
 }
 
-/// Upright standing: every coordinate has its default value.
+/// Upright, every coordinate at its default.
 fn standing(model: &Model) -> Motion {
     let values: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let rest = vec![0.0; values.len()];
     Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest] }
 }
 
-fn walking(
-    entry: &WalkEntry,
-    human: &Human,
-    files: &mut InputFiles<'_, '_>,
-    CorrectedWalks(known): &mut CorrectedWalks,
-) -> Result<Motion, SceneError> {
+fn walking(asked: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
     let same =
-        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &entry.gait, &entry.speed);
-    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (entry.mode, known.iter().find(same)) {
-        return Ok(corrected(walk, &human.model, entry.phase));
+        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &asked.gait, &asked.speed);
+    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (asked.mode, sources.corrected.iter().find(same)) {
+        return Ok(corrected(walk, &human.model, asked.phase));
     }
-    let place = &entry.place;
-    let wrong = |e: &dyn std::error::Error| place.error(with_causes(e));
-    let mut gait = match &entry.gait {
+    let place = &asked.place;
+    let wrong = |e: &dyn std::error::Error| place.error(chain(e));
+    let mut gait = match &asked.gait {
         GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e))?,
         GaitSource::File(path) => {
-            let text = files.text(place, path)?;
-            Gait::from_toml(&text).map_err(|e| place.error(format!("{path}: {}", with_causes(&e))))?
+            let text = sources.text(place, path)?;
+            Gait::from_toml(&text).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
         }
     };
-    if let Some(speed) = entry.speed {
+    if let Some(speed) = asked.speed {
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     }
-    let walk = Walk::new(&gait, human.dimensions.leg_length, files.findings).map_err(|e| wrong(&e))?;
-    match entry.mode {
-        FigureWalkMode::Curves => Ok(along_curves(&walk, human, entry.phase)),
+    let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
+    match asked.mode {
+        FigureWalkMode::Curves => Ok(along_curves(&walk, human, asked.phase)),
         FigureWalkMode::Corrected => {
             let settings = ConsistentWalkSettings::default();
             let walk = make_consistent_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
-            let motion = corrected(&walk, &human.model, entry.phase);
-            known.push((human.build, entry.gait.clone(), entry.speed, walk));
+            let motion = corrected(&walk, &human.model, asked.phase);
+            sources.corrected.push((human.build, asked.gait.clone(), asked.speed, walk));
             Ok(motion)
         }
     }
 }
 
-/// The unchanged curves of the gait, with the lowest sole on the ground.
+/// The curves of the gait as they are, the lowest sole on the ground.
 fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     let model = &human.model;
     let coordinates = WalkCoordinates::of(model);
@@ -161,8 +150,8 @@ fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
     Motion { signals, start: [q, qd] }
 }
 
-/// Signals of a motion that repeats every cycle and begins at a phase, with initial coordinates, rates and accelerations. Signals of
-/// the root's translations are not used: forces move them.
+/// A motion that repeats every cycle as signals, begun at a phase; and coordinates, rates and accelerations at the start. Signals
+/// of the root's slides mean nothing: forces move them.
 fn sampled(
     model: &Model,
     cycle_s: f64,
@@ -182,13 +171,13 @@ fn sampled(
     (signals, posture)
 }
 
-/// The model at its place in the scene, with abducted arms and with markers at the grips of the hands.
-fn placed_model(human: &Human, entry: &FigureEntry, built: &BuiltFigure) -> Result<Model, ModelError> {
+/// The model on its place of the scene, arms held away from the trunk, with markers where the hands grip.
+fn placed_model(human: &Human, asked: &Asked, built: &BuiltFigure) -> Result<Model, ModelError> {
     let model = &human.model;
     let mut bodies = model.bodies().to_vec();
     let mut markers = model.markers().to_vec();
     for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
-        body.joint.parent_from_joint = entry.pose * body.joint.parent_from_joint;
+        body.joint.parent_from_joint = asked.pose * body.joint.parent_from_joint;
     }
     let mut coordinates = model.coordinates().to_vec();
     for ((side, arm), outwards) in Side::BOTH.into_iter().zip(built.arms).zip([-1.0, 1.0]) {
@@ -220,13 +209,13 @@ fn placed_model(human: &Human, entry: &FigureEntry, built: &BuiltFigure) -> Resu
     Model::new(model.name(), model.gravity(), bodies, coordinates, markers)
 }
 
-/// Initial values and rates that the scene file gives.
+/// Starts that the scene gives, or that drives of its own have.
 fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     for own in &built.coordinates {
         let Some(id) = model.coordinate(&own.name) else { continue };
         let [q, qd] = &mut motion.start;
         if own.starts[0] {
-            // Without a rate, at rest.
+            // At rest unless a rate is given.
             (q[id.index()], qd[id.index()]) = (own.acting.start, own.acting.rate);
         } else if own.starts[1] {
             qd[id.index()] = own.acting.rate;
@@ -234,17 +223,17 @@ fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     }
 }
 
-/// Name of the adduction coordinate; positive towards the trunk, as in OpenSim.
+/// Towards the trunk, as OpenSim counts.
 fn adduction_name(side: Side) -> String {
     format!("arm_add_{}", side.letter())
 }
 
-fn own_of<'a>(built: &'a BuiltFigure, model: &Model, id: CoordinateId) -> Option<&'a BuiltCoordinate> {
+fn own_of<'a>(built: &'a BuiltFigure, model: &Model, id: CoordinateId) -> Option<(usize, &'a BuiltCoordinate)> {
     let name = &model.coordinates()[id.index()].name;
-    built.coordinates.iter().find(|own| own.name == *name)
+    built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
 }
 
-/// Coordinates of a body's joint in the simulator's order: translations, then rotations.
+/// Coordinates of a body's joint in the simulator's order: slides, then turns.
 fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
     let joint = &model.bodies()[id.index()].joint;
     let of = |axes: &[JointAxis]| {
@@ -260,10 +249,11 @@ fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
 
 fn acting_on(
     built: &BuiltFigure,
+    number: usize,
     model: &Model,
     id: CoordinateId,
     signals: &[Signal],
-    files: &mut InputFiles<'_, '_>,
+    sources: &mut InputFiles<'_, '_>,
 ) -> Result<JointCoordinate, SceneError> {
     let signal = || signals[id.index()].clone();
     let slides = matches!(model.coordinates()[id.index()].kind, CoordinateKind::Translation);
@@ -275,21 +265,22 @@ fn acting_on(
             return Ok(JointCoordinate { spring, ..JointCoordinate::default() });
         }
     }
-    let Some(own) = own_of(built, model, id) else {
+    let Some((k, own)) = own_of(built, model, id) else {
         let drive = (!slides).then(|| JointDrive { signal: signal(), max: None });
         return Ok(JointCoordinate { drive, ..JointCoordinate::default() });
     };
-    let mut acting = files.actuation(&own.acting)?;
+    let place = Place { line: own.line, key: format!("figure[{number}].coordinate[{}]", k + 1) };
+    let mut acting = acting(&own.acting, &place, sources)?;
     if let Some(WalkTracking { stiffness, damping, max }) = own.follow {
         acting.motor = Some(Motor { target: signal(), kp: stiffness, kd: damping, max });
     }
     Ok(acting)
 }
 
-fn body(entry: &FigureEntry, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
+fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
     let about = &model.bodies()[id.index()];
     RigidBody {
-        name: format!("{}/{}", entry.name, about.name),
+        name: format!("{}/{}", asked.name, about.name),
         mass: about.inertia.mass(),
         inertia: about.inertia.about_center(),
         pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
@@ -298,18 +289,12 @@ fn body(entry: &FigureEntry, model: &Model, id: BodyId, motion: &BodyMotion) -> 
     }
 }
 
-fn joint(
-    entry: &FigureEntry,
-    model: &Model,
-    id: BodyId,
-    first_body: usize,
-    coordinates: Vec<JointCoordinate>,
-) -> TreeJoint {
+fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> TreeJoint {
     let joint = &model.bodies()[id.index()].joint;
     let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
     let (kind, turn) = match (&joint.rotations[..], joint.parent) {
         (_, None) => (JointKind::Planar, Mat3::identity()),
-        // The simulator's universal joint rotates about its x, then about its y.
+        // The simulator's universal joint turns about its x, then about its y.
         ([first, second], _) => {
             let (x, y) = (first.direction, second.direction);
             (JointKind::Universal, Mat3::from_columns(&[x, y, x.cross(&y)]))
@@ -318,7 +303,7 @@ fn joint(
     };
     let turn = Pose { rotation: turn, translation: Vec3::zeros() };
     TreeJoint {
-        name: format!("{}/{}", entry.name, joint.name),
+        name: format!("{}/{}", asked.name, joint.name),
         child: first_body + id.index(),
         parent: joint.parent.map(|p| first_body + p.index()),
         parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint * turn,
@@ -329,7 +314,7 @@ fn joint(
     }
 }
 
-/// Adds the soles, which do not touch each other. Returns the numbers and sides of their surfaces.
+/// The soles, which pass each other; numbers of their surfaces.
 fn add_soles(
     world: &mut World,
     built: &BuiltFigure,

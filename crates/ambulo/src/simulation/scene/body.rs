@@ -1,16 +1,17 @@
-//! Rigid bodies of scene files: mass, inertia, initial pose and velocity, shapes.
+//! Rigid bodies: mass, place, first velocity, shapes.
 
+use super::SceneError;
 use super::material::MaterialEntry;
 use super::names::{Item, Names};
 use super::shape::ShapeEntry;
-use crate::simulation::scene::SceneError;
+use super::uniform::uniform;
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use crate::toml_reader::{Table, Value};
 
-/// A rigid body of a scene file. The origin of its frame is the mass centre.
-#[derive(Debug, Clone)]
+/// A rigid body. Its frame has the origin at the mass centre.
+#[derive(Debug, Clone, PartialEq)]
 pub struct BodyEntry {
-    /// Name, unique among bodies, obstacles and figures.
+    /// Name, its own among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
@@ -18,12 +19,12 @@ pub struct BodyEntry {
     pub inertia: Inertia,
     /// `world_from_body` at the start.
     pub start: Pose,
-    /// Velocity of the mass centre at the start, world axes [m/s]. If `None`, it follows from the body's joint, with the motion
-    /// of its parent and the rates of its coordinates; a body without a joint is at rest.
+    /// Velocity of the mass centre at the start, world axes [m/s]. `None`: as the joint that carries the body asks, given
+    /// its parent's motion and the rates of its coordinates; without such a joint, at rest.
     pub velocity: Option<Vec3>,
-    /// Angular velocity at the start, world axes [rad/s]; `None` as for `velocity`.
+    /// Angular velocity at the start, world axes [rad/s]. `None`: as for `velocity`.
     pub angular_velocity: Option<Vec3>,
-    /// Shapes for contact; a body without shapes touches nothing.
+    /// What it looks like where it touches; bodies without shapes touch nothing.
     pub shapes: Vec<ShapeEntry>,
 }
 
@@ -39,12 +40,11 @@ const KEYS: &[&str] = &[
     "shape",
 ];
 
-/// Largest distance of the shapes' common centre from the body's origin, as a share of their radius of gyration: rounding by
-/// hand.
+/// The shapes' common centre may miss the body's origin by this share of their radius of gyration: rounding by hand.
 const CENTER_SLACK: f64 = 1e-3;
-/// Largest asymmetry of an inertia matrix, as a share of its largest entry.
+/// Two entries of an inertia that mirror each other may differ by this share of the largest.
 const SYMMETRY_SLACK: f64 = 1e-9;
-/// Smallest principal moment as a share of the largest; a body with a smaller one would spin without limit.
+/// The smallest principal moment is at least this share of the largest; below, the body spins without limit.
 const THINNEST: f64 = 1e-9;
 
 impl BodyEntry {
@@ -73,7 +73,7 @@ impl BodyEntry {
 }
 
 fn mass(table: &Table<'_>) -> Result<f64, SceneError> {
-    let advice = "an [[obstacle]] is not moved by forces";
+    let advice = "what no force moves is an [[obstacle]]";
     table.need("mass", "the mass [kg]")?.above_zero().map_err(|error| error.hint(advice))
 }
 
@@ -101,7 +101,7 @@ fn inertia(table: &Table<'_>, mass: f64, shapes: &[ShapeEntry]) -> Result<Inerti
     }
 }
 
-/// Reads three principal moments or three rows.
+/// Three principal moments or three rows.
 fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
     const EXPECTED: &str = "three moments [xx, yy, zz] or three rows of three [kg.m²]";
     if let Ok(moments) = value.numbers::<3>(EXPECTED) {
@@ -110,7 +110,7 @@ fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
     let rows = value.list(EXPECTED)?;
     let is_row = |row: &Value<'_>| row.list(EXPECTED).is_ok();
     let (3, true) = (rows.len(), rows.iter().all(is_row)) else {
-        // An error at the first entry that is not a number says more than one at the whole list.
+        // The first entry that is no number says more than the whole.
         value.numbers::<3>(EXPECTED)?;
         return Err(value.wrong(EXPECTED));
     };
@@ -124,49 +124,24 @@ fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
     Ok((matrix + matrix.transpose()) / 2.0)
 }
 
-/// Inertia about the mass centre, for 1 kg, of the uniform solid that the shapes form [m²]. Shapes share the mass by volume; an
-/// overlap counts twice.
+/// Of the uniform solid that the shapes are, for 1 kg [m²].
 fn of_shapes(table: &Table<'_>, shapes: &[ShapeEntry]) -> Result<Mat3, SceneError> {
-    let parts: Option<Vec<Part>> = shapes.iter().map(Part::of).collect();
-    let Some(parts) = parts.filter(|parts| !parts.is_empty()) else {
+    let meaning = "the moments about the mass centre [xx, yy, zz] [kg.m²]";
+    if shapes.is_empty() {
         return Err(table
-            .missing("inertia", "the moments about the mass centre [xx, yy, zz] [kg.m²]")
-            .hint("a body with shapes needs no inertia: it is taken as a uniform solid"));
+            .missing("inertia", meaning)
+            .hint("a body with a shape may go without: it is taken as uniform"));
+    }
+    let Some(uniform) = uniform(shapes) else {
+        return Err(table.missing("inertia", meaning).hint("that of a convex shape is not worked out"));
     };
-    let total: f64 = parts.iter().map(|part| part.volume).sum();
-    let center: Vec3 = parts.iter().map(|part| part.center * (part.volume / total)).sum();
-    // Parallel-axis theorem, each part with its share of 1 kg.
-    let about = |part: &Part| {
-        let d = part.center - center;
-        (part.about_center + Mat3::identity() * d.norm_squared() - d * d.transpose()) * (part.volume / total)
-    };
-    let about_center: Mat3 = parts.iter().map(about).sum();
-    let gyration = (about_center.trace() / 2.0).sqrt();
-    if center.norm() > CENTER_SLACK * gyration {
-        let [x, y, z] = center.into();
+    let gyration = (uniform.about_center.trace() / 2.0).sqrt();
+    if uniform.center.norm() > CENTER_SLACK * gyration {
+        let [x, y, z] = uniform.center.into();
         let found = format!("found shapes whose common centre is [{x:.6}, {y:.6}, {z:.6}]");
         return Err(table
             .wrong(format!("{found}; expected it at the body's origin, its mass centre"))
             .hint("move the shapes, or give `inertia` if the body is not uniform"));
     }
-    Ok(about_center)
-}
-
-/// A uniform solid in the axes of the body: volume [m³], mass centre [m], inertia about it for 1 kg [m²].
-struct Part {
-    volume: f64,
-    center: Vec3,
-    about_center: Mat3,
-}
-
-impl Part {
-    fn of(entry: &ShapeEntry) -> Option<Part> {
-        let (volume, inertia) = (entry.shape.volume()?, entry.shape.inertia(1.0)?);
-        let r = entry.pose.rotation;
-        Some(Part {
-            volume,
-            center: entry.pose.place(inertia.center()),
-            about_center: r * inertia.about_center() * r.transpose(),
-        })
-    }
+    Ok(uniform.about_center)
 }

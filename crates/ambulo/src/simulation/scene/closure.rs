@@ -1,47 +1,47 @@
-//! Closures of scene files: joints that close loops, active from the start or added by an event.
+//! Closures: joints that close loops, there from the start or added by an event.
 
+use super::SceneError;
 use super::body::BodyEntry;
 use super::joint::JointAxes;
-use super::names::{Attachment, Item, Names};
-use crate::simulation::scene::SceneError;
+use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::{Table, Value};
 
-/// A joint that closes a loop. It keeps the orientations (of a weld, of axes) of the moment at which it becomes active.
-#[derive(Debug, Clone)]
+/// A joint that closes a loop. Orientations (of a weld, of axes) are kept as they are at the moment it becomes active.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ClosureEntry {
-    /// Name, unique among joints and closures.
+    /// Name, its own among joints and closures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// The motions that it leaves free; never [`JointAxes::Free`].
+    /// Which motions it leaves; never [`JointAxes::Free`].
     pub kind: JointAxes,
     /// One end.
     pub first: Attachment,
     /// The other end.
     pub second: Attachment,
-    /// The points that it keeps together.
+    /// Which points it keeps together.
     pub anchor: Anchor,
-    /// Whether it is active from the start; otherwise an event adds it.
+    /// Whether it is there from the start; else an event adds it.
     pub active: bool,
 }
 
-/// The points that a closure keeps together.
+/// Which points a closure keeps together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
-    /// The points of both bodies that are here at the start.
+    /// The point of each that is here at the start.
     Start {
         /// In the world [m].
         at: Vec3,
     },
-    /// A point in the frame of each body [m].
+    /// A point of each, in the frame of each [m].
     Points {
         /// In the first's frame.
         on_first: Vec3,
         /// In the second's frame.
         on_second: Vec3,
     },
-    /// A point of the first body, and the point of the second body at the same place when the closure becomes active.
+    /// A point of the first, and the point of the second that is there at the moment the closure becomes active.
     AsFound {
         /// In the first's frame [m].
         on_first: Vec3,
@@ -49,8 +49,8 @@ pub enum Anchor {
 }
 
 impl Anchor {
-    /// The anchor with its points moved from other origins (`first`, `second`) to the mass centres.
-    pub(in crate::simulation::scene) fn shifted(self, first: Vec3, second: Vec3) -> Anchor {
+    /// The same with points that are counted from other places of the bodies than their mass centres.
+    pub(super) fn shifted(self, first: Vec3, second: Vec3) -> Anchor {
         match self {
             Anchor::Start { at } => Anchor::Start { at },
             Anchor::Points { on_first, on_second } => {
@@ -62,47 +62,39 @@ impl Anchor {
 }
 
 const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on_second", "active"];
-/// Largest distance of the points of a closure that is active from the start [m]: the sum of a few lengths rounded to a tenth of
-/// a millimetre.
-pub(in crate::simulation::scene) const LARGEST_GAP_M: f64 = 1e-3;
+/// How far apart the points of a closure that is active from the start may be [m]: what a tenth of a millimetre of
+/// rounding in a few lengths adds up to.
+const LARGEST_GAP: f64 = 1e-3;
 
 impl ClosureEntry {
-    pub(super) fn read_all(
-        root: &Table<'_>,
-        links: &mut Names,
-        things: &Names,
+    pub(super) fn read(
+        table: &Table<'_>,
+        name: String,
+        names: &Names,
         bodies: &[BodyEntry],
-    ) -> Result<Vec<ClosureEntry>, SceneError> {
-        let read = |(i, table): (usize, &Table<'_>)| {
-            let name = links.declare(table, Item::Closure(i))?;
-            ClosureEntry::read(table, name, things, bodies)
-        };
-        root.tables("closure")?.iter().enumerate().map(read).collect()
-    }
-
-    fn read(table: &Table<'_>, name: String, names: &Names, bodies: &[BodyEntry]) -> Result<ClosureEntry, SceneError> {
+    ) -> Result<ClosureEntry, SceneError> {
         let kind = JointAxes::read(table, KEYS)?;
         if kind == JointAxes::Free {
-            return Err(table.need("kind", "a kind")?.wrong("a kind that constrains a motion; free constrains none"));
+            return Err(table.need("kind", "a kind")?.wrong("a kind that holds something; free holds nothing"));
         }
         let value = table.need("second", "the other end")?;
         let closure = ClosureEntry {
             name,
             line: table.line,
             kind,
-            first: names.attachment(&table.need("first", "one end: \"world\" or a body")?)?,
-            second: names.attachment(&value)?,
+            first: names.carrier(&table.need("first", "one end: \"world\" or a body")?)?,
+            second: names.carrier(&value)?,
             anchor: anchor(table)?,
             active: table.truth_or("active", true)?,
         };
         if closure.first == closure.second {
-            return Err(value.wrong("a body other than `first`"));
+            return Err(value.wrong("another body than `first`"));
         }
         closure.refuse_gap(table, bodies)?;
         Ok(closure)
     }
 
-    /// Refuses a closure that is active from the start but open.
+    /// A closure that is active from the start must be closed then.
     fn refuse_gap(&self, table: &Table<'_>, bodies: &[BodyEntry]) -> Result<(), SceneError> {
         let Anchor::Points { on_first, on_second } = self.anchor else { return Ok(()) };
         let place = |carrier: &Attachment, point: Vec3| match carrier {
@@ -116,7 +108,7 @@ impl ClosureEntry {
             JointAxes::Planar { normal, .. } => (b - a).dot(&normal).abs(),
             _ => (b - a).norm(),
         };
-        if !self.active || gap <= LARGEST_GAP_M {
+        if !self.active || gap <= LARGEST_GAP {
             return Ok(());
         }
         let value = table.need("on_second", "a point")?;
@@ -133,7 +125,7 @@ fn anchor(table: &Table<'_>) -> Result<Anchor, SceneError> {
         (None, Some(on_first), Some(on_second)) => Ok(Anchor::Points { on_first, on_second }),
         (None, Some(on_first), None) => Ok(Anchor::AsFound { on_first }),
         (None, None, None) => Err(table
-            .missing("at", "the point [m] of the world that both share at the start")
+            .missing("at", "the point [m] of the world at the start that both share")
             .hint("or `on_first` and `on_second`, or `on_first` alone")),
         (None, None, Some(_)) => Err(table.missing("on_first", "the point of the first body [m]")),
         (Some(_), _, _) => {

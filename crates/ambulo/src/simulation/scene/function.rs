@@ -1,20 +1,35 @@
-//! Functions of time in scene files: what drives, motors and moving obstacles follow.
+//! Functions of time: what drives, motors and moving obstacles follow.
 
-use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::simulation::Signal;
-use crate::simulation::scene::SceneError;
-use crate::toml_reader::{Place, Table, Value};
+use super::{Place, SceneError};
+use crate::toml_reader::{Table, Value};
 
-/// A function of the scene's time [s]; values in rad or m.
-#[derive(Debug, Clone)]
+/// A function of the scene's time [s]; values in rad or m, as what it is for says.
+#[derive(Debug, Clone, PartialEq)]
 pub enum TimeFunction {
-    /// A function given in the scene file.
-    Given(Signal),
-    /// A column of a recording, in the unit that the recording states; it is read when the scene is built.
-    Recorded {
-        /// Position of the path in the scene file.
+    /// Always the same.
+    Constant(f64),
+    /// offset + amplitude sin(2π frequency t + phase).
+    Sine {
+        /// Half the distance between the extremes.
+        amplitude: f64,
+        /// Cycles a second [Hz], above zero.
+        frequency_hz: f64,
+        /// At time zero [rad].
+        phase: f64,
+        /// The middle.
+        offset: f64,
+    },
+    /// At rest at each of these instants, at least one, times rising: (time [s], value). Quintics between, without
+    /// velocity and acceleration at their ends; constant before the first and after the last.
+    Stops(Vec<(f64, f64)>),
+    /// The natural cubic spline through these, at least two, times rising from zero or before to the end of the scene or
+    /// after: (time [s], value).
+    Points(Vec<(f64, f64)>),
+    /// A column of a recording, in the unit that the file states.
+    Motion {
+        /// Where the path stands.
         place: Place,
-        /// Path as in the scene file, relative to the scene.
+        /// Path as it stands in the scene, relative to the scene.
         file: String,
         /// Name of the column.
         column: String,
@@ -23,12 +38,12 @@ pub enum TimeFunction {
     },
 }
 
-/// The use of a function.
+/// What a function is for.
 #[derive(Clone, Copy)]
 pub(super) struct Purpose {
-    /// How long the function must last [s].
+    /// How long it must last [s].
     pub(super) duration_s: f64,
-    /// Whether it is an angle; recordings state themselves whether theirs are in degrees.
+    /// Whether it is an angle: recordings say themselves whether theirs are degrees.
     pub(super) angle: bool,
 }
 
@@ -42,21 +57,16 @@ pub(super) fn either_unit(table: &Table<'_>, key: &str, purpose: Purpose) -> Res
         return table.either_unit(key)?.map(read).transpose();
     }
     if let Some(value) = table.get(&format!("{key}_deg")) {
-        return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate is a distance, not an angle"));
+        return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate slides, it does not turn"));
     }
     table.get(key).map(|value| read((value, 1.0))).transpose()
 }
 
 impl TimeFunction {
-    /// A constant function.
-    pub(super) fn constant(value: f64) -> TimeFunction {
-        TimeFunction::Given(Signal::Constant(value))
-    }
-
-    /// Reads a function whose values are in a unit of so many radians or metres.
+    /// Reads a function whose values stand in a unit of so many radians or metres.
     pub(super) fn read(value: &Value<'_>, unit: f64, purpose: Purpose) -> Result<TimeFunction, SceneError> {
         if !value.is_table() {
-            return value.finite(EXPECTED).map(|number| TimeFunction::constant(number * unit));
+            return value.finite(EXPECTED).map(|number| TimeFunction::Constant(number * unit));
         }
         let table = value.table(EXPECTED)?;
         table.only(&[KEYS])?;
@@ -64,45 +74,44 @@ impl TimeFunction {
         let mut present = kinds.iter().filter_map(|kind| Some((*kind, table.get(kind)?)));
         let (Some((kind, body)), None) = (present.next(), present.next()) else { return Err(value.wrong(EXPECTED)) };
         if kind == "motion" {
-            return recorded(&table, &body, unit);
+            return motion(&table, &body, unit);
         }
         table.only(&[&[kind]])?;
-        let signal = match kind {
+        match kind {
             "sine" => sine(&body, unit),
             "ramp" => ramp(&body, unit),
-            "stops" => pairs(&body, unit, 1).map(Signal::Stops),
+            "stops" => pairs(&body, unit, 1).map(TimeFunction::Stops),
             _ => points(&body, unit, purpose.duration_s),
-        };
-        signal.map(TimeFunction::Given)
+        }
     }
 }
 
-fn sine(value: &Value<'_>, unit: f64) -> Result<Signal, SceneError> {
+fn sine(value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     let table = value.table("{ amplitude = …, frequency_hz = …, phase_deg = 0, offset = 0 }")?;
     table.only(&[&["amplitude", "frequency_hz", "phase_deg", "phase", "offset"]])?;
-    Ok(Signal::Sine {
+    Ok(TimeFunction::Sine {
         amplitude: table.need("amplitude", "half the distance between the extremes")?.number()? * unit,
-        frequency_hz: table.need("frequency_hz", "the frequency in cycles per second")?.above_zero()?,
+        frequency_hz: table.need("frequency_hz", "the cycles a second")?.above_zero()?,
         phase: table.angle("phase")?.unwrap_or(0.0),
         offset: table.number_or("offset", 0.0)? * unit,
     })
 }
 
-fn ramp(value: &Value<'_>, unit: f64) -> Result<Signal, SceneError> {
+fn ramp(value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     let table = value.table("{ from = …, to = …, start = …, end = … }")?;
     table.only(&[&["from", "to", "start", "end"]])?;
-    let from = table.need("from", "the value before the ramp")?.number()? * unit;
-    let to = table.need("to", "the value after the ramp")?.number()? * unit;
-    let start = table.need("start", "the instant [s] at which the ramp begins")?.number()?;
-    let last = table.need("end", "the instant [s] at which the ramp ends")?;
+    let from = table.need("from", "the value before")?.number()? * unit;
+    let to = table.need("to", "the value after")?.number()? * unit;
+    let start = table.need("start", "the instant [s] at which it begins")?.number()?;
+    let last = table.need("end", "the instant [s] at which it ends")?;
     let end = last.number()?;
     if end <= start {
         return Err(last.wrong(&format!("an instant after `start`, {start} s")));
     }
-    Ok(Signal::Stops(vec![(start, from), (end, to)]))
+    Ok(TimeFunction::Stops(vec![(start, from), (end, to)]))
 }
 
-fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<Signal, SceneError> {
+fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<TimeFunction, SceneError> {
     let points = pairs(value, unit, 2)?;
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     if first > 0.0 || last < duration_s {
@@ -110,10 +119,7 @@ fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<Signal, Scene
         let error = value.wrong(&format!("{expected}; these go from {first} s to {last} s"));
         return Err(error.hint("`stops` rests before its first and after its last instant"));
     }
-    let (times, values): (Vec<f64>, Vec<f64>) = four_or_more(&points).into_iter().unzip();
-    let fitter = SplineFitter::new(SplineDegree::Cubic, &times);
-    let spline = fitter.and_then(|fitter| fitter.fit(&values, Smoothing::Interpolate));
-    Ok(Signal::Spline(spline.map_err(|e| value.place().error(e.to_string()))?, 0.0))
+    Ok(TimeFunction::Points(points))
 }
 
 /// At least so many pairs [time, value], times rising.
@@ -130,30 +136,13 @@ fn pairs(value: &Value<'_>, unit: f64, least: usize) -> Result<Vec<(f64, f64)>, 
     if pairs.len() < least { Err(value.wrong(&expected)) } else { Ok(pairs) }
 }
 
-/// The same natural cubic spline through at least four points, as its fit needs: further points are placed on the curve.
-fn four_or_more(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    match *points {
-        // A straight line.
-        [(t0, y0), (t1, y1)] => {
-            [0.0, 1.0, 2.0, 3.0].map(|k| (t0 + (t1 - t0) * k / 3.0, y0 + (y1 - y0) * k / 3.0)).to_vec()
-        }
-        // 2 (h₁ + h₂) y₁'' = 6 ((y₂ - y₁)/h₂ - (y₁ - y₀)/h₁); in the middle of the first piece (y₀ + y₁)/2 - y₁'' h₁²/16.
-        [first @ (t0, y0), second @ (t1, y1), third @ (t2, y2)] => {
-            let (h1, h2) = (t1 - t0, t2 - t1);
-            let bend = 3.0 * ((y2 - y1) / h2 - (y1 - y0) / h1) / (h1 + h2);
-            vec![first, (t0 + 0.5 * h1, 0.5 * (y0 + y1) - bend * h1 * h1 / 16.0), second, third]
-        }
-        _ => points.to_vec(),
-    }
-}
-
-fn recorded(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
+fn motion(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     table.only(&[&["motion", "column", "from"]])?;
     if unit < 1.0 {
         let error = value.wrong("a recording under the key without `_deg`");
-        return Err(error.hint("the file itself says whether its angles are in degrees"));
+        return Err(error.hint("the file itself says whether its angles are degrees"));
     }
-    Ok(TimeFunction::Recorded {
+    Ok(TimeFunction::Motion {
         place: value.place(),
         file: value.filled_text()?,
         column: table.need("column", "the name of a column of that file")?.filled_text()?,

@@ -1,34 +1,34 @@
-//! Events of scene files: closures are added and removed, joints are removed.
+//! Events: closures that come and go, joints that let go.
 
+use super::SceneError;
 use super::closure::ClosureEntry;
 use super::joint::JointEntry;
 use super::names::{Item, Names};
-use crate::simulation::scene::SceneError;
 use crate::toml_reader::{Table, Value};
 
-/// A change of the world at an instant.
+/// Something that happens at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventEntry {
     /// Line of its header.
     pub line: usize,
-    /// Time [s], from zero to the duration.
+    /// When [s], from zero to the duration.
     pub time_s: f64,
-    /// The change.
+    /// What.
     pub change: EventAction,
 }
 
-/// The change that an event makes.
+/// What an event changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventAction {
     /// A closure becomes active: index in [`SceneFile::closures`](super::SceneFile::closures).
     AddClosure(usize),
-    /// A closure becomes inactive: index in [`SceneFile::closures`](super::SceneFile::closures).
+    /// A closure lets go: index in [`SceneFile::closures`](super::SceneFile::closures).
     RemoveClosure(usize),
-    /// A joint is removed, and its child is free: index in [`SceneFile::joints`](super::SceneFile::joints).
+    /// A joint lets go for good, and its child is free: index in [`SceneFile::joints`](super::SceneFile::joints).
     RemoveJoint(usize),
 }
 
-/// All events in the order of their times; events of one instant have the order of the file.
+/// All events in the order of their times; those of one instant in the order of the file.
 pub(super) fn read_all(
     root: &Table<'_>,
     links: &Names,
@@ -58,7 +58,7 @@ fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(EventAction, Value<'t
     let (value, adds) = match (table.get("add"), table.get("remove")) {
         (Some(value), None) => (value, true),
         (None, Some(value)) => (value, false),
-        (Some(_), Some(value)) => return Err(value.wrong("either `add` or `remove`").hint("use two events")),
+        (Some(_), Some(value)) => return Err(value.wrong("either `add` or `remove`").hint("write two events")),
         (None, None) => return Err(table.missing("add", "`add` or `remove` with a name")),
     };
     let name = value.text()?;
@@ -72,7 +72,7 @@ fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(EventAction, Value<'t
     Ok((change, value))
 }
 
-/// Refuses events without effect: adding an active closure, removing an inactive one or a removed joint.
+/// Refuses to add what is there and to remove what is not.
 fn refuse_idle(
     events: &[(EventEntry, Value<'_>)],
     joints: &[JointEntry],
@@ -87,11 +87,11 @@ fn refuse_idle(
             EventAction::RemoveJoint(joint) => (&mut jointed[joint], false),
         };
         if *there == after && after {
-            let error = value.wrong(&format!("a closure that is not active at {} s", event.time_s));
-            return Err(error.hint("a closure with active = false is absent until an event adds it"));
+            let error = value.wrong(&format!("a closure that is not active at {} s already", event.time_s));
+            return Err(error.hint("active = false keeps a closure away until an event adds it"));
         }
         if *there == after {
-            return Err(value.wrong(&format!("a closure or joint that is present at {} s", event.time_s)));
+            return Err(value.wrong(&format!("one that is still there at {} s", event.time_s)));
         }
         *there = after;
     }

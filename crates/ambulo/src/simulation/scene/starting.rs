@@ -1,31 +1,31 @@
-//! Initial velocities of bodies: from the scene file, or from their joints.
+//! How bodies move at the start: as the file says, or as the joints that carry them ask.
 
+use super::file::SceneFile;
 use crate::dynamics::Six;
 use crate::simulation::joint::Frames;
-use crate::simulation::scene::file::SceneFile;
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// Sets the twists of the file's bodies; figures have theirs already. `rates` are the coordinate rates of the file's joints, which
-/// come first in the world.
-pub(super) fn set_initial_velocities(world: &mut World, file: &SceneFile, rates: &[Vec<f64>]) {
+/// Sets the twists of the file's bodies. Figures move already; `rates` are those of the file's joints, which come first in
+/// the world, coordinate by coordinate.
+pub(super) fn start_moving(world: &mut World, file: &SceneFile, rates: &[Vec<f64>]) {
     let joint_of = world.joint_of_body();
     for body in parents_first(world, file.bodies.len()) {
-        let entry = &file.bodies[body];
+        let asked = &file.bodies[body];
         let (mut angular, mut linear) = (Vec3::zeros(), Vec3::zeros());
         if let Some(number) = joint_of[body] {
-            let relative = JointMotion::of(world, number, &rates[number]);
+            let relative = Relative::of(world, number, &rates[number]);
             angular = relative.angular;
-            // A given angular velocity moves the mass centre about the joint.
-            linear = relative.at_joint + entry.angular_velocity.unwrap_or(angular).cross(&relative.to_center);
+            // What is given of the spin carries the mass centre with it.
+            linear = relative.at_joint + asked.angular_velocity.unwrap_or(angular).cross(&relative.to_center);
         }
         world.bodies[body].twist =
-            Twist { angular: entry.angular_velocity.unwrap_or(angular), linear: entry.velocity.unwrap_or(linear) };
+            Twist { angular: asked.angular_velocity.unwrap_or(angular), linear: asked.velocity.unwrap_or(linear) };
     }
 }
 
-/// Motion of a joint's child due to its parent and its coordinates.
-struct JointMotion {
+/// Motion that a joint asks of its child.
+struct Relative {
     angular: Vec3,
     /// Velocity of the origin of C.
     at_joint: Vec3,
@@ -33,8 +33,8 @@ struct JointMotion {
     to_center: Vec3,
 }
 
-impl JointMotion {
-    fn of(world: &World, number: usize, rates: &[f64]) -> JointMotion {
+impl Relative {
+    fn of(world: &World, number: usize, rates: &[f64]) -> Relative {
         let joint = &world.joints[number];
         let place = |body: usize| world.bodies[body].pose;
         let parent = joint.parent.map_or(Pose::IDENTITY, place);
@@ -51,7 +51,7 @@ impl JointMotion {
         for (rate, direction) in rates.iter().zip(&directions) {
             own.axpy(*rate, direction, 1.0);
         }
-        JointMotion {
+        Relative {
             angular: carried.angular + Vec3::new(own[0], own[1], own[2]),
             at_joint: carried.linear + Vec3::new(own[3], own[4], own[5]),
             to_center: place(joint.child).translation - origin,
@@ -59,7 +59,7 @@ impl JointMotion {
     }
 }
 
-/// The file's bodies, each after its parent.
+/// The file's bodies, each after the one that it hangs on.
 fn parents_first(world: &World, count: usize) -> Vec<usize> {
     let joint_of = world.joint_of_body();
     let parent = |body: usize| joint_of[body].and_then(|j| world.joints[j].parent).filter(|p| *p < count);

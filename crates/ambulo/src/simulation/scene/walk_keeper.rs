@@ -1,6 +1,6 @@
-//! Records the walk of a scene's figure step by step, so that its feasibility can be judged.
+//! What a walking figure of a scene does, kept step by step: by it the walk can be judged.
 
-use super::build::model_figure::Placed;
+use super::walker::Placed;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
 use crate::model::{BodyId, Side};
@@ -11,17 +11,17 @@ use crate::simulation::walking::{FootRecord, WalkRecording};
 use crate::simulation::workspace::StepWorkspace;
 use crate::simulation::world::{Owner, World};
 
-/// A contact belongs to the ground if the vertical component of its normal is at least this: within 45° of the vertical.
+/// A contact belongs to the ground if its normal rises at least this steeply (sine): less than 45° off the vertical.
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Largest number of recorded rows [steps].
+/// More rows than this are not kept [steps].
 const MOST_ROWS: usize = 1_000_000;
 
-/// The recorded walk of a scene's figure.
+/// A walk of a scene's figure.
 #[derive(Debug, Clone)]
 pub struct FigureWalk {
     /// Name of the figure.
     pub name: String,
-    /// The figure at its place in the scene, with abducted arms.
+    /// The figure as the scene has it: on its place, arms away from the trunk.
     pub human: Human,
     /// Posture and forces of every step.
     pub recording: WalkRecording,
@@ -66,7 +66,7 @@ impl FigureRecorder {
         }
     }
 
-    /// Values and rates of all coordinates.
+    /// Coordinates and rates of all coordinates.
     fn read(&self, world: &World, state: &WorldState) -> Vec<[f64; 2]> {
         let joint_of = world.joint_of_body();
         let mut rates: Vec<Vec<f64>> = vec![Vec::new(); world.joints.len()];
@@ -87,8 +87,8 @@ impl FigureRecorder {
         self.before = self.read(world, state);
     }
 
-    /// Records a step, after the wrenches of the workspace were read. The posture is the one at the start of the step; velocities
-    /// belong to its middle.
+    /// Keeps a step; wrenches of the workspace have been read. The posture is that at its start: velocities stand in the middle of
+    /// steps.
     pub(super) fn after_step(
         &mut self,
         world: &World,
@@ -117,10 +117,10 @@ impl FigureRecorder {
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             self.efforts[id].push(effort);
         }
-        self.record_feet(world, w);
+        self.keep_feet(world, w);
     }
 
-    fn record_feet(&mut self, world: &World, w: &StepWorkspace) {
+    fn keep_feet(&mut self, world: &World, w: &StepWorkspace) {
         self.feet.iter_mut().for_each(FootRecord::begin_row);
         for contact in w.contacts() {
             let (a, b) = contact.surfaces;
@@ -155,7 +155,7 @@ impl FigureRecorder {
     }
 }
 
-/// The contact with its surfaces exchanged.
+/// The same contact with its surfaces exchanged.
 fn turned(contact: ContactForce) -> ContactForce {
     ContactForce {
         surfaces: (contact.surfaces.1, contact.surfaces.0),

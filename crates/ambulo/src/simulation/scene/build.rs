@@ -1,0 +1,393 @@
+//! From a scene file to a world that runs.
+
+use super::closing::Closing;
+use super::closure::ClosureEntry;
+use super::event::EventEntry;
+use super::figure::FigureEntry;
+use super::file::SceneFile;
+use super::names::{Attachment, ContactPartner};
+use super::output::Outputs;
+use super::placement::{order, place};
+use super::solver::{Integrator as AskedIntegrator, Method as AskedMethod};
+use super::sources::{InputFiles, ReadFile};
+use super::starting::start_moving;
+use super::surfaces::{material, obstacle, solid};
+use super::synthetic;
+use super::walk_keeper::FigureRecorder;
+use super::walker::{self, PlacedFigure};
+use super::{CoordinateEntry, coordinate::CoordinateKind};
+use super::{Place, SceneError};
+use crate::dynamics::{Method, SolverSettings};
+use crate::findings::{Code, Findings};
+use crate::simulation::state::WorldState;
+use crate::simulation::workspace::{Integrator, StepSettings, StepWorkspace};
+use crate::simulation::world::{
+    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Spring, Surface,
+    TreeJoint, World,
+};
+use crate::spatial::{Pose, Twist, Vec3, Wrench};
+
+/// Points of a closure with a body of a figure, where it is active from the start, are at most this far apart [m].
+const LARGEST_GAP_M: f64 = 1e-3;
+
+/// A world with its state, what is to happen to it, and what is kept of it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub(super) world: World,
+    pub(super) state: WorldState,
+    pub(super) settings: StepSettings,
+    pub(super) duration_s: f64,
+    pub(super) output_rate_hz: f64,
+    pub(super) outputs: Outputs,
+    pub(super) title: String,
+    pub(super) events: Vec<EventEntry>,
+    /// How many events have happened.
+    pub(super) fired: usize,
+    /// How many steps have been made.
+    pub(super) steps: usize,
+    pub(super) closings: Vec<Closing>,
+    /// Where each joint of the file stands in the world; `None` once it has let go.
+    pub(super) joint_numbers: Vec<Option<usize>>,
+    /// Names of the file's joints and bodies, for what is drawn.
+    pub(super) joint_names: Vec<String>,
+    pub(super) walkers: Vec<PlacedFigure>,
+    /// What is kept of figures that walk, every step.
+    pub(super) keepers: Vec<FigureRecorder>,
+    pub(super) workspace: StepWorkspace,
+    /// Poses at the beginning of the last step, where its forces are taken; only where there are figures.
+    pub(super) before: Vec<Pose>,
+}
+
+/// What differs from the file.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SceneSettings {
+    /// Time step [s].
+    pub step_s: Option<f64>,
+    /// How long the scene lasts [s].
+    pub duration_s: Option<f64>,
+}
+
+impl Scene {
+    /// Builds the world of a scene. `load` reads the files that it names: from a path as it stands in the scene to bytes, or
+    /// to a message that says why not.
+    ///
+    /// # Errors
+    /// Files that cannot be read or do not fit, bodies that a figure does not have, joints of a figure that the simulator does
+    /// not know; each with line and key.
+    pub fn build(
+        file: &SceneFile,
+        changes: SceneSettings,
+        load: &mut ReadFile<'_>,
+        findings: &mut Findings,
+    ) -> Result<Scene, SceneError> {
+        let duration_s = changes.duration_s.unwrap_or(file.duration_s);
+        let mut sources = InputFiles::new(load, findings, duration_s);
+        let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
+        world.materials = file.materials.iter().map(material).collect();
+        let (walkers, keepers) = add_bodies(&mut world, file, &mut sources)?;
+        let bodies = Bodies { file, walkers: &walkers, world: &world };
+        let (joints, starts, rates) = make_joints(&bodies, &mut sources)?;
+        let figure_joints = std::mem::take(&mut world.joints);
+        let joint_numbers = (0..joints.len()).map(Some).collect();
+        world.joints = joints;
+        world.joints.extend(figure_joints);
+        start_moving(&mut world, file, &rates);
+        let closings = add_closures(&mut world, file, &walkers)?;
+        let ignored = ignored(&world, file, &walkers)?;
+        world.ignored.extend(ignored);
+        report_untouchable(&world, findings);
+        let mut state = WorldState::new(&world);
+        for (number, start) in starts.iter().enumerate() {
+            state.coordinates[number].copy_from_slice(start);
+            state.measure(&world, number);
+        }
+        Ok(Scene {
+            settings: settings(file, changes),
+            duration_s,
+            output_rate_hz: file.output_rate_hz.min(1.0 / changes.step_s.unwrap_or(file.step_s)),
+            outputs: file.outputs.clone(),
+            title: file.title.clone(),
+            events: file.events.clone(),
+            fired: 0,
+            steps: 0,
+            closings,
+            joint_numbers,
+            joint_names: file.joints.iter().map(|joint| joint.name.clone()).collect(),
+            walkers,
+            keepers,
+            workspace: StepWorkspace::default(),
+            before: Vec::new(),
+            world,
+            state,
+        })
+    }
+}
+
+fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
+    StepSettings {
+        step_s: changes.step_s.unwrap_or(file.step_s),
+        integrator: match file.integrator {
+            AskedIntegrator::Impulse => Integrator::Impulse,
+            AskedIntegrator::RungeKutta => Integrator::RungeKutta,
+        },
+        projection: file.projection,
+        solver: SolverSettings {
+            method: match file.solver.method {
+                AskedMethod::Newton => Method::Newton,
+                AskedMethod::ConjugateGradient => Method::ConjugateGradient,
+            },
+            tolerance: file.solver.tolerance,
+            max_iterations: file.solver.max_iterations,
+        },
+    }
+}
+
+/// Bodies of the file, obstacles and figures, with their surfaces and the figures' joints.
+fn add_bodies(
+    world: &mut World,
+    file: &SceneFile,
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<(Vec<PlacedFigure>, Vec<FigureRecorder>), SceneError> {
+    for (i, body) in file.bodies.iter().enumerate() {
+        world.bodies.push(RigidBody {
+            name: body.name.clone(),
+            mass: body.inertia.mass(),
+            inertia: body.inertia.about_center(),
+            pose: body.start,
+            twist: Twist::ZERO,
+            load: Wrench::ZERO,
+        });
+        for (k, shape) in body.shapes.iter().enumerate() {
+            let place = Place { line: shape.line, key: format!("body[{}].shape[{}]", i + 1, k + 1) };
+            world.surfaces.push(Surface {
+                owner: Owner::Body(i),
+                shape: solid(&shape.solid, &place)?,
+                owner_from_shape: shape.pose,
+                material: shape.material,
+            });
+        }
+    }
+    for (i, asked) in file.obstacles.iter().enumerate() {
+        let place = Place { line: asked.line, key: format!("obstacle[{}]", i + 1) };
+        let (shape, owner_from_shape) = obstacle(&asked.shape, &place)?;
+        let (owner, material) = (Owner::Obstacle(i), asked.material);
+        world.surfaces.push(Surface { owner, shape, owner_from_shape, material });
+        let path = asked.motion.as_ref().map(|motion| -> Result<ObstaclePath, SceneError> {
+            let place = Place { line: motion.line, key: format!("obstacle[{}].motion", i + 1) };
+            let [x, y, z] = &motion.displacement;
+            Ok(ObstaclePath {
+                shift: [
+                    sources.signal(&place, x, false)?,
+                    sources.signal(&place, y, false)?,
+                    sources.signal(&place, z, false)?,
+                ],
+                axis: motion.axis,
+                turn: sources.signal(&place, &motion.angle, true)?,
+            })
+        });
+        world.obstacles.push(Obstacle { name: asked.name.clone(), pose: asked.pose, path: path.transpose()? });
+    }
+    let add = |(i, figure): (usize, &FigureEntry)| match &figure.built {
+        Some(built) => synthetic::add(world, figure, built, i + 1, sources),
+        None => walker::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
+    };
+    let added: Vec<(PlacedFigure, Option<FigureRecorder>)> =
+        file.figures.iter().enumerate().map(add).collect::<Result<_, _>>()?;
+    let (walkers, keepers): (Vec<_>, Vec<_>) = added.into_iter().unzip();
+    Ok((walkers, keepers.into_iter().flatten().collect()))
+}
+
+/// Names of the file as bodies of the world.
+struct Bodies<'a> {
+    file: &'a SceneFile,
+    walkers: &'a [PlacedFigure],
+    world: &'a World,
+}
+
+impl Bodies<'_> {
+    /// The body that a joint or closure holds on to; `None` is the world.
+    fn of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<Option<usize>, SceneError> {
+        self.point_of(carrier, place).map(|(body, _)| body)
+    }
+
+    /// The same, and the point from which points on it are counted: the mass centre, or a marker of a figure.
+    fn point_of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<(Option<usize>, Vec3), SceneError> {
+        match carrier {
+            Attachment::World => Ok((None, Vec3::zeros())),
+            Attachment::Body(body) => Ok((Some(*body), Vec3::zeros())),
+            Attachment::FigureBody { figure, body } => {
+                self.of_figure(*figure, body, place).map(|(body, point)| (Some(body), point))
+            }
+        }
+    }
+
+    fn of_figure(&self, figure: usize, body: &str, place: impl Fn() -> Place) -> Result<(usize, Vec3), SceneError> {
+        let (walker, name) = (&self.walkers[figure], &self.file.figures[figure].name);
+        let model = &self.world.figures[walker.figure].model;
+        if let Some(id) = model.body(body) {
+            return Ok((walker.first_body + id.index(), Vec3::zeros()));
+        }
+        let marker = model.markers().iter().find(|marker| marker.name == body);
+        if let Some((marker, id)) = marker.and_then(|marker| Some((marker, marker.body?))) {
+            let point = marker.location - model.bodies()[id.index()].inertia.center();
+            return Ok((walker.first_body + id.index(), point));
+        }
+        let known: Vec<String> = model.bodies().iter().map(|b| format!("{name}/{}", b.name)).collect();
+        let found = format!("found \"{name}/{body}\"; expected a body of the figure");
+        Err(place().error(found).hint(&format!("they are {}", known.join(", "))))
+    }
+}
+
+/// Joints with what their coordinates are called, and their rates, in the simulator's order.
+type Started = (Vec<TreeJoint>, Vec<Vec<f64>>, Vec<Vec<f64>>);
+
+fn make_joints(bodies: &Bodies<'_>, sources: &mut InputFiles<'_, '_>) -> Result<Started, SceneError> {
+    let Bodies { file, world, .. } = bodies;
+    let (mut joints, mut starts, mut rates) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, asked) in file.joints.iter().enumerate() {
+        let parent =
+            bodies.of(&asked.parent, || Place { line: asked.line, key: format!("joint[{}].parent", i + 1) })?;
+        let mut coordinates = Vec::new();
+        for (k, coordinate) in asked.coordinates.iter().enumerate() {
+            let key = format!("joint[{}].coordinate[{}]", i + 1, k + 1);
+            coordinates.push(acting(coordinate, &Place { line: coordinate.line, key }, sources)?);
+        }
+        let start = |(asked, acting): (&CoordinateEntry, &JointCoordinate)| match &acting.drive {
+            Some(drive) => {
+                let [value, rate, _] = drive.signal.at(0.0);
+                (value, rate)
+            }
+            None => (asked.start, asked.rate),
+        };
+        let (values, speeds): (Vec<f64>, Vec<f64>) = asked.coordinates.iter().zip(&coordinates).map(start).unzip();
+        let placed = place(&asked.kind, asked.at, &values);
+        let order = order(placed.kind);
+        let on =
+            |body: Option<usize>, frame: Pose| body.map_or(frame, |body| world.bodies[body].pose.inverse() * frame);
+        joints.push(TreeJoint {
+            name: asked.name.clone(),
+            child: asked.child,
+            parent,
+            parent_from_joint: on(parent, placed.world_from_parent_side),
+            child_from_joint: on(Some(asked.child), placed.world_from_child_side),
+            kind: placed.kind,
+            coordinates: (0..placed.kind.freedom()).map(|k| coordinates[order[k]].clone()).collect(),
+            follows: None,
+        });
+        starts.push(placed.values);
+        rates.push((0..placed.kind.freedom()).map(|k| speeds[order[k]]).collect());
+    }
+    Ok((joints, starts, rates))
+}
+
+/// What acts on a coordinate.
+pub(super) fn acting(
+    asked: &CoordinateEntry,
+    place: &Place,
+    sources: &mut InputFiles<'_, '_>,
+) -> Result<JointCoordinate, SceneError> {
+    let turns = asked.kind == CoordinateKind::Rotation;
+    let drive = asked.drive.as_ref().map(|drive| -> Result<JointDrive, SceneError> {
+        let signal = sources.signal(place, &drive.function, turns)?;
+        Ok(JointDrive { signal, max: drive.max.is_finite().then_some(drive.max) })
+    });
+    let drive = drive.transpose()?;
+    let motor = asked.motor.as_ref().map(|motor| -> Result<Motor, SceneError> {
+        let target = sources.signal(place, &motor.target, turns)?;
+        Ok(Motor { target, kp: motor.stiffness, kd: motor.damping, max: motor.max })
+    });
+    let limit = |value: f64| value.is_finite().then_some(value);
+    Ok(JointCoordinate {
+        drive,
+        spring: asked.spring.map(|s| Spring { stiffness: s.stiffness, damping: s.damping, rest: s.rest }),
+        motor: motor.transpose()?,
+        limits: asked.limits.map_or((None, None), |limits| (limit(limits.lower), limit(limits.upper))),
+        friction: asked.friction,
+        rotor: 0.0,
+        effort: 0.0,
+    })
+}
+
+fn add_closures(world: &mut World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<Closing>, SceneError> {
+    let mut closings = Vec::new();
+    for (i, asked) in file.closures.iter().enumerate() {
+        let place = |key: &str| Place { line: asked.line, key: format!("closure[{}].{key}", i + 1) };
+        let bodies = Bodies { file, walkers, world };
+        let (first, on_first) = bodies.point_of(&asked.first, || place("first"))?;
+        let (second, on_second) = bodies.point_of(&asked.second, || place("second"))?;
+        let asked = &ClosureEntry { anchor: asked.anchor.shifted(on_first, on_second), ..asked.clone() };
+        let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| world.bodies[body].pose);
+        let Some(closing) = Closing::new(asked, [first, second], [pose(first), pose(second)]) else {
+            return Err(place("second").error("found the world at both ends; expected a body at one of them"));
+        };
+        let [on, other] = [world.bodies[closing.first].pose, pose(closing.second)];
+        let gap = closing.gap(&on, &other);
+        if asked.active && gap > LARGEST_GAP_M {
+            let found =
+                format!("found points that are {gap:.4} m apart; expected points that meet at the start, within 1 mm");
+            let advice = "move the bodies, or set active = false and add the closure by an [[event]]";
+            return Err(place("on_second").error(found).hint(advice));
+        }
+        let (first_from_joint, second_from_joint) = closing.frames(&on, &other);
+        world.closures.push(Closure {
+            name: asked.name.clone(),
+            first: closing.first,
+            second: closing.second,
+            first_from_joint,
+            second_from_joint,
+            kind: super::placement::kind(&asked.kind),
+            active: asked.active,
+        });
+        closings.push(closing);
+    }
+    Ok(closings)
+}
+
+fn ignored(world: &World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<(Owner, Owner)>, SceneError> {
+    let bodies = Bodies { file, walkers, world };
+    let mut pairs = Vec::new();
+    for (i, pair) in file.ignored.iter().enumerate() {
+        let place = || Place { line: pair.line, key: format!("ignore[{}].pair", i + 1) };
+        let owners = |partner: &ContactPartner| -> Result<Vec<Owner>, SceneError> {
+            Ok(match partner {
+                ContactPartner::Body(body) => vec![Owner::Body(*body)],
+                ContactPartner::Obstacle(obstacle) => vec![Owner::Obstacle(*obstacle)],
+                ContactPartner::FigureBody { figure, body } => {
+                    vec![Owner::Body(bodies.of_figure(*figure, body, place)?.0)]
+                }
+                ContactPartner::Figure(figure) => {
+                    let walker = &walkers[*figure];
+                    let count = world.figures[walker.figure].model.bodies().len();
+                    (walker.first_body..walker.first_body + count).map(Owner::Body).collect()
+                }
+            })
+        };
+        let (first, second) = (owners(&pair.first)?, owners(&pair.second)?);
+        pairs.extend(first.iter().flat_map(|a| second.iter().filter(move |b| a != *b).map(move |b| (*a, *b))));
+    }
+    // Only owners that can touch make a difference.
+    let touches = |owner: &Owner| world.surfaces.iter().any(|surface| surface.owner == *owner);
+    pairs.retain(|(a, b)| touches(a) && touches(b));
+    Ok(pairs)
+}
+
+/// Hunt and Crossley's law is one of round shapes: two without a radius pass through each other under it.
+fn report_untouchable(world: &World, findings: &mut Findings) {
+    let soft = |surface: &Surface| matches!(world.materials[surface.material].law, ContactLaw::HuntCrossley(_));
+    for (i, a) in world.surfaces.iter().enumerate() {
+        for b in &world.surfaces[i + 1..] {
+            let fixed = matches!((a.owner, b.owner), (Owner::Obstacle(_), Owner::Obstacle(_)));
+            let round = a.shape.radius().is_some() || b.shape.radius().is_some();
+            if a.owner != b.owner && !fixed && !round && (soft(a) || soft(b)) {
+                let (a, b) = (world.owner_name(a.owner), world.owner_name(b.owner));
+                findings.report(
+                    Code::ContactNotRound,
+                    format!(
+                        "`{a}` and `{b}` pass through each other: the law hunt-crossley needs a sphere or a capsule on one \
+                         side. hint: law = \"regularised\""
+                    ),
+                );
+            }
+        }
+    }
+}

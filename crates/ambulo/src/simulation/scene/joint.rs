@@ -1,0 +1,178 @@
+//! Joints: how a body hangs on another or on the world.
+
+use super::SceneError;
+use super::body::BodyEntry;
+use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::names::{Attachment, Names};
+use crate::spatial::Vec3;
+use crate::toml_reader::Table;
+
+/// A joint between a child and its parent. The joints form trees; loops are closed by closures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointEntry {
+    /// Name, its own among joints and closures.
+    pub name: String,
+    /// Line of its header.
+    pub line: usize,
+    /// Which motions it leaves.
+    pub kind: JointAxes,
+    /// What it hangs on.
+    pub parent: Attachment,
+    /// What hangs on it: index in [`SceneFile::bodies`](super::SceneFile::bodies). No body hangs on two joints.
+    pub child: usize,
+    /// The joint's centre at the start, in the world [m].
+    pub at: Vec3,
+    /// One for each motion the joint leaves, in the order of [`JointAxes::coordinates`].
+    pub coordinates: Vec<CoordinateEntry>,
+}
+
+/// Which motions a joint or closure leaves. Directions are unit vectors of the world at the start (a closure that is not
+/// active then: at the moment it becomes active).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointAxes {
+    /// None.
+    Weld,
+    /// A turn about an axis of both.
+    Revolute {
+        /// The axis.
+        axis: Vec3,
+    },
+    /// A turn about an axis of the parent, then about an axis of the child.
+    Universal {
+        /// Fixed in the parent.
+        axis: Vec3,
+        /// Fixed in the child, at right angles to `axis`.
+        second_axis: Vec3,
+    },
+    /// Every turn: the rotation vector along axes of the parent, the world's at the start.
+    Ball,
+    /// A slide along an axis of both.
+    Prismatic {
+        /// The axis.
+        axis: Vec3,
+    },
+    /// A turn about the normal, then slides along `along` and `normal` × `along`.
+    Planar {
+        /// At right angles to the plane, fixed in the parent.
+        normal: Vec3,
+        /// In the plane, fixed in the parent.
+        along: Vec3,
+    },
+    /// Every motion: turns as those of a ball, then slides along x, y, z of the parent, the world's at the start.
+    Free,
+}
+
+/// The kinds of joint, by their word.
+#[derive(Clone, Copy)]
+enum Word {
+    Weld,
+    Revolute,
+    Universal,
+    Ball,
+    Prismatic,
+    Planar,
+    Free,
+}
+
+const WORDS: [(&str, Word); 7] = [
+    ("weld", Word::Weld),
+    ("revolute", Word::Revolute),
+    ("universal", Word::Universal),
+    ("ball", Word::Ball),
+    ("prismatic", Word::Prismatic),
+    ("planar", Word::Planar),
+    ("free", Word::Free),
+];
+const KEYS: &[&str] = &["name", "kind", "parent", "child", "at", "coordinate"];
+/// Cosine of the angle between directions that should be at right angles.
+const SQUARE_SLACK: f64 = 1e-6;
+
+impl JointEntry {
+    /// One joint; whether the joints together form trees is asked in `tree`.
+    pub(super) fn read(
+        table: &Table<'_>,
+        name: String,
+        names: &Names,
+        bodies: &[BodyEntry],
+        duration_s: f64,
+    ) -> Result<JointEntry, SceneError> {
+        let kind = JointAxes::read(table, KEYS)?;
+        let parent = names.carrier(&table.need("parent", "\"world\" or a body")?)?;
+        let child = names.body(&table.need("child", "the body that hangs on the joint")?)?;
+        let at = match (table.get("at"), kind) {
+            (Some(value), _) => value.vector()?,
+            (None, JointAxes::Revolute { .. } | JointAxes::Universal { .. } | JointAxes::Ball) => {
+                return Err(table.missing("at", "the joint's centre in the world at the start [m]"));
+            }
+            (None, _) => bodies[child].start.translation,
+        };
+        let coordinates = CoordinateEntry::read_all(table, kind, &bodies[child], duration_s)?;
+        Ok(JointEntry { name, line: table.line, kind, parent, child, at, coordinates })
+    }
+}
+
+impl JointAxes {
+    /// What the motions that the joint leaves are, in order.
+    #[must_use]
+    pub fn coordinates(&self) -> &'static [CoordinateKind] {
+        use CoordinateKind::{Rotation, Translation};
+        match self {
+            JointAxes::Weld => &[],
+            JointAxes::Revolute { .. } => &[Rotation],
+            JointAxes::Universal { .. } => &[Rotation; 2],
+            JointAxes::Ball => &[Rotation; 3],
+            JointAxes::Prismatic { .. } => &[Translation],
+            JointAxes::Planar { .. } => &[Rotation, Translation, Translation],
+            JointAxes::Free => &[Rotation, Rotation, Rotation, Translation, Translation, Translation],
+        }
+    }
+
+    /// The `kind` of a table and the axes that belong to it; refuses keys that are not among `keys` or those.
+    pub(super) fn read(table: &Table<'_>, keys: &[&str]) -> Result<JointAxes, SceneError> {
+        let words = WORDS.map(|(text, _)| text).join(", ");
+        let word = table.need("kind", &format!("the kind of joint: {words}"))?.choice(&WORDS)?;
+        let axes: &[&str] = match word {
+            Word::Revolute | Word::Prismatic => &["axis"],
+            Word::Universal | Word::Planar => &["axis", "second_axis"],
+            Word::Weld | Word::Ball | Word::Free => &[],
+        };
+        table.only(&[keys, axes])?;
+        let axis = || table.need("axis", "a direction of the world at the start")?.direction();
+        Ok(match word {
+            Word::Weld => JointAxes::Weld,
+            Word::Revolute => JointAxes::Revolute { axis: axis()? },
+            Word::Universal => {
+                let axis = axis()?;
+                let second = table.need("second_axis", "a direction at right angles to `axis`")?;
+                JointAxes::Universal {
+                    axis,
+                    second_axis: square(second.direction()?, axis)
+                        .ok_or_else(|| second.wrong("a direction at right angles to `axis`"))?,
+                }
+            }
+            Word::Ball => JointAxes::Ball,
+            Word::Prismatic => JointAxes::Prismatic { axis: axis()? },
+            Word::Planar => {
+                let normal = axis()?;
+                JointAxes::Planar { normal, along: along(table, normal)? }
+            }
+            Word::Free => JointAxes::Free,
+        })
+    }
+}
+
+/// The direction, made exactly square to the other; `None` if it is not square already, but for rounding.
+fn square(direction: Vec3, to: Vec3) -> Option<Vec3> {
+    let cosine = direction.dot(&to);
+    (cosine.abs() <= SQUARE_SLACK).then(|| (direction - to * cosine).normalize())
+}
+
+/// The first sliding direction: `second_axis`, or world x laid into the plane, or world y where x is nearly the normal.
+fn along(table: &Table<'_>, normal: Vec3) -> Result<Vec3, SceneError> {
+    const NEARLY: f64 = 0.99;
+    if let Some(value) = table.get("second_axis") {
+        return square(value.direction()?, normal).ok_or_else(|| value.wrong("a direction at right angles to `axis`"));
+    }
+    let first = if normal.x.abs() < NEARLY { Vec3::x() } else { Vec3::y() };
+    Ok((first - normal * first.dot(&normal)).normalize())
+}
