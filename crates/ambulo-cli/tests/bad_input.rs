@@ -320,7 +320,7 @@ fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
         instrumented: None,
     };
     let analysis = analyse(&model, &motion, &plates, settings, &mut findings).ok()?;
-    Some(output_files(&model, &analysis, None).ok()?.len() + figure_files(&model, &analysis).ok()?.len())
+    Some(output_files(&model, &analysis, None).ok()?.len() + figure_files(&model, &analysis, None).ok()?.len())
 }
 
 #[test]

@@ -37,14 +37,14 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 /// # Errors
 /// Column names that no table can hold.
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
-    let (angles, convention) = angles(outcome, chosen);
+    let (angles, convention) = angles_of(outcome, chosen);
     let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
     let table = Table::new("Clinical curves", curves.columns())?;
-    Ok((OutputFile { name: CLINICAL.to_owned(), bytes: table.write_csv() }, convention))
+    Ok((OutputFile::csv(CLINICAL, table), convention))
 }
 
 /// Angles of pelvis and hips in the clinical convention where it is chosen and possible.
-fn angles(outcome: &Outcome, chosen: Convention) -> (Option<ClinicalAngles>, ConventionSummary) {
+pub(crate) fn angles_of(outcome: &Outcome, chosen: Convention) -> (Option<ClinicalAngles>, ConventionSummary) {
     let opensim = |reason| (None, ConventionSummary { used: Convention::Opensim, reason });
     if chosen == Convention::Opensim {
         return opensim(None);
@@ -114,10 +114,12 @@ impl<'a> Curves<'a> {
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;
         match quantity.group {
-            ClinicalGroup::Kinematics => self.clinical_angle(quantity.id, side).or_else(|| {
-                let values = self.analysis.trajectory.values(self.coordinate(quantity, side)?);
-                Some(scaled(values, factor * 1.0_f64.to_degrees()))
-            }),
+            ClinicalGroup::Kinematics => {
+                self.angles.and_then(|angles| clinical_angle(angles, quantity.id, side)).or_else(|| {
+                    let values = self.analysis.trajectory.values(self.coordinate(quantity, side)?);
+                    Some(scaled(values, factor * 1.0_f64.to_degrees()))
+                })
+            }
             ClinicalGroup::Moments => {
                 Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor))
             }
@@ -137,23 +139,22 @@ impl<'a> Curves<'a> {
         let is_own = quantity.central || self.model.anatomy().coordinate_side(id) == Some(side);
         is_own.then_some(id)
     }
+}
 
-    /// An angle of pelvis or hip in the clinical convention [deg], for the panel's side.
-    fn clinical_angle(&self, quantity_id: &str, side: Side) -> Option<Vec<f64>> {
-        let angles = self.angles?;
-        let own = if side == Side::Right { 1.0 } else { -1.0 };
-        let hip = || angles.hips[side].as_ref();
-        let (values, sign) = match quantity_id {
-            "pelvis_tilt_angle" => (&angles.pelvic_tilt, 1.0),
-            "pelvis_obliquity_angle" => (&angles.pelvic_obliquity, own),
-            "pelvis_rotation_angle" => (&angles.pelvic_rotation, own),
-            "hip_flexion_angle" => (&hip()?.flexion, 1.0),
-            "hip_adduction_angle" => (&hip()?.adduction, 1.0),
-            "hip_rotation_angle" => (&hip()?.rotation, 1.0),
-            _ => return None,
-        };
-        Some(values.iter().map(|x| sign * x.to_degrees()).collect())
-    }
+/// An angle of pelvis or hip in the clinical convention [deg], for the panel's side; `None` of other quantities.
+pub(crate) fn clinical_angle(angles: &ClinicalAngles, quantity_id: &str, side: Side) -> Option<Vec<f64>> {
+    let own = if side == Side::Right { 1.0 } else { -1.0 };
+    let hip = || angles.hips[side].as_ref();
+    let (values, sign) = match quantity_id {
+        "pelvis_tilt_angle" => (&angles.pelvic_tilt, 1.0),
+        "pelvis_obliquity_angle" => (&angles.pelvic_obliquity, own),
+        "pelvis_rotation_angle" => (&angles.pelvic_rotation, own),
+        "hip_flexion_angle" => (&hip()?.flexion, 1.0),
+        "hip_adduction_angle" => (&hip()?.adduction, 1.0),
+        "hip_rotation_angle" => (&hip()?.rotation, 1.0),
+        _ => return None,
+    };
+    Some(values.iter().map(|x| sign * x.to_degrees()).collect())
 }
 
 /// The axis of a ground force in `grf.mot`, by its name in `cycles.csv`.

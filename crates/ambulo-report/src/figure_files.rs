@@ -1,29 +1,40 @@
 //! The figures of a run, as names and bytes.
 
-use crate::clinical::ClinicalNames;
+use crate::clinical::{ClinicalNames, clinical_quantities};
+use crate::clinical_file::{angles_of, clinical_angle};
 use crate::figures::{CycleFigures, FigureError, Mark, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
-use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis};
+use ambulo::analysis::{Analysis, Cycle, PredictedAnalysis, over_cycle};
+use ambulo::kinematics::ClinicalAngles;
 use ambulo::model::{Model, Side};
 use ambulo::study::Outcome;
-use ambulo_results::{OutputFile, cycle_rows, predicted_analysis};
+use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows, predicted_analysis};
 
-/// `figures/quality.svg` and the figures of gait cycles.
+/// `figures/quality.svg` and the figures of gait cycles. Pelvis and hips have these angles; without them, those of the model.
 ///
 /// # Errors
 /// A figure that could not be drawn.
-pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile>, FigureError> {
+pub fn figure_files(
+    model: &Model,
+    analysis: &Analysis,
+    angles: Option<&ClinicalAngles>,
+) -> Result<Vec<OutputFile>, FigureError> {
     let mut files = Vec::new();
     let caption = caption(model, analysis);
     if let Some(svg) = residual_figure(model, analysis, &caption)? {
-        files.push(OutputFile { name: "figures/quality.svg".to_owned(), bytes: svg.into_bytes() });
+        files.push(OutputFile::new("figures/quality.svg", svg.into_bytes()));
     }
-    let rows = cycle_rows(model, analysis);
+    let names = ClinicalNames::of_model(model);
+    let mut rows = cycle_rows(model, analysis);
+    if let Some(angles) = angles {
+        replace_angles(&mut rows, angles, &names, analysis);
+    }
     if !rows.is_empty() {
         let figures = CycleFigures {
             rows: &rows,
-            names: &ClinicalNames::of_model(model),
+            names: &names,
+            convention: if angles.is_some() { Convention::Clinical } else { Convention::Opensim },
             mass_kg: analysis.mass.kg,
             caption: &caption,
             marks: &marks(analysis),
@@ -34,12 +45,28 @@ pub fn figure_files(model: &Model, analysis: &Analysis) -> Result<Vec<OutputFile
     Ok(files)
 }
 
-/// Every figure of a run.
+/// Gives the rows of pelvis and hips the angles of the clinical convention, in the signs of `cycles.csv`.
+fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &ClinicalNames, analysis: &Analysis) {
+    let grid = analysis.trajectory.grid();
+    for quantity in clinical_quantities(names, |_| true) {
+        for row in rows.iter_mut().filter(|row| row.quantity == quantity.columns[row.side]) {
+            let own = |cycle: &&Cycle| (cycle.side, cycle.number) == (row.side, row.cycle);
+            let Some(cycle) = analysis.cycles.iter().find(own) else { continue };
+            let Some(degrees) = clinical_angle(angles, quantity.id, row.side) else { continue };
+            // The factor is +1 or -1, so that it also turns what is shown into what the file has.
+            let factor = quantity.factor(analysis.mass.kg, row.side);
+            row.values = over_cycle(grid, &degrees, cycle).iter().map(|x| factor * x).collect();
+        }
+    }
+}
+
+/// Every figure of a run, with the same angles as [`clinical_file`](crate::clinical_file).
 ///
 /// # Errors
 /// A figure that could not be drawn.
-pub fn outcome_figures(outcome: &Outcome) -> Result<Vec<OutputFile>, FigureError> {
-    let mut files = figure_files(&outcome.body, &outcome.analysis)?;
+pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile>, FigureError> {
+    let (angles, _) = angles_of(outcome, chosen);
+    let mut files = figure_files(&outcome.body, &outcome.analysis, angles.as_ref())?;
     if let Some(predicted) = predicted_analysis(outcome) {
         files.extend(prediction_figure_file(&outcome.body, &predicted)?);
     }
@@ -52,7 +79,7 @@ pub fn outcome_figures(outcome: &Outcome) -> Result<Vec<OutputFile>, FigureError
 /// A figure that could not be drawn.
 pub fn prediction_figure_file(model: &Model, predicted: &PredictedAnalysis) -> Result<Option<OutputFile>, FigureError> {
     let svg = prediction_figure(model, predicted, &caption(model, &predicted.analysis))?;
-    Ok(svg.map(|svg| OutputFile { name: "figures/prediction.svg".to_owned(), bytes: svg.into_bytes() }))
+    Ok(svg.map(|svg| OutputFile::new("figures/prediction.svg", svg.into_bytes())))
 }
 
 /// V / sqrt(g L), where the speed is known and the model has legs.

@@ -20,7 +20,7 @@ pub fn reproduction_files(
     corrected: Option<&Evidence>,
     sensitivities: &[Sensitivity],
 ) -> Result<Vec<OutputFile>, FigureError> {
-    let file = |name: String, text: String| OutputFile { name, bytes: text.into_bytes() };
+    let file = |name: String, text: String| OutputFile::new(name, text.into_bytes());
     let mut files = Vec::new();
     if let Some(svg) = first_figure()? {
         files.push(file("figures/figure1.svg".into(), svg));

@@ -110,7 +110,7 @@ residual forces). Claims are judged in the paper's mode; the number of the corre
         style: STYLE,
         body: &body,
     };
-    OutputFile { name: "report.html".to_owned(), bytes: page.html().into_bytes() }
+    OutputFile::new("report.html", page.html().into_bytes())
 }
 
 impl Figure {

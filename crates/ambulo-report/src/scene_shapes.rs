@@ -84,7 +84,7 @@ pub fn scene_shapes(scene: &Scene) -> Result<OutputFile, serde_json::Error> {
         bodies: bodies(scene),
         obstacles: (0..world.obstacles.len()).map(|number| obstacle(world, number)).collect(),
     };
-    Ok(OutputFile { name: FILE.to_owned(), bytes: serde_json::to_vec(&shapes)? })
+    Ok(OutputFile::new(FILE, serde_json::to_vec(&shapes)?))
 }
 
 fn bodies(scene: &Scene) -> Vec<BodyShapes> {

@@ -7,6 +7,7 @@ mod svg_reader;
 use ambulo::model::Side;
 use ambulo_report::clinical::ClinicalNames;
 use ambulo_report::{CycleFigures, Mark};
+use ambulo_results::Convention;
 use ambulo_results::CycleRow;
 use svg_reader::{Figure, Line};
 
@@ -45,6 +46,7 @@ fn draw(rows: &[CycleRow], caption: &str, marks: &[Mark]) -> Vec<(String, Figure
     let figures = CycleFigures {
         rows,
         names: &ClinicalNames::usual(),
+        convention: Convention::Opensim,
         mass_kg: MASS_KG,
         caption,
         marks,
@@ -133,6 +135,7 @@ fn bands_toe_off_and_units_are_there_and_the_source_is_named() {
     let bandless = CycleFigures {
         rows: &rows,
         names: &ClinicalNames::usual(),
+        convention: Convention::Opensim,
         mass_kg: MASS_KG,
         caption: "",
         marks: &[],

@@ -146,41 +146,22 @@ fn cycles_are_found_in_time_though_some_are_left_out() {
 }
 
 #[test]
-fn strides_go_as_far_as_the_body_does() {
-    let shown = Shown::of(&recorded());
-    let mean = |row: &str| shown.value("time_distance", row, 4);
-    let distance = mean("Speed") * mean("Cycle time");
-    // The invented walk slides; its speed counts over the feet.
-    assert!((mean("Stride length") / distance - 1.0).abs() < 0.05, "{} against {distance} m", mean("Stride length"));
-    assert!((mean("Step length") - 0.5 * mean("Stride length")).abs() < 0.02);
-    assert!((mean("Stance") + mean("Swing") - 100.0).abs() < 1e-9);
-    assert!((mean("Cadence") * mean("Cycle time") - 120.0).abs() < 0.5);
-    assert!((0.05..0.3).contains(&mean("Step width")), "{} m", mean("Step width"));
-}
-
-#[test]
-fn a_belt_changes_no_step() {
-    let files = recorded();
-    let ground = Shown::of(&files);
-    let table = Table::read_storage(&files["kinematics.mot"]).unwrap().0;
-    let times = table.times().unwrap().to_vec();
-    let speed = ground.value("time_distance", "Speed", 4);
-    let columns = table.columns().map(|(name, values)| {
-        let back = |(x, t): (&f64, &f64)| if name == "pelvis_tx" { x - speed * t } else { *x };
-        (name.to_owned(), values.iter().zip(&times).map(back).collect())
-    });
-    let mut on_belt = Table::new("Coordinates", columns.collect()).unwrap();
-    on_belt.in_degrees = Some(true);
-    let mut belt = files.clone();
-    belt.insert("kinematics.mot".to_owned(), on_belt.write_storage());
-    let belt = Shown::of(&belt);
-    assert!(belt.header("Walking direction").contains("on a belt"), "{}", belt.header("Walking direction"));
-    assert!(ground.header("Walking direction").ends_with("world x"), "{}", ground.header("Walking direction"));
-    for row in ["Step length", "Stride length", "Step width"] {
-        let (on, off) = (belt.value("time_distance", row, 4), ground.value("time_distance", row, 4));
-        // The pelvis' mean speed and that of the mass centre over the feet differ by some percent in this walk.
-        assert!((on - off).abs() < 0.05 * off.max(0.2), "{row}: {on} and {off} m");
+fn times_and_distances_are_those_of_the_summary() {
+    let mut files = recorded();
+    let shown = Shown::of(&files);
+    let summary: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
+    let quantities = summary["times_and_distances"]["quantities"].as_array().unwrap();
+    assert_eq!(quantities.len(), 15, "{quantities:?}");
+    for (row, word) in [("Cadence", "cadence"), ("Step width", "step_width"), ("Double support", "double_support")] {
+        let known = quantities.iter().find(|known| known["quantity"] == word).unwrap();
+        for (column, side) in [(2, "right"), (3, "left"), (4, "both")] {
+            let of_summary = known[side]["mean"].as_f64().unwrap();
+            assert!((shown.value("time_distance", row, column) - of_summary).abs() < 1e-12, "{row}");
+        }
     }
+    with_summary(&mut files, |summary| summary["times_and_distances"]["belt_speed_m_s"] = json!(1.25));
+    assert!(shown.header("Walking direction").ends_with("world x"), "{}", shown.header("Walking direction"));
+    assert_eq!(Shown::of(&files).header("Walking direction"), "in place, on a belt that runs at 1.25 m/s");
 }
 
 #[test]
@@ -202,13 +183,11 @@ fn bands_need_a_leg_length() {
 #[test]
 fn running_has_no_norms_of_walking() {
     let mut files = recorded();
-    let text = String::from_utf8(files["events.csv"].clone()).unwrap();
-    let strikes: Vec<(String, f64)> = text
-        .lines()
-        .filter_map(|line| line.split_once(",strike,").map(|(side, t)| (side.to_owned(), t.parse().unwrap())))
-        .collect();
-    let events = strikes.iter().map(|(side, t)| format!("{side},strike,{t}\n{side},off,{}\n", t + 0.3));
-    files.insert("events.csv".to_owned(), format!("side,event,time\n{}", events.collect::<String>()).into_bytes());
+    with_summary(&mut files, |summary| {
+        let quantities = summary["times_and_distances"]["quantities"].as_array_mut().unwrap();
+        let stance = quantities.iter_mut().find(|known| known["quantity"] == "stance").unwrap();
+        stance["both"]["mean"] = json!(38.0);
+    });
     let shown = Shown::of(&files);
     assert!(shown.value("time_distance", "Stance", 4) < 50.0);
     assert!(shown.panel("knee_flexion_angle")["band"].is_null() && shown.misses("this is running"));
@@ -224,8 +203,7 @@ fn sessions_to_compare_keep_their_own_numbers() {
     let mut heavier = files.clone();
     with_summary(&mut heavier, |summary| summary["mass_kg"] = json!(2.0 * summary["mass_kg"].as_f64().unwrap()));
     let (first, second) = (|name: &str| files.get(name).cloned(), |name: &str| heavier.get(name).cloned());
-    let folders =
-        [Folder { name: "before".to_owned(), file: &first }, Folder { name: "after".to_owned(), file: &second }];
+    let folders = [Folder::of_files("before", &first), Folder::of_files("after", &second)];
     let shown = Shown::read(&report_page(&folders).unwrap());
     let curve = |session: usize| {
         let groups = shown.page["sessions"][session]["groups"].as_array().unwrap();

@@ -20,7 +20,7 @@ fn refused_by_page(files: &Files, expected: &str) {
 #[track_caller]
 fn refused_by_exports(files: &Files, expected: &str) {
     let file = |name: &str| files.get(name).cloned();
-    let folder = Folder { name: "folder".to_owned(), file: &file };
+    let folder = Folder::of_files("folder", &file);
     for error in [glb_of_folder(&folder).unwrap_err(), csv_of_folder(&folder).unwrap_err()] {
         assert!(error.to_string().contains(expected), "{error}\nexpected {expected}");
     }
@@ -73,7 +73,7 @@ fn a_body_light_years_long_is_not_drawn() {
     let mut broken = files.clone();
     broken.insert("subject.osim".to_owned(), text.into_bytes());
     let file = |name: &str| broken.get(name).cloned();
-    let error = glb_of_folder(&Folder { name: "folder".to_owned(), file: &file }).unwrap_err().to_string();
+    let error = glb_of_folder(&Folder::of_files("folder", &file)).unwrap_err().to_string();
     assert!(error.contains("expected a finite number, at most 1e12"), "{error}");
     refused_by_page(&broken, "expected a finite number, at most 1e12");
 }
@@ -164,7 +164,7 @@ fn a_scene_with_such_numbers_is_not_drawn() {
             "shapes.json" => Some(shapes.clone().into_bytes()),
             _ => None,
         };
-        glb_of_folder(&Folder { name: "folder".to_owned(), file: &file }).map_err(|error| error.to_string())
+        glb_of_folder(&Folder::of_files("folder", &file)).map_err(|error| error.to_string())
     };
     glb(poses("0.5"), shapes(0.2)).unwrap();
     for (poses, shapes, expected) in [

@@ -7,6 +7,7 @@ use std::fmt;
 
 /// How a motion was changed to obey the forces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConsistencySummary {
     /// First and last instant at which the laws were enforced [s].
     pub window_s: [f64; 2],
@@ -32,6 +33,7 @@ pub struct ConsistencySummary {
 
 /// Size of what nothing supplies at the root.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResidualSize {
     /// Root mean square of the force in body weights.
     pub force_rms_bw: f64,
@@ -45,6 +47,7 @@ pub struct ResidualSize {
 
 /// Size of a coordinate's change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CoordinateSize {
     /// Root mean square in the window.
     pub rms: f64,
@@ -56,6 +59,7 @@ pub struct CoordinateSize {
 
 /// Unit of a coordinate's change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ChangeUnit {
     /// Degrees, of rotations.
     #[serde(rename = "deg")]
@@ -78,6 +82,7 @@ impl ChangeUnit {
 
 /// How far a foot was moved [mm].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FootSize {
     /// Root mean square in the window.
     pub rms: f64,

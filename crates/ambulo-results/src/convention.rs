@@ -5,6 +5,7 @@ use std::fmt;
 
 /// A convention for the angles of pelvis and hips.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Convention {
     /// As clinics measure them: pelvic tilt is the angle between the ground and the line from the posterior to the anterior iliac
@@ -34,6 +35,7 @@ impl fmt::Display for Convention {
 
 /// The convention of a run's `clinical.csv`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConventionSummary {
     /// The convention that was used.
     pub used: Convention,

@@ -1,6 +1,7 @@
 //! Curves over the gait cycle, as rows.
 
-use ambulo::analysis::{Analysis, Cycle, over_cycle};
+use crate::sound::{EXPECTED, is_sound};
+use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle};
 use ambulo::ground::{feet, upward};
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
@@ -18,7 +19,7 @@ pub struct CycleRow {
     pub unit: &'static str,
     /// Values at 0, 1, ... 100 %.
     pub values: Vec<f64>,
-    /// Toe-off [% of the cycle], where it was seen.
+    /// Foot off [% of the cycle], where it is known; the file does not have it.
     pub toe_off_percent: Option<f64>,
 }
 
@@ -87,9 +88,12 @@ fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid
         .collect()
 }
 
-/// `cycles.csv`: quantity, side, cycle, percent, value, unit.
+const HEAD: &str = "quantity,side,cycle,percent,value,unit";
+const UNITS: [&str; 7] = ["deg", "m", "rad", "N.m", "N", "W", "BW"];
+
+/// `cycles.csv`.
 pub(crate) fn csv(rows: &[CycleRow]) -> String {
-    let mut text = String::from("quantity,side,cycle,percent,value,unit\n");
+    let mut text = format!("{HEAD}\n");
     for row in rows {
         for (percent, value) in row.values.iter().enumerate() {
             let (quantity, side) = (&row.quantity, row.side.letter());
@@ -97,4 +101,115 @@ pub(crate) fn csv(rows: &[CycleRow]) -> String {
         }
     }
     text
+}
+
+/// A line of the file.
+struct Line<'a> {
+    quantity: &'a str,
+    side: Side,
+    cycle: usize,
+    percent: usize,
+    value: f64,
+    unit: &'static str,
+}
+
+/// Reads `cycles.csv`; an error says which line, what was found and what was expected.
+pub(crate) fn read(text: &str) -> Result<Vec<CycleRow>, String> {
+    let mut lines = text.lines().enumerate();
+    let head = lines.next().map_or("", |(_, line)| line);
+    if head != HEAD {
+        return Err(format!("line 1: found `{head}`; expected `{HEAD}`"));
+    }
+    let mut rows: Vec<CycleRow> = Vec::new();
+    for (i, text) in lines {
+        let line = line(text).ok_or_else(|| {
+            let units = UNITS.join(", ");
+            format!(
+                "line {}: found `{text}`; expected {HEAD} with side r or l, as value {EXPECTED}, and a unit of {units}",
+                i + 1
+            )
+        })?;
+        let may_begin = line.percent == 0 && rows.last().is_none_or(is_whole);
+        match rows.last_mut().filter(|row| continues(row, &line)) {
+            Some(row) => row.values.push(line.value),
+            None if may_begin => rows.push(begun(&line)),
+            None => {
+                let found = format!("line {}: found {} % of `{}`", i + 1, line.percent, line.quantity);
+                return Err(format!("{found}; expected curves of {CYCLE_SAMPLES} rows, from 0 to 100 %"));
+            }
+        }
+    }
+    match rows.last().filter(|row| !is_whole(row)) {
+        Some(row) => {
+            let (quantity, found) = (&row.quantity, row.values.len());
+            Err(format!("the last curve, `{quantity}`, has {found} rows; expected {CYCLE_SAMPLES}"))
+        }
+        None => Ok(rows),
+    }
+}
+
+fn line(text: &str) -> Option<Line<'_>> {
+    let mut cells = text.rsplitn(6, ',');
+    let (unit, value, percent) = (cells.next()?, cells.next()?, cells.next()?);
+    let (cycle, side, quantity) = (cells.next()?, cells.next()?, cells.next()?);
+    let side = Side::BOTH.into_iter().find(|known| known.letter() == side)?;
+    let unit = UNITS.into_iter().find(|known| *known == unit)?;
+    let (cycle, percent) = (cycle.parse().ok()?, percent.parse().ok()?);
+    let value = value.parse().ok().filter(|value| is_sound(*value))?;
+    Some(Line { quantity, side, cycle, percent, value, unit })
+}
+
+fn begun(line: &Line<'_>) -> CycleRow {
+    CycleRow {
+        quantity: line.quantity.to_owned(),
+        side: line.side,
+        cycle: line.cycle,
+        unit: line.unit,
+        values: vec![line.value],
+        toe_off_percent: None,
+    }
+}
+
+fn is_whole(row: &CycleRow) -> bool {
+    row.values.len() == CYCLE_SAMPLES
+}
+
+fn continues(row: &CycleRow, line: &Line<'_>) -> bool {
+    line.percent > 0
+        && line.percent == row.values.len()
+        && row.quantity == line.quantity
+        && (row.side, row.cycle) == (line.side, line.cycle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(percents: impl Iterator<Item = usize>) -> String {
+        let rows = percents.map(|p| format!("knee_angle_angle,l,2,{p},{},deg\n", 0.5 * p as f64));
+        format!("{HEAD}\n{}", rows.collect::<String>())
+    }
+
+    #[test]
+    fn a_curve_has_all_its_rows() {
+        let found = read(&file(0..101)).unwrap();
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].side, found[0].cycle, found[0].values[100]), (Side::Left, 2, 50.0));
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused_with_its_line() {
+        for (text, words) in [
+            (file((0..50).chain(51..101)), "line 52: found 51 % of `knee_angle_angle`"),
+            (file(0..100), "has 100 rows; expected 101"),
+            (file(0..101).replace(",25,deg", ",x,deg"), "line 52: found `knee_angle_angle,l,2,50,x,deg`"),
+            (file(0..101).replace(",25,deg", ",1e300,deg"), "line 52: found `knee_angle_angle,l,2,50,1e300,deg`"),
+            (file(0..101).replace(",25,deg", ",NaN,deg"), "line 52: found"),
+            (file(0..101).replace(",l,", ",m,"), "line 2: found"),
+            ("side,value\n".to_owned(), "line 1: found `side,value`"),
+        ] {
+            let error = read(&text).unwrap_err();
+            assert!(error.contains(words), "{error}");
+        }
+    }
 }

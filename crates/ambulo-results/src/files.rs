@@ -1,18 +1,92 @@
 //! The files of a run, as names and bytes.
 
-use crate::cycle_table::{self, cycle_rows};
-use crate::tables;
-use ambulo::analysis::Analysis;
-use ambulo::model::Model;
+use crate::cycle_table::{self, CycleRow, cycle_rows};
+use crate::{CYCLES, EVENTS, tables};
+use ambulo::analysis::{Analysis, Event};
+use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
+use ambulo_formats::table::Table;
 
-/// A file to be written.
-#[derive(Debug, Clone, PartialEq)]
+/// A file to be written, and what it was made of, so that a page of the same run parses nothing.
+#[derive(Debug, Clone)]
 pub struct OutputFile {
     /// Name, relative to the output folder.
     pub name: String,
     /// Content.
     pub bytes: Vec<u8>,
+    pub(crate) value: FileValue,
+}
+
+/// What a file was made of.
+#[derive(Debug, Clone)]
+pub(crate) enum FileValue {
+    /// A table of time series.
+    Table(Table),
+    /// The events of `events.csv`.
+    Events(Vec<Event>),
+    /// The curves of `cycles.csv`.
+    Cycles(Vec<CycleRow>),
+    /// A body.
+    Body(Box<Model>),
+    /// Only its bytes are known.
+    Bytes,
+}
+
+impl OutputFile {
+    /// A file that results are not read from: a picture, a page, the text of a scene.
+    #[must_use]
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> OutputFile {
+        OutputFile { name: name.into(), bytes, value: FileValue::Bytes }
+    }
+
+    /// A table as OpenSim's storage file.
+    #[must_use]
+    pub fn storage(name: impl Into<String>, table: Table) -> OutputFile {
+        OutputFile { name: name.into(), bytes: table.write_storage(), value: FileValue::Table(table) }
+    }
+
+    /// A table as comma-separated values.
+    #[must_use]
+    pub fn csv(name: impl Into<String>, table: Table) -> OutputFile {
+        OutputFile { name: name.into(), bytes: table.write_csv(), value: FileValue::Table(table) }
+    }
+
+    /// `events.csv`.
+    #[must_use]
+    pub fn events(events: &[Event]) -> OutputFile {
+        let bytes = tables::events_csv(events).into_bytes();
+        OutputFile { name: EVENTS.to_owned(), bytes, value: FileValue::Events(events.to_vec()) }
+    }
+
+    /// `cycles.csv`.
+    #[must_use]
+    pub fn cycles(rows: Vec<CycleRow>) -> OutputFile {
+        OutputFile {
+            name: CYCLES.to_owned(),
+            bytes: cycle_table::csv(&rows).into_bytes(),
+            value: FileValue::Cycles(rows),
+        }
+    }
+
+    /// A body as an OpenSim model.
+    ///
+    /// # Errors
+    /// A body that the format cannot hold.
+    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile, BodyFileError> {
+        let bytes = to_osim(model)?.write()?;
+        Ok(OutputFile { name: name.into(), bytes, value: FileValue::Body(Box::new(model.clone())) })
+    }
+}
+
+/// Why a body makes no file.
+#[derive(Debug, thiserror::Error)]
+pub enum BodyFileError {
+    /// What OpenSim models lack.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// What the format lacks.
+    #[error(transparent)]
+    Format(#[from] Error),
 }
 
 /// Every table of a run. `device`, if worn, is its generalised forces: one column a coordinate [N.m or N], one
@@ -21,25 +95,24 @@ pub struct OutputFile {
 /// # Errors
 /// Column names that no table can hold.
 pub fn output_files(model: &Model, analysis: &Analysis, device: Option<&[Vec<f64>]>) -> Result<Vec<OutputFile>, Error> {
-    let file = |name: &str, bytes: Vec<u8>| OutputFile { name: name.to_owned(), bytes };
     let rows = cycle_rows(model, analysis);
     let mut files = vec![
-        file("kinematics.mot", tables::kinematics(model, analysis)?.write_storage()),
-        file("moments.sto", tables::moments(model, analysis, None)?.write_storage()),
-        file("powers.sto", tables::powers(model, analysis)?.write_storage()),
-        file("reactions.sto", tables::reactions(model, analysis)?.write_storage()),
+        OutputFile::storage("kinematics.mot", tables::kinematics(model, analysis)?),
+        OutputFile::storage("moments.sto", tables::moments(model, analysis, None)?),
+        OutputFile::storage("powers.sto", tables::powers(model, analysis)?),
+        OutputFile::storage("reactions.sto", tables::reactions(model, analysis)?),
     ];
     if let Some(device) = device {
         let biological = tables::moments(model, analysis, Some(device))?;
-        files.push(file("moments_biological.sto", biological.write_storage()));
+        files.push(OutputFile::storage("moments_biological.sto", biological));
     }
     if !analysis.ground.bodies.is_empty() {
-        files.push(file("grf.mot", tables::ground(model, analysis)?.write_storage()));
-        files.push(file("external_loads.xml", tables::external_loads(model, analysis).write()));
-        files.push(file("events.csv", tables::events_csv(analysis).into_bytes()));
+        files.push(OutputFile::storage("grf.mot", tables::ground(model, analysis)?));
+        files.push(OutputFile::new("external_loads.xml", tables::external_loads(model, analysis).write()));
+        files.push(OutputFile::events(&analysis.events));
     }
     if !rows.is_empty() {
-        files.push(file("cycles.csv", cycle_table::csv(&rows).into_bytes()));
+        files.push(OutputFile::cycles(rows));
     }
     Ok(files)
 }

@@ -1,19 +1,37 @@
 //! Reads the files of a result folder.
 
+use crate::cycle_table::{self, CycleRow};
+use crate::files::{FileValue, OutputFile};
 use crate::run_summary::RunSummary;
 use crate::sound::{EXPECTED, is_sound};
+use crate::{CYCLES, EVENTS, tables};
+use ambulo::analysis::Event;
+use ambulo::findings::Findings;
+use ambulo::model::Model;
 use ambulo_formats::table::Table;
+use ambulo_formats::{Error as FormatError, Remark};
 use std::error::Error;
+
+type ReadTable = fn(&[u8]) -> Result<(Table, Vec<Remark>), FormatError>;
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// A result folder: its name and its files; the shell reads them.
+/// A result folder: the files that a shell reads, or those that a run has just made.
 pub struct Folder<'a> {
     /// What the folder is called.
     pub name: String,
-    /// The bytes of a file, if it exists.
-    pub file: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+    content: Content<'a>,
 }
+
+enum Content<'a> {
+    /// The bytes of a file, if it exists.
+    Files(&'a dyn Fn(&str) -> Option<Vec<u8>>),
+    /// Values; nothing is parsed but the text of scenes.
+    Written { files: &'a [OutputFile], summary: RunSummary },
+}
+
+/// Names that the body of a run may have: of a recording, of a synthetic walk.
+pub const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
 
 /// Why results cannot be read or shown.
 #[derive(Debug, thiserror::Error)]
@@ -42,15 +60,97 @@ pub enum ResultsError {
     Data(#[from] serde_json::Error),
 }
 
-impl Folder<'_> {
+impl<'a> Folder<'a> {
+    /// A folder whose files are read by `file`, which has the bytes of a file if it exists.
+    #[must_use]
+    pub fn of_files(name: impl Into<String>, file: &'a dyn Fn(&str) -> Option<Vec<u8>>) -> Folder<'a> {
+        Folder { name: name.into(), content: Content::Files(file) }
+    }
+
+    /// The folder of a run that has its results in memory.
+    #[must_use]
+    pub fn of_run(name: impl Into<String>, files: &'a [OutputFile], summary: RunSummary) -> Folder<'a> {
+        Folder { name: name.into(), content: Content::Written { files, summary } }
+    }
+
+    /// Whether the folder has a file.
+    #[must_use]
+    pub fn has(&self, file: &str) -> bool {
+        match &self.content {
+            Content::Files(read) => read(file).is_some(),
+            Content::Written { files, .. } => files.iter().any(|known| known.name == file),
+        }
+    }
+
+    fn bytes(&self, file: &str) -> Option<Vec<u8>> {
+        match &self.content {
+            Content::Files(read) => read(file),
+            Content::Written { files, .. } => {
+                files.iter().find(|known| known.name == file).map(|known| known.bytes.clone())
+            }
+        }
+    }
+
+    /// What a file of a run in memory was made of.
+    fn value(&self, file: &str) -> Option<&FileValue> {
+        match &self.content {
+            Content::Files(_) => None,
+            Content::Written { files, .. } => files.iter().find(|known| known.name == file).map(|known| &known.value),
+        }
+    }
+
     /// `summary.json`.
     ///
     /// # Errors
     /// No such file; a file that this version did not write.
     pub fn summary(&self) -> Result<RunSummary, ResultsError> {
+        if let Content::Written { summary, .. } = &self.content {
+            return Ok(summary.clone());
+        }
         let file = crate::SUMMARY;
         let text = self.text(file)?.ok_or_else(|| ResultsError::Missing { folder: self.name.clone(), file })?;
         RunSummary::from_json(&text).map_err(|reason| self.unreadable(file, reason))
+    }
+
+    /// `events.csv`, in the order of the file; none without the file.
+    ///
+    /// # Errors
+    /// A file that holds anything else.
+    pub fn events(&self) -> Result<Vec<Event>, ResultsError> {
+        if let Some(FileValue::Events(events)) = self.value(EVENTS) {
+            return Ok(events.clone());
+        }
+        let text = self.text(EVENTS)?.unwrap_or_default();
+        tables::read_events(&text).map_err(|reason| self.unreadable(EVENTS, reason))
+    }
+
+    /// `cycles.csv`, in the order of the file; none without the file.
+    ///
+    /// # Errors
+    /// A file that holds anything else.
+    pub fn cycles(&self) -> Result<Vec<CycleRow>, ResultsError> {
+        if let Some(FileValue::Cycles(rows)) = self.value(CYCLES) {
+            return Ok(rows.clone());
+        }
+        let Some(text) = self.text(CYCLES)? else { return Ok(Vec::new()) };
+        cycle_table::read(&text).map_err(|reason| self.unreadable(CYCLES, reason))
+    }
+
+    /// The body of the run and the name of its file; none without the file.
+    ///
+    /// # Errors
+    /// A file that is no model.
+    pub fn body(&self) -> Result<Option<(&'static str, Model)>, ResultsError> {
+        for file in BODIES {
+            if let Some(FileValue::Body(model)) = self.value(file) {
+                return Ok(Some((file, Model::clone(model))));
+            }
+            if let Some(bytes) = self.bytes(file) {
+                let model = Model::from_osim(&bytes, &mut Findings::default());
+                return model.map(|model| Some((file, model))).map_err(|error| self.refused(file, &error));
+            }
+        }
+        Ok(None)
     }
 
     /// A table of time series, if the folder has it; its numbers are finite.
@@ -58,11 +158,7 @@ impl Folder<'_> {
     /// # Errors
     /// A file that is not a table, or holds numbers that no result can be.
     pub fn table(&self, file: &str) -> Result<Option<Table>, ResultsError> {
-        let Some(bytes) = (self.file)(file) else { return Ok(None) };
-        self.refuse_binary(file, &bytes)?;
-        let (table, _) = Table::read_storage(&bytes).map_err(|error| self.refused(file, &error))?;
-        self.check_numbers(file, &table)?;
-        Ok(Some(table))
+        self.table_by(file, Table::read_storage)
     }
 
     /// A table in CSV, if the folder has it; its numbers are finite.
@@ -70,9 +166,18 @@ impl Folder<'_> {
     /// # Errors
     /// A file that is not a table, or holds numbers that no result can be.
     pub fn csv_table(&self, file: &str) -> Result<Option<Table>, ResultsError> {
-        let Some(bytes) = (self.file)(file) else { return Ok(None) };
-        self.refuse_binary(file, &bytes)?;
-        let (table, _) = Table::read_csv(&bytes).map_err(|error| self.refused(file, &error))?;
+        self.table_by(file, Table::read_csv)
+    }
+
+    fn table_by(&self, file: &str, read: ReadTable) -> Result<Option<Table>, ResultsError> {
+        let table = match self.value(file) {
+            Some(FileValue::Table(table)) => table.clone(),
+            _ => {
+                let Some(bytes) = self.bytes(file) else { return Ok(None) };
+                self.refuse_binary(file, &bytes)?;
+                read(&bytes).map_err(|error| self.refused(file, &error))?.0
+            }
+        };
         self.check_numbers(file, &table)?;
         Ok(Some(table))
     }
@@ -82,7 +187,7 @@ impl Folder<'_> {
     /// # Errors
     /// A file that is not UTF-8.
     pub fn text(&self, file: &str) -> Result<Option<String>, ResultsError> {
-        let Some(mut bytes) = (self.file)(file) else { return Ok(None) };
+        let Some(mut bytes) = self.bytes(file) else { return Ok(None) };
         self.refuse_binary(file, &bytes)?;
         if bytes.starts_with(BYTE_ORDER_MARK) {
             bytes.drain(..BYTE_ORDER_MARK.len());

@@ -20,10 +20,12 @@ mod walking_summary;
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize, ResidualSize};
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
-pub use files::{OutputFile, output_files};
-pub use folder::{Folder, ResultsError, error_chain};
+pub use files::{BodyFileError, OutputFile, output_files};
+pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use outcome::{outcome_summary, outcome_tables, predicted_analysis};
 pub use prediction_files::prediction_files;
+#[cfg(feature = "schema")]
+pub use run_summary::summary_schema;
 pub use run_summary::{RunSummary, summary_json};
 pub use scene_summary::{
     ContactSummary, ConvergenceSummary, EnergySummary, SceneExtremes, SceneInput, SceneSummary, WorldSummary,
@@ -42,6 +44,10 @@ pub use tables::ground_columns;
 pub use walk_summary::{PelvisPath, Size, SolverStage, WalkSummary};
 pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
 
+/// Name of the table of foot strikes and foot offs in a result folder.
+pub const EVENTS: &str = "events.csv";
+/// Name of the table of curves over gait cycles in a result folder.
+pub const CYCLES: &str = "cycles.csv";
 /// Name of the summary in a result folder.
 pub const SUMMARY: &str = "summary.json";
 /// Name of the table of clinical curves in a result folder.

@@ -51,8 +51,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
     };
     let input = Input { ground_source, ..input };
     let mut summary = summary(&outcome.body, &outcome.analysis, &settings, input, findings);
-    let walking = WalkingSummary::of(&outcome.times_and_distances);
-    summary.times_and_distances = Some(walking).filter(|walking| !walking.quantities.is_empty());
+    summary.times_and_distances = WalkingSummary::of(&outcome.times_and_distances);
     summary.height_m = outcome.height_m();
     summary.subject = outcome.tracking.as_ref().map(subject);
     summary.consistency = outcome.residual_reduction.as_ref().map(ConsistencySummary::of);

@@ -15,10 +15,9 @@ use ambulo_formats::Error;
 pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, Error> {
     let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
     let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
-    let mut files = vec![OutputFile { name: "grf_sd.mot".to_owned(), bytes: deviations.write_storage() }];
+    let mut files = vec![OutputFile::storage("grf_sd.mot", deviations)];
     if let Some(measured) = &predicted.measured {
-        let bytes = tables::ground(model, measured)?.write_storage();
-        files.push(OutputFile { name: "grf_measured.mot".to_owned(), bytes });
+        files.push(OutputFile::storage("grf_measured.mot", tables::ground(model, measured)?));
     }
     Ok(files)
 }

@@ -11,6 +11,7 @@ const AGAIN: &str = "hint: run the command that wrote this folder again, with th
 
 /// The summary of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum RunSummary {
     /// Of a simulated scene.
@@ -57,6 +58,16 @@ fn read<T: DeserializeOwned>(value: &Value) -> Result<T, String> {
         let key = key.map_or_else(String::new, |path| format!("`{path}`: "));
         format!("{key}{}; see docs/OUTPUTS.md. {AGAIN}", error.inner())
     })
+}
+
+/// JSON schema of `summary.json`: every key with its meaning and unit.
+///
+/// # Errors
+/// None for the types of this crate.
+#[cfg(feature = "schema")]
+pub fn summary_schema() -> Result<Vec<u8>, serde_json::Error> {
+    let settings = schemars::generate::SchemaSettings::default().for_serialize();
+    summary_json(&settings.into_generator().into_root_schema_for::<RunSummary>())
 }
 
 /// A summary as the content of `summary.json`.

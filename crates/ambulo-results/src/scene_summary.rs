@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 /// The summary of one run. Keys that a run cannot fill are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneSummary {
     /// Version of the program.
     pub version: String,
@@ -49,6 +50,7 @@ pub struct SceneSummary {
 
 /// What went in.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneInput {
     /// The scene file.
     pub scene: String,
@@ -60,6 +62,7 @@ pub struct SceneInput {
 
 /// How many of each there are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorldSummary {
     /// Bodies that forces move, those of figures too.
     pub bodies: usize,
@@ -79,6 +82,7 @@ pub struct WorldSummary {
 
 /// Energies [J].
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EnergySummary {
     /// Total at the first instant.
     pub start_j: f64,
@@ -94,6 +98,7 @@ pub struct EnergySummary {
 
 /// Contacts.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ContactSummary {
     /// Most points that push at once.
     pub points_max: usize,
@@ -109,6 +114,7 @@ pub struct ContactSummary {
 
 /// How the solver did over all steps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConvergenceSummary {
     /// Tree solves a step.
     pub iterations_mean: f64,

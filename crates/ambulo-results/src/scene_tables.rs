@@ -85,7 +85,7 @@ impl SceneTables {
         let mut files = Vec::new();
         let mut add = |wanted: bool, name: &str, text: String| {
             if wanted {
-                files.push(OutputFile { name: name.to_owned(), bytes: text.into_bytes() });
+                files.push(OutputFile::new(name, text.into_bytes()));
             }
         };
         add(kept.poses, "poses.csv", self.poses);
@@ -98,7 +98,7 @@ impl SceneTables {
             let columns = std::iter::once(("time".to_owned(), self.times)).chain(self.moments).collect();
             let mut table = Table::new("Generalized Forces", columns)?;
             table.in_degrees = Some(false);
-            files.push(OutputFile { name: "moments.sto".into(), bytes: table.write_storage() });
+            files.push(OutputFile::storage("moments.sto", table));
         }
         Ok(files)
     }

@@ -11,6 +11,7 @@ use std::fmt;
 
 /// How markers became a body in motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SubjectSummary {
     /// How the laboratory's axes and unit were turned into the world's, in one line.
     pub axes: String,
@@ -37,6 +38,7 @@ pub struct SubjectSummary {
 
 /// How well a body follows markers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkersSummary {
     /// Mean over the frames of the root mean square distance of the markers [mm].
     pub rms_mm: Option<f64>,
@@ -48,6 +50,7 @@ pub struct MarkersSummary {
 
 /// How far one marker stayed from its place on the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkerErrorSummary {
     /// Name of the marker.
     pub name: String,
@@ -63,6 +66,7 @@ pub struct MarkerErrorSummary {
 
 /// A time during which a force plate was loaded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlateContactSummary {
     /// Name of the plate.
     pub plate: String,
@@ -82,6 +86,7 @@ pub struct PlateContactSummary {
 
 /// Where a force plate lies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlateCornersSummary {
     /// Name of the plate.
     pub plate: String,
@@ -91,6 +96,7 @@ pub struct PlateCornersSummary {
 
 /// How well two sources of foot strikes and toe-offs agree.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EventAgreementSummary {
     /// The events that are compared.
     pub found: EventOrigin,
@@ -102,6 +108,7 @@ pub struct EventAgreementSummary {
 
 /// Where events come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum EventOrigin {
     /// Forces of plates.
@@ -126,6 +133,7 @@ impl EventOrigin {
 
 /// The size of a segment of the built-in body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SegmentSummary {
     /// Name of the body.
     pub body: String,

@@ -18,6 +18,7 @@ use std::fmt;
 
 /// The summary of one run. Keys that a run cannot fill are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Version of the program.
     pub version: String,
@@ -51,8 +52,8 @@ pub struct Summary {
     pub filter: Filters,
     /// How angles of pelvis and hips are measured in `clinical.csv`; `null` without that file.
     pub convention: Option<ConventionSummary>,
-    /// Times and distances of the strides; `null` where no feet were seen to walk.
-    pub times_and_distances: Option<WalkingSummary>,
+    /// Times and distances of the strides.
+    pub times_and_distances: WalkingSummary,
     /// Where the ground forces come from.
     pub ground: Ground,
     /// What motion and forces disagree by, at the root.
@@ -79,6 +80,7 @@ pub struct Summary {
 
 /// What went in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Input {
     /// The recorded motion.
     pub motion: String,
@@ -123,6 +125,7 @@ pub enum GroundSource {
 /// Whether a mass is known from more than a model. From motion alone every force scales with the mass, so that a wrong one shows only
 /// against plates, a standing trial or what somebody states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum MassKnowledge {
     /// Weighed by plates, or stated.
@@ -135,6 +138,7 @@ pub enum MassKnowledge {
 
 /// The filters in words and numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Filters {
     /// Filter of the motion.
     pub motion: FilterSummary,
@@ -144,6 +148,7 @@ pub struct Filters {
 
 /// One filter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FilterSummary {
     /// What kind of filter it is.
     pub kind: FilterKind,
@@ -155,6 +160,7 @@ pub struct FilterSummary {
 
 /// A kind of filter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum FilterKind {
     /// Butterworth low-pass, forwards and backwards.
@@ -179,6 +185,7 @@ impl FilterKind {
 
 /// Where the ground forces of a run come from, as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum GroundOrigin {
     /// Force plates or other sensors.
@@ -206,6 +213,7 @@ impl GroundOrigin {
 
 /// Where the ground forces come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ground {
     /// Their source.
     pub source: GroundOrigin,
@@ -217,6 +225,7 @@ pub struct Ground {
 
 /// The residual at the root.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResidualSummary {
     /// Root mean square of the force [N].
     pub force_rms_n: f64,
@@ -232,6 +241,7 @@ pub struct ResidualSummary {
 
 /// Extremes of one generalised force.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PeakSummary {
     /// Column of `moments.sto`.
     pub quantity: String,
@@ -249,6 +259,7 @@ pub struct PeakSummary {
 
 /// Unit of a generalised force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ForceUnit {
     /// Of moments about rotations.
     #[serde(rename = "N.m")]
@@ -305,7 +316,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
         filter: filters(settings),
         ground: Ground { source, rule, threshold_n: UNLOADED_N },
         convention: None,
-        times_and_distances: None,
+        times_and_distances: WalkingSummary::default(),
         residual: residual(model, analysis),
         peaks: peaks(model, analysis),
         findings: findings.as_slice().to_vec(),

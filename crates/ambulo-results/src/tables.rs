@@ -1,6 +1,7 @@
 //! Time series as tables with the names that OpenSim's tools know.
 
-use ambulo::analysis::Analysis;
+use crate::sound::is_sound;
+use ambulo::analysis::{Analysis, Event, EventKind};
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use ambulo::model::{BodyId, CoordinateKind, Model, Side};
 use ambulo::spatial::Vec3;
@@ -111,12 +112,32 @@ pub(crate) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoad
 }
 
 /// `events.csv`.
-pub(crate) fn events_csv(analysis: &Analysis) -> String {
-    let mut text = String::from("side,event,time\n");
-    for event in &analysis.events {
-        text += &format!("{},{},{:.5}\n", event.side.letter(), event.kind.word(), event.time_s);
+pub(crate) fn events_csv(events: &[Event]) -> String {
+    let mut text = format!("{EVENTS_HEAD}\n");
+    for event in events {
+        text += &format!("{},{},{}\n", event.side.letter(), event.kind.word(), event.time_s);
     }
     text
+}
+
+const EVENTS_HEAD: &str = "side,event,time";
+
+/// Reads `events.csv`; an error says which line, what was found and what was expected.
+pub(crate) fn read_events(text: &str) -> Result<Vec<Event>, String> {
+    let event = |(i, line): (usize, &str)| {
+        let refused = || format!("line {}: found `{line}`; expected side (r, l), event (strike, off) and time", i + 1);
+        event(line).ok_or_else(refused)
+    };
+    text.lines().enumerate().skip(1).map(event).collect()
+}
+
+fn event(line: &str) -> Option<Event> {
+    let cells: Vec<&str> = line.split(',').collect();
+    let [letter, kind, time] = cells[..] else { return None };
+    let side = Side::BOTH.into_iter().find(|side| side.letter() == letter)?;
+    let kind = [EventKind::Strike, EventKind::Off].into_iter().find(|known| known.word() == kind)?;
+    let time_s: f64 = time.parse().ok()?;
+    is_sound(time_s).then_some(Event { side, kind, time_s })
 }
 
 fn push_vector(columns: &mut Vec<Column>, stem: &str, series: impl IntoIterator<Item = Vec3>) {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 /// How a walk was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WalkSummary {
     /// Name of the gait.
     pub gait: String,
@@ -65,6 +66,7 @@ pub struct WalkSummary {
 
 /// Root mean square and largest size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Size {
     /// Root mean square.
     pub rms: f64,
@@ -74,6 +76,7 @@ pub struct Size {
 
 /// A path forwards and up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PelvisPath {
     /// Against constant speed.
     pub forward: Size,
@@ -83,6 +86,7 @@ pub struct PelvisPath {
 
 /// One stage of the solver.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SolverStage {
     /// Steps taken.
     pub iterations: usize,

@@ -6,16 +6,26 @@ use ambulo::model::Side;
 use serde::{Deserialize, Serialize};
 
 /// Times and distances of the strides of both feet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WalkingSummary {
     /// Mean speed over the floor or belt [m/s].
     pub speed_m_s: Option<f64>,
+    /// Mean speed along the path of the pelvis [m/s]; `null` where the path is straight.
+    pub path_speed_m_s: Option<f64>,
+    /// Speed of the belt of a treadmill [m/s]; `null` on a floor that does not move.
+    pub belt_speed_m_s: Option<f64>,
+    /// Mean velocity of the pelvis in the world, forward (x) and to the right (z) [m/s]; `null` without a pelvis.
+    pub pelvis_velocity_m_s: Option<[f64; 2]>,
+    /// Largest angle between the directions of two strides [deg]; `null` with fewer than two strides.
+    pub turn_deg: Option<f64>,
     /// Each quantity that is known of at least one stride.
     pub quantities: Vec<QuantitySummary>,
 }
 
 /// One quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QuantitySummary {
     /// Its name: `cadence`, `step_length`.
     pub quantity: String,
@@ -33,6 +43,7 @@ pub struct QuantitySummary {
 
 /// Mean and standard deviation over strides.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SpreadSummary {
     /// Mean.
     pub mean: f64,
@@ -60,8 +71,18 @@ impl WalkingSummary {
         });
         WalkingSummary {
             speed_m_s: found.speed_m_s,
+            path_speed_m_s: found.path_speed_m_s,
+            belt_speed_m_s: found.belt_speed_m_s,
+            pelvis_velocity_m_s: found.pelvis_velocity.map(|velocity| [velocity.x, velocity.z]),
+            turn_deg: found.turn.map(f64::to_degrees),
             quantities: quantities.filter(|quantity| quantity.both.is_some()).collect(),
         }
+    }
+
+    /// A quantity by its name; `None` where no stride has it.
+    #[must_use]
+    pub fn quantity(&self, quantity: StrideQuantity) -> Option<&QuantitySummary> {
+        self.quantities.iter().find(|known| known.quantity == quantity.word())
     }
 
     /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; an empty cell where a number is not
@@ -69,8 +90,10 @@ impl WalkingSummary {
     #[must_use]
     pub fn file(&self) -> OutputFile {
         let mut text = String::from("quantity,unit,side,mean,sd,strides\n");
-        if let Some(speed) = self.speed_m_s {
-            text += &format!("speed,m/s,both,{speed},,\n");
+        for (quantity, speed) in [("speed", self.speed_m_s), ("path_speed", self.path_speed_m_s)] {
+            if let Some(speed) = speed {
+                text += &format!("{quantity},m/s,both,{speed},,\n");
+            }
         }
         for QuantitySummary { quantity, unit, right, left, both, .. } in &self.quantities {
             for (side, spread) in [("r", right), ("l", left), ("both", both)] {
@@ -79,7 +102,18 @@ impl WalkingSummary {
                 text += &format!("{quantity},{unit},{side},{mean},{sd},{strides}\n");
             }
         }
-        OutputFile { name: crate::TIMES_AND_DISTANCES.to_owned(), bytes: text.into_bytes() }
+        OutputFile::new(crate::TIMES_AND_DISTANCES, text.into_bytes())
+    }
+}
+
+impl QuantitySummary {
+    /// The strides of one foot.
+    #[must_use]
+    pub fn side(&self, side: Side) -> Option<&SpreadSummary> {
+        match side {
+            Side::Right => self.right.as_ref(),
+            Side::Left => self.left.as_ref(),
+        }
     }
 }
 

@@ -5,8 +5,7 @@ use crate::args::ReportArgs;
 use crate::{Verdict, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;
-use ambulo_results::Folder;
-use ambulo_results::OutputFile;
+use ambulo_results::{Folder, OutputFile, RunSummary};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 
@@ -38,7 +37,7 @@ pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
     let folders: Vec<Folder<'_>> = (opened.iter().zip(&names).zip(&readers))
         .map(|((folder, name), file)| {
             let is_unique = names.iter().filter(|other| *other == name).count() == 1;
-            Folder { name: if is_unique { name.clone() } else { folder.shown() }, file }
+            Folder::of_files(if is_unique { name.clone() } else { folder.shown() }, file)
         })
         .collect();
     let page = report_page(&folders);
@@ -54,11 +53,7 @@ pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
 }
 
 /// The page of a run that is being written; `name` is that of its folder.
-pub(super) fn page_of_run(name: &Path, written: &[OutputFile], summary: &[u8]) -> Result<OutputFile> {
-    let file = |name: &str| match name {
-        "summary.json" => Some(summary.to_vec()),
-        _ => written.iter().find(|file| file.name == name).map(|file| file.bytes.clone()),
-    };
-    let html = report_page(&[Folder { name: last(name), file: &file }])?;
-    Ok(OutputFile { name: PAGE.to_owned(), bytes: html.into_bytes() })
+pub(super) fn page_of_run(name: &Path, written: &[OutputFile], summary: RunSummary) -> Result<OutputFile> {
+    let html = report_page(&[Folder::of_run(last(name), written, summary)])?;
+    Ok(OutputFile::new(PAGE, html.into_bytes()))
 }

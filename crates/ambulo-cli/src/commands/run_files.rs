@@ -8,7 +8,9 @@ use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
 use ambulo_report::{clinical_file, outcome_figures};
-use ambulo_results::{Convention, Input, OutputFile, Summary, WalkSummary, outcome_summary, outcome_tables};
+use ambulo_results::{
+    Convention, Input, OutputFile, RunSummary, Summary, WalkSummary, outcome_summary, outcome_tables, summary_json,
+};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -33,21 +35,22 @@ impl RunFiles<'_> {
     pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
         let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
         let mut written = outcome_tables(outcome)?;
+        let figures = outcome_figures(outcome, convention)?;
         let (clinical, convention) = clinical_file(outcome, convention)?;
         written.push(clinical);
-        written.extend(outcome_figures(outcome)?);
+        written.extend(figures);
         written.extend(files);
         files::replace_results(output, &written, read)?;
         clock.lap("write");
         let mut summary = Summary { walk, convention: Some(convention), ..outcome_summary(outcome, input, &findings) };
-        let page = page_of_run(output, &written, &json(&summary)?);
+        let page = page_of_run(output, &written, RunSummary::Motion(Box::new(summary.clone())));
         clock.lap("report");
         match page {
             Ok(page) => files::write(&output.join(&page.name), &page.bytes)?,
             Err(reason) => summary.findings.push(page_not_written(&reason)),
         }
         summary.timing_ms = clock.into_laps();
-        files::write(&output.join("summary.json"), &json(&summary)?)?;
+        files::write(&output.join("summary.json"), &summary_json(&summary)?)?;
         printer::forces(&summary, output, voice)?;
         Ok(if outcome.verdict.feasible { Verdict::Accepted } else { Verdict::Refused })
     }
@@ -59,10 +62,4 @@ pub(super) fn read_thresholds(path: Option<&Path>) -> Result<Thresholds> {
     let shown = || path.display().to_string();
     let text = String::from_utf8(files::read(path)?).with_context(shown)?;
     Thresholds::from_toml(&text).with_context(shown)
-}
-
-fn json(summary: &Summary) -> Result<Vec<u8>> {
-    let mut json = serde_json::to_vec_pretty(summary)?;
-    json.push(b'\n');
-    Ok(json)
 }

@@ -9,7 +9,7 @@ use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
 use ambulo_report::{SceneCurves, scene_shapes};
-use ambulo_results::{SceneExtremes, SceneInput, SceneTables};
+use ambulo_results::{RunSummary, SceneExtremes, SceneInput, SceneTables, summary_json};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.verdict = verdict;
     summary.timing_ms = clock.into_laps();
-    let page = page_of_run(&args.output, &written, &json(&summary)?);
+    let page = page_of_run(&args.output, &written, RunSummary::Scene(Box::new(summary.clone())));
     match page {
         Ok(page) => files::write(&args.output.join(&page.name), &page.bytes)?,
         Err(reason) => summary.findings.push(page_not_written(&reason)),
@@ -122,11 +122,5 @@ fn refuse_to_write_over(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
 }
 
 fn write_json(path: &Path, content: &impl serde::Serialize) -> Result<()> {
-    files::write(path, &json(content)?)
-}
-
-fn json(content: &impl serde::Serialize) -> Result<Vec<u8>> {
-    let mut json = serde_json::to_vec_pretty(content)?;
-    json.push(b'\n');
-    Ok(json)
+    files::write(path, &summary_json(content)?)
 }

@@ -9,7 +9,6 @@ use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
 use ambulo::gait::{Gait, Pace, Speed, Style, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::model::to_osim;
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
 use ambulo_report::gait_figure;
@@ -100,14 +99,13 @@ impl Made<'_> {
 
     /// The figure as a model that `ambulo forces` and OpenSim read, and the gait as a picture.
     fn files(&self) -> Result<Vec<OutputFile>> {
-        let bytes = to_osim(&self.walk.human.model)?.write()?;
-        Ok(vec![OutputFile { name: "figure.osim".to_owned(), bytes }, gait_file(&self.walk.walk)?])
+        Ok(vec![OutputFile::body("figure.osim", &self.walk.human.model)?, gait_file(&self.walk.walk)?])
     }
 }
 
 /// The figure of a gait as a file.
 fn gait_file(walk: &Walk) -> Result<OutputFile> {
-    Ok(OutputFile { name: "figures/gait.svg".to_owned(), bytes: gait_figure(walk)?.into_bytes() })
+    Ok(OutputFile::new("figures/gait.svg", gait_figure(walk)?.into_bytes()))
 }
 
 /// How the forces were divided between the feet in double support.

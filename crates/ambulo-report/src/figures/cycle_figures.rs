@@ -20,6 +20,8 @@ pub struct CycleFigures<'a> {
     pub rows: &'a [CycleRow],
     /// Which coordinates measure which movements.
     pub names: &'a ClinicalNames,
+    /// How the angles of pelvis and hips in the rows are measured.
+    pub convention: Convention,
     /// Body mass that moments and powers are divided by [kg].
     pub mass_kg: f64,
     /// Whose walk it is.
@@ -140,8 +142,7 @@ impl CycleFigures<'_> {
     pub fn files(&self) -> Result<Vec<OutputFile>, FigureError> {
         let figures = PLANS.iter().map(|plan| Ok(self.figure(plan)?.map(|svg| (plan.name, svg))));
         let drawn = figures.collect::<Result<Vec<_>, FigureError>>()?;
-        let file =
-            |(name, svg): (&str, String)| OutputFile { name: format!("figures/{name}"), bytes: svg.into_bytes() };
+        let file = |(name, svg): (&str, String)| OutputFile::new(format!("figures/{name}"), svg.into_bytes());
         Ok(drawn.into_iter().flatten().map(file).collect())
     }
 
@@ -178,7 +179,7 @@ impl CycleFigures<'_> {
         // Sideways forces of a figure that moves in a plane, joints that are locked.
         quantities.retain(|q| self.rows.iter().any(|row| q.has_column(&row.quantity) && moves(row.unit, &row.values)));
         let speed = self.speed_dimensionless.filter(|_| !self.runs());
-        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed, Convention::Opensim));
+        let band = |id: &str| speed.and_then(|speed| normative::band(id, speed, self.convention));
         let panel = |quantity: ClinicalQuantity| {
             let band = band(quantity.id);
             CyclePanel::new(quantity, self.rows, self.mass_kg, band)

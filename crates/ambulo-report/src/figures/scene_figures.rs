@@ -129,7 +129,7 @@ impl SceneCurves {
                 panels.into_iter().filter(|p| p.curves.iter().any(|(_, c)| !c.is_empty())).collect();
             if !panels.is_empty() {
                 let svg = figure(name, title, &panels, (span, &faults))?;
-                files.push(OutputFile { name: format!("figures/{name}.svg"), bytes: svg.into_bytes() });
+                files.push(OutputFile::new(format!("figures/{name}.svg"), svg.into_bytes()));
             }
             Ok(())
         };

@@ -9,14 +9,11 @@ use crate::page::ViewShape;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anthropometry::Dimensions;
-use ambulo::model::{BodyId, Model, from_osim};
+use ambulo::model::{BodyId, Model};
 use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
-use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
-use ambulo_results::{Folder, ResultsError, RunSummary, Summary, error_chain};
+use ambulo_results::{BODIES, Folder, ResultsError, RunSummary, Summary, error_chain};
 
-/// Names that the body of a folder may have: a recording's, a synthetic walk's.
-const MODELS: [&str; 2] = ["subject.osim", "figure.osim"];
 const MOTION: &str = "kinematics.mot";
 
 /// A body and its motion as a folder has them.
@@ -34,8 +31,8 @@ pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, 
     let Some(angles) = folder.table(MOTION)? else {
         return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
     };
-    let Some(model) = model(folder)? else {
-        return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", MODELS.join(" or "))));
+    let Some((_, model)) = folder.body()? else {
+        return Ok(Err(format!("There is no body ({}), so no figure can be drawn.", BODIES.join(" or "))));
     };
     let trajectory = trajectory(&model, &angles).map_err(|reason| folder.unreadable(MOTION, reason))?;
     Ok(Ok(FolderMotion { model, angles, trajectory }))
@@ -150,13 +147,6 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
         }
     });
     paths
-}
-
-fn model(folder: &Folder<'_>) -> Result<Option<Model>, ResultsError> {
-    let found = MODELS.into_iter().find_map(|file| Some((file, (folder.file)(file)?)));
-    let Some((file, bytes)) = found else { return Ok(None) };
-    let document = OsimModel::read(&bytes).map_err(|error| folder.refused(file, &error))?;
-    from_osim(&document, &mut Findings::default()).map(Some).map_err(|error| folder.refused(file, &error))
 }
 
 /// The coordinates exactly as the file has them; what it lacks is at its default. Rates do not matter here.

@@ -61,7 +61,7 @@ impl Stage {
     /// # Errors
     /// A file that is not what its name says.
     pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
-        let is_scene = (folder.file)("kinematics.mot").is_none() && (folder.file)("poses.csv").is_some();
+        let is_scene = !folder.has("kinematics.mot") && folder.has("poses.csv");
         if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
     }
 }

@@ -19,7 +19,7 @@ type Files = BTreeMap<String, Vec<u8>>;
 /// The stage of these files, or why there is none, or what was refused.
 fn stage(files: &Files) -> Result<Stage, String> {
     let file = |name: &str| files.get(name).cloned();
-    match Stage::of_folder(&Folder { name: "walk".into(), file: &file }) {
+    match Stage::of_folder(&Folder::of_files("walk", &file)) {
         Ok(found) => found,
         Err(error) => Err(error.to_string()),
     }

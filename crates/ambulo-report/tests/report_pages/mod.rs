@@ -3,18 +3,16 @@
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
-use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
-use ambulo::analysis::{PredictionInput, Settings, analyse, analyse_predicted};
 use ambulo::findings::Findings;
-use ambulo::ground::predict::PredictSettings;
 use ambulo::model::Model;
-use ambulo::motion::{Smoother, Window, coordinates_from_table, force_recordings};
+use ambulo::motion::{Smoother, coordinates_from_table, force_recordings};
+use ambulo::study::{self, GroundSettings, MeasuredForces, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use ambulo_report::figure_files;
+use ambulo_report::outcome_figures;
 use ambulo_report::page::report_page;
+use ambulo_results::{Convention, GroundSource, Input, outcome_summary, outcome_tables};
 use ambulo_results::{Folder, ResultsError};
-use ambulo_results::{GroundSource, Input, output_files, prediction_files, summary};
 use base64::Engine;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -34,29 +32,33 @@ pub(crate) fn recorded() -> Files {
 
 /// The folder of recorded coordinates with the forces of plates.
 pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads) -> Files {
+    folder_of(body, motion, ground, loads, GroundSettings::MeasuredOrPredicted)
+}
+
+/// The folder that `ambulo forces --predict` writes of the invented recording.
+pub(crate) fn predicted() -> Files {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-cli/tests/recording");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;
+    folder_of(&read("figure.osim"), &read("walk.mot"), &read("walk_grf.mot"), &loads, GroundSettings::Predicted)
+}
+
+fn folder_of(body: &[u8], motion: &[u8], ground: &[u8], loads: &ExternalLoads, forces: GroundSettings) -> Files {
     let mut findings = Findings::default();
     let model = Model::from_osim(body, &mut findings).unwrap();
     let motion = Table::read_storage(motion).unwrap().0;
     let motion = coordinates_from_table(&model, &motion, "walk.mot", &mut findings).unwrap();
     let ground = Table::read_storage(ground).unwrap().0;
     let plates = force_recordings(&model, loads, &ground, &mut findings).unwrap();
+    let source = Source::coordinates(model, motion).with_forces(MeasuredForces::OnBodies(plates));
     let settings = Settings {
         smoother: Smoother::Off,
         force_filter: None,
-        window: Window::default(),
-        rate_hz: None,
-        instrumented: None,
+        comparison_filter: None,
+        ground: forces,
+        ..Settings::default()
     };
-    let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
-    let evidence = Evidence {
-        model: &model,
-        trajectory: &analysis.trajectory,
-        forces: &analysis.forces,
-        ground: &analysis.ground,
-        device: None,
-    };
-    let verdict = check(&evidence, &Person::of_model(&model), &Thresholds::default(), &mut findings);
-    analysis.verdict = Some(verdict);
+    let outcome = study::run(&source, &settings, &mut findings).unwrap();
     let input = Input {
         motion: "recordings/walk.mot".to_owned(),
         model: "recordings/figure.osim".to_owned(),
@@ -65,45 +67,14 @@ pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &Extern
         loads: None,
         device: None,
         added_mass: Vec::new(),
-        ground_source: GroundSource::Measured,
+        ground_source: GroundSource::None,
     };
-    let summary = summary(&model, &analysis, &settings, input, &findings);
-    let files = output_files(&model, &analysis, None).unwrap();
-    let figures = figure_files(&model, &analysis).unwrap();
-    let mut files: Files = files.into_iter().chain(figures).map(|file| (file.name, file.bytes)).collect();
+    let summary = outcome_summary(&outcome, input, &findings);
+    let tables = outcome_tables(&outcome).unwrap();
+    let figures = outcome_figures(&outcome, Convention::Opensim).unwrap();
+    let mut files: Files = tables.into_iter().chain(figures).map(|file| (file.name, file.bytes)).collect();
     files.insert("subject.osim".to_owned(), body.to_vec());
     files.insert("summary.json".to_owned(), serde_json::to_vec(&summary).unwrap());
-    files
-}
-
-/// The folder that `ambulo forces --predict` writes of the invented recording.
-pub(crate) fn predicted() -> Files {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ambulo-cli/tests/recording");
-    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
-    let (mut files, mut findings) = (recorded(), Findings::default());
-    let model = Model::from_osim(&read("figure.osim"), &mut findings).unwrap();
-    let table = |name: &str| Table::read_storage(&read(name)).unwrap().0;
-    let motion = coordinates_from_table(&model, &table("walk.mot"), "walk.mot", &mut findings).unwrap();
-    let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;
-    let plates = force_recordings(&model, &loads, &table("walk_grf.mot"), &mut findings).unwrap();
-    let settings = Settings {
-        smoother: Smoother::Off,
-        force_filter: None,
-        window: Window::default(),
-        rate_hz: None,
-        instrumented: None,
-    };
-    let person = Person::of_model(&model);
-    let order = PredictionInput { soles: &person.soles, settings: &PredictSettings::default(), plates_filter: None };
-    let predicted = analyse_predicted(&model, &motion, &plates, settings, &order, &mut findings).unwrap();
-    let written = output_files(&model, &predicted.analysis, None).unwrap();
-    let figures = figure_files(&model, &predicted.analysis).unwrap();
-    let beside = prediction_files(&model, &predicted).unwrap();
-    files.extend(written.into_iter().chain(figures).chain(beside).map(|file| (file.name, file.bytes)));
-    with_summary(&mut files, |summary| {
-        summary["ground"] = serde_json::json!({"source": "predicted", "rule": "lever rule", "threshold_n": 20.0});
-        summary["mass_kg"] = serde_json::json!(predicted.analysis.mass.kg);
-    });
     files
 }
 
@@ -124,7 +95,7 @@ pub(crate) fn keep_lines(files: &mut Files, name: &str, keep: impl Fn(&str) -> b
 /// The page of one folder.
 pub(crate) fn page_of(name: &str, files: &Files) -> Result<String, ResultsError> {
     let file = |name: &str| files.get(name).cloned();
-    report_page(&[Folder { name: name.to_owned(), file: &file }])
+    report_page(&[Folder::of_files(name, &file)])
 }
 
 /// What a page shows.

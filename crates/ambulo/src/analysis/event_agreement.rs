@@ -12,6 +12,7 @@ const FARTHEST_S: f64 = 0.15;
 
 /// Agreement of the events of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EventAgreement {
     /// `strike` or `off`.
     pub kind: EventKind,

@@ -52,6 +52,7 @@ pub struct PlateCoverage {
 
 /// Agreement of predicted with measured forces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GroundAgreement {
     /// Body mass that body weights are made of [kg].
     pub mass_kg: f64,
@@ -67,6 +68,7 @@ pub struct GroundAgreement {
 
 /// Agreement of one foot over its stances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FootAgreement {
     /// `r` or `l`.
     pub side: Side,
@@ -86,6 +88,7 @@ pub struct FootAgreement {
 
 /// Agreement of one component of a force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ForceAgreement {
     /// Root-mean-square difference in body weights.
     #[serde(deserialize_with = "or_nan")]
@@ -102,6 +105,7 @@ pub struct ForceAgreement {
 
 /// A band of 1.645 standard deviations about the prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BandAgreement {
     /// Share of the measured samples inside it.
     #[serde(deserialize_with = "or_nan")]
@@ -113,6 +117,7 @@ pub struct BandAgreement {
 
 /// Agreement of the centre of pressure [mm].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CenterAgreement {
     /// Samples in which both have one.
     pub samples: usize,
@@ -134,6 +139,7 @@ pub struct CenterAgreement {
 
 /// Agreement of one joint moment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MomentAgreement {
     /// Column of `moments.sto`.
     pub quantity: String,

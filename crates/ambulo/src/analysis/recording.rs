@@ -68,6 +68,7 @@ pub struct Mass {
 
 /// Where a mass comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum MassSource {
     /// Mean vertical force over whole gait cycles.

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// The verdict on all figures of a scene that walk.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneVerdict {
     /// Nothing was found against any of them.
     pub feasible: bool,
@@ -22,6 +23,7 @@ pub struct SceneVerdict {
 
 /// The verdict on one figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FigureVerdict {
     /// Its name.
     pub figure: String,

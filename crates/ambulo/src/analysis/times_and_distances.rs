@@ -11,7 +11,7 @@
 //! | step length and width | from the other heel at its strike to this heel at its own, along and across the direction of both feet |
 //!
 //! The floor of a treadmill moves with the feet that carry the body; places are then those on the belt. A direction is that of the
-//! strides around the step, so that a turn makes no step wide or narrow.
+//! strides around the step, so that a turn makes no step wide or narrow. The path is that of the pelvis along the same floor.
 //! Pinned by: its own tests, tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};
@@ -29,11 +29,26 @@ const MOVING_FLOOR: f64 = 0.2;
 /// Between two strikes of a foot that are this many strides apart, one was missed.
 const MISSED: f64 = 1.5;
 
+/// The pelvis moves at least this far in a stride that has a direction [m].
+const LEAST_STRIDE_M: f64 = 0.2;
+/// A path that is this many times as long as the straight line between its ends has a speed of its own.
+const LONGER: f64 = 1.05;
+/// The path is measured in pieces of about this time: half a stride, so that sway does not lengthen it [s].
+const PIECE_S: f64 = 0.5;
+
 /// Times and distances of all strides.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimesAndDistances {
     /// Mean speed over the floor or belt [m/s].
     pub speed_m_s: Option<f64>,
+    /// Mean speed along the path of the pelvis [m/s], where a curved path makes it more than 5 % larger than the straight one.
+    pub path_speed_m_s: Option<f64>,
+    /// Speed of the belt of a treadmill [m/s]; `None` on a floor that does not move.
+    pub belt_speed_m_s: Option<f64>,
+    /// Mean velocity of the pelvis in the world, along the floor [m/s]; `None` without a pelvis.
+    pub pelvis_velocity: Option<Vec3>,
+    /// Largest angle between the directions of any two strides [rad]: how far the path turns.
+    pub turn: Option<f64>,
     /// Every stride of both feet, right foot first.
     pub strides: Vec<Stride>,
 }
@@ -205,17 +220,35 @@ pub fn symmetry_index(right: f64, left: f64) -> Option<f64> {
     (right * left > 0.0).then(|| 2.0 * (right.abs() - left.abs()) / sum)
 }
 
-/// Times and distances of an analysed walk; Without soles there are no distances.
+/// Times and distances of an analysed walk. Without soles there are no distances.
 #[must_use]
 pub fn times_and_distances(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis) -> TimesAndDistances {
-    let places = Places::of(model, soles, analysis);
-    let mut strides = Vec::new();
+    let floor = Floor::of(model, analysis);
+    let places = Places::of(model, soles, analysis, floor);
+    let path = PelvisPath::of(model, analysis, floor);
+    let (mut strides, mut directions) = (Vec::new(), Vec::new());
     for side in Side::BOTH {
-        let own = times(&analysis.events, side, EventKind::Strike);
-        let spans = own.windows(2).map(|pair| [pair[0], pair[1]]);
-        strides.extend(spans.filter_map(|span| stride(&analysis.events, &places, side, span)));
+        for pair in times(&analysis.events, side, EventKind::Strike).windows(2) {
+            let span = [pair[0], pair[1]];
+            strides.extend(stride(&analysis.events, &places, side, span));
+            let moved = path.as_ref().and_then(|path| path.between(span));
+            directions.extend(moved.and_then(|moved| moved.try_normalize(LEAST_STRIDE_M)));
+        }
     }
-    TimesAndDistances { speed_m_s: analysis.speed_m_s, strides }
+    TimesAndDistances {
+        speed_m_s: analysis.speed_m_s,
+        path_speed_m_s: path.as_ref().filter(|_| floor.is_still()).and_then(PelvisPath::longer_speed),
+        belt_speed_m_s: (!floor.is_still()).then(|| floor.velocity.norm()),
+        pelvis_velocity: path.as_ref().and_then(PelvisPath::velocity).map(|velocity| velocity + floor.velocity),
+        turn: largest_angle(&directions),
+        strides,
+    }
+}
+
+/// Between any two directions [rad]; `None` of fewer than two.
+fn largest_angle(directions: &[Vec3]) -> Option<f64> {
+    let pairs = directions.iter().enumerate().flat_map(|(i, a)| directions[i + 1..].iter().map(move |b| (a, b)));
+    pairs.map(|(a, b)| a.dot(b).clamp(-1.0, 1.0).acos()).max_by(f64::total_cmp)
 }
 
 fn times(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {
@@ -262,9 +295,77 @@ struct Strike {
     heel: Vec3,
 }
 
+/// The floor: which direction is up, and how a belt moves [m/s].
+#[derive(Debug, Clone, Copy)]
+struct Floor {
+    up: Vec3,
+    velocity: Vec3,
+}
+
+impl Floor {
+    /// A belt moves with the feet that carry the body; a floor that moves slower than a share of the walking speed is still.
+    fn of(model: &Model, analysis: &Analysis) -> Floor {
+        let up = upward(model);
+        let still = Floor { up, velocity: Vec3::zeros() };
+        let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return still };
+        let velocity = still.level(over.ground);
+        if velocity.norm() > MOVING_FLOOR * over.speed { Floor { up, velocity } } else { still }
+    }
+
+    fn is_still(&self) -> bool {
+        self.velocity == Vec3::zeros()
+    }
+
+    /// The part of a vector along the floor.
+    fn level(&self, v: Vec3) -> Vec3 {
+        v - self.up * v.dot(&self.up)
+    }
+}
+
+/// Where the pelvis is over the floor, frame by frame, as if the floor had not moved since the first frame.
+struct PelvisPath {
+    grid: TimeGrid,
+    places: Vec<Vec3>,
+}
+
+impl PelvisPath {
+    /// `None` of a body without a pelvis.
+    fn of(model: &Model, analysis: &Analysis, floor: Floor) -> Option<PelvisPath> {
+        let pelvis = model.anatomy().pelvis()?;
+        let grid = analysis.trajectory.grid();
+        let mut places = Vec::with_capacity(grid.frames);
+        each_body_motion(model, &analysis.trajectory, |frame, bodies| {
+            let passed_s = grid.time(frame) - grid.start_s;
+            places.push(floor.level(bodies[pelvis.index()].pose.translation) - floor.velocity * passed_s);
+        });
+        Some(PelvisPath { grid, places })
+    }
+
+    /// From one instant to another [m].
+    fn between(&self, [from, to]: [f64; 2]) -> Option<Vec3> {
+        Some(at(self.grid, &self.places, to)? - at(self.grid, &self.places, from)?)
+    }
+
+    /// Mean velocity over the floor [m/s].
+    fn velocity(&self) -> Option<Vec3> {
+        let (start, end) = (self.grid.start_s, self.grid.end_s());
+        Some(self.between([start, end])? / (end - start))
+    }
+
+    /// Mean speed along the path [m/s] where it clearly differs from the straight one.
+    fn longer_speed(&self) -> Option<f64> {
+        let (start, duration) = (self.grid.start_s, self.grid.end_s() - self.grid.start_s);
+        let pieces = (duration / PIECE_S).round().max(1.0);
+        let instant = |i: usize| start + duration * i as f64 / pieces;
+        let lengths = (0..pieces as usize).map(|i| Some(self.between([instant(i), instant(i + 1)])?.norm()));
+        let along = lengths.sum::<Option<f64>>()? / duration;
+        (along > LONGER * self.velocity()?.norm()).then_some(along)
+    }
+}
+
 /// Where the heels are at the strikes, in order of time.
 struct Places {
-    up: Vec3,
+    floor: Floor,
     strikes: Vec<Strike>,
 }
 
@@ -277,9 +378,7 @@ struct Placed {
 }
 
 impl Places {
-    fn of(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis) -> Places {
-        let up = upward(model);
-        let floor = floor_velocity(model, analysis, up);
+    fn of(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis, floor: Floor) -> Places {
         let grid = analysis.trajectory.grid();
         let mut heels: BySide<Vec<Vec3>> = BySide::default();
         each_body_motion(model, &analysis.trajectory, |_, bodies| {
@@ -290,24 +389,24 @@ impl Places {
         });
         let strikes = analysis.events.iter().filter(|event| event.kind == EventKind::Strike);
         let placed = |event: &Event| {
-            let heel = at(grid, &heels[event.side], event.time_s)? - floor * (event.time_s - grid.start_s);
+            let heel = at(grid, &heels[event.side], event.time_s)? - floor.velocity * (event.time_s - grid.start_s);
             Some(Strike { side: event.side, time_s: event.time_s, heel })
         };
         let mut strikes: Vec<Strike> = strikes.filter_map(placed).collect();
         strikes.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
-        Places { up, strikes }
+        Places { floor, strikes }
     }
 
     fn of_stride(&self, side: Side, [from, to]: [f64; 2]) -> Option<Placed> {
         let at = |time: f64| self.strikes.iter().find(|s| s.side == side && s.time_s.total_cmp(&time).is_eq());
         let (first, last) = (at(from)?, at(to)?);
-        let line = self.level(last.heel - first.heel);
+        let line = self.floor.level(last.heel - first.heel);
         let mut between = self.strikes.iter().filter(|s| s.side != side && s.time_s > from && s.time_s < to);
         let other = between.next().filter(|_| between.next().is_none());
         let outwards = if side == Side::Right { 1.0 } else { -1.0 };
         let step = other.map(|other| {
             let (step, ahead) = (last.heel - other.heel, self.heading(line, other, to - from));
-            [step.dot(&ahead), outwards * step.dot(&ahead.cross(&self.up))]
+            [step.dot(&ahead), outwards * step.dot(&ahead.cross(&self.floor.up))]
         });
         Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
     }
@@ -324,8 +423,8 @@ impl Places {
         let longest = MISSED * stride_s;
         let direction = |way: Vec3| way.try_normalize(1e-6);
         let own = direction(line).unwrap_or_else(Vec3::x);
-        let next = of_other(other.time_s, other.time_s + longest).map(|next| self.level(next.heel - other.heel));
-        let last = of_other(other.time_s - longest, other.time_s).map(|last| self.level(other.heel - last.heel));
+        let next = of_other(other.time_s, other.time_s + longest).map(|next| self.floor.level(next.heel - other.heel));
+        let last = of_other(other.time_s - longest, other.time_s).map(|last| self.floor.level(other.heel - last.heel));
         let ahead = match (next.and_then(direction), last.and_then(direction)) {
             (Some(next), _) => own + next,
             (None, Some(last)) => own * 1.5 - last * 0.5,
@@ -333,18 +432,6 @@ impl Places {
         };
         direction(ahead).unwrap_or(own)
     }
-
-    /// Along the floor.
-    fn level(&self, v: Vec3) -> Vec3 {
-        v - self.up * v.dot(&self.up)
-    }
-}
-
-/// The velocity of a belt [m/s]; none on a floor that stands still.
-fn floor_velocity(model: &Model, analysis: &Analysis, up: Vec3) -> Vec3 {
-    let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return Vec3::zeros() };
-    let along = over.ground - up * over.ground.dot(&up);
-    if along.norm() > MOVING_FLOOR * over.speed { along } else { Vec3::zeros() }
 }
 
 /// A path at an instant, on straight lines between frames.
@@ -381,7 +468,7 @@ mod tests {
             stride_of(Side::Right, 1.2, 0.58),
             stride_of(Side::Left, 1.1, 0.66),
         ];
-        let found = TimesAndDistances { speed_m_s: None, strides };
+        let found = TimesAndDistances { strides, ..TimesAndDistances::default() };
         let right = found.spread(StrideQuantity::CycleTime, Some(Side::Right)).unwrap();
         assert!((right.mean - 1.1).abs() < 1e-12 && right.strides == 2);
         assert!((right.standard_deviation.unwrap() - 0.02_f64.sqrt()).abs() < 1e-12);
@@ -413,7 +500,10 @@ mod tests {
             let heel = Vec3::new(radius * angle.sin(), 0.0, radius * angle.cos());
             Strike { side, time_s: 0.5 * i as f64, heel }
         };
-        let places = Places { up: Vec3::y(), strikes: (0..5).map(on_circle).collect() };
+        let places = Places {
+            floor: Floor { up: Vec3::y(), velocity: Vec3::zeros() },
+            strikes: (0..5).map(on_circle).collect(),
+        };
         let placed = places.of_stride(Side::Right, [0.0, 1.0]).unwrap();
         assert!((placed.width_m.unwrap() - 0.2).abs() < 0.02, "{placed:?}");
         assert!((placed.step_m.unwrap() - 0.70).abs() < 0.02, "{placed:?}");

@@ -491,3 +491,15 @@ impl<'de> Deserialize<'de> for Code {
         Code::from_name(&name).ok_or_else(unknown)
     }
 }
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Code {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Code".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let names: Vec<&str> = Code::all().map(Code::name).collect();
+        schemars::json_schema!({ "description": "What is unusual; docs/FINDINGS.md explains each code.", "type": "string", "enum": names })
+    }
+}

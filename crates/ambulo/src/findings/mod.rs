@@ -12,6 +12,7 @@ use std::fmt;
 
 /// How much a finding matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// For information; results are valid.
@@ -31,6 +32,7 @@ impl fmt::Display for Severity {
 
 /// One warning or note, with the number of times that it occurred.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(into = "Record", from = "Record")]
 pub struct Finding {
     /// What the finding is about.
@@ -57,6 +59,7 @@ impl fmt::Display for Finding {
 
 /// A finding as it is written in files: with its severity, for readers that do not know the codes.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Record {
     code: Code,
     severity: Severity,
@@ -79,6 +82,7 @@ impl From<Record> for Finding {
 
 /// Warnings and notes, in the order in which they first occurred.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct Findings {
     list: Vec<Finding>,

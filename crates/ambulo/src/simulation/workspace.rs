@@ -23,6 +23,7 @@ pub struct StepSettings {
 
 /// Time integration method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// First order, with impulses at velocity level; handles contacts, impacts, friction and limits.

@@ -14,6 +14,7 @@ const SAME_PERSON: f64 = 0.05;
 /// Whether a mass is known from more than a model. Forces that are predicted from the motion scale with the mass, so that a wrong mass
 /// shows only against plates, a standing trial or a stated mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum MassKnowledge {
     /// Weighed by plates, or stated.

@@ -17,7 +17,7 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
         bail!("{}: a scene has no skeleton; expected .glb or .csv for the output", opened.shown());
     }
     let file = |name: &str| opened.read(name);
-    let folder = Folder { name: opened.shown(), file: &file };
+    let folder = Folder::of_files(opened.shown(), &file);
     let mut findings = Findings::default();
     let made = match to {
         "glb" => glb_of_folder(&folder).map(|glb| {

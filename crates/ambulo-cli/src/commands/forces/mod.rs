@@ -13,7 +13,7 @@ use crate::{Verdict, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
-use ambulo::model::{Model, from_osim, to_osim};
+use ambulo::model::{Model, from_osim};
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{Smoother, Window};
 use ambulo::study::{self, AddedMass, ForceOrigin, GroundSettings, Outcome, Settings, Source};
@@ -110,10 +110,10 @@ fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Rea
 
 /// The body that was used, for OpenSim, for later runs and for pictures. A note if it cannot be written.
 fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
-    match to_osim(model).map_err(anyhow::Error::new).and_then(|document| Ok(document.write()?)) {
-        Ok(bytes) => Some(OutputFile { name: "subject.osim".to_owned(), bytes }),
+    match OutputFile::body("subject.osim", model) {
+        Ok(file) => Some(file),
         Err(reason) => {
-            findings.report(Code::SubjectNotWritten, format!("subject.osim was not written: {reason:#}"));
+            findings.report(Code::SubjectNotWritten, format!("subject.osim was not written: {reason}"));
             None
         }
     }

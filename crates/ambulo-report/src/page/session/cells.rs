@@ -1,6 +1,7 @@
 //! Cells of tables, and tables from lists of the results.
 
 use crate::page::contract::{Cell, Table};
+use ambulo_results::SpreadSummary;
 
 /// A cell of words.
 pub(super) fn text(words: &str) -> Cell {
@@ -40,6 +41,15 @@ pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) 
     let mut cell = number(Some(mean), digits, range);
     if values.len() > 1 {
         let sd = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+        cell.text += &format!(" ± {sd:.digits$}");
+    }
+    cell
+}
+
+/// Mean and deviation over strides; a dash where no stride has the quantity.
+pub(super) fn spread_cell(spread: Option<&SpreadSummary>, digits: usize, range: Option<[f64; 2]>) -> Cell {
+    let mut cell = number(spread.map(|spread| spread.mean), digits, range);
+    if let Some(sd) = spread.and_then(|spread| spread.sd) {
         cell.text += &format!(" ± {sd:.digits$}");
     }
     cell

@@ -1,6 +1,5 @@
 //! One clinical quantity as a panel: its cycles, their mean, and the same over time.
 
-use super::cycles_file::{self, CycleValues};
 use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
 use super::sides;
 use super::size::BodySize;
@@ -13,7 +12,7 @@ use ambulo::analysis::CYCLE_SAMPLES;
 use ambulo::model::Side;
 use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
-use ambulo_results::{CLINICAL, Convention};
+use ambulo_results::{CLINICAL, CYCLES, Convention, CycleRow};
 
 /// Columns of `grf.mot` by the names of `cycles.csv`.
 pub(super) const GROUND_AXES: [(&str, &str); 3] =
@@ -79,13 +78,13 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
     }
     let factor = quantity.factor(results.mass_kg, side);
     let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.columns[side]);
-    let shown = |curve: &CycleValues| {
+    let shown = |curve: &CycleRow| {
         let factor = factor * if curve.unit == "rad" { 1.0_f64.to_degrees() } else { 1.0 };
         ShownCurve {
             side,
-            number: curve.number,
+            number: curve.cycle,
             values: curve.values.iter().map(|x| factor * x).collect(),
-            origin: Origin { file: cycles_file::FILE.to_owned(), column: curve.quantity.clone(), factor },
+            origin: Origin { file: CYCLES.to_owned(), column: curve.quantity.clone(), factor },
         }
     };
     rows.map(shown).collect()

@@ -4,31 +4,26 @@
 //! cycle of the file (those that no plate saw are left out). A cycle's own angles and positions say which pair it is: read off
 //! `kinematics.mot` between the right pair of strikes, they are the file's.
 
-use super::cycles_file::CycleValues;
 use super::sides;
 use crate::page::contract::{PageCycle, PageEvent};
 use ambulo::model::Side;
 use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
+use ambulo_results::CycleRow;
 
-/// Events are written to 0.01 ms, in which joints turn by less than this [deg]; other cycles differ by more somewhere [deg or m].
+/// Curves of the same cycle differ by less than this, which is rounding; those of other cycles differ by more somewhere [deg or m].
 const SAME: f64 = 0.02;
 
 /// The cycles that the curves were cut into, right foot first; without a curve, none.
-pub(super) fn cycles(
-    events: &[PageEvent],
-    curves: &[CycleValues],
-    kinematics: &Table,
-    times: &[f64],
-) -> Vec<PageCycle> {
+pub(super) fn cycles(events: &[PageEvent], curves: &[CycleRow], kinematics: &Table, times: &[f64]) -> Vec<PageCycle> {
     let mut list = Vec::new();
     for side in Side::BOTH {
         let of_side = || events.iter().filter(|event| event.side == sides::page(side));
         let strikes: Vec<f64> = of_side().filter(|event| event.strike).map(|event| event.time_s).collect();
         let mut pairs: Vec<[f64; 2]> = strikes.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         for number in numbers(curves, side) {
-            let of_cycle: Vec<&CycleValues> =
-                curves.iter().filter(|curve| curve.side == side && curve.number == number).collect();
+            let of_cycle: Vec<&CycleRow> =
+                curves.iter().filter(|curve| curve.side == side && curve.cycle == number).collect();
             let Some(place) = nearest(&pairs, &of_cycle, side, kinematics, times) else { continue };
             let [start_s, end_s] = pairs[place];
             pairs.drain(..=place);
@@ -41,21 +36,15 @@ pub(super) fn cycles(
 }
 
 /// Numbers of a foot's cycles, rising.
-fn numbers(curves: &[CycleValues], side: Side) -> Vec<usize> {
-    let mut numbers: Vec<usize> = curves.iter().filter(|curve| curve.side == side).map(|curve| curve.number).collect();
+fn numbers(curves: &[CycleRow], side: Side) -> Vec<usize> {
+    let mut numbers: Vec<usize> = curves.iter().filter(|curve| curve.side == side).map(|curve| curve.cycle).collect();
     numbers.sort_unstable();
     numbers.dedup();
     numbers
 }
 
 /// The first pair of strikes between which the motion is that of the curves, else the nearest.
-fn nearest(
-    pairs: &[[f64; 2]],
-    curves: &[&CycleValues],
-    side: Side,
-    kinematics: &Table,
-    times: &[f64],
-) -> Option<usize> {
+fn nearest(pairs: &[[f64; 2]], curves: &[&CycleRow], side: Side, kinematics: &Table, times: &[f64]) -> Option<usize> {
     let mut best: Option<(usize, f64)> = None;
     for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair[1] > pair[0]) {
         let least = best.map_or(f64::INFINITY, |(_, least)| least);
@@ -74,7 +63,7 @@ fn nearest(
 
 /// How far a curve is from the motion between two strikes; `None` for what is no column of the motion.
 fn distance(
-    curve: &CycleValues,
+    curve: &CycleRow,
     [start_s, end_s]: [f64; 2],
     side: Side,
     kinematics: &Table,

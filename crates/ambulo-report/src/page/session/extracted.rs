@@ -6,11 +6,12 @@
 use super::cells::{mean_cell, number, text};
 use super::curves::{ShownCurve, shown_cycles};
 use super::results::Results;
-use super::strides::Stride;
 use super::time_distance;
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Cell, Table};
+use ambulo::analysis::symmetry_index;
 use ambulo::model::Side;
+use ambulo_results::WalkingSummary;
 
 /// More than this stands out [%].
 const ASYMMETRIC: f64 = 10.0;
@@ -124,17 +125,18 @@ pub(super) fn table(values: &[Extracted]) -> Table {
 }
 
 /// The table of differences between the sides.
-pub(super) fn symmetry(values: &[Extracted], strides: &[Stride]) -> Table {
-    let times = time_distance::sides(strides).into_iter();
+pub(super) fn symmetry(values: &[Extracted], walking: &WalkingSummary) -> Table {
     let extracted = values
         .iter()
         .filter(|value| value.compared)
         .map(|value| (value.label, value.unit, value.digits, value.sides.each_ref().map(|side| mean(side))));
-    let rows: Vec<Vec<Cell>> = times
+    let rows: Vec<Vec<Cell>> = time_distance::sides(walking)
+        .into_iter()
         .chain(extracted)
         .filter_map(|(label, unit, digits, means)| {
             let [Some(right), Some(left)] = means else { return None };
-            let index = number(symmetry_index(right, left), 0, Some([-ASYMMETRIC, ASYMMETRIC]));
+            let percent = symmetry_index(right, left).map(|index| 100.0 * index);
+            let index = number(percent, 0, Some([-ASYMMETRIC, ASYMMETRIC]));
             Some(vec![
                 text(label),
                 text(unit),
@@ -159,12 +161,6 @@ pub(super) fn symmetry(values: &[Extracted], strides: &[Stride]) -> Table {
 
 fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
-
-/// `None` of values with different signs or near zero, whose ratio means nothing.
-fn symmetry_index(right: f64, left: f64) -> Option<f64> {
-    let sum = right.abs() + left.abs();
-    (right * left > 0.0).then(|| 200.0 * (right.abs() - left.abs()) / sum)
 }
 
 fn toe_off(results: &Results, curve: &ShownCurve) -> Option<f64> {

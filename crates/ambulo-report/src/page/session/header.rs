@@ -1,12 +1,9 @@
 //! The header: who, how fast, what was done, where the forces come from.
 
-use super::feet;
 use super::results::Results;
 use super::size::{BodySize, Known};
-use super::strides::Stride;
-use super::way::Way;
 use crate::page::contract::{Fact, PageSource};
-use ambulo::analysis::MassSource;
+use ambulo::analysis::{MassSource, StrideQuantity};
 use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, MassKnowledge};
 
 /// Below this speed a body does not walk anywhere [m/s].
@@ -16,7 +13,7 @@ const STANDING_M_S: f64 = 0.1;
 const SAME_MASS: f64 = 0.005;
 
 /// All lines, in the order to be shown.
-pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> Vec<Fact> {
+pub(super) fn header(results: &Results, size: &BodySize) -> Vec<Fact> {
     let metres = |known: &Option<Known>, label: &str| match known {
         Some(known) => fact(label, format!("{:.2} m", known.metres), Some(known.source.clone())),
         None => fact(label, "not known", None),
@@ -28,7 +25,7 @@ pub(super) fn header(results: &Results, size: &BodySize, strides: &[Stride]) -> 
         Some(metres(&size.stature, "Stature")),
         Some(metres(&size.leg, "Leg length")),
         Some(speed(results, size)),
-        cadence(strides),
+        cadence(results),
         direction(results),
         Some(window(results)),
         Some(fact("Filter", filters(results), None)),
@@ -107,29 +104,29 @@ fn speed(results: &Results, size: &BodySize) -> Fact {
         Some(scaled) => format!("V* = V / sqrt(g L) = {scaled:.2}"),
         None => "no dimensionless speed, since the leg length is not known".to_owned(),
     };
-    let value = match Way::of(results).and_then(|way| way.longer_speed()) {
+    let value = match results.summary.times_and_distances.path_speed_m_s {
         Some(along) => format!("{speed:.2} m/s straight, {along:.2} m/s along the path"),
         None => format!("{speed:.2} m/s"),
     };
     fact("Speed", value, Some(scaled))
 }
 
-fn cadence(strides: &[Stride]) -> Option<Fact> {
-    let mean = strides.iter().map(|stride| stride.cycle_s).sum::<f64>() / strides.len() as f64;
-    let note = match strides.len() {
+fn cadence(results: &Results) -> Option<Fact> {
+    let cadence = results.summary.times_and_distances.quantity(StrideQuantity::Cadence)?.both?;
+    let note = match cadence.strides {
         1 => "of one stride".to_owned(),
         several => format!("mean of {several} strides"),
     };
-    (mean > 0.0).then(|| fact("Cadence", format!("{:.0} steps/min", 120.0 / mean), Some(note)))
+    Some(fact("Cadence", format!("{:.0} steps/min", cadence.mean), Some(note)))
 }
 
 fn direction(results: &Results) -> Option<Fact> {
-    let way = feet::pelvis_velocity(results)?;
-    let belt = feet::floor_velocity(results).norm();
-    let value = match () {
-        () if belt > 0.0 => format!("in place, on a belt that runs at {belt:.2} m/s"),
-        () if way.norm() < STANDING_M_S => "none: the body stays where it is".to_owned(),
-        () => along(way.z.atan2(way.x).to_degrees()),
+    let walking = &results.summary.times_and_distances;
+    let [forward, right] = walking.pelvis_velocity_m_s?;
+    let value = match walking.belt_speed_m_s {
+        Some(belt) => format!("in place, on a belt that runs at {belt:.2} m/s"),
+        None if forward.hypot(right) < STANDING_M_S => "none: the body stays where it is".to_owned(),
+        None => along(right.atan2(forward).to_degrees()),
     };
     Some(fact("Walking direction", value, Some("world: x forward, y up, z to the right".to_owned())))
 }

@@ -2,12 +2,11 @@
 
 use super::curves::over_time;
 use super::results::{DEVIATIONS, MOMENTS, POWERS, Results};
-use super::size::BodySize;
+use super::size::{BodySize, Turn};
 use super::still;
-use super::strides::{Stride, other};
-use super::way::Turn;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::page::contract::PageSource;
+use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
 use std::collections::BTreeMap;
 
@@ -26,7 +25,6 @@ pub(super) fn missing(
     size: &BodySize,
     quantities: &[ClinicalQuantity],
     still: &[ClinicalQuantity],
-    strides: &[Stride],
 ) -> Vec<String> {
     let mut sentences = Vec::new();
     let mut say = |when: bool, sentence: String| {
@@ -64,8 +62,9 @@ pub(super) fn missing(
     say(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
     let untimed = !none && results.cycles.is_empty();
     say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
-    let lengths = strides.iter().any(|stride| stride.stride_length_m.is_some());
-    say(!strides.is_empty() && !lengths, "No step lengths: the places of the feet are not known.".to_owned());
+    let walking = &results.summary.times_and_distances;
+    let no_lengths = !walking.quantities.is_empty() && walking.quantity(StrideQuantity::StrideLength).is_none();
+    say(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
     say(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
     say(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
     let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
@@ -101,7 +100,7 @@ fn has_curves(results: &Results, side: Side) -> bool {
 }
 
 fn is_lost(results: &Results, side: Side) -> bool {
-    !has_curves(results, side) && has_curves(results, other(side))
+    !has_curves(results, side) && has_curves(results, side.other())
 }
 
 fn leg(results: &Results, side: Side) -> String {

@@ -6,11 +6,8 @@
 mod cells;
 mod curves;
 mod cycles;
-mod cycles_file;
-mod events;
 mod extracted;
 mod feasibility;
-mod feet;
 mod groups;
 mod header;
 mod missing;
@@ -21,9 +18,7 @@ mod scene;
 mod sides;
 mod size;
 mod still;
-mod strides;
 mod time_distance;
-mod way;
 mod words;
 
 use super::block::Block;
@@ -51,14 +46,13 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);
     let (shown, still) = still::divided(&results, &quantities);
-    let strides = strides::strides(&results);
-    let size = BodySize::of(&results, &strides);
+    let size = BodySize::of(&results);
     let (verdict, basis) = (results.summary.verdict.as_ref(), Basis::of(&results));
     let mut feasibility = verdict.and_then(|verdict| feasibility::feasibility(verdict, &basis, &quantities));
     let values = extracted::extracted(&results, &shown);
     let mut groups = groups::groups(&results, &size, &shown, block);
     let mut quality = quality::quality(&results, &quantities, block);
-    missing.extend(missing::missing(&results, &size, &quantities, &still, &strides));
+    missing.extend(missing::missing(&results, &size, &quantities, &still));
     if let Some((why, closest)) = verdict.and_then(|verdict| feasibility::partly_judged(verdict, &basis, &quantities)) {
         missing.push(why);
         quality.tables.push(closest);
@@ -68,14 +62,14 @@ fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Sess
     }
     Ok(Session {
         name: header::recording_name(&results),
-        header: header::header(&results, &size, &strides),
+        header: header::header(&results, &size),
         source: results.source,
         time: results.time(),
         groups,
         tables: vec![
-            time_distance::table(&results, &size, &strides),
+            time_distance::table(&results, &size),
             extracted::table(&values),
-            extracted::symmetry(&values, &strides),
+            extracted::symmetry(&values, &results.summary.times_and_distances),
             peaks::peaks(&results.summary.peaks),
         ],
         quality,

@@ -1,18 +1,14 @@
 //! What the files of a recording's folder say, read once.
 
-use super::cycles_file::{self, CycleValues};
-use super::{cycles, events};
+use super::{cycles, sides};
 use crate::clinical::{ClinicalNames, ClinicalQuantity};
 use crate::page::contract::{PageCycle, PageEvent, PageSource, TimeAxis};
 use ambulo::analysis::feasibility::Check;
-use ambulo::findings::Findings;
+use ambulo::analysis::{Event, EventKind};
 use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
-use ambulo_results::{CLINICAL, Convention, Folder, GroundOrigin, ResultsError, Summary};
-
-/// A body in files: of recordings, of synthetic walks.
-const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
+use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, ResultsError, Summary};
 
 /// A recording's or a walk's files.
 pub(super) struct Results {
@@ -28,7 +24,7 @@ pub(super) struct Results {
     /// `clinical.csv`.
     pub(super) clinical: Option<Table>,
     pub(super) events: Vec<PageEvent>,
-    pub(super) curves: Vec<CycleValues>,
+    pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
     /// The body, with the name of its file.
     pub(super) body: Option<(&'static str, Model)>,
@@ -48,9 +44,10 @@ impl Results {
         let uneven = || "the time column is not even; expected two or more rows at even steps".to_owned();
         let grid = TimeGrid::through(&times).ok_or_else(|| folder.unreadable(KINEMATICS, uneven()))?;
         let table = |file: &str| same_instants(folder, file, &grid);
-        let body = body(folder)?;
+        let body = folder.body()?;
         let mass_kg = mass(folder, &summary)?;
-        let (events, curves) = (events::events(folder)?, cycles_file::read(folder)?);
+        let events = folder.events()?.iter().map(page_event).collect::<Vec<_>>();
+        let curves = folder.cycles()?;
         Ok(Results {
             cycles: cycles::cycles(&events, &curves, &kinematics, &times),
             moments: table(MOMENTS)?,
@@ -100,11 +97,6 @@ impl Results {
         self.summary.gravity_m_s2
     }
 
-    /// Angle by which the path of markers turns, where it does not run straight [deg].
-    pub(super) fn turn_deg(&self) -> Option<f64> {
-        self.summary.subject.as_ref()?.turn_deg
-    }
-
     /// The limit that a check of the verdict judged by.
     pub(super) fn limit(&self, check: Check) -> Option<f64> {
         let judged = self.summary.verdict.as_ref()?.closest.iter().find(|entry| entry.check == check)?;
@@ -113,7 +105,7 @@ impl Results {
 
     /// Cycles of one foot.
     pub(super) fn cycles_of(&self, side: Side) -> impl Iterator<Item = &PageCycle> {
-        let side = super::sides::page(side);
+        let side = sides::page(side);
         self.cycles.iter().filter(move |cycle| cycle.side == side)
     }
 }
@@ -147,17 +139,8 @@ fn on_instants(
     Err(folder.unreadable(file, format!("found {} rows; expected {expected}", times.len())))
 }
 
-fn body(folder: &Folder<'_>) -> Result<Option<(&'static str, Model)>, ResultsError> {
-    for file in BODIES {
-        if let Some(bytes) = (folder.file)(file) {
-            let model = Model::from_osim(&bytes, &mut Findings::default());
-            return match model {
-                Ok(model) => Ok(Some((file, model))),
-                Err(error) => Err(folder.unreadable(file, error.to_string())),
-            };
-        }
-    }
-    Ok(None)
+fn page_event(event: &Event) -> PageEvent {
+    PageEvent { side: sides::page(event.side), strike: event.kind == EventKind::Strike, time_s: event.time_s }
 }
 
 fn mass(folder: &Folder<'_>, summary: &Summary) -> Result<f64, ResultsError> {

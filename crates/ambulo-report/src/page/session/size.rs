@@ -1,9 +1,8 @@
 //! How large the person is, and how fast for that size.
 
 use super::results::Results;
-use super::strides::Stride;
-use super::way::{self, Turn};
 use crate::normative::dimensionless_speed;
+use ambulo::analysis::StrideQuantity;
 
 /// A length with where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,17 +26,26 @@ pub(super) struct BodySize {
     pub(super) turn: Option<Turn>,
 }
 
-/// A foot that stands for a smaller share of its cycle leaves the ground before the other one strikes [%].
+/// A foot whose stance is a smaller share of its cycle leaves the ground before the other one strikes [%].
 const RUNNING_STANCE: f64 = 50.0;
+/// A path whose strides differ by more in direction is no straight walk [deg].
+const STRAIGHT_DEG: f64 = 20.0;
+
+/// A path that is not straight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turn {
+    /// Largest angle between two strides, where the strides show it [deg].
+    pub(super) degrees: Option<f64>,
+}
 
 impl BodySize {
-    pub(super) fn of(results: &Results, strides: &[Stride]) -> BodySize {
+    pub(super) fn of(results: &Results) -> BodySize {
         let leg = leg_length(results);
         let speed = results.summary.speed_m_s.zip(leg.as_ref());
-        let stance = strides.iter().map(|stride| stride.stance).sum::<f64>() / strides.len() as f64;
+        let stance = results.summary.times_and_distances.quantity(StrideQuantity::Stance);
         BodySize {
-            runs: stance < RUNNING_STANCE,
-            turn: way::turn(results),
+            runs: stance.and_then(|stance| stance.both).is_some_and(|stance| stance.mean < RUNNING_STANCE),
+            turn: turn(results),
             stature: stature(results),
             speed_dimensionless: speed
                 .and_then(|(speed, leg)| dimensionless_speed(speed, results.gravity(), leg.metres)),
@@ -49,6 +57,13 @@ impl BodySize {
     pub(super) fn walking_speed(&self) -> Option<f64> {
         self.speed_dimensionless.filter(|_| !self.runs && self.turn.is_none())
     }
+}
+
+/// Whether the path turns, by the strides or by the markers.
+fn turn(results: &Results) -> Option<Turn> {
+    let degrees = results.summary.times_and_distances.turn_deg.filter(|degrees| *degrees > STRAIGHT_DEG);
+    let of_markers = results.summary.subject.as_ref().and_then(|subject| subject.turn_deg);
+    (degrees.is_some() || of_markers.is_some()).then_some(Turn { degrees })
 }
 
 fn stature(results: &Results) -> Option<Known> {

@@ -22,7 +22,7 @@ pub(super) fn divided(
 
 fn is_moving(results: &Results, quantity: &ClinicalQuantity) -> bool {
     let mut cycles = results.curves.iter().filter(|curve| quantity.has_column(&curve.quantity));
-    let in_cycles = cycles.any(|curve| moves(&curve.unit, &curve.values));
+    let in_cycles = cycles.any(|curve| moves(curve.unit, &curve.values));
     in_cycles || Side::BOTH.into_iter().any(|side| moves_over_time(results, quantity, side))
 }
 

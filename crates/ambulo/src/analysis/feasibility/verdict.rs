@@ -7,6 +7,7 @@ use std::fmt;
 
 /// What is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
     /// Joint moment against the strength of its muscles at this angle and speed.
@@ -84,6 +85,7 @@ impl fmt::Display for Check {
 
 /// Whether a motion is feasible, and why not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Verdict {
     /// Nothing was found against it.
     pub feasible: bool,
@@ -115,6 +117,7 @@ impl Verdict {
 
 /// A time during which a limit was exceeded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reason {
     /// Which check.
     pub check: Check,
@@ -138,6 +141,7 @@ pub struct Reason {
 
 /// Where a motion came nearest to a limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Closest {
     /// Which check.
     pub check: Check,
@@ -157,6 +161,7 @@ pub struct Closest {
 
 /// A check that was not made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NotJudged {
     /// Which check.
     pub check: Check,

@@ -71,6 +71,7 @@ pub struct CheckedPrediction<'a> {
 
 /// What the checks found.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PredictionChecks {
     /// One entry a check.
     pub checks: Vec<PredictionCheck>,
@@ -81,6 +82,7 @@ pub struct PredictionChecks {
 
 /// One check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PredictionCheck {
     /// What is checked, as in files.
     pub name: Cow<'static, str>,

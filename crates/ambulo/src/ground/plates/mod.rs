@@ -28,6 +28,7 @@ const VIBRATION: f64 = 0.05;
 
 /// How much of a foot's load a plate saw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ContactQuality {
     /// All of it, and nothing else.
