@@ -219,11 +219,4 @@ mod tests {
         }
         assert_eq!(Largest(Stance).off(&curve, None), None, "no toe-off, no stance");
     }
-
-    #[test]
-    fn symmetry_has_the_sign_of_the_larger_side() {
-        assert!((symmetry_index(1.1, 0.9).unwrap() - 20.0).abs() < 1e-12);
-        assert!((symmetry_index(-0.9, -1.1).unwrap() + 20.0).abs() < 1e-12, "sizes of negative peaks");
-        assert_eq!(symmetry_index(0.1, -0.1), None);
-    }
 }
