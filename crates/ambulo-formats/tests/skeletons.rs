@@ -125,7 +125,10 @@ fn a_motion_in_memory_must_be_whole() {
         format!("{start} the name `a{{`; expected a name without braces")
     );
     let deep = (0..=MAX_DEPTH).map(|k| joint("a", k.checked_sub(1))).collect();
-    assert_eq!(error(deep, 1.0, &[]), format!("{start} joint `a` nested too deeply; expected at most {MAX_DEPTH} deep"));
+    assert_eq!(
+        error(deep, 1.0, &[]),
+        format!("{start} joint `a` nested too deeply; expected at most {MAX_DEPTH} deep")
+    );
     let mut twice = one();
     twice[0].channels = vec![Channel::ALL[0]; 2];
     let none_twice = "expected positions and rotations in x, y, z, all different";

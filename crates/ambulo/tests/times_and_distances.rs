@@ -139,6 +139,20 @@ fn a_turn_keeps_the_steps() {
             _ => None,
         }
     });
+    // What the ground does turns with the body.
+    let [x, z] = ["pelvis_tx", "pelvis_tz"].map(|name| model.coordinate(name).unwrap());
+    let moved: Vec<[f64; 2]> =
+        bent.trajectory.values(x).iter().zip(bent.trajectory.values(z)).map(|(x, z)| [*x, *z]).collect();
+    for foot in &mut bent.ground.bodies {
+        for (frame, place) in foot.center_of_pressure.iter_mut().enumerate() {
+            let pelvis = |of: &Analysis| [x, z].map(|id| of.trajectory.values(id)[frame]);
+            let [old, new] = [pelvis(&analysis), moved[frame]];
+            let (sin, cos) = ((old[0] - start) / radius).sin_cos();
+            let away = [place.x - old[0], place.z - old[1]];
+            place.x = new[0] + cos * away[0] - sin * away[1];
+            place.z = new[1] + sin * away[0] + cos * away[1];
+        }
+    }
     let turning = found(&model, &bent);
     // The inner foot moves less far than the outer one, and a stride is the chord of its arc.
     for (quantity, slack) in
