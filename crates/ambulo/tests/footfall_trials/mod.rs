@@ -14,7 +14,7 @@ use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts;
 use ambulo::kinematics::Trajectory;
-use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::calibration::{BodyMeasurements, SubjectDescription};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::SegmentTable;
@@ -198,14 +198,18 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         name: "gait2392 angles",
         subject: "gait2392",
         motion: coordinates_from_table(&small, &table, "ik", &mut Findings::default()).unwrap(),
-        soles: ambulo::analysis::feasibility::Person::of_model(&small).soles,
+        soles: ambulo::analysis::feasibility::SubjectDescription::of_model(&small).soles,
         model: small.clone(),
         plates: of_angles,
         forces: forces_of(&small, &by_angles),
         all_seen: true,
     };
-    let person =
-        Person { table: SegmentTable::DeLevaMale, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let person = SubjectDescription {
+        table: SegmentTable::DeLevaMale,
+        mass: 72.84,
+        height: Some(1.80),
+        measurements: BodyMeasurements::default(),
+    };
     let runner = Body::BuiltIn { person: &person, set: None };
     let (markers, still) = (trc(run, "motion_capture_run.trc"), trc(run, "static_run.trc"));
     vec![
