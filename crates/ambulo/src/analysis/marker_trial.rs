@@ -153,7 +153,7 @@ pub(crate) fn follow_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { walk, still, body, plate_feet } = trial;
     let (axes, LaboratoryRecording { markers, plates, .. }) = walk.in_world(findings);
-    let markers = while_seen(&markers, findings);
+    let markers = trimmed_to_visible(&markers, findings);
     progress.end(Stage::Axes)?;
     let still = still.map(|still| still.in_world(findings).1.markers);
     let subject = match body {
@@ -312,8 +312,8 @@ impl Subject {
 }
 
 /// The recording without ends in which hardly a marker was seen.
-fn while_seen(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
-    let seen = markers.while_seen();
+fn trimmed_to_visible(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
+    let seen = markers.trimmed_to_visible();
     if let (true, [first, .., last]) = (seen.frames() < markers.frames(), &seen.times[..]) {
         let message = format!(
             "less than half of the markers were seen before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",
