@@ -13,8 +13,8 @@ use ambulo::kinematics::calibration::{
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
-use ambulo::model::full_body::{FootPrint, STANDING_TILT, SegmentShape, SubjectShape, full_body, reshaped};
-use ambulo::model::marker_set::{MarkerSet, Recognised};
+use ambulo::model::full_body::{STANDING_TILT, SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
+use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::spatial::{Pose, Vec3};
@@ -100,17 +100,17 @@ fn subject() -> Human {
         let offset = (varus * torsion).transpose();
         shapes[index(&calcn)].parent_from_joint = Pose { rotation: torsion, translation: Vec3::y() * -SHANK };
         shapes[index(&calcn)].child_from_joint = Pose { rotation: offset.transpose(), translation: Vec3::zeros() };
-        let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+        let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
         let d = generic.dimensions;
-        shapes[index(&toes)].parent_from_joint = Pose::at(print.place(d.ankle_to_ball, d.ball_radius));
+        shapes[index(&toes)].parent_from_joint = Pose::at(placement.place(d.ankle_to_ball, d.ball_radius));
         put(name("HEE"), &calcn, Vec3::new(-0.28 * d.foot_length, 0.035 - ANKLE_HEIGHT, 0.0));
         put(name("TOE"), &calcn, Vec3::new(0.47 * d.foot_length, 0.036 - ANKLE_HEIGHT, 0.0));
     }
     let mut dimensions = generic.dimensions;
     dimensions.ankle_height = ANKLE_HEIGHT;
     dimensions.leg_length = THIGH + SHANK * VARUS.cos() + ANKLE_HEIGHT;
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    let shape = SubjectShape { segments: shapes, markers, feet: [print; 2], dimensions, locked: Vec::new() };
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    let shape = SubjectShape { segments: shapes, markers, feet: [placement; 2], dimensions, locked: Vec::new() };
     reshaped(&generic, &shape).unwrap()
 }
 
@@ -186,7 +186,7 @@ fn walk(human: &Human) -> Vec<Vec<f64>> {
     (0..240).map(posture).collect()
 }
 
-fn recognised(recording: &MarkerRecording) -> Recognised {
+fn recognised(recording: &MarkerRecording) -> RecognisedMarkers {
     MarkerSet::recognise(recording.markers.iter().map(|m| m.name.as_str())).unwrap()
 }
 
@@ -442,8 +442,9 @@ fn seen_by_video() -> Human {
         put(&name("SmallToe"), &at("toes"), Vec3::new(0.08 * length, 0.0, 0.15 * length * out));
     }
     let segments = SegmentShape::of(&human);
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    reshaped(&human, &SubjectShape { segments, markers, feet: [print; 2], dimensions: d, locked: Vec::new() }).unwrap()
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    reshaped(&human, &SubjectShape { segments, markers, feet: [placement; 2], dimensions: d, locked: Vec::new() })
+        .unwrap()
 }
 
 #[test]
@@ -497,8 +498,8 @@ fn a_misplaced_wand_is_partly_corrected_by_the_flexion_of_the_knee() {
     let mut markers = human.model.markers().to_vec();
     markers.iter_mut().filter(|m| m.name.ends_with("THI")).for_each(|m| m.location.x += 0.03);
     let segments = SegmentShape::of(&human);
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    let wrong = SubjectShape { segments, markers, feet: [print; 2], dimensions: d, locked: Vec::new() };
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    let wrong = SubjectShape { segments, markers, feet: [placement; 2], dimensions: d, locked: Vec::new() };
     let wrong = reshaped(&human, &wrong).unwrap();
     let forward = |body: &Calibrated| {
         let wand = body.human.model.markers().iter().find(|m| m.name == "RTHI").unwrap().location;

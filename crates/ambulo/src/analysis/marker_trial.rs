@@ -14,7 +14,7 @@ use crate::kinematics::calibration::{
 };
 use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_markers};
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
-use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
+use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion};
@@ -295,7 +295,7 @@ impl Subject {
         let (recording, trial) = still.map_or((walk, Trial::Moving), |still| (still, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
-            Some(set) => Recognised::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
+            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
             None => MarkerSet::recognise(names)?,
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;

@@ -11,7 +11,7 @@
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
-use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
+use crate::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::{POINT_DISTANCE_M, SkeletonRecording};
 use crate::motion::{MarkerPath, MarkerRecording};
@@ -242,7 +242,7 @@ impl Lengths {
         }
         let Fitting { shapes, markers, .. } = fitting;
         let dimensions = self.dimensions(table.dimensions);
-        let feet = [FootPrint::of(&table.dimensions); 2];
+        let feet = [SolePlacement::of(&table.dimensions); 2];
         Ok(reshaped(table, &SubjectShape { segments: shapes, markers, feet, dimensions, locked: Vec::new() })?)
     }
 }

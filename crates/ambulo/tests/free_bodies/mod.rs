@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use ambulo::model::{
-    Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Measure, Model,
+    Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Model,
 };
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 
@@ -61,7 +61,7 @@ pub(crate) fn weld(body: &str) -> Joint {
         child_from_joint: Pose::IDENTITY,
         rotations: Vec::new(),
         translations: Vec::new(),
-        measure: Measure::Rates,
+        speeds: JointSpeeds::Rates,
     }
 }
 

@@ -155,7 +155,7 @@ fn placed(
 /// Position of the ball of a foot relative to its ankle [m].
 fn ball(d: &Dimensions, feet: &Feet, side: Side) -> Vec3 {
     let foot = &feet[index(side)];
-    foot.print.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
+    foot.placement.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
 }
 
 fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: &mut Vec<String>) -> SubjectShape {
@@ -204,7 +204,7 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
         );
         locked = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"].map(str::to_owned).to_vec();
     }
-    let feet = [parts.feet[0].print, parts.feet[1].print];
+    let feet = [parts.feet[0].placement, parts.feet[1].placement];
     SubjectShape { segments, markers, feet, dimensions: dimensions(d, parts), locked }
 }
 
@@ -214,7 +214,7 @@ fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
     let foot = mean(&|i| parts.feet[i].factor);
     let thigh = mean(&|i| parts.legs[i].as_ref().map_or(generic.thigh, |leg| leg.thigh));
     let shank = mean(&|i| parts.legs[i].as_ref().map_or(generic.shank, |leg| leg.shank));
-    let ankle_height = mean(&|i| parts.feet[i].print.ankle_height);
+    let ankle_height = mean(&|i| parts.feet[i].placement.ankle_height);
     let arm = |i: usize| parts.trunk.arms[i].as_ref();
     let [right, left] = parts.trunk.shoulders;
     Dimensions {

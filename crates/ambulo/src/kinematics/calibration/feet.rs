@@ -7,7 +7,7 @@ use super::reference::Trial;
 use super::subject_description::index;
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
-use crate::model::full_body::FootPrint;
+use crate::model::full_body::SolePlacement;
 use crate::model::marker_set::Landmark;
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -38,7 +38,7 @@ pub(super) struct Foot {
     /// Scale factor relative to the segment table.
     pub(super) factor: f64,
     /// Position of the sole.
-    pub(super) print: FootPrint,
+    pub(super) placement: SolePlacement,
     /// Axes of the ankle joint in the shank.
     pub(super) tibia_from_joint: Mat3,
     /// Axes of the foot in the joint, at zero ankle angle.
@@ -73,7 +73,7 @@ fn table_foot(dimensions: &Dimensions, count: usize) -> Foot {
     Foot {
         poses: vec![None; count],
         factor: 1.0,
-        print: FootPrint::of(dimensions),
+        placement: SolePlacement::of(dimensions),
         tibia_from_joint: Mat3::identity(),
         joint_from_foot: Mat3::identity(),
     }
@@ -174,11 +174,11 @@ impl Finder<'_> {
         let rear = |(pose, ends): (&Option<Pose>, &Option<Ends>)| Some(in_frame(pose.as_ref()?, ends.as_ref()?.rear));
         let rear = median_point(&poses.iter().zip(&ends).filter_map(rear).collect::<Vec<_>>()).unwrap_or_default();
         let table_rear = ends.iter().flatten().map(|e| e.table_rear).next().unwrap_or_default();
-        let print = FootPrint { ankle_height, forward: rear.x - table_rear.x * factor, right: rear.z };
+        let placement = SolePlacement { ankle_height, forward: rear.x - table_rear.x * factor, right: rear.z };
         let tibia_from_joint = ankle_axes(leg, &poses);
         report_unusual_torsion(&tibia_from_joint, side, assumptions);
         let joint_from_foot = standing_offset(leg, &poses, &tibia_from_joint);
-        Foot { poses, factor, print, tibia_from_joint, joint_from_foot }
+        Foot { poses, factor, placement, tibia_from_joint, joint_from_foot }
     }
 
     fn unmeasured(&self, leg: &Leg, count: usize) -> Foot {

@@ -1,7 +1,7 @@
 //! Positions of anatomical landmarks in each frame of a recording.
 
 use crate::model::Side;
-use crate::model::marker_set::{Landmark, NamedMarker, Recognised};
+use crate::model::marker_set::{Landmark, NamedMarker, RecognisedMarkers};
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
 
@@ -12,14 +12,14 @@ const MOST_NAMES: usize = 12;
 #[derive(Debug)]
 pub(super) struct LandmarkTrajectories<'a> {
     pub(super) recording: &'a MarkerRecording,
-    /// Recognised markers, with their number in the recording.
+    /// RecognisedMarkers markers, with their number in the recording.
     pub(super) markers: Vec<(&'a NamedMarker, usize)>,
     /// Names of the marker sets.
     pub(super) sets: &'a [String],
 }
 
 impl<'a> LandmarkTrajectories<'a> {
-    pub(super) fn new(recording: &'a MarkerRecording, recognised: &'a Recognised) -> LandmarkTrajectories<'a> {
+    pub(super) fn new(recording: &'a MarkerRecording, recognised: &'a RecognisedMarkers) -> LandmarkTrajectories<'a> {
         let number =
             |m: &'a NamedMarker| recording.markers.iter().position(|path| path.name == m.name).map(|index| (m, index));
         LandmarkTrajectories {

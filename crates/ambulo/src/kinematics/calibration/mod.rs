@@ -50,7 +50,7 @@ pub use upright::assume_upright_trunk;
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::full_body;
-use crate::model::marker_set::Recognised;
+use crate::model::marker_set::RecognisedMarkers;
 use crate::motion::MarkerRecording;
 use landmark_trajectories::LandmarkTrajectories;
 use std::collections::BTreeMap;
@@ -73,7 +73,7 @@ pub struct Calibrated {
 pub fn calibrate(
     recording: &MarkerRecording,
     trial: Trial,
-    recognised: &Recognised,
+    recognised: &RecognisedMarkers,
     person: &SubjectDescription,
     findings: &mut Findings,
 ) -> Result<Calibrated, CalibrationError> {

@@ -3,7 +3,7 @@
 /// Results and assumptions of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationReport {
-    /// Recognised marker sets.
+    /// RecognisedMarkers marker sets.
     pub sets: Vec<String>,
     /// Stature of the body [m].
     pub height_m: f64,
