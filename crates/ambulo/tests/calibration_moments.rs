@@ -50,7 +50,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
     let mut motion = fit_markers(model, markers, &settings, &mut findings).unwrap().motion;
     assume_upright_trunk(model, &mut motion, &mut findings);
     let plates = plates_from_c3d(&subject.walk.c3d, PlateSettings::default(), &mut findings).unwrap();
-    let plates: Vec<_> = plates.iter().map(|p| p.turned(&world_from_lab())).collect();
+    let plates: Vec<_> = plates.iter().map(|p| p.rotated(&world_from_lab())).collect();
     let feet = feet_on_plates(markers, &plates, &foot_motion(markers, &mut findings), &[], &mut findings);
     let forces = feet.recordings(&plates, model.anatomy().feet().unwrap());
     let window = Window { from_s: markers.times.first().copied(), to_s: markers.times.last().copied() };

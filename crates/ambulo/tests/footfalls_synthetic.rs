@@ -10,7 +10,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -120,7 +120,7 @@ fn known(moving: &Moving) -> Vec<Event> {
         let loads = walk.loads.iter().filter(|load| of_side(&walk.human.model.bodies()[load.body.index()].name));
         let mut vertical = vec![0.0; walk.loads[0].times.len()];
         loads.for_each(|load| vertical.iter_mut().zip(&load.force).for_each(|(sum, f)| *sum += f.y));
-        for contact in contacts(&walk.loads[0].times, &vertical) {
+        for contact in contacts_from_force(&walk.loads[0].times, &vertical) {
             let event = |kind, time_s| Event { side, kind, time_s };
             events.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
             events.extend(contact.off_s.map(|t| event(EventKind::Off, t)));

@@ -383,7 +383,7 @@ fn volts_without_a_matrix_and_unused_polynomials_are_reported() {
 fn rotating_the_axes_rotates_all_vectors() {
     let (plate, _) = read(&type_2());
     let world_from_lab = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
-    let turned = plate.turned(&world_from_lab);
+    let turned = plate.rotated(&world_from_lab);
     assert_vector(turned.force[LOADED], [50.0, 700.0, 30.0], ROUNDING);
     assert_vector(turned.center_of_pressure(LOADED), [0.2, 0.0, 0.25], 1e-6);
     assert!((turned.free_moment(LOADED) - plate.free_moment(LOADED)).abs() < 1e-9);

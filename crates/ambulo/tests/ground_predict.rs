@@ -13,7 +13,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::predict::{PredictError, PredictSettings, Prediction, Prescribed, predict, total_wrench};
 use ambulo::ground::{GroundForces, feet, measured};
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -48,7 +48,7 @@ fn true_footfalls(walk: &SyntheticWalk, applied: &GroundForces) -> Footfalls {
     let mut falls = Vec::new();
     for (side, foot) in Side::BOTH.into_iter().zip(&applied.bodies) {
         let vertical: Vec<f64> = foot.force.iter().map(|f| f.y).collect();
-        falls.extend(contacts(&times, &vertical).into_iter().map(|contact| Footfall {
+        falls.extend(contacts_from_force(&times, &vertical).into_iter().map(|contact| Footfall {
             side,
             strike_s: contact.strike_s,
             off_s: contact.off_s,

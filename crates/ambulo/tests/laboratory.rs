@@ -65,7 +65,7 @@ fn laboratories() -> Vec<(Mat3, &'static str)> {
 #[test]
 fn every_orientation_of_a_laboratory_is_found_and_stated_in_one_line() {
     for (lab_from_world, expected) in laboratories() {
-        let (found, findings) = found(&straight().turned(&lab_from_world));
+        let (found, findings) = found(&straight().rotated(&lab_from_world));
         assert_eq!(found.statement, format!("{expected} -> world x forward, y up, z right, m"));
         assert!((found.world_from_lab * lab_from_world - Mat3::identity()).norm() < ROUNDING, "{expected}");
         assert!((found.world_from_lab.determinant() - 1.0).abs() < ROUNDING, "{expected}");
@@ -77,7 +77,7 @@ fn every_orientation_of_a_laboratory_is_found_and_stated_in_one_line() {
 #[test]
 fn forward_is_the_facing_direction_of_a_body_that_stays_in_place() {
     for (lab_from_world, expected) in laboratories() {
-        let (found, _) = found(&walk(|_| Vec3::zeros()).turned(&lab_from_world));
+        let (found, _) = found(&walk(|_| Vec3::zeros()).rotated(&lab_from_world));
         assert!(found.statement.starts_with(&expected.replace("walking", "facing")), "{}", found.statement);
         assert!((found.world_from_lab * lab_from_world - Mat3::identity()).norm() < ROUNDING, "{expected}");
         assert_eq!(found.heading, Heading::Facing);
@@ -91,11 +91,11 @@ fn turn_about_up(deg: f64) -> Mat3 {
 
 #[test]
 fn a_heading_near_an_axis_is_rounded_to_it_and_another_is_kept() {
-    let (near, _) = found(&straight().turned(&turn_about_up(6.0)));
+    let (near, _) = found(&straight().rotated(&turn_about_up(6.0)));
     assert!((near.world_from_lab - Mat3::identity()).norm() < ROUNDING, "{}", near.world_from_lab);
     assert_eq!(near.turn_deg, None);
     assert!(near.statement.contains("walking +x ->"), "{}", near.statement);
-    let (apart, _) = found(&straight().turned(&turn_about_up(30.0)));
+    let (apart, _) = found(&straight().rotated(&turn_about_up(30.0)));
     assert!((apart.world_from_lab * turn_about_up(30.0) - Mat3::identity()).norm() < 1e-9);
     assert!(apart.statement.contains("walking 30 degrees from +x towards -z"), "{}", apart.statement);
 }
@@ -126,16 +126,16 @@ fn forward_is_the_facing_direction_in_backward_walking_and_sideways_walking_is_r
 
 #[test]
 fn a_body_of_a_thousand_metres_was_written_in_millimetres() {
-    let big = straight().turned(&(Mat3::identity() * 1000.0));
+    let big = straight().rotated(&(Mat3::identity() * 1000.0));
     let (found_big, findings) = found(&big);
     assert!((found_big.metres_per_stated_metre - 0.001).abs() < ROUNDING && findings.has(Code::LaboratoryUnitChanged));
     assert!(found_big.statement.contains("mm x 0.001"), "{}", found_big.statement);
     let back = found_big.markers(&big);
     assert!((back.marker("RASI").unwrap().positions[0] - Vec3::from(BODY[0].1)).norm() < 1e-9);
-    let (small, _) = found(&straight().turned(&(Mat3::identity() * 0.01)));
+    let (small, _) = found(&straight().rotated(&(Mat3::identity() * 0.01)));
     assert!((small.metres_per_stated_metre - 100.0).abs() < ROUNDING);
     // A child of half the size is a child.
-    let (child, findings) = found(&straight().turned(&(Mat3::identity() * 0.5)));
+    let (child, findings) = found(&straight().rotated(&(Mat3::identity() * 0.5)));
     assert!((child.metres_per_stated_metre - 1.0).abs() < ROUNDING && findings.as_slice().is_empty());
 }
 
@@ -183,7 +183,7 @@ fn plates_determine_up_without_marker_names() {
 fn gaps_do_not_rotate_the_laboratory() {
     let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
     let lab_from_world = Mat3::from_columns(&[y, z, x]);
-    let mut markers = straight().turned(&lab_from_world);
+    let mut markers = straight().rotated(&lab_from_world);
     for (i, marker) in markers.markers.iter_mut().enumerate() {
         for position in marker.positions.iter_mut().skip(7 * i).take(30) {
             *position = Vec3::repeat(f64::NAN);

@@ -11,7 +11,7 @@ mod shared_data;
 use ambulo::analysis::event_agreement;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::plates::{ContactQuality, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::{
@@ -78,7 +78,7 @@ fn events_of_table(path: &Path, columns: [(Side, &str); 2], until_s: f64) -> Vec
     let (table, _) = Table::read_storage(&std::fs::read(path).unwrap()).unwrap();
     let mut out = Vec::new();
     for (side, column) in columns {
-        for contact in contacts(table.times().unwrap(), table.column(column).unwrap()) {
+        for contact in contacts_from_force(table.times().unwrap(), table.column(column).unwrap()) {
             let event = |kind, time_s| Event { side, kind, time_s };
             out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
             out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));

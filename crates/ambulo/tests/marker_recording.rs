@@ -33,7 +33,7 @@ fn rotating_the_axes_rotates_every_position_and_keeps_gaps() {
     let file = trc(&[("HEEL", [[1.0, 2.0, 3.0], gap])]);
     let markers = markers_from_trc(&file, &mut Findings::default()).unwrap();
     // Laboratory z up, walking along +y: x forward is +y, y up is +z, z right is +x.
-    let turned = markers.turned(&Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0));
+    let turned = markers.rotated(&Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0));
     assert_eq!(turned.markers[0].positions[0], Vec3::new(2.0, 3.0, 1.0));
     assert!(!turned.markers[0].is_seen(1));
     assert_eq!((turned.frames(), turned.rate_hz), (2, markers.rate_hz));

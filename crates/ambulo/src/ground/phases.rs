@@ -30,7 +30,7 @@ impl Contact {
 
 /// Contacts from the vertical force on a foot [N] at increasing times [s].
 #[must_use]
-pub fn contacts(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
+pub fn contacts_from_force(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
     let mut found: Vec<Contact> = Vec::new();
     let mut loaded = false;
     for i in 0..times.len().min(vertical.len()) {

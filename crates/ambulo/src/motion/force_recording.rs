@@ -31,7 +31,7 @@ pub struct ForceRecording {
 
 impl ForceRecording {
     /// Rotates the world axes, `rotation * v`; vectors in the axes of a body do not change.
-    pub fn turn(&mut self, rotation: &Mat3) {
+    pub fn rotate(&mut self, rotation: &Mat3) {
         if self.force_frame.is_none() {
             self.force.iter_mut().chain(&mut self.moment).for_each(|v| *v = rotation * *v);
         }

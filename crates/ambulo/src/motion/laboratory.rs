@@ -66,13 +66,13 @@ impl Laboratory {
     /// Transforms markers to the axes of the world, in metres.
     #[must_use]
     pub fn markers(&self, recording: &MarkerRecording) -> MarkerRecording {
-        recording.turned(&(self.world_from_lab * self.metres_per_stated_metre))
+        recording.rotated(&(self.world_from_lab * self.metres_per_stated_metre))
     }
 
     /// Transforms a plate to the axes of the world. Its unit was corrected when it was read.
     #[must_use]
     pub fn plate(&self, plate: &PlateRecording) -> PlateRecording {
-        plate.turned(&self.world_from_lab)
+        plate.rotated(&self.world_from_lab)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
 
-/// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::turned`] rotates them
+/// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::rotated`] rotates them
 /// to those of the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerRecording {
@@ -116,7 +116,7 @@ impl MarkerRecording {
 
     /// The trajectories in rotated axes: `world_from_lab * p`.
     #[must_use]
-    pub fn turned(&self, world_from_lab: &Mat3) -> MarkerRecording {
+    pub fn rotated(&self, world_from_lab: &Mat3) -> MarkerRecording {
         let turn = |path: &MarkerPath| MarkerPath {
             name: path.name.clone(),
             positions: path.positions.iter().map(|p| world_from_lab * p).collect(),

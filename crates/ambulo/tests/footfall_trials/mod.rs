@@ -12,7 +12,7 @@ mod gait_files;
 
 use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
 use ambulo::kinematics::calibration::{BodyMeasurements, SubjectDescription};
 use ambulo::kinematics::marker_fit::FitSettings;
@@ -147,7 +147,7 @@ fn fitted(
         || body.plate_forces(),
         |table| {
             let mut forces = forces_of(&body.subject.model, table);
-            forces.iter_mut().for_each(|force| force.turn(&body.laboratory.world_from_lab));
+            forces.iter_mut().for_each(|force| force.rotate(&body.laboratory.world_from_lab));
             forces
         },
     );
@@ -173,7 +173,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         let mut out = Vec::new();
         for (side, prefix) in [R, L].into_iter().zip(forces.prefixes) {
             let column = table.column(&format!("{prefix}vy")).unwrap();
-            for contact in contacts(table.times().unwrap(), column) {
+            for contact in contacts_from_force(table.times().unwrap(), column) {
                 let event = |kind, time_s| Event { side, kind, time_s };
                 out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
                 out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));

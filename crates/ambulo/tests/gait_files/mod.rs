@@ -41,7 +41,7 @@ pub(crate) fn world_from_lab() -> Mat3 {
 impl File {
     fn read(path: &Path) -> File {
         let (c3d, _) = C3d::read(&std::fs::read(path).unwrap()).unwrap();
-        let markers = markers_from_c3d(&c3d, &mut Findings::default()).unwrap().turned(&world_from_lab());
+        let markers = markers_from_c3d(&c3d, &mut Findings::default()).unwrap().rotated(&world_from_lab());
         File { c3d, markers }
     }
 

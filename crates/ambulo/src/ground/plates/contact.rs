@@ -2,7 +2,7 @@
 
 use super::feet::Feet;
 use super::{ContactQuality, PlateContact};
-use crate::ground::phases::{Contact, contacts};
+use crate::ground::phases::{Contact, contacts_from_force};
 use crate::model::Side;
 use crate::motion::PlateRecording;
 use crate::numerics::median;
@@ -20,7 +20,7 @@ const OVER_EDGE_M: f64 = 0.02;
 pub(super) fn loaded_spans(plate: &PlateRecording) -> Vec<[f64; 2]> {
     let vertical: Vec<f64> = (0..plate.times.len()).map(|i| plate.vertical(i)).collect();
     let (Some(&first), Some(&last)) = (plate.times.first(), plate.times.last()) else { return Vec::new() };
-    contacts(&plate.times, &vertical).iter().map(|c: &Contact| c.span(first, last)).collect()
+    contacts_from_force(&plate.times, &vertical).iter().map(|c: &Contact| c.span(first, last)).collect()
 }
 
 fn samples(plate: &PlateRecording, span: [f64; 2]) -> impl Iterator<Item = usize> + '_ {

@@ -22,7 +22,7 @@ use super::expected::Expectation;
 use super::gaussian_filter::GaussianFilter;
 use super::loads::{FootLoads, loads};
 use super::normal_equations::NormalEquations;
-use super::samples::{Evidence, StanceSamples};
+use super::samples::{EstimateInputs, StanceSamples};
 use super::stance_curves::StanceCurves;
 use super::unknowns::Unknowns;
 use crate::model::BySide;
@@ -31,8 +31,8 @@ use crate::model::BySide;
 ///
 /// # Errors
 /// Equations that are too large or have no solution.
-pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
-    let Evidence { grid, stances, body_scale, weights, .. } = *evidence;
+pub(super) fn estimate(inputs: &EstimateInputs<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
+    let EstimateInputs { grid, stances, body_scale, weights, .. } = *inputs;
     let expectations: Vec<Expectation<'_>> =
         stances.iter().map(|stance| Expectation::new(stance, stances, curves, weights, body_scale)).collect();
     let unknowns = Unknowns::new(stances, body_scale, weights);
@@ -40,8 +40,8 @@ pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result
     let samples: Vec<StanceSamples> = expectations
         .iter()
         .zip(&unknowns.curves)
-        .map(|(expectation, curves)| StanceSamples::new(evidence, expectation, curves, filter.stride))
+        .map(|(expectation, curves)| StanceSamples::new(inputs, expectation, curves, filter.stride))
         .collect();
-    let solution = NormalEquations { evidence, unknowns: &unknowns, samples: &samples, filter: &filter }.solve()?;
-    Ok(BySide::from_fn(|side| loads(side, evidence, &expectations, &unknowns, &solution)))
+    let solution = NormalEquations { inputs, unknowns: &unknowns, samples: &samples, filter: &filter }.solve()?;
+    Ok(BySide::from_fn(|side| loads(side, inputs, &expectations, &unknowns, &solution)))
 }

@@ -10,7 +10,7 @@
 //! Moments are the free moment and those of a centre of pressure away from its expected path; their mean is zero.
 
 use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};
-use super::stances::{BodyScale, Gait, Stance};
+use super::stances::{BodyScale, GaitType, Stance};
 use super::weights::Weights;
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -79,16 +79,16 @@ impl<'a> Expectation<'a> {
     pub(super) fn vertical(&self, time: f64) -> MeanAndDeviation {
         let own = self.stance.elapsed_share(time);
         match self.stance.gait {
-            Gait::Walk => {
+            GaitType::Walk => {
                 let found = self.curves.vertical(own);
                 MeanAndDeviation { mean: found.mean, deviation: found.deviation * self.weights.spread[1] }
             }
-            Gait::Run => {
+            GaitType::Run => {
                 let peak = FRAC_PI_2 * (self.step_s / self.stance.duration_s()).clamp(0.5, 4.0);
                 let mean = peak * (PI * own).sin();
                 MeanAndDeviation { mean, deviation: RUN_SPREAD * peak * rise(own, 0.1) }
             }
-            Gait::Stand => {
+            GaitType::Stand => {
                 let shared = self.others.iter().any(|o| (o[0]..=o[1]).contains(&time));
                 let mean = if shared { 0.5 } else { 1.0 };
                 MeanAndDeviation { mean, deviation: STAND_SPREAD }
@@ -107,17 +107,17 @@ impl<'a> Expectation<'a> {
         let height = lever.dot(&up).max(0.1 * height_m);
         let lean = |axis: Vec3| weights.sideways_lever * vertical.mean * lever.dot(&axis) / height;
         let forward = match stance.gait {
-            Gait::Walk => {
+            GaitType::Walk => {
                 let found = self.curves.fore_aft(stance.phase(time));
                 MeanAndDeviation { deviation: found.deviation * weights.spread[0], ..found }
             }
-            Gait::Run | Gait::Stand => MeanAndDeviation {
+            GaitType::Run | GaitType::Stand => MeanAndDeviation {
                 mean: lean(stance.forward),
                 deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1),
             },
         };
         let outwards = if stance.side == Side::Right { 1.0 } else { -1.0 };
-        let push = if stance.gait == Gait::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
+        let push = if stance.gait == GaitType::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
         let right = MeanAndDeviation {
             mean: lean(stance.right) + outwards * push,
             deviation: weights.sideways_spread * loaded,

@@ -3,8 +3,8 @@
 use super::FootDeviation;
 use super::expected::Expectation;
 use super::normal_equations::Solution;
-use super::samples::{ComponentSample, Evidence, frames_of, sample};
-use super::stances::Gait;
+use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
+use super::stances::GaitType;
 use super::unknowns::{Curve, Unknowns};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -30,12 +30,12 @@ pub(super) struct FootLoads {
 /// Loads of one foot in every frame; zero in swing.
 pub(super) fn loads(
     side: Side,
-    evidence: &Evidence<'_>,
+    inputs: &EstimateInputs<'_>,
     expectations: &[Expectation<'_>],
     unknowns: &Unknowns,
     solution: &Solution,
 ) -> FootLoads {
-    let frames = evidence.grid.frames;
+    let frames = inputs.grid.frames;
     let zeros = || vec![Vec3::zeros(); frames];
     let mut out = FootLoads {
         force: zeros(),
@@ -46,28 +46,28 @@ pub(super) fn loads(
     };
     for (expectation, curves) in expectations.iter().zip(&unknowns.curves).filter(|(e, _)| e.stance.side == side) {
         let stance = expectation.stance;
-        for frame in frames_of(evidence, stance) {
-            let at = sample(evidence, expectation, curves, frame);
+        for frame in frames_of(inputs, stance) {
+            let at = sample(inputs, expectation, curves, frame);
             let estimates: [Estimate; 6] = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
             let [forward, up, right, about_forward, about_up, about_right] = estimates;
-            let axes = [stance.forward, evidence.body_scale.up, stance.right];
-            let vertical = up.value.max(LEAST_LOAD * evidence.body_scale.weight_n);
+            let axes = [stance.forward, inputs.body_scale.up, stance.right];
+            let vertical = up.value.max(LEAST_LOAD * inputs.body_scale.weight_n);
             out.force[frame] = axes[0] * forward.value + axes[1] * up.value + axes[2] * right.value;
-            out.center[frame] = match evidence.prescribed.center_at(side, frame) {
+            out.center[frame] = match inputs.prescribed.center_at(side, frame) {
                 Some(center) => center,
                 // δ × F = T for a centre of pressure at distance δ from its expected path.
                 None => {
                     let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
-                    let sole = &evidence.geometry.feet[side][frame].sole;
-                    nearest_on_sole(sole, evidence.half_widths[side], at.center + moved, axes[1])
+                    let sole = &inputs.geometry.feet[side][frame].sole;
+                    nearest_on_sole(sole, inputs.half_widths[side], at.center + moved, axes[1])
                 }
             };
             out.free_moment[frame] = about_up.value;
             out.height[frame] = stance.height_m;
             let deviation = &mut out.deviation;
-            let run_factor = if stance.gait == Gait::Run { RUN_DEVIATION } else { 1.0 };
-            let weight = evidence.body_scale.weight_n;
-            let calibration = &evidence.weights.calibration;
+            let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
+            let weight = inputs.body_scale.weight_n;
+            let calibration = &inputs.weights.calibration;
             let spread = |axis: usize, of: &Estimate| calibration.force[axis].variance(of.variance, weight);
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;

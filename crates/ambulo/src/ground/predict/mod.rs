@@ -35,7 +35,7 @@ pub use deviation_calibration::{DeviationCalibration, DeviationScaling};
 use estimate::estimate;
 use geometry::Geometry;
 pub use prescribed::Prescribed;
-use samples::Evidence;
+use samples::EstimateInputs;
 use stance_curves::StanceCurves;
 use stances::{BodyScale, stances};
 use std::ops::Range;
@@ -242,7 +242,7 @@ pub fn predict(
     let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
     let geometry = Geometry::new(model, trajectory, &soles);
     let stances = stances(&footfalls, trajectory.grid(), &geometry, &body_scale, curves);
-    let evidence = Evidence {
+    let inputs = EstimateInputs {
         grid: trajectory.grid(),
         geometry: &geometry,
         half_widths: soles.map(|sole| sole.half_width),
@@ -252,7 +252,7 @@ pub fn predict(
         weights: &settings.weights,
         prescribed: &settings.prescribed,
     };
-    let mut feet = estimate(&evidence, curves)?;
+    let mut feet = estimate(&inputs, curves)?;
     enforce_unilateral_contact(&mut feet, up, &settings.prescribed);
     let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();
     let ground = feet.iter().map(|(side, foot)| {

@@ -2,7 +2,7 @@
 
 use super::PredictError;
 use super::gaussian_filter::GaussianFilter;
-use super::samples::{Evidence, StanceSamples};
+use super::samples::{EstimateInputs, StanceSamples};
 use super::stances::Stance;
 use super::unknowns::Unknowns;
 use crate::numerics::BandMatrix;
@@ -25,7 +25,7 @@ pub(super) struct Solution {
 
 /// Inputs of the equations.
 pub(super) struct NormalEquations<'a> {
-    pub(super) evidence: &'a Evidence<'a>,
+    pub(super) inputs: &'a EstimateInputs<'a>,
     pub(super) unknowns: &'a Unknowns,
     /// One entry per stance, with the stride of the filter.
     pub(super) samples: &'a [StanceSamples],
@@ -43,7 +43,7 @@ impl NormalEquations<'_> {
     /// # Errors
     /// Equations that are too large, or have no solution (which happens only with numbers that are not finite).
     pub(super) fn solve(&self) -> Result<Solution, PredictError> {
-        let grid = self.evidence.grid;
+        let grid = self.inputs.grid;
         let stride = self.filter.stride;
         let every = stride * ((OBSERVED_EVERY_S / grid.step_s / stride as f64).round() as usize).max(1);
         let instants = || (0..grid.frames).step_by(every);
@@ -83,9 +83,9 @@ impl NormalEquations<'_> {
 
     /// Lowest and highest index of the unknowns that influence the filtered wrench at a time.
     fn range(&self, time: f64) -> Option<[usize; 2]> {
-        let reach = self.filter.reach_s(self.evidence.grid);
+        let reach = self.filter.reach_s(self.inputs.grid);
         let [from, to] = [time - reach, time + reach];
-        let near = self.evidence.stances.iter().zip(&self.unknowns.curves);
+        let near = self.inputs.stances.iter().zip(&self.unknowns.curves);
         let near = near.filter(|(stance, _)| stance.end_s >= from && stance.start_s <= to);
         let ends = near.flat_map(|(_, curves)| curves).map(|curve| curve.range(from, to));
         ends.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
@@ -94,13 +94,13 @@ impl NormalEquations<'_> {
     /// Forward, up and right direction of the nearest stance.
     fn axes(&self, time: f64) -> [Vec3; 3] {
         let apart = |s: &Stance| (s.start_s - time).max(time - s.end_s);
-        let nearest = self.evidence.stances.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let up = self.evidence.body_scale.up;
+        let nearest = self.inputs.stances.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let up = self.inputs.body_scale.up;
         nearest.map_or([Vec3::x(), up, Vec3::z()], |s| [s.forward, up, s.right])
     }
 
     fn observe(&self, frame: usize, first: usize, count: usize, rows: &mut Rows) {
-        let grid = self.evidence.grid;
+        let grid = self.inputs.grid;
         for row in &mut rows.coefficients {
             row.clear();
             row.resize(count, 0.0);
@@ -108,7 +108,7 @@ impl NormalEquations<'_> {
         let axes = self.axes(grid.time(frame));
         let mut rest = Wrench::ZERO;
         for (tap, weight) in self.filter.around(frame, grid.frames) {
-            add(&mut rest, &self.evidence.about_mass_center(tap), weight);
+            add(&mut rest, &self.inputs.about_mass_center(tap), weight);
             for (samples, curves) in self.samples.iter().zip(&self.unknowns.curves) {
                 let Some(sample) = samples.at(tap) else { continue };
                 add(&mut rest, &sample.expected, -weight);
@@ -128,7 +128,7 @@ impl NormalEquations<'_> {
 
     /// Standard deviations of the six equations at a time [N, N.m].
     fn noise(&self, time: f64) -> [f64; 6] {
-        let Evidence { grid, body_scale, weights, .. } = *self.evidence;
+        let EstimateInputs { grid, body_scale, weights, .. } = *self.inputs;
         let reach = self.filter.reach_s(grid);
         let at_end = time - grid.start_s < reach || grid.end_s() - time < reach;
         let scale = body_scale.weight_n * if at_end { AT_THE_ENDS } else { 1.0 };

@@ -13,7 +13,7 @@ use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
 /// Inputs of the estimate: the motion of feet and mass centre, the stances and the total wrench.
-pub(super) struct Evidence<'a> {
+pub(super) struct EstimateInputs<'a> {
     pub(super) grid: TimeGrid,
     pub(super) geometry: &'a Geometry,
     /// Half the width of the right and the left sole [m].
@@ -26,7 +26,7 @@ pub(super) struct Evidence<'a> {
     pub(super) prescribed: &'a Prescribed,
 }
 
-impl Evidence<'_> {
+impl EstimateInputs<'_> {
     /// Expected centre of pressure in a frame [m].
     pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
         let place = &self.geometry.feet[stance.side][frame];
@@ -74,16 +74,16 @@ pub(super) struct StanceSamples {
 impl StanceSamples {
     /// Samples a stance.
     pub(super) fn new(
-        evidence: &Evidence<'_>,
+        inputs: &EstimateInputs<'_>,
         expectation: &Expectation<'_>,
         curves: &[Curve; 6],
         stride: usize,
     ) -> StanceSamples {
         let stance = expectation.stance;
-        let frames = frames_of(evidence, stance);
+        let frames = frames_of(inputs, stance);
         let first = frames.start.div_ceil(stride);
         let frames = (first * stride..frames.end).step_by(stride);
-        let list = frames.map(|frame| sample(evidence, expectation, curves, frame)).collect();
+        let list = frames.map(|frame| sample(inputs, expectation, curves, frame)).collect();
         StanceSamples { stride, first, list }
     }
 
@@ -94,8 +94,8 @@ impl StanceSamples {
 }
 
 /// Frames of a stance.
-pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize> {
-    let grid = evidence.grid;
+pub(super) fn frames_of(inputs: &EstimateInputs<'_>, stance: &Stance) -> Range<usize> {
+    let grid = inputs.grid;
     let last = grid.frames as f64;
     let place = |time: f64| (time - grid.start_s) / grid.step_s;
     let first = place(stance.start_s).ceil().clamp(0.0, last) as usize;
@@ -105,17 +105,17 @@ pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize
 
 /// A stance in any of its frames.
 pub(super) fn sample(
-    evidence: &Evidence<'_>,
+    inputs: &EstimateInputs<'_>,
     expectation: &Expectation<'_>,
     curves: &[Curve; 6],
     frame: usize,
 ) -> StanceSample {
     let stance = expectation.stance;
-    let time = evidence.grid.time(frame);
-    let center = evidence.expected_center(stance, frame);
-    let lever = evidence.geometry.center[frame] - center;
+    let time = inputs.grid.time(frame);
+    let center = inputs.expected_center(stance, frame);
+    let lever = inputs.geometry.center[frame] - center;
     let arm = -lever;
-    let axes = [stance.forward, evidence.body_scale.up, stance.right];
+    let axes = [stance.forward, inputs.body_scale.up, stance.right];
     let means = expectation.all(time, lever);
     let mut expected = Wrench::ZERO;
     let parts = std::array::from_fn(|c| {

@@ -17,7 +17,7 @@ const UNDER_WAY: f64 = 0.08;
 
 /// Type of gait of a stance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gait {
+pub(super) enum GaitType {
     /// Walking: with double support before or after.
     Walk,
     /// Running: between two flights.
@@ -40,7 +40,7 @@ pub(super) struct Stance {
     pub(super) right: Vec3,
     /// Dimensionless speed V / √(g L).
     pub(super) speed: f64,
-    pub(super) gait: Gait,
+    pub(super) gait: GaitType,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     knots: Vec<[f64; 2]>,
 }
@@ -166,13 +166,13 @@ fn stance(
         .find(|strike| *strike > start_s + near && *strike < end_s - near);
     let meets = others.iter().any(|o| o[0] < end_s && o[1] > start_s);
     let gait = match () {
-        () if end_s - start_s > LONGEST_STEP * body_scale.leg_time_s || pace < UNDER_WAY => Gait::Stand,
-        () if meets => Gait::Walk,
-        () => Gait::Run,
+        () if end_s - start_s > LONGEST_STEP * body_scale.leg_time_s || pace < UNDER_WAY => GaitType::Stand,
+        () if meets => GaitType::Walk,
+        () => GaitType::Run,
     };
     let marks = curves.at_speed(pace).other_foot_events();
     let mut knots = vec![[start_s, 0.0]];
-    if gait == Gait::Walk {
+    if gait == GaitType::Walk {
         knots.extend(other_off.map(|time| [time, marks.other_off]));
         let after = knots.last().map_or(start_s, |knot| knot[0]);
         knots.extend(other_strike.filter(|time| *time > after + near).map(|time| [time, marks.other_strike]));

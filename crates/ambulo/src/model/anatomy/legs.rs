@@ -2,7 +2,7 @@
 //!
 //! A leg is a chain of three groups of joints: hip, knee and ankle, each below the previous one. Joints that are close together are
 //! one group: a hip of three hinges, or ankle and subtalar joint. The lowest body of the model is at the end of one leg. The other
-//! leg ends in the lowest body whose path from there passes at the height of the hips. The pelvis is the body between the two
+//! leg ends in the lowest body whose path from there rises to the height of the hips. The pelvis is the body between the two
 //! highest joints of that path.
 
 use super::BodyId;

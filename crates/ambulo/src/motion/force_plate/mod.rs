@@ -33,7 +33,7 @@ use crate::spatial::{Mat3, Vec3};
 /// Below this vertical force the centre of pressure is undefined and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
 
-/// Forces and moments of one force plate. From a file they are in the axes of the laboratory; [`PlateRecording::turned`]
+/// Forces and moments of one force plate. From a file they are in the axes of the laboratory; [`PlateRecording::rotated`]
 /// rotates them to those of the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateRecording {
@@ -132,7 +132,7 @@ impl PlateRecording {
 
     /// The same measurements in rotated axes: `world_from_lab * v`.
     #[must_use]
-    pub fn turned(&self, world_from_lab: &Mat3) -> PlateRecording {
+    pub fn rotated(&self, world_from_lab: &Mat3) -> PlateRecording {
         let turn = |vectors: &[Vec3]| vectors.iter().map(|v| world_from_lab * v).collect();
         PlateRecording {
             force: turn(&self.force),
