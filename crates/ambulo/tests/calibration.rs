@@ -8,7 +8,7 @@ mod common;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::calibration::{
-    BodyMeasurements, Calibrated, CalibrationError, SubjectDescription, Trial, assume_upright_trunk, calibrate,
+    BodyMeasurements, Calibrated, CalibrationError, PersonMeasurements, Trial, assume_upright_trunk, calibrate,
 };
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
@@ -37,14 +37,14 @@ fn build() -> Build {
     Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.74, toe_joint: true }
 }
 
-fn person() -> SubjectDescription {
+fn person() -> PersonMeasurements {
     let measurements = BodyMeasurements {
         marker_radius: Some(RADIUS),
         knee_width: [Some(KNEE_WIDTH); 2],
         ankle_width: [Some(ANKLE_WIDTH); 2],
         ..BodyMeasurements::default()
     };
-    SubjectDescription { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measurements }
+    PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measurements }
 }
 
 /// Plus one on the right.
@@ -193,7 +193,7 @@ fn recognised(recording: &MarkerRecording) -> RecognisedMarkers {
 fn measured(
     recording: &MarkerRecording,
     trial: Trial,
-    person: &SubjectDescription,
+    person: &PersonMeasurements,
 ) -> Result<Calibrated, CalibrationError> {
     calibrate(recording, trial, &recognised(recording), person, &mut Findings::default())
 }
@@ -287,7 +287,7 @@ fn lengths_are_found_from_a_walk_alone() {
 #[test]
 fn a_stature_that_is_not_given_is_estimated_from_the_legs() {
     let human = subject();
-    let unknown = SubjectDescription { height: None, ..person() };
+    let unknown = PersonMeasurements { height: None, ..person() };
     let body = measured(&standing(&human, &[]), Trial::Standing, &unknown).unwrap();
     // Thigh and shank of the man in the segment table are 0.8625 m at 1.741 m.
     assert_near(body.report.height_m, (THIGH + SHANK) / (0.8625 / 1.741), 1e-6, "stature");
@@ -297,7 +297,7 @@ fn a_stature_that_is_not_given_is_estimated_from_the_legs() {
 #[test]
 fn widths_that_were_not_measured_are_estimated_from_the_stature_and_reported() {
     let human = subject();
-    let unknown = SubjectDescription { measurements: BodyMeasurements::default(), ..person() };
+    let unknown = PersonMeasurements { measurements: BodyMeasurements::default(), ..person() };
     let recording = standing(&human, &["KNM", "MED"]);
     let mut findings = Findings::default();
     let body = calibrate(&recording, Trial::Standing, &recognised(&recording), &unknown, &mut findings).unwrap();
@@ -358,7 +358,7 @@ fn a_recording_without_required_markers_is_rejected_by_their_names() {
     large.markers.iter_mut().flat_map(|m| &mut m.positions).for_each(|p| *p *= 1000.0);
     let large = measured(&large, Trial::Standing, &person()).unwrap_err().to_string();
     assert!(large.contains("unit"), "{large}");
-    let undivided = SubjectDescription { table: SegmentTable::DempsterWinter, ..person() };
+    let undivided = PersonMeasurements { table: SegmentTable::DempsterWinter, ..person() };
     assert!(matches!(
         measured(&standing(&human, &[]), Trial::Standing, &undivided),
         Err(CalibrationError::NoPelvis { .. })

@@ -6,7 +6,7 @@
 mod gait_files;
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{BodyMeasurements, Calibrated, SubjectDescription, Trial, calibrate};
+use ambulo::kinematics::calibration::{BodyMeasurements, Calibrated, PersonMeasurements, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::Side;
@@ -208,7 +208,7 @@ fn angles_of_opensim_recordings_on_the_built_in_body_are_those_of_opensim() {
     for (name, standing, walk, mass, height, knee) in examples {
         let folder = folder.join(name);
         let [standing, walk] = [standing, walk].map(|file| trc(&folder, file));
-        let person = SubjectDescription {
+        let person = PersonMeasurements {
             table: SegmentTable::DeLevaMale,
             mass,
             height: Some(height),
@@ -263,7 +263,7 @@ fn a_runner_on_a_treadmill_is_followed() {
     let [standing, run] = ["static_run.trc", "motion_capture_run.trc"].map(|file| trc(&folder, file));
     let table = SegmentTable::DeLevaMale;
     let person =
-        SubjectDescription { table, mass: 72.84, height: Some(1.80), measurements: BodyMeasurements::default() };
+        PersonMeasurements { table, mass: 72.84, height: Some(1.80), measurements: BodyMeasurements::default() };
     let known = MarkerSet::recognise(standing.markers.iter().map(|m| m.name.as_str())).unwrap();
     let body = calibrate(&standing, Trial::Standing, &known, &person, &mut Findings::default()).unwrap();
     show(&body);

@@ -50,7 +50,7 @@ pub enum Body<'a> {
     /// The built-in one, made to the person's measure. Without a set of markers the one whose names are found is taken.
     BuiltIn {
         /// What is known of the person.
-        person: &'a calibration::SubjectDescription,
+        person: &'a calibration::PersonMeasurements,
         /// The set of markers.
         set: Option<&'a MarkerSet>,
     },
@@ -288,7 +288,7 @@ impl Subject {
     fn built_in(
         walk: &MarkerRecording,
         still: Option<&MarkerRecording>,
-        person: &calibration::SubjectDescription,
+        person: &calibration::PersonMeasurements,
         set: Option<&MarkerSet>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {

@@ -14,7 +14,7 @@ use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
-use ambulo::kinematics::calibration::{BodyMeasurements, SubjectDescription};
+use ambulo::kinematics::calibration::{BodyMeasurements, PersonMeasurements};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::SegmentTable;
@@ -198,13 +198,13 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         name: "gait2392 angles",
         subject: "gait2392",
         motion: coordinates_from_table(&small, &table, "ik", &mut Findings::default()).unwrap(),
-        soles: ambulo::analysis::feasibility::SubjectDescription::of_model(&small).soles,
+        soles: ambulo::analysis::feasibility::PersonMeasurements::of_model(&small).soles,
         model: small.clone(),
         plates: of_angles,
         forces: forces_of(&small, &by_angles),
         all_seen: true,
     };
-    let person = SubjectDescription {
+    let person = PersonMeasurements {
         table: SegmentTable::DeLevaMale,
         mass: 72.84,
         height: Some(1.80),

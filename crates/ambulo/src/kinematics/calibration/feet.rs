@@ -3,8 +3,8 @@
 use super::axes::{about_x, about_y, angles_zxy, from_y_z, in_frame, median_point};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::{Leg, Legs};
+use super::person::index;
 use super::reference::Trial;
-use super::subject_description::index;
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::full_body::SolePlacement;

@@ -4,7 +4,7 @@ use super::CalibrationError;
 use super::axes::{angles_zxy, direction, from_y_z, perpendicular};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::subject_description::{SubjectDescription, of};
+use super::person::{PersonMeasurements, of};
 use crate::model::Side;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
 use crate::model::marker_set::Landmark;
@@ -93,7 +93,7 @@ pub(super) fn find(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     pelvis: &Pelvis,
-    person: &SubjectDescription,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Result<Legs, CalibrationError> {
     let mut legs = [None, None];
@@ -127,7 +127,7 @@ fn breadths(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     pelvis: &Pelvis,
-    person: &SubjectDescription,
+    person: &PersonMeasurements,
     side: Side,
 ) -> [(f64, bool); 2] {
     let measured = [of(&person.measurements.knee_width, side), of(&person.measurements.ankle_width, side)];

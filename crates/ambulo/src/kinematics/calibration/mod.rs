@@ -34,17 +34,17 @@ mod feet;
 mod landmark_trajectories;
 mod legs;
 mod pelvis;
+mod person;
 mod reference;
 mod refinement;
 mod report;
-mod subject_description;
 mod trunk;
 mod upright;
 
 pub use error::CalibrationError;
+pub use person::{BodyMeasurements, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlacement, SegmentScale};
-pub use subject_description::{BodyMeasurements, SubjectDescription};
 pub use upright::assume_upright_trunk;
 
 use crate::findings::{Code, Findings};
@@ -74,7 +74,7 @@ pub fn calibrate(
     recording: &MarkerRecording,
     trial: Trial,
     recognised: &RecognisedMarkers,
-    person: &SubjectDescription,
+    person: &PersonMeasurements,
     findings: &mut Findings,
 ) -> Result<Calibrated, CalibrationError> {
     if person.table.is_undivided() {

@@ -3,7 +3,7 @@
 use super::axes::{about_z, direction, fit_pose, from_y_x, from_y_z, in_frame, median_point};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::subject_description::{SubjectDescription, of};
+use super::person::{PersonMeasurements, of};
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::marker_set::{Landmark, Segment};
@@ -61,7 +61,7 @@ pub(super) fn find(
     frames: &[usize],
     pelvis: &Pelvis,
     dimensions: &Dimensions,
-    person: &SubjectDescription,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Trunk {
     let finder = Finder { trajectories, frames, dimensions, person };
@@ -81,7 +81,7 @@ pub(super) fn find(
         ));
     }
     for (slot, side) in trunk.arms.iter_mut().zip(Side::BOTH) {
-        let raised = trunk.shoulders[super::subject_description::index(side)] + Vec3::y() * trunk.lift;
+        let raised = trunk.shoulders[super::person::index(side)] + Vec3::y() * trunk.lift;
         *slot = finder.arm(&trunk.poses, raised, side);
         if slot.is_none() {
             assumptions.push(format!(
@@ -96,7 +96,7 @@ struct Finder<'a> {
     trajectories: &'a LandmarkTrajectories<'a>,
     frames: &'a [usize],
     dimensions: &'a Dimensions,
-    person: &'a SubjectDescription,
+    person: &'a PersonMeasurements,
 }
 
 impl Finder<'_> {

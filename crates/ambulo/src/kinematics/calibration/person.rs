@@ -5,7 +5,7 @@ use crate::model::anthropometry::SegmentTable;
 
 /// Data for calibrating a body: segment table, mass, stature and body measurements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SubjectDescription {
+pub struct PersonMeasurements {
     /// Table of segment masses.
     pub table: SegmentTable,
     /// Body mass [kg].
