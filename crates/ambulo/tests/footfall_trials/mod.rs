@@ -1,8 +1,8 @@
-//! Recordings with plates, as motions of bodies, and what the plates saw of the feet.
+//! Recordings with force plates as motions of bodies, with the foot events from the plates.
 //!
-//! Plates' events are crossings of 20 N: of the files' own forces where a table has them (the forces of the three OpenSim sets were
-//! low-passed by their authors: from 20 to 140 N they take 20 to 30 ms, those of the C3D files 3 to 5 ms), by the data's README
-//! for the C3D files.
+//! Plate events are crossings of 20 N: of the forces in the files if a table has them (the forces of the three OpenSim sets were
+//! low-pass filtered by their authors: they rise from 20 to 140 N in 20 to 30 ms, those of the C3D files in 3 to 5 ms), otherwise
+//! from the README of the data.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
@@ -34,7 +34,7 @@ use std::sync::OnceLock;
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
-/// A motion and the plates' events.
+/// A motion and the plate events.
 #[derive(Clone)]
 pub(crate) struct Recorded {
     pub(crate) name: &'static str,
@@ -43,9 +43,9 @@ pub(crate) struct Recorded {
     pub(crate) motion: Motion,
     pub(crate) soles: BySide<Option<Sole>>,
     pub(crate) plates: Vec<Event>,
-    /// What plates measured, in the world of the motion.
+    /// Plate forces in the world axes of the motion.
     pub(crate) forces: Vec<ForceRecording>,
-    /// Whether plates saw every step between their first and last event.
+    /// Whether plates measured every step between their first and last event.
     pub(crate) all_seen: bool,
 }
 
@@ -59,7 +59,7 @@ impl Recorded {
     }
 }
 
-/// Everything that there is, made once; nothing without data.
+/// All trials, computed once; empty without data.
 pub(crate) fn everything() -> &'static [Recorded] {
     static ALL: OnceLock<Vec<Recorded>> = OnceLock::new();
     ALL.get_or_init(read)
@@ -99,10 +99,10 @@ fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> R
     )
 }
 
-/// What plates say of a recording.
+/// Plate events of a recording.
 struct Plates<'a> {
     events: Vec<Event>,
-    /// `None` where the recording itself holds the forces.
+    /// `None` if the forces are in the recording.
     forces: Option<&'a TableForces>,
     all_seen: bool,
 }

@@ -1,6 +1,6 @@
-//! Recordings of gait laboratories with what Plug-in-Gait made of them.
+//! Recordings of gait laboratories with Plug-in-Gait's results.
 //!
-//! The files are not part of the repository. They are looked for in `shared/data` beside it, or in `$AMBULO_DATA/data`.
+//! The files are not part of the repository. They are searched in `shared/data` next to it, or in `$AMBULO_DATA/data`.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::print_stdout, reason = "a test that skips says so")]
@@ -45,7 +45,7 @@ impl File {
         File { c3d, markers }
     }
 
-    /// A number of the group PROCESSING, as it stands.
+    /// A number of the group PROCESSING, unchanged.
     pub(crate) fn processing(&self, name: &str) -> Option<f64> {
         self.c3d.parameters.get("PROCESSING", name)?.numbers()?.first().copied()
     }
@@ -56,10 +56,10 @@ impl File {
         point.positions.iter().map(|p| world_from_lab() * Vec3::from(*p) * 1e-3).collect()
     }
 
-    /// Flexion and its like: the first of Plug-in-Gait's three angles [deg].
+    /// The first of Plug-in-Gait's three angles, such as flexion [deg].
     pub(crate) fn angle(&self, name: &str, side: Side) -> Option<Vec<f64>> {
         let name = format!("{}{name}", if side == Side::Right { "R" } else { "L" });
-        // Some files call them LHipAnglesV, V being the model's version.
+        // Some files name them LHipAnglesV, with V the version of the model.
         let point = self.c3d.point(&name).or_else(|| self.c3d.point(&format!("{name}V")))?;
         Some(point.positions.iter().map(|p| p[0]).collect())
     }
@@ -92,7 +92,7 @@ pub(crate) fn adult() -> Option<Subject> {
     subject("PiG adult", SegmentTable::DeLevaMale, &standing, &walk)
 }
 
-/// Walks with a turn of some 45 degrees, of the woman and of the child.
+/// Walks with a turn of about 45 degrees, of the woman and of the child.
 pub(crate) fn turning() -> Vec<Subject> {
     let read =
         |subject: Option<Subject>, walk: &str| Some(Subject { walk: File::read(&folder()?.join(walk)), ..subject? });
