@@ -387,5 +387,5 @@ fn what_info_says_to_type_next_can_be_typed() {
     bench.run(&[&run[..], &["-o", "predicted", "--quiet"]].concat()).infeasible();
     // The standing figure has both feet on one plate.
     let (_, text) = info(&bench, "demo/input/standing.c3d");
-    assert!(text.contains("s: two feet: the right foot stood on it"), "{text}");
+    assert!(text.contains("s: two feet: the right foot was on it"), "{text}");
 }

@@ -172,7 +172,7 @@ fn plates_are_named_as_the_file_has_them() {
     forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with plates"]);
     predicted(forces(&bench, "walk.trc", &trc[..2]), &["the file has no force plates", "hint: `--grf`"]);
     // A person who stands with both feet on one plate.
-    let words = ["plate 1, 0.000-0.499 s: the right foot stood on it", "is for `--static`"];
+    let words = ["plate 1, 0.000-0.499 s: the right foot was on it", "is for `--static`"];
     predicted(forces(&bench, "standing.c3d", &[]), &words);
     // A trial whose plates nobody hits.
     edit_c3d(&bench, "walk.c3d", "missed.c3d", |c3d| {

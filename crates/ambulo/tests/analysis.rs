@@ -6,7 +6,7 @@ mod free_bodies;
 
 use ambulo::analysis::{
     Agreement, Analysis, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource, SHORTEST_CONTACT_S,
-    Settings, analyse, compare, contacts, cycles, events, over_cycle, peak, residual,
+    Settings, analyse, compare, contacts_from_force, cycles, events, over_cycle, peak, residual,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::{Code, Findings};
@@ -32,7 +32,7 @@ fn ends(contacts: &[Contact]) -> Vec<[f64; 2]> {
 
 #[track_caller]
 fn assert_contacts(times: &[f64], vertical: &[f64], expected: &[[f64; 2]]) {
-    let found = ends(&contacts(times, vertical));
+    let found = ends(&contacts_from_force(times, vertical));
     assert_eq!(found.len(), expected.len(), "{found:?} instead of {expected:?}");
     for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
         let same = (found.is_nan() && expected.is_nan()) || (found - expected).abs() < ROUNDING;

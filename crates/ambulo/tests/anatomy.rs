@@ -1,4 +1,4 @@
-//! What a model's parts are, from its joints alone: published models, built figures, and all of them renamed, mirrored, turned and cut.
+//! Anatomy of a model from its joints alone: published models and built-in figures, also renamed, mirrored, rotated and truncated.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
 
@@ -110,7 +110,7 @@ fn legs_pelvis_and_trunk_of_every_model_are_found() {
 }
 
 #[test]
-fn sides_are_those_in_the_names_of_every_model() {
+fn sides_agree_with_the_names_in_every_model() {
     for model in everyone() {
         for id in model.body_ids() {
             let name = &model.bodies()[id.index()].name;
@@ -136,7 +136,7 @@ fn every_coordinate_of_the_lower_body_has_its_movement_and_its_sign() {
             let expected = row.map(|(_, movement, sign)| {
                 let sign = match movement {
                     Movement::KneeFlexion => [-1.0, 1.0][usize::from(rajagopals)],
-                    // The axis of the toes is turned over in Pose2Sim's models: there toes that go down count positive.
+                    // The axis of the toes is reversed in Pose2Sim's models: toes down is positive.
                     Movement::ToeExtension if model.body("sacrum").is_some() => -1.0,
                     _ => *sign,
                 };
@@ -150,7 +150,7 @@ fn every_coordinate_of_the_lower_body_has_its_movement_and_its_sign() {
     }
 }
 
-/// Signs are read from numbers that stand in no name: meaningless names change nothing but the sides of what lies in the middle.
+/// Signs follow from geometry: meaningless names change nothing except the sides of bodies in the middle.
 #[test]
 fn names_without_meaning_change_nothing() {
     for model in published().into_iter().chain(skeletons()) {
@@ -169,9 +169,9 @@ fn names_without_meaning_change_nothing() {
     }
 }
 
-/// Names on the wrong side do not mislead either.
+/// Names with the wrong side have no effect.
 #[test]
-fn geometry_wins_over_names() {
+fn geometry_has_priority_over_names() {
     for model in published() {
         let exchanged = renamed(&model, |_, name| match Side::split_name(name) {
             Some((side, stem)) => format!("{stem}_{}", side.other().letter()),
@@ -182,7 +182,7 @@ fn geometry_wins_over_names() {
 }
 
 #[test]
-fn a_mirrored_model_has_its_sides_exchanged_and_the_same_signs() {
+fn a_mirrored_model_has_swapped_sides_and_the_same_signs() {
     for model in published().into_iter().chain(built()) {
         let other = mirrored(&model);
         for id in model.coordinate_ids() {
@@ -207,7 +207,7 @@ fn a_mirrored_model_has_its_sides_exchanged_and_the_same_signs() {
     }
 }
 
-/// World axes and frames of bodies are a matter of taste: z up and walking along -y, and frames that are turned by any angle.
+/// World axes and body frames are arbitrary: z up and walking along -y, and frames rotated by any angle.
 #[test]
 fn axes_of_world_and_bodies_do_not_matter() {
     let z_up = Mat3::new(0., 0., 1., -1., 0., 0., 0., -1., 0.).transpose();
@@ -222,7 +222,7 @@ fn axes_of_world_and_bodies_do_not_matter() {
 }
 
 #[test]
-fn a_coordinate_that_counts_the_other_way_has_the_other_sign() {
+fn a_reversed_coordinate_has_the_other_sign() {
     for model in published() {
         for (id, body) in model.coordinate_ids().filter_map(|id| {
             let moves = |body: &BodyId| model.bodies()[body.index()].joint.coordinates().contains(&id);
@@ -267,8 +267,8 @@ fn one_leg_is_a_leg_and_there_are_no_two_feet() {
 }
 
 #[test]
-fn what_does_not_walk_has_no_anatomy_but_the_sides_in_its_names() {
-    // Five rods that hang below each other are no leg, though they hang like one.
+fn a_model_without_legs_has_only_the_sides_in_its_names() {
+    // Five rods below each other are not a leg.
     let rods = free_bodies(DOWN_Y, &["a", "b", "c", "d", "e"].map(|name| (name, 1.0)));
     let pendulum = change(&rods, |i, body| {
         body.joint.parent = i.checked_sub(1).map(|i| rods.body_ids().nth(i).unwrap());
@@ -291,11 +291,11 @@ fn what_does_not_walk_has_no_anatomy_but_the_sides_in_its_names() {
 }
 
 #[test]
-fn markers_masses_and_sizes_leave_the_anatomy_as_it_is() {
+fn markers_masses_and_sizes_do_not_change_the_anatomy() {
     for model in published() {
         let foot = model.anatomy().feet().unwrap().right;
         let factors = vec![Vec3::new(1.1, 0.9, 1.2); model.bodies().len()];
-        // A load on the heel, heavier than the person, changes where mass centres lie, not what the parts are.
+        // A load on the heel, heavier than the person, moves mass centres but does not change the anatomy.
         let loaded = model.with_point_mass(foot, 200.0, Vec3::new(-0.5, 0.0, 0.3)).unwrap();
         let light = model.with_inertia(foot, free_bodies::ball(1e-3));
         for other in [model.with_markers(Vec::new()).unwrap(), loaded, light, model.scaled(&factors, None).unwrap()] {
@@ -307,7 +307,7 @@ fn markers_masses_and_sizes_leave_the_anatomy_as_it_is() {
     }
 }
 
-/// Stature from thigh and shank, soles below the ankles: within what people of that stature have.
+/// Stature from thigh and shank, and soles below the ankles, are within the ranges of people of that stature.
 #[test]
 fn statures_and_soles_are_those_of_people() {
     for model in everyone() {

@@ -52,7 +52,7 @@ fn mass_center(model: &Model) -> Vec3 {
 }
 
 #[test]
-fn masses_sum_to_the_mass_that_was_asked_for() {
+fn masses_sum_to_the_requested_mass() {
     for human in everyone() {
         assert_near(human.model.mass(), 72.5, 72.5 * ROUNDING, human.model.name());
     }
@@ -96,9 +96,9 @@ fn the_soles_end_where_the_foot_ends() {
 }
 
 #[test]
-fn the_mass_centre_stands_at_55_to_58_percent_of_the_height_and_half_a_percent_higher_in_the_paper() {
-    // Reaction boards find 55 to 57 %; the tables' own idealisations add a percent. The paper's table 1 has 61 % of the
-    // mass in head and trunk (Dempster 57.8): its man is the highest.
+fn the_mass_centre_is_at_55_to_58_percent_of_the_height_and_half_a_percent_higher_in_the_paper() {
+    // Reaction boards give 55 to 57 %; the idealisations of the tables add a percent. The paper's table 1 has 61 % of the
+    // mass in head and trunk (Dempster 57.8): its mass centre is the highest.
     for human in everyone() {
         let share = mass_center(&human.model).y / 1.78;
         let top = if human.build.table == SegmentTable::Faure1997 { 0.585 } else { 0.58 };
@@ -107,7 +107,7 @@ fn the_mass_centre_stands_at_55_to_58_percent_of_the_height_and_half_a_percent_h
 }
 
 #[test]
-fn every_inertia_is_one_that_a_body_can_have() {
+fn every_inertia_is_possible() {
     for table in SegmentTable::ALL {
         for (mass, height) in [(3.5, 0.5), (20.0, 1.1), (60.0, 1.65), (80.0, 1.8), (150.0, 1.75), (110.0, 2.3)] {
             let human = Build { table, mass, height, toe_joint: true }.human().unwrap();
@@ -120,7 +120,7 @@ fn every_inertia_is_one_that_a_body_can_have() {
 }
 
 #[test]
-fn inertias_go_with_mass_and_with_the_square_of_height() {
+fn inertias_are_proportional_to_mass_and_to_height_squared() {
     for table in SegmentTable::ALL {
         let one = Build { toe_joint: true, ..build(table) };
         let heavy = Build { mass: one.mass * 1.3, ..one }.human().unwrap();
@@ -159,7 +159,7 @@ fn right_and_left_are_mirror_images() {
 }
 
 #[test]
-fn a_toe_joint_that_is_held_changes_nothing() {
+fn a_locked_toe_joint_changes_nothing() {
     for table in SegmentTable::ALL {
         let one_piece = build(table).human().unwrap();
         let jointed = Build { toe_joint: true, ..build(table) }.human().unwrap();
@@ -232,7 +232,7 @@ fn standing_needs_the_weight_at_the_root_and_its_moment() {
         assert_near(at("pelvis_ty"), weight, weight * 1e-10, model.name());
         assert_near(at("pelvis_tx"), 0.0, weight * 1e-10, model.name());
         assert_near(at("pelvis_tilt"), mass_center(model).x * weight, weight * 1e-10, model.name());
-        // A hanging foot: its weight times the distance of its mass centre before the ankle.
+        // A hanging foot: its weight times the distance of its mass centre in front of the ankle.
         let foot = |name: &str| model.body(name).map(|b| (model.bodies()[b.index()].inertia, b.index()));
         let bodies = standing(model);
         let parts = [foot("calcn_r"), foot("toes_r")].into_iter().flatten();
@@ -253,7 +253,7 @@ fn every_joint_has_a_range_around_upright_standing_and_the_root_has_none() {
 }
 
 #[test]
-fn the_numbers_of_the_tables_arrive() {
+fn figures_have_the_numbers_of_the_tables() {
     // Table 1: thigh 7.92 of 99.97 % of 80 kg, 24.5 % of 1.80 m; a cylinder's mass centre in its middle.
     let paper = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false }.human().unwrap();
     let body = |human: &Human, name: &str| human.model.bodies()[human.model.body(name).unwrap().index()].inertia;
@@ -276,7 +276,7 @@ fn the_numbers_of_the_tables_arrive() {
 }
 
 #[test]
-fn absurd_builds_are_refused_with_what_is_allowed() {
+fn implausible_builds_are_rejected_with_the_allowed_range() {
     let refusal =
         |mass: f64, height: f64| Build { mass, height, ..build(SegmentTable::DeLevaMale) }.human().unwrap_err();
     for (mass, height, text) in [

@@ -1,4 +1,4 @@
-//! A subject's body from markers of bodies that are known: what was built is found again.
+//! Calibration with synthetic markers of known bodies: their lengths and postures are recovered.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a body cannot be built")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -8,13 +8,13 @@ mod common;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::calibration::{
-    Calibrated, CalibrationError, Measures, Person, Trial, assume_upright_trunk, calibrate,
+    BodyMeasurements, Calibrated, CalibrationError, PersonMeasurements, Trial, assume_upright_trunk, calibrate,
 };
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
-use ambulo::model::full_body::{FootPrint, STANDING_TILT, SegmentShape, SubjectShape, full_body, reshaped};
-use ambulo::model::marker_set::{MarkerSet, Recognised};
+use ambulo::model::full_body::{STANDING_TILT, SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
+use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::spatial::{Pose, Vec3};
@@ -23,7 +23,7 @@ use common::{assert_near, turn};
 const RATE_HZ: f64 = 100.0;
 const RADIUS: f64 = 0.007;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
-/// What the subject is made of.
+/// Lengths of the synthetic person.
 const THIGH: f64 = 0.437;
 const SHANK: f64 = 0.391;
 const HIP_WIDTH: f64 = 0.171;
@@ -37,14 +37,14 @@ fn build() -> Build {
     Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.74, toe_joint: true }
 }
 
-fn person() -> Person {
-    let measures = Measures {
+fn person() -> PersonMeasurements {
+    let measurements = BodyMeasurements {
         marker_radius: Some(RADIUS),
         knee_width: [Some(KNEE_WIDTH); 2],
         ankle_width: [Some(ANKLE_WIDTH); 2],
-        ..Measures::default()
+        ..BodyMeasurements::default()
     };
-    Person { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measures }
+    PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measurements }
 }
 
 /// Plus one on the right.
@@ -52,15 +52,15 @@ fn sign(side: Side) -> f64 {
     if side == Side::Right { 1.0 } else { -1.0 }
 }
 
-/// Width and depth of the pelvis between markers whose hip centres Harrington puts `HIP_WIDTH` apart; hip from midway between the front
-/// spines, in axes through the spines.
+/// Width and depth of the pelvis between markers whose hip centres are `HIP_WIDTH` apart by Harrington; hip centre relative to the
+/// point midway between the anterior spines, in axes through the spines.
 fn pelvis() -> (f64, f64, Vec3) {
     let width = (0.5 * HIP_WIDTH - 0.0073) / 0.33;
     let depth = 0.16;
     (width, depth, Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.0))
 }
 
-/// A subject with a bowed knee and a twisted shank, and the markers of Plug-in-Gait with the medial ones where the joints are.
+/// A person with varus knees and tibial torsion, with the markers of Plug-in-Gait and medial ones.
 fn subject() -> Human {
     let generic = full_body(&build()).unwrap();
     let model = &generic.model;
@@ -90,31 +90,31 @@ fn subject() -> Human {
             parent_from_joint: Pose::at(Vec3::y() * -THIGH),
             child_from_joint: Pose { rotation: varus.transpose(), translation: Vec3::zeros() },
         };
-        // The ankle axis is twisted outwards: its outer end lies further back.
+        // The ankle axis is rotated outwards: its lateral end is further back.
         let torsion = turn(Vec3::y(), -TORSION * out);
         let ankle_half = torsion * Vec3::z() * (out * (0.5 * ANKLE_WIDTH + RADIUS));
         put(name("ANK"), &tibia, Vec3::y() * -SHANK + ankle_half);
         put(name("MED"), &tibia, Vec3::y() * -SHANK - ankle_half);
         put(name("TIB"), &tibia, Vec3::y() * (-0.5 * SHANK) + torsion * Vec3::z() * (0.12 * out));
-        // The foot stands flat and straight on a shank that leans and is twisted.
+        // The foot is flat and points forward under a shank that leans and has torsion.
         let offset = (varus * torsion).transpose();
         shapes[index(&calcn)].parent_from_joint = Pose { rotation: torsion, translation: Vec3::y() * -SHANK };
         shapes[index(&calcn)].child_from_joint = Pose { rotation: offset.transpose(), translation: Vec3::zeros() };
-        let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+        let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
         let d = generic.dimensions;
-        shapes[index(&toes)].parent_from_joint = Pose::at(print.place(d.ankle_to_ball, d.ball_radius));
+        shapes[index(&toes)].parent_from_joint = Pose::at(placement.place(d.ankle_to_ball, d.ball_radius));
         put(name("HEE"), &calcn, Vec3::new(-0.28 * d.foot_length, 0.035 - ANKLE_HEIGHT, 0.0));
         put(name("TOE"), &calcn, Vec3::new(0.47 * d.foot_length, 0.036 - ANKLE_HEIGHT, 0.0));
     }
     let mut dimensions = generic.dimensions;
     dimensions.ankle_height = ANKLE_HEIGHT;
     dimensions.leg_length = THIGH + SHANK * VARUS.cos() + ANKLE_HEIGHT;
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    let shape = SubjectShape { segments: shapes, markers, feet: [print; 2], dimensions, locked: Vec::new() };
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    let shape = SubjectShape { segments: shapes, markers, feet: [placement; 2], dimensions, locked: Vec::new() };
     reshaped(&generic, &shape).unwrap()
 }
 
-/// Markers of trunk and arms where the set has them.
+/// Markers of trunk and arms at their positions in the marker set.
 fn upper_markers(human: &Human) -> Vec<Marker> {
     let above = |m: &Marker| {
         let name = &human.model.bodies()[m.body.unwrap().index()].name;
@@ -132,7 +132,7 @@ fn default_posture(model: &Model) -> Vec<f64> {
     model.coordinates().iter().map(|c| c.default_value).collect()
 }
 
-/// Markers of a body in these postures, without those named.
+/// Markers of a body in these postures, without the hidden ones.
 fn recorded(human: &Human, postures: &[Vec<f64>], hidden: &[&str]) -> MarkerRecording {
     let poses: Vec<Vec<BodyMotion>> = postures.iter().map(|q| bodies(&human.model, q)).collect();
     let seen = |m: &&Marker| !hidden.iter().any(|stem| m.name.ends_with(stem));
@@ -152,7 +152,7 @@ fn standing(human: &Human, hidden: &[&str]) -> MarkerRecording {
     recorded(human, &vec![default_posture(&human.model); 30], hidden)
 }
 
-/// A walk of the built-in gait, with some bending to the sides, its feet never below the ground.
+/// A walk of the built-in gait, with some lateral bending; its feet are never below the ground.
 fn walking(human: &Human, hidden: &[&str]) -> MarkerRecording {
     recorded(human, &walk(human), hidden)
 }
@@ -186,11 +186,15 @@ fn walk(human: &Human) -> Vec<Vec<f64>> {
     (0..240).map(posture).collect()
 }
 
-fn recognised(recording: &MarkerRecording) -> Recognised {
+fn recognised(recording: &MarkerRecording) -> RecognisedMarkers {
     MarkerSet::recognise(recording.markers.iter().map(|m| m.name.as_str())).unwrap()
 }
 
-fn measured(recording: &MarkerRecording, trial: Trial, person: &Person) -> Result<Calibrated, CalibrationError> {
+fn measured(
+    recording: &MarkerRecording,
+    trial: Trial,
+    person: &PersonMeasurements,
+) -> Result<Calibrated, CalibrationError> {
     calibrate(recording, trial, &recognised(recording), person, &mut Findings::default())
 }
 
@@ -204,7 +208,7 @@ fn segment(body: &Calibrated, name: &str) -> Pose {
     body.human.model.bodies()[id.index()].joint.parent_from_joint
 }
 
-/// Lengths found: hip width, thigh, shank, ankle height [m].
+/// Calibrated lengths: hip width, thigh, shank, ankle height [m].
 fn lengths(body: &Calibrated) -> [f64; 4] {
     let d = body.human.dimensions;
     [d.hip_width, d.thigh, d.shank, d.ankle_height]
@@ -213,7 +217,7 @@ fn lengths(body: &Calibrated) -> [f64; 4] {
 const TRUE_LENGTHS: [f64; 4] = [HIP_WIDTH, THIGH, SHANK, ANKLE_HEIGHT];
 
 #[test]
-fn lengths_of_a_standing_subject_are_found_exactly_with_medial_markers_and_with_wands() {
+fn lengths_of_a_standing_person_are_exact_with_medial_markers_and_with_wands() {
     let human = subject();
     for hidden in [&["THI", "TIB"][..], &["KNM", "MED"][..]] {
         let body = measured(&standing(&human, hidden), Trial::Standing, &person()).unwrap();
@@ -226,7 +230,7 @@ fn lengths_of_a_standing_subject_are_found_exactly_with_medial_markers_and_with_
 }
 
 #[test]
-fn the_body_stands_as_the_subject_stood_with_hinges_for_knees() {
+fn the_body_stands_as_the_person_stood_with_hinge_knees() {
     let human = subject();
     let recording = standing(&human, &[]);
     let body = measured(&recording, Trial::Standing, &person()).unwrap();
@@ -235,14 +239,14 @@ fn the_body_stands_as_the_subject_stood_with_hinges_for_knees() {
         |name: &str| ["KNE", "KNM", "THI", "ANK", "MED", "TIB", "HEE", "TOE", "ASI", "PSI"].contains(&&name[1..]);
     let legs: Vec<&_> = fit.errors.iter().filter(|e| below(&e.name) && e.rms_m > 1e-6).collect();
     assert!(legs.is_empty(), "{legs:?}");
-    // The elbow's axis is guessed for a straight arm, and the shoulders' place.
+    // For a straight arm the axis of the elbow and the position of the shoulders are assumed.
     assert!(fit.errors.iter().all(|e| e.rms_m < 0.005), "{:?}", fit.errors);
     for side in ["r", "l"] {
         for name in ["knee_angle", "subtalar_angle", "hip_flexion", "hip_adduction"] {
             let id = body.human.model.coordinate(&format!("{name}_{side}")).unwrap();
             assert_near(fit.motion.column(id).unwrap()[10], 0.0, 1e-4, name);
         }
-        // The shank's bow is a fixed part of the knee, its twist one of the ankle.
+        // Varus is a constant part of the knee, tibial torsion one of the ankle.
         let twist = segment(&body, &format!("calcn_{side}")).rotation;
         let out = if side == "r" { 1.0 } else { -1.0 };
         assert!((twist - turn(Vec3::y(), -TORSION * out)).norm() < 1e-6, "{twist}");
@@ -250,7 +254,7 @@ fn the_body_stands_as_the_subject_stood_with_hinges_for_knees() {
 }
 
 #[test]
-fn soles_of_the_body_touch_the_ground_where_the_subject_stands() {
+fn soles_of_the_body_touch_the_ground_in_standing() {
     let human = subject();
     let body = measured(&standing(&human, &[]), Trial::Standing, &person()).unwrap();
     let fit = fitted(&body, &standing(&human, &[]));
@@ -271,7 +275,7 @@ fn lengths_are_found_from_a_walk_alone() {
     let body = measured(&recording, Trial::Moving, &person()).unwrap();
     println!("found {:.4?} of {TRUE_LENGTHS:.4?}", lengths(&body));
     for ((found, expected), tolerance) in lengths(&body).into_iter().zip(TRUE_LENGTHS).zip([1e-9, 1e-9, 1e-9, 0.003]) {
-        // The foot is never quite flat in the invented walk: 8 mm over 0.2 m are 2 degrees, 0.05 m of heel lever.
+        // The foot is never exactly flat in the synthetic walk: 8 mm over 0.2 m are 2 degrees, 0.05 m of heel lever.
         assert_near(found, expected, tolerance, "length");
     }
     let fit = fitted(&body, &recording);
@@ -281,19 +285,19 @@ fn lengths_are_found_from_a_walk_alone() {
 }
 
 #[test]
-fn a_stature_that_nobody_gave_is_taken_from_the_legs() {
+fn a_stature_that_is_not_given_is_estimated_from_the_legs() {
     let human = subject();
-    let unknown = Person { height: None, ..person() };
+    let unknown = PersonMeasurements { height: None, ..person() };
     let body = measured(&standing(&human, &[]), Trial::Standing, &unknown).unwrap();
-    // Thigh and shank of the table's man are 0.8625 of 1.741 m.
+    // Thigh and shank of the man in the segment table are 0.8625 m at 1.741 m.
     assert_near(body.report.height_m, (THIGH + SHANK) / (0.8625 / 1.741), 1e-6, "stature");
     assert!(body.report.assumptions.iter().any(|a| a.contains("stature")), "{:?}", body.report.assumptions);
 }
 
 #[test]
-fn widths_that_nobody_measured_are_taken_from_the_stature_and_said() {
+fn widths_that_were_not_measured_are_estimated_from_the_stature_and_reported() {
     let human = subject();
-    let unknown = Person { measures: Measures::default(), ..person() };
+    let unknown = PersonMeasurements { measurements: BodyMeasurements::default(), ..person() };
     let recording = standing(&human, &["KNM", "MED"]);
     let mut findings = Findings::default();
     let body = calibrate(&recording, Trial::Standing, &recognised(&recording), &unknown, &mut findings).unwrap();
@@ -303,7 +307,7 @@ fn widths_that_nobody_measured_are_taken_from_the_stature_and_said() {
 }
 
 #[test]
-fn missing_arms_and_trunk_keep_the_tables_size_and_are_said() {
+fn arms_and_trunk_without_markers_are_sized_by_the_table_and_reported() {
     let human = subject();
     let upper: Vec<String> = upper_markers(&human).into_iter().map(|m| m.name).collect();
     let hidden: Vec<&str> = upper.iter().map(String::as_str).collect();
@@ -321,7 +325,7 @@ fn missing_arms_and_trunk_keep_the_tables_size_and_are_said() {
 }
 
 #[test]
-fn a_sacral_marker_serves_instead_of_two_behind() {
+fn a_sacral_marker_replaces_the_two_posterior_spines() {
     let human = subject();
     let both = standing(&human, &[]);
     let mut one = standing(&human, &["PSI"]);
@@ -336,7 +340,7 @@ fn a_sacral_marker_serves_instead_of_two_behind() {
 }
 
 #[test]
-fn a_recording_without_what_is_needed_is_refused_by_name() {
+fn a_recording_without_required_markers_is_rejected_by_their_names() {
     let human = subject();
     let message =
         |hidden: &[&str]| measured(&standing(&human, hidden), Trial::Standing, &person()).unwrap_err().to_string();
@@ -354,7 +358,7 @@ fn a_recording_without_what_is_needed_is_refused_by_name() {
     large.markers.iter_mut().flat_map(|m| &mut m.positions).for_each(|p| *p *= 1000.0);
     let large = measured(&large, Trial::Standing, &person()).unwrap_err().to_string();
     assert!(large.contains("unit"), "{large}");
-    let undivided = Person { table: SegmentTable::DempsterWinter, ..person() };
+    let undivided = PersonMeasurements { table: SegmentTable::DempsterWinter, ..person() };
     assert!(matches!(
         measured(&standing(&human, &[]), Trial::Standing, &undivided),
         Err(CalibrationError::NoPelvis { .. })
@@ -368,7 +372,7 @@ fn a_recording_without_what_is_needed_is_refused_by_name() {
 }
 
 #[test]
-fn a_standing_trial_that_moves_is_noticed() {
+fn a_standing_trial_with_movement_is_reported() {
     let human = subject();
     let recording = walking(&human, &[]);
     let mut findings = Findings::default();
@@ -388,7 +392,7 @@ fn an_outlier_of_a_marker_does_not_move_the_body() {
 }
 
 #[test]
-fn a_trunk_without_markers_is_set_upright_over_any_pelvis() {
+fn a_trunk_without_markers_is_upright_over_any_pelvis() {
     let human = full_body(&build()).unwrap();
     let model = &human.model;
     let mut columns: Vec<Option<Vec<f64>>> = vec![None; model.coordinates().len()];
@@ -410,7 +414,7 @@ fn a_trunk_without_markers_is_set_upright_over_any_pelvis() {
     assert_eq!(format!("{before:?}"), format!("{motion:?}"), "a trunk with columns stays as it is");
 }
 
-/// The subject with the key points of video: joint centres, heels, toes.
+/// The person with the key points of video: joint centres, heels, toes.
 fn seen_by_video() -> Human {
     let human = subject();
     let model = human.model.clone();
@@ -438,8 +442,9 @@ fn seen_by_video() -> Human {
         put(&name("SmallToe"), &at("toes"), Vec3::new(0.08 * length, 0.0, 0.15 * length * out));
     }
     let segments = SegmentShape::of(&human);
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    reshaped(&human, &SubjectShape { segments, markers, feet: [print; 2], dimensions: d, locked: Vec::new() }).unwrap()
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    reshaped(&human, &SubjectShape { segments, markers, feet: [placement; 2], dimensions: d, locked: Vec::new() })
+        .unwrap()
 }
 
 #[test]
@@ -455,7 +460,7 @@ fn key_points_of_video_give_lengths_and_postures() {
     let fit = fitted(&body, &recording);
     let worst = fit.rms_m.iter().copied().fold(0.0, f64::max);
     println!("worst frame of key points {:.1} mm", 1e3 * worst);
-    // Trunk and pelvis are one: they cannot follow the degree or two by which the trunk leans on the pelvis.
+    // Trunk and pelvis move as one: they cannot follow the degree or two of trunk lean.
     assert!(worst < 0.003, "{worst}");
     let truth = walking_angles(&human, "knee_angle_r");
     let ours = fit.motion.column(body.human.model.coordinate("knee_angle_r").unwrap()).unwrap();
@@ -465,7 +470,7 @@ fn key_points_of_video_give_lengths_and_postures() {
 }
 
 #[test]
-fn odd_numbers_are_refused_or_passed_over_and_never_hang() {
+fn unusual_numbers_are_rejected_or_ignored_and_never_hang() {
     let human = subject();
     for odd in [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0] {
         for frames in [1, 2, 30] {
@@ -486,15 +491,15 @@ fn odd_numbers_are_refused_or_passed_over_and_never_hang() {
 }
 
 #[test]
-fn a_misplaced_wand_is_put_right_in_part_by_the_bending_of_the_knee() {
+fn a_misplaced_wand_is_partly_corrected_by_the_flexion_of_the_knee() {
     let human = subject();
-    // The wand stands 30 mm too far forward, which turns the knee axis by some 15 degrees where nothing else is known.
+    // The wand is 30 mm too far forward, which rotates the knee axis by about 15 degrees if nothing else is known.
     let d = human.dimensions;
     let mut markers = human.model.markers().to_vec();
     markers.iter_mut().filter(|m| m.name.ends_with("THI")).for_each(|m| m.location.x += 0.03);
     let segments = SegmentShape::of(&human);
-    let print = FootPrint { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
-    let wrong = SubjectShape { segments, markers, feet: [print; 2], dimensions: d, locked: Vec::new() };
+    let placement = SolePlacement { ankle_height: ANKLE_HEIGHT, forward: 0.0, right: 0.0 };
+    let wrong = SubjectShape { segments, markers, feet: [placement; 2], dimensions: d, locked: Vec::new() };
     let wrong = reshaped(&human, &wrong).unwrap();
     let forward = |body: &Calibrated| {
         let wand = body.human.model.markers().iter().find(|m| m.name == "RTHI").unwrap().location;
@@ -503,8 +508,12 @@ fn a_misplaced_wand_is_put_right_in_part_by_the_bending_of_the_knee() {
     let hidden = ["KNM", "MED"];
     let stood = measured(&standing(&wrong, &hidden), Trial::Standing, &person()).unwrap();
     let walked = measured(&walking(&wrong, &hidden), Trial::Moving, &person()).unwrap();
-    println!("wand {:.1} degrees forward standing, {:.1} walking, 15.3 in truth", forward(&stood), forward(&walked));
-    assert!(forward(&stood).abs() < 0.5, "standing, the wand is believed");
-    // The first places of the markers hold it back: they count as six frames of thirty.
+    println!(
+        "wand {:.1} degrees forward from standing, {:.1} from walking; true value 15.3",
+        forward(&stood),
+        forward(&walked)
+    );
+    assert!(forward(&stood).abs() < 0.5, "in standing, the wand defines the axis");
+    // The initial positions of the markers limit the correction: they count as six frames of thirty.
     assert!(forward(&walked) > 3.5, "walking, the knee has a say");
 }

@@ -1,4 +1,4 @@
-//! A subject's body from real recordings, against what Plug-in-Gait made of them.
+//! Calibration with real recordings, compared with Plug-in-Gait's results in the same files.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -6,7 +6,7 @@
 mod gait_files;
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{Calibrated, Measures, Person, Trial, calibrate};
+use ambulo::kinematics::calibration::{BodyMeasurements, Calibrated, PersonMeasurements, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::Side;
@@ -31,7 +31,7 @@ fn fit(body: &Calibrated, markers: &MarkerRecording) -> MarkerFit {
     fit_markers(&body.human.model, markers, &settings, &mut Findings::default()).unwrap()
 }
 
-/// Body poses of a fitted frame give the place of a body's origin.
+/// Origin of a body in a fitted frame.
 fn origin(body: &Calibrated, fit: &MarkerFit, frame: usize, name: &str) -> Vec3 {
     let model = &body.human.model;
     let value = |id| {
@@ -78,13 +78,13 @@ fn show_posture(body: &Calibrated, fit: &MarkerFit) {
     println!("  posture {}", list.join(", "));
 }
 
-/// Prints what each marker missed.
+/// Prints the error of each marker.
 fn show_errors(found: &MarkerFit) {
     let errors: Vec<String> = found.errors.iter().map(|e| format!("{} {:.0}", e.name, 1e3 * e.rms_m)).collect();
     println!("  errors mm: {}", errors.join(", "));
 }
 
-/// Hip, knee and ankle flexion of a fit against the file's Plug-in-Gait angles.
+/// Compares hip, knee and ankle flexion of a fit with the Plug-in-Gait angles of the file.
 fn compare(body: &Calibrated, fit: &MarkerFit, file: &File) -> f64 {
     let model = &body.human.model;
     let mut worst: f64 = 1.0;
@@ -95,7 +95,7 @@ fn compare(body: &Calibrated, fit: &MarkerFit, file: &File) -> f64 {
             let id = model.coordinate(&format!("{ours}_{}", side.letter())).unwrap();
             let column: Vec<f64> = fit.motion.column(id).unwrap().iter().map(|v| sign * v.to_degrees()).collect();
             let reference = file.angle(theirs, side).unwrap();
-            // A frame that Plug-in-Gait did not compute holds zeros.
+            // Frames that Plug-in-Gait did not compute contain zeros.
             let reference: Vec<f64> = reference.into_iter().map(|v| if v == 0.0 { f64::NAN } else { v }).collect();
             let a = agreement(&column, &reference);
             println!(
@@ -131,7 +131,7 @@ fn show(body: &Calibrated) {
 }
 
 #[test]
-fn hip_centres_stand_where_the_same_regression_put_them_in_the_file() {
+fn hip_centres_are_those_of_the_same_regression_in_the_file() {
     let Some(subject) = woman() else { return };
     let body = calibrated(&subject, &subject.standing.markers, Trial::Standing);
     let found = fit(&body, &subject.standing.markers);
@@ -152,7 +152,7 @@ fn hip_centres_stand_where_the_same_regression_put_them_in_the_file() {
 }
 
 #[test]
-fn a_walk_on_a_body_from_the_standing_trial_has_plug_in_gaits_angles() {
+fn with_a_body_from_the_standing_trial_angles_are_those_of_plug_in_gait() {
     for subject in everyone() {
         let body = calibrated(&subject, &subject.standing.markers, Trial::Standing);
         show(&body);
@@ -170,7 +170,7 @@ fn a_walk_on_a_body_from_the_standing_trial_has_plug_in_gaits_angles() {
 }
 
 #[test]
-fn a_turning_walk_has_plug_in_gaits_angles_too() {
+fn angles_of_a_turning_walk_are_those_of_plug_in_gait() {
     for subject in turning() {
         let body = calibrated(&subject, &subject.standing.markers, Trial::Standing);
         let found = fit(&body, &subject.walk.markers);
@@ -180,7 +180,7 @@ fn a_turning_walk_has_plug_in_gaits_angles_too() {
 }
 
 #[test]
-fn a_walk_on_a_body_from_the_walk_itself_has_plug_in_gaits_angles_too() {
+fn with_a_body_from_the_walk_itself_angles_are_those_of_plug_in_gait() {
     for subject in everyone() {
         let body = calibrated(&subject, &subject.walk.markers, Trial::Moving);
         show(&body);
@@ -199,7 +199,7 @@ fn trc(folder: &std::path::Path, name: &str) -> MarkerRecording {
 }
 
 #[test]
-fn opensims_recordings_give_opensims_angles_on_the_built_in_body() {
+fn angles_of_opensim_recordings_on_the_built_in_body_are_those_of_opensim() {
     let Some(folder) = gait_files::folder() else { return };
     let examples = [
         ("opensim-gait2392-subject01", "subject01_static.trc", "subject01_walk1.trc", 72.6, 1.8034, -1.0),
@@ -208,9 +208,13 @@ fn opensims_recordings_give_opensims_angles_on_the_built_in_body() {
     for (name, standing, walk, mass, height, knee) in examples {
         let folder = folder.join(name);
         let [standing, walk] = [standing, walk].map(|file| trc(&folder, file));
-        let person =
-            Person { table: SegmentTable::DeLevaMale, mass, height: Some(height), measures: Measures::default() };
-        // The walk of the first example has no marker on knees and ankles.
+        let person = PersonMeasurements {
+            table: SegmentTable::DeLevaMale,
+            mass,
+            height: Some(height),
+            measurements: BodyMeasurements::default(),
+        };
+        // The walk of the first example has no markers at knees and ankles.
         let trials = [(Trial::Standing, &standing), (Trial::Moving, &walk)];
         let trials = &trials[..if name.contains("2392") { 1 } else { 2 }];
         let reference = Table::read_storage(&std::fs::read(folder.join("ik_uniform_weights.mot")).unwrap()).unwrap().0;
@@ -227,10 +231,10 @@ fn opensims_recordings_give_opensims_angles_on_the_built_in_body() {
     }
 }
 
-/// Hip, knee and ankle flexion against OpenSim's, which may count the knee the other way.
+/// Compares hip, knee and ankle flexion with those of OpenSim; the sign of the knee may differ.
 ///
-/// OpenSim's models do not turn about the subtalar joint here, or about another axis, and their markers stay 13 and 19 mm off where these
-/// stay 5: ankles differ by more than hips and knees. Two fits of OpenSim's own to the first walk have r = 0.986 at the ankle.
+/// In these OpenSim models the subtalar joint is locked or has another axis, and their marker errors are 13 and 19 mm instead of
+/// 5 mm: ankles differ by more than hips and knees. Two OpenSim fits of the first walk have r = 0.986 at the ankle.
 fn compare_with_opensim(body: &Calibrated, fit: &MarkerFit, reference: &Table, knee: f64) {
     let times = reference.times().unwrap();
     for (ours, sign) in [("hip_flexion", 1.0), ("knee_angle", -1.0), ("ankle_angle", 1.0)] {
@@ -258,13 +262,14 @@ fn a_runner_on_a_treadmill_is_followed() {
     let folder = folder.join("opensim-rajagopal-run");
     let [standing, run] = ["static_run.trc", "motion_capture_run.trc"].map(|file| trc(&folder, file));
     let table = SegmentTable::DeLevaMale;
-    let person = Person { table, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let person =
+        PersonMeasurements { table, mass: 72.84, height: Some(1.80), measurements: BodyMeasurements::default() };
     let known = MarkerSet::recognise(standing.markers.iter().map(|m| m.name.as_str())).unwrap();
     let body = calibrate(&standing, Trial::Standing, &known, &person, &mut Findings::default()).unwrap();
     show(&body);
     let found = fit(&body, &run);
     show_errors(&found);
-    // The other leg's swing: a runner's knee bends by 80 to 110 degrees, and is never bent backwards by more than a few.
+    // In swing a runner's knee flexes by 80 to 110 degrees, and it never extends by more than a few.
     for side in ["r", "l"] {
         let id = body.human.model.coordinate(&format!("knee_angle_{side}")).unwrap();
         let column = found.motion.column(id).unwrap();

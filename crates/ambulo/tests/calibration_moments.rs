@@ -1,10 +1,10 @@
-//! Sagittal joint moments on the built-in body, from C3D files alone, against Plug-in-Gait's in the same files: over the whole time in
-//! which plates see every foot, as both give them, and while a foot is on its plate, with what is known to be Plug-in-Gait's taken out.
+//! Sagittal joint moments on the built-in body, from C3D files alone, compared with those of Plug-in-Gait in the same files: over the
+//! instrumented window without changes, and in stance with known differences of Plug-in-Gait removed.
 //! docs/PLUG_IN_GAIT.md has the table.
 //!
-//! Three differences are Plug-in-Gait's and are taken out or named: its forces are not filtered, so its curves get the same low-pass;
-//! in swing its moments are 1.4 times what Newton's and Euler's equations give for its own joint centres (so only stance is compared); and
-//! the adult's left shank wand stands 45 degrees off the knee axis, about which its knee moment is counted (so that is turned back).
+//! Three known differences are removed or avoided: Plug-in-Gait does not filter forces, so its curves get the same low-pass filter;
+//! in swing its moments are 1.4 times those of Newton's and Euler's equations for its own joint centres (so only stance is compared);
+//! and the left shank wand of the adult is 45 degrees off the knee axis, about which its knee moment is expressed (so it is rotated back).
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -25,9 +25,9 @@ use ambulo::spatial::Vec3;
 use gait_files::{Subject, everyone, world_from_lab};
 
 const FILTER: LowPass = LowPass { order: 4, cutoff_hz: 15.0 };
-/// Plug-in-Gait smooths markers and leaves forces as they are.
+/// Plug-in-Gait smooths markers and does not filter forces.
 const MARKERS_ONLY: (LowPass, Option<LowPass>) = (LowPass { order: 3, cutoff_hz: 10.0 }, None);
-/// When plates see every foot on the ground [s], as the data's own page states it: from the other foot's off to the next strike.
+/// The instrumented window stated on the page of the data [s]: from the other foot's off to the next strike.
 const WINDOWS: [[f64; 2]; 3] = [[1.79, 2.72], [1.87, 2.74], [7.97, 9.46]];
 /// A foot is on its plate above this force [N].
 const LOADED_N: f64 = 20.0;
@@ -38,7 +38,7 @@ struct Walked {
     forces: Vec<ForceRecording>,
 }
 
-/// From C3D files to forces, the body being that of the standing trial or of the walk itself.
+/// From C3D files to forces, with a body from the standing trial or from the walk itself.
 fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPass, Option<LowPass>)) -> Walked {
     let markers = &subject.walk.markers;
     let standing = if trial == Trial::Standing { &subject.standing.markers } else { markers };
@@ -50,7 +50,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
     let mut motion = fit_markers(model, markers, &settings, &mut findings).unwrap().motion;
     assume_upright_trunk(model, &mut motion, &mut findings);
     let plates = plates_from_c3d(&subject.walk.c3d, PlateSettings::default(), &mut findings).unwrap();
-    let plates: Vec<_> = plates.iter().map(|p| p.turned(&world_from_lab())).collect();
+    let plates: Vec<_> = plates.iter().map(|p| p.rotated(&world_from_lab())).collect();
     let feet = feet_on_plates(markers, &plates, &foot_motion(markers, &mut findings), &[], &mut findings);
     let forces = feet.recordings(&plates, model.anatomy().feet().unwrap());
     let window = Window { from_s: markers.times.first().copied(), to_s: markers.times.last().copied() };
@@ -74,12 +74,12 @@ impl Walked {
         })
     }
 
-    /// Our moment [N.m/kg] and theirs, in stance.
+    /// Moments of Ambulo and Plug-in-Gait [N.m/kg] in stance.
     fn stance(&self, subject: &Subject, side: Side, ours: &str, sign: f64, theirs: &[f64]) -> Vec<(f64, f64)> {
         self.pairs(subject, (side, ours, sign), theirs, |t| self.is_on_plate(side, t))
     }
 
-    /// Our moment [N.m/kg] and theirs, at some instants.
+    /// Moments of Ambulo and Plug-in-Gait [N.m/kg] at some times.
     fn pairs(
         &self,
         subject: &Subject,
@@ -100,14 +100,14 @@ impl Walked {
     }
 }
 
-/// Plug-in-Gait's moments about the joint's three axes [N.m/kg] (in N.mm/kg in the file, whatever its unit says), with our low-pass.
+/// Plug-in-Gait's moments about the three axes of the joint [N.m/kg] (N.mm/kg in the file, although its unit differs), low-pass filtered.
 fn reference(subject: &Subject, name: &str, side: Side) -> Vec<Vec3> {
     let name = format!("{}{name}", if side == Side::Right { "R" } else { "L" });
     let raw: Vec<Vec3> =
         subject.walk.c3d.point(&name).unwrap().positions.iter().map(|p| Vec3::from(*p) * 1e-3).collect();
     let mut out = vec![Vec3::repeat(f64::NAN); raw.len()];
     let mut start = 0;
-    // Each stretch without gap by itself.
+    // Each part without a gap separately.
     for stretch in raw.chunk_by(|a, b| a.x.is_finite() == b.x.is_finite()) {
         if stretch[0].x.is_finite() && stretch.len() > 10 {
             for axis in 0..3 {
@@ -123,7 +123,7 @@ fn reference(subject: &Subject, name: &str, side: Side) -> Vec<Vec3> {
     out
 }
 
-/// Correlation, and root mean square of the difference.
+/// Correlation, and root mean square difference.
 fn agreement(pairs: &[(f64, f64)]) -> (f64, f64) {
     assert!(pairs.len() > 40, "only {} frames", pairs.len());
     let n = pairs.len() as f64;
@@ -134,7 +134,7 @@ fn agreement(pairs: &[(f64, f64)]) -> (f64, f64) {
 }
 
 #[test]
-fn sagittal_moments_in_stance_are_plug_in_gaits() {
+fn sagittal_moments_in_stance_are_those_of_plug_in_gait() {
     for (subject, trial) in everyone().iter().flat_map(|s| [(s, Trial::Standing), (s, Trial::Moving)]) {
         let walked = walked(subject, trial, (FILTER, Some(FILTER)));
         println!("{} {trial:?}", subject.name);
@@ -162,7 +162,7 @@ fn sagittal_moments_in_stance_are_plug_in_gaits() {
 }
 
 #[test]
-fn sagittal_moments_while_every_foot_is_on_a_plate_are_near_plug_in_gaits() {
+fn sagittal_moments_in_the_instrumented_window_are_near_those_of_plug_in_gait() {
     let joints = [
         ("hip_flexion", "HipMoment", -1.0, 0.20),
         ("knee_angle", "KneeMoment", 1.0, 0.15),

@@ -174,5 +174,8 @@ fn published_models_have_their_own_spines_and_others_say_what_is_missing() {
     let bare = anatomy_models::demo();
     let error = PelvicFrame::of_model(&bare).unwrap_err();
     assert!(matches!(error, PelvicFrameError::NoLandmarks { .. }), "{error}");
-    assert!(error.to_string().contains("ASIS") && error.to_string().contains("the model's own"), "{error}");
+    assert!(
+        error.to_string().contains("ASIS") && error.to_string().contains("those of the coordinates of the model"),
+        "{error}"
+    );
 }

@@ -9,7 +9,7 @@ use ambulo::dynamics::{
     relative_rows, solve_graph,
 };
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
-use ambulo::model::{BodyId, Measure, Model};
+use ambulo::model::{BodyId, JointSpeeds, Model};
 use ambulo::spatial::{Mat3, Vec3};
 use common::graphs::{add_hinged, add_rows, random_six, six};
 use common::random::{Random, Recipe, model, state};
@@ -292,7 +292,7 @@ fn effort(case: &InMotion, body: usize, s: &Six, generalized: f64) -> f64 {
     let JointReaction { center, wrench } = case.reactions[body];
     let moment = wrench.moment + (center - case.motion[body].center).cross(&wrench.force);
     let work = s.dot(&six(moment, wrench.force));
-    if case.model.bodies()[body].joint.measure == Measure::Rates {
+    if case.model.bodies()[body].joint.speeds == JointSpeeds::Rates {
         let size = moment.norm() + wrench.force.norm();
         assert!((work - generalized).abs() <= 1e-11 * size, "{work} and {generalized}");
     }

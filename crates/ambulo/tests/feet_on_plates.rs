@@ -1,4 +1,4 @@
-//! Which foot is on which plate, on a walk whose steps are known.
+//! Assignment of force plates to feet, in a walk whose steps are known.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -17,10 +17,10 @@ use marker_walk::{Load, place, plate, plate_under, stances, walk};
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
-fn judge(markers: &MarkerRecording, plates: &[PlateRecording], told: &[(usize, Side)]) -> (FeetOnPlates, Findings) {
+fn judge(markers: &MarkerRecording, plates: &[PlateRecording], assigned: &[(usize, Side)]) -> (FeetOnPlates, Findings) {
     let mut findings = Findings::default();
     let motion = foot_motion(markers, &mut findings);
-    let feet = feet_on_plates(markers, plates, &motion, told, &mut findings);
+    let feet = feet_on_plates(markers, plates, &motion, assigned, &mut findings);
     (feet, findings)
 }
 
@@ -32,8 +32,8 @@ fn two_plates() -> Vec<PlateRecording> {
 #[test]
 fn a_foot_on_a_plate_of_its_own_is_clean() {
     let (feet, findings) = judge(&walk(), &two_plates(), &[]);
-    let told: Vec<_> = feet.contacts.iter().map(|c| (c.plate, c.side, c.quality)).collect();
-    assert_eq!(told, [(0, Some(R), ContactQuality::Clean), (1, Some(L), ContactQuality::Clean)], "{feet:?}");
+    let assigned: Vec<_> = feet.contacts.iter().map(|c| (c.plate, c.side, c.quality)).collect();
+    assert_eq!(assigned, [(0, Some(R), ContactQuality::Clean), (1, Some(L), ContactQuality::Clean)], "{feet:?}");
     assert!(findings.as_slice().is_empty(), "{findings:?}");
     let (_, strike, off) = stances(R)[2];
     let contact = &feet.contacts[0];
@@ -42,12 +42,12 @@ fn a_foot_on_a_plate_of_its_own_is_clean() {
 }
 
 #[test]
-fn the_window_is_the_time_without_a_foot_on_unmeasured_floor() {
+fn the_instrumented_window_is_the_time_without_a_foot_off_the_plates() {
     let (feet, _) = judge(&walk(), &two_plates(), &[]);
     // From the off of the left foot before its plate to the strike of the right foot after its plate.
     let (from, to) = (stances(L)[1].2, stances(R)[3].1);
     assert_eq!(feet.windows.len(), 1, "{:?}", feet.windows);
-    // Both ends are events by motion, of a foot that stops 0.05 s before it stands.
+    // Both ends are events from motion, of a foot that stops 0.05 s before its stance.
     assert!((feet.windows[0][0] - from).abs() < 0.06 && (feet.windows[0][1] - to).abs() < 0.06, "{:?}", feet.windows);
     // One plate alone: until the other foot's strike.
     let (one, _) = judge(&walk(), &two_plates()[..1], &[]);
@@ -55,7 +55,7 @@ fn the_window_is_the_time_without_a_foot_on_unmeasured_floor() {
 }
 
 #[test]
-fn two_feet_on_one_plate_are_seen_and_given_to_neither() {
+fn two_feet_on_one_plate_are_reported_and_the_load_is_assigned_to_neither() {
     let (a, b) = (place(R, 1), place(L, 1));
     let big = plate([a.x - 0.3, -0.4], [b.x + 0.4, 0.4], 0.0, &[Load::whole(R, 1), Load::whole(L, 1)]);
     let (feet, findings) = judge(&walk(), std::slice::from_ref(&big), &[]);
@@ -64,14 +64,14 @@ fn two_feet_on_one_plate_are_seen_and_given_to_neither() {
     assert!(findings.has(Code::PlatesTwoFeet) && findings.has(Code::PlatesNoWindow));
     let bodies = two_bodies();
     assert!(feet.recordings(std::slice::from_ref(&big), bodies).is_empty());
-    // A person may decide otherwise.
-    let (told, _) = judge(&walk(), std::slice::from_ref(&big), &[(0, L)]);
-    assert_eq!(told.contacts[0].side, Some(L));
-    assert_eq!(told.recordings(&[big], bodies)[0].body, bodies.left);
+    // The user may assign the plate.
+    let (assigned, _) = judge(&walk(), std::slice::from_ref(&big), &[(0, L)]);
+    assert_eq!(assigned.contacts[0].side, Some(L));
+    assert_eq!(assigned.recordings(&[big], bodies)[0].body, bodies.left);
 }
 
 #[test]
-fn a_force_that_ends_while_the_foot_stands_is_partial() {
+fn a_force_that_ends_before_foot_off_is_partial() {
     let early = Load { to: 0.55, ..Load::whole(L, 1) };
     let plates = [two_plates()[0].clone(), plate_under(L, 1, &[early])];
     let (feet, findings) = judge(&walk(), &plates, &[]);
@@ -96,7 +96,7 @@ fn a_foot_over_the_edge_is_partial_and_with_the_next_plate_shared() {
     );
     let (alone, findings) = judge(&walk(), std::slice::from_ref(&behind), &[]);
     assert_eq!(alone.contacts[0].quality, ContactQuality::Partial);
-    assert!(alone.contacts[0].reason.contains("toe stood 100 mm beyond the edge"), "{:?}", alone.contacts);
+    assert!(alone.contacts[0].reason.contains("toe was 100 mm beyond the edge"), "{:?}", alone.contacts);
     assert!(findings.has(Code::PlatesPartial));
     let (both, findings) = judge(&walk(), &[behind, ahead], &[]);
     assert!(both.contacts.iter().all(|c| c.quality == ContactQuality::Shared && c.side == Some(R)), "{both:?}");
@@ -105,8 +105,8 @@ fn a_foot_over_the_edge_is_partial_and_with_the_next_plate_shared() {
 }
 
 #[test]
-fn a_load_that_no_foot_is_near_is_given_to_nobody() {
-    // The load of the right foot, two metres beside the walk.
+fn a_load_far_from_both_feet_is_not_assigned() {
+    // The load of the right foot, two metres to the side.
     let mut plate = plate_under(R, 1, &[Load::whole(R, 1)]);
     let aside = Vec3::new(0.0, 0.0, 2.0);
     plate.corners = plate.corners.map(|c| c + aside);
@@ -119,7 +119,7 @@ fn a_load_that_no_foot_is_near_is_given_to_nobody() {
 }
 
 #[test]
-fn a_foot_that_is_hidden_meanwhile_is_known_by_its_stance() {
+fn a_foot_with_hidden_markers_is_identified_by_its_stance() {
     let mut markers = walk();
     let (_, strike, off) = stances(R)[2];
     let times = markers.times.clone();
@@ -135,7 +135,7 @@ fn a_foot_that_is_hidden_meanwhile_is_known_by_its_stance() {
 }
 
 #[test]
-fn recordings_hold_all_that_each_plate_measured() {
+fn recordings_contain_all_that_each_plate_measured() {
     // One plate that both feet use, one after the other, and one for the left foot alone at another height.
     let a = place(R, 0);
     let shared = plate([a.x - 0.5, -0.4], [a.x + 3.0, 0.4], 0.0, &[Load::whole(R, 0), Load::whole(L, 2)]);
@@ -159,7 +159,7 @@ fn recordings_hold_all_that_each_plate_measured() {
 }
 
 #[test]
-fn light_touches_beside_a_real_step_are_vibration() {
+fn light_contacts_next_to_a_real_step_are_vibration() {
     let touch = Load { share: 0.04, ..Load::whole(L, 1) };
     let plates = [two_plates()[0].clone(), plate_under(L, 1, &[touch])];
     let (feet, _) = judge(&walk(), &plates, &[]);
@@ -173,7 +173,7 @@ fn two_bodies() -> BySide<BodyId> {
 }
 
 #[test]
-fn events_are_those_of_the_plates_where_they_saw_them_and_of_motion_elsewhere() {
+fn events_are_from_force_where_measured_and_from_motion_elsewhere() {
     let markers = walk();
     let motion = foot_motion(&markers, &mut Findings::default());
     let (feet, _) = judge(&markers, &two_plates(), &[]);
@@ -187,6 +187,6 @@ fn events_are_those_of_the_plates_where_they_saw_them_and_of_motion_elsewhere() 
     for pair in all.windows(2) {
         assert!(pair[0].time_s <= pair[1].time_s);
     }
-    // A load that the recording cuts is no event.
+    // A contact that the recording cuts has no event there.
     assert_eq!(feet.force_events([by_force[0].time_s, 4.0]).len(), 3);
 }

@@ -1,4 +1,4 @@
-//! The zero-phase low-pass against closed forms, an independent direct-form recurrence, OpenSim, and scipy.
+//! The zero-phase low-pass filter against closed forms, an independent direct-form recurrence, OpenSim, and scipy.
 
 use std::f64::consts::{PI, TAU};
 
@@ -103,7 +103,7 @@ fn reflection_keeps_value_and_slope_of_the_ends() {
 }
 
 #[test]
-fn the_padded_series_holds_the_filtered_data_and_half_as_many_samples_at_each_end() {
+fn the_padded_series_has_the_filtered_data_and_half_as_many_samples_at_each_end() {
     for count in [4, 31, 200] {
         let wave = sampled(count, gait_like);
         let padded = low_pass_padded(&wave, RATE, butterworth(3, 6.0)).unwrap();
@@ -153,7 +153,7 @@ fn third_order_direct_form(samples: &[f64], cutoff_hz: f64) -> Vec<f64> {
 }
 
 #[test]
-fn order_three_agrees_with_the_recurrence_of_opensim_where_its_start_has_died_out() {
+fn order_three_agrees_with_the_recurrence_of_opensim_after_its_transient() {
     // 600 samples padded by 300: the start decays by exp(-π x 6 Hz x 3 s) = 3e-25 before the data begin, so only
     // rounding remains (1e-16 / Ω³ = 1e-14), and all of the data may be compared.
     let wave = sampled(600, gait_like);
@@ -204,7 +204,7 @@ fn order_three_agrees_with_opensim() {
 }
 
 #[test]
-fn times_rounded_to_eight_digits_are_resampled_and_filtered_as_opensim_does_it() {
+fn times_rounded_to_eight_digits_are_resampled_and_filtered_as_in_opensim() {
     // OpenSim pads times as it pads values and takes the shortest step of the padded series as the new one if the mean
     // step exceeds it by more than 2.2e-16 s. It resamples with an interpolating quintic from the first padded time on,
     // adding the step again and again.
@@ -323,7 +323,7 @@ fn high_order_and_low_cutoff_stay_accurate() {
 // ---------------------------------------------------------------- errors
 
 #[test]
-fn a_cutoff_at_or_above_half_the_rate_says_what_is_allowed() {
+fn a_cutoff_at_or_above_half_the_rate_is_rejected_with_the_limit() {
     for cutoff in [50.0, 80.0, 0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = low_pass(&[0.0; 10], RATE, butterworth(3, cutoff)).unwrap_err();
         assert!(matches!(error, FilterError::Cutoff { .. }), "{error}");
@@ -333,7 +333,7 @@ fn a_cutoff_at_or_above_half_the_rate_says_what_is_allowed() {
 }
 
 #[test]
-fn what_cannot_be_filtered_is_refused_by_name() {
+fn invalid_input_is_rejected_by_name() {
     let filter = butterworth(3, 6.0);
     assert_eq!(low_pass(&[0.0; 3], RATE, filter).unwrap_err(), FilterError::TooFewSamples { found: 3 });
     assert_eq!(low_pass(&[], RATE, filter).unwrap_err(), FilterError::TooFewSamples { found: 0 });

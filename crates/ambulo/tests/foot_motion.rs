@@ -1,4 +1,4 @@
-//! Strikes and offs from markers, on a walk whose events are known, and how lists of events agree.
+//! Strikes and offs from markers of a walk whose events are known, and the comparison of lists of events.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -7,7 +7,7 @@ mod marker_walk;
 use ambulo::analysis::event_agreement;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{EventMethod, FootMotion, foot_motion};
-use ambulo::ground::phases::{Contact, contacts_of_events};
+use ambulo::ground::phases::{Contact, contacts_from_events};
 use ambulo::model::Side;
 use ambulo::motion::{Event, EventKind, MarkerRecording, events_from_c3d};
 use ambulo::spatial::Vec3;
@@ -18,11 +18,11 @@ fn found(markers: &MarkerRecording) -> FootMotion {
 }
 
 #[test]
-fn every_method_finds_every_event_of_a_plain_walk() {
+fn every_method_detects_every_event_of_a_plain_walk() {
     let found = found(&walk());
     assert_eq!(found.by_method.len(), EventMethod::ALL.len());
-    // The made foot is as slow as the pelvis 0.05 s before it stands, and accelerates most 0.21 of its swing, 0.09 s,
-    // after it has left: single methods err by that, their median by half of it.
+    // The synthetic foot is as slow as the pelvis 0.05 s before foot strike, and accelerates most 0.21 of its swing, 0.09 s,
+    // after foot off: single methods have errors of that size, their median half of it.
     let all = found.by_method.iter().map(|(m, e)| (m.name(), e)).chain([("together", &found.events)]);
     for (name, list) in all {
         for row in event_agreement(&events(), list) {
@@ -74,7 +74,7 @@ fn swapped_sides_swap_the_events() {
 #[test]
 fn contacts_begin_and_end_with_the_events() {
     let found = found(&walk());
-    // The left foot stood when the recording began, and stands when it ends.
+    // The left foot is in stance at the beginning and at the end of the recording.
     let left = found.contacts_of(Side::Left);
     assert!(left[0].strike_s.is_none() && left[0].off_s.is_some(), "{left:?}");
     for pair in left.windows(2) {
@@ -85,7 +85,7 @@ fn contacts_begin_and_end_with_the_events() {
 }
 
 #[test]
-fn a_short_gap_is_bridged_and_a_long_one_only_costs_what_it_hides() {
+fn a_short_gap_is_interpolated_and_a_long_one_only_hides_its_own_events() {
     let whole = found(&walk());
     let hidden = |from_s: f64, to_s: f64| {
         let mut markers = walk();
@@ -104,7 +104,7 @@ fn a_short_gap_is_bridged_and_a_long_one_only_costs_what_it_hides() {
 }
 
 #[test]
-fn who_stands_has_both_feet_on_the_ground_and_no_events() {
+fn a_standing_person_has_both_feet_on_the_ground_and_no_events() {
     let mut markers = walk();
     for marker in &mut markers.markers {
         let place = marker.positions[80];
@@ -118,7 +118,7 @@ fn who_stands_has_both_feet_on_the_ground_and_no_events() {
 }
 
 #[test]
-fn feet_without_markers_are_told() {
+fn feet_without_markers_are_reported() {
     let mut markers = walk();
     markers.markers.retain(|m| !m.name.starts_with("RTOE") && !m.name.starts_with("RHEE"));
     let mut findings = Findings::default();
@@ -126,7 +126,7 @@ fn feet_without_markers_are_told() {
     assert!(findings.has(Code::EventsNoFootMarkers));
     assert_eq!(found.feet_without_markers, [Side::Right]);
     assert!(found.contacts_of(Side::Right).is_empty() && !found.contacts_of(Side::Left).is_empty());
-    // An empty recording is no trouble.
+    // An empty recording is accepted.
     markers.markers.clear();
     assert!(foot_motion(&markers, &mut findings).events.is_empty());
 }
@@ -150,14 +150,14 @@ fn events_become_contacts_and_doubled_ones_are_ignored() {
     ];
     let contact = |strike_s, off_s| Contact { strike_s, off_s };
     let expected = [contact(None, Some(0.2)), contact(Some(0.6), Some(1.2)), contact(Some(1.6), None)];
-    assert_eq!(contacts_of_events(&list, Side::Right), expected);
+    assert_eq!(contacts_from_events(&list, Side::Right), expected);
     // What the recording cuts ends with it.
     let is = |found: [f64; 2], expected: [f64; 2]| (0..2).all(|i| (found[i] - expected[i]).abs() < 1e-12);
     assert!(is(expected[0].span(0.0, 9.0), [0.0, 0.2]) && is(expected[2].span(0.0, 9.0), [1.6, 9.0]));
 }
 
 #[test]
-fn agreement_pairs_the_closest_and_counts_the_rest() {
+fn the_comparison_pairs_the_closest_events_and_counts_the_rest() {
     use EventKind::{Off, Strike};
     let (r, l) = (Side::Right, Side::Left);
     let reference = [event(r, Strike, 1.0), event(l, Strike, 1.5), event(r, Strike, 2.0), event(r, Off, 1.6)];
@@ -165,8 +165,8 @@ fn agreement_pairs_the_closest_and_counts_the_rest() {
         event(r, Strike, 1.02),
         event(r, Strike, 0.9), // the second nearest
         event(l, Strike, 1.46),
-        event(l, Strike, 2.0), // the other foot's
-        event(l, Strike, 3.0), // beyond what the reference knows
+        event(l, Strike, 2.0), // of the other foot
+        event(l, Strike, 3.0), // beyond the reference
         event(r, Off, 1.9),    // too far
     ];
     let [strikes, offs] = event_agreement(&reference, &found);
@@ -183,7 +183,7 @@ fn events_of_a_file_are_read_with_their_side() {
     file.events = vec![
         listed("Foot Off", "Right", 2.5),
         listed("Foot Strike", "Left", 1.0),
-        listed("LHS", "", 1.0004), // the header's, which some programs repeat
+        listed("LHS", "", 1.0004), // of the header, which some programs repeat
         listed("RHS", "", 1.5),
         listed("LTO", "", 1.7),
         listed("Event", "General", 0.1),

@@ -1,6 +1,6 @@
-//! When the feet stand, from the motion alone, against force plates: every recording that there is.
+//! Stances detected from the motion alone, compared with force plates in every recording.
 //!
-//! The recordings are not part of the repository; without them each test says `skipped` and passes.
+//! The recordings are not part of the repository; without them each test prints `skipped` and passes.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -18,7 +18,7 @@ fn found(trial: &Recorded, cutoff_hz: f64) -> Footfalls {
     footfalls(&trial.model, &trial.trajectory(cutoff_hz), &trial.soles, &mut Findings::default())
 }
 
-/// Found - plates of each event of a kind [ms]; the nearest of the same foot counts, not a number beyond 0.15 s.
+/// Detected - plates for each event of a kind [ms]: the nearest event of the same foot; not a number beyond 0.15 s.
 fn errors_ms(plates: &[Event], found: &[Event], kind: EventKind) -> Vec<f64> {
     let of = |e: &&Event| {
         let same = found.iter().filter(|f| f.side == e.side && f.kind == e.kind).map(|f| 1e3 * (f.time_s - e.time_s));
@@ -37,7 +37,7 @@ fn most(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
-/// One trial's errors of strikes and offs [ms].
+/// Errors of strikes and offs in one trial [ms].
 struct Row {
     subject: &'static str,
     errors: [Vec<f64>; 2],
@@ -72,7 +72,7 @@ fn table(trials: &[Recorded], cutoff_hz: f64) -> Vec<Row> {
     rows
 }
 
-/// Each subject's errors after the mean error of all others is taken off: what an offset fitted to some people does for another.
+/// Leave-one-out: errors of each subject minus the mean error of all others, the effect of an offset fitted to others.
 fn leave_one_out(rows: &[Row]) {
     println!("leave one subject out: mean of magnitudes as it is, and with the others' mean error taken off [ms]");
     let mut subjects: Vec<&str> = rows.iter().map(|r| r.subject).collect();
@@ -102,7 +102,7 @@ fn strikes_and_offs_are_those_of_the_plates() {
         leave_one_out(&rows);
         for (row, trial) in rows.iter().zip(trials) {
             for errors in &row.errors {
-                // None missed, and none further off than the aim.
+                // None missed, and no error above the limit.
                 assert!(errors.iter().all(|e| e.abs() <= 30.0), "{} at {cutoff_hz} Hz: {errors:?}", trial.name);
             }
         }
@@ -114,7 +114,7 @@ fn strikes_and_offs_are_those_of_the_plates() {
 }
 
 #[test]
-fn no_step_is_invented_where_plates_saw_every_step() {
+fn no_step_is_invented_where_plates_measured_every_step() {
     for trial in everything().iter().filter(|trial| trial.all_seen) {
         let times = || trial.plates.iter().map(|e| e.time_s);
         let (first, last) = (times().fold(f64::INFINITY, f64::min), times().fold(f64::NEG_INFINITY, f64::max));
@@ -125,7 +125,7 @@ fn no_step_is_invented_where_plates_saw_every_step() {
 }
 
 #[test]
-fn floors_rest_and_belts_run() {
+fn floors_are_at_rest_and_belts_move() {
     for trial in everything() {
         let floor = found(trial, 6.0).floor_velocity;
         // The data's README: in stance the walker's midfoot goes back at 1.10 m/s, the runner's heel, which is on the belt for a moment
@@ -144,7 +144,7 @@ fn floors_rest_and_belts_run() {
 }
 
 #[test]
-fn the_wrong_foot_and_the_wrong_time_are_seen() {
+fn a_wrong_foot_and_a_wrong_time_are_noticed() {
     for trial in everything() {
         let mut events = found(trial, 6.0).events();
         for event in &mut events {
@@ -155,7 +155,7 @@ fn the_wrong_foot_and_the_wrong_time_are_seen() {
         let mut swapped = trial.clone();
         swapped.soles = BySide { right: trial.soles.left, left: trial.soles.right };
         let other = errors_ms(&trial.plates, &found(&swapped, 6.0).events(), EventKind::Strike);
-        // `soles` says whose foot it is: the feet's points come under the wrong names.
+        // `soles` defines the side: here the points of the feet have the wrong side.
         assert!(other.iter().all(|e| e.is_nan() || e.abs() > 60.0), "{}: {other:?}", trial.name);
     }
 }
@@ -170,7 +170,7 @@ fn cost(trials: &[Recorded], errors: &[f64], subjects: &[&str]) -> f64 {
 }
 
 #[test]
-fn the_speed_of_the_off_is_the_best_of_a_grid() {
+fn the_speed_threshold_of_foot_off_is_the_best_of_a_grid() {
     let trials = everything();
     if trials.is_empty() {
         return;
@@ -215,6 +215,6 @@ fn the_speed_of_the_off_is_the_best_of_a_grid() {
         mean(left_out)
     );
     assert!(own < least + 0.5, "{own} ms, {least} ms at {left:?}");
-    // A grid in which every speed is as good would say nothing.
+    // The grid must distinguish the speeds.
     assert!(all.iter().any(|(_, errors)| cost(trials, errors, &subjects) > 1.5 * own));
 }

@@ -1,8 +1,8 @@
-//! When the feet stand, of a puppet whose feet are put wherever a test wants them: stairs, sideways, backwards, on a belt, starting and stopping.
+//! Stances of a puppet whose feet are placed by the test: stairs, sideways, backwards, on a belt, starting and stopping.
 //!
-//! The puppet is a trunk and two flat feet, each free of the others. A foot swings on a quintic from place to place (rest, speed and
-//! acceleration are zero at both ends) and is lifted on the way; the trunk follows. So it is known exactly where feet stand; when they do is
-//! known to some hundredths of a second, for a quintic leaves slowly: after 50 ms of 400 it has gone 2 % of its way.
+//! The puppet is a trunk and two flat feet that move independently. A foot swings on a quintic from place to place (velocity and
+//! acceleration are zero at both ends) and is lifted in between; the trunk follows. The places of the feet are known exactly, the times
+//! of the events to a few hundredths of a second, because a quintic starts slowly: after 50 of 400 ms it has covered 2 % of its way.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -15,10 +15,10 @@ use ambulo::model::{BySide, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 
-/// A foot stands this long before its first swing and after its last [s].
+/// Stance before the first swing and after the last [s].
 const STILL_S: f64 = 1.0;
 const SWING_S: f64 = 0.4;
-/// A foot swings once in this time, right and left in turn [s].
+/// Time from swing to swing of one foot; right and left alternate [s].
 const STRIDE_S: f64 = 1.1;
 const LIFT_M: f64 = 0.1;
 
@@ -45,7 +45,7 @@ fn model() -> Model {
     Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }
 
-/// Share of the way, its rate and acceleration, after the share `u` of the time.
+/// Share of the way, its velocity and acceleration, after the share `u` of the time.
 fn quintic(u: f64) -> [f64; 3] {
     let u = u.clamp(0.0, 1.0);
     [
@@ -61,18 +61,18 @@ fn move_to(a: Vec3, b: Vec3, t: f64, start: f64, duration: f64) -> [Vec3; 3] {
     [a + (b - a) * s, (b - a) * (v / duration), (b - a) * (w / (duration * duration))]
 }
 
-/// When a foot begins its swing of a number [s].
+/// Start time of a swing by its number [s].
 fn lifts(side: Side, swing: usize) -> f64 {
     STILL_S + STRIDE_S * (swing as f64 + if side == Side::Left { 0.5 } else { 0.0 })
 }
 
-/// Where a foot with these places is: place, velocity, acceleration.
+/// Position, velocity and acceleration of a foot that steps through these places.
 fn foot(side: Side, places: &[Vec3], t: f64) -> [Vec3; 3] {
     let swing = (0..places.len() - 1).rev().find(|&k| t >= lifts(side, k));
     let Some(swing) = swing else { return [places[0], Vec3::zeros(), Vec3::zeros()] };
     let mut moved = move_to(places[swing], places[swing + 1], t, lifts(side, swing), SWING_S);
     let u = ((t - lifts(side, swing)) / SWING_S).clamp(0.0, 1.0);
-    // 64 u³ (1 - u)³ rises from rest to 1 and comes back to rest.
+    // 64 u³ (1 - u)³ rises from 0 to 1 and returns to 0, starting and ending at rest.
     let p = u * (1.0 - u);
     let slope = 1.0 - 2.0 * u;
     moved[0].y += LIFT_M * 64.0 * p.powi(3);
@@ -134,7 +134,7 @@ fn assert_all_found(found: &Footfalls) {
         for (k, pair) in falls.windows(2).enumerate() {
             let (off, strike) = (pair[0].off_s.unwrap(), pair[1].strike_s.unwrap());
             let lifted = lifts(side, k);
-            // A quarter of the swing each: the quintic needs so long to come to speed.
+            // A quarter of the swing each: the quintic accelerates slowly.
             assert!((lifted..lifted + 0.25 * SWING_S).contains(&off), "{side:?} {k}: {off} after {lifted}");
             assert!((lifted + 0.65 * SWING_S..lifted + SWING_S).contains(&strike), "{side:?} {k}: {strike}, {lifted}");
         }
@@ -142,7 +142,7 @@ fn assert_all_found(found: &Footfalls) {
 }
 
 #[test]
-fn whatever_the_way_all_steps_are_found() {
+fn all_steps_are_found_in_every_direction() {
     for step in [
         Vec3::new(1.3, 0.0, 0.0),
         Vec3::new(0.5, 0.0, 0.0),
@@ -181,7 +181,7 @@ fn every_stair_has_its_height() {
 }
 
 #[test]
-fn soles_of_unlike_height_stand_on_one_floor() {
+fn soles_of_unequal_height_are_on_one_floor() {
     let [right, mut left] = places(Vec3::new(1.2, 0.0, 0.0));
     left.iter_mut().for_each(|place| place.y += 0.02);
     let found = walk([&right, &left], Vec3::zeros());

@@ -1,5 +1,5 @@
-//! When the feet stand, of motions whose contacts are known: a synthetic walk and what becomes of it on a belt, on a ramp, mirrored, turned,
-//! reversed and cut; standing on two feet and on one; a jump.
+//! Stances of motions whose contacts are known: a synthetic walk, also on a belt, on a ramp, mirrored, rotated, reversed and cut;
+//! standing on two feet and on one; a jump.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -10,7 +10,7 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::{Build, SegmentTable};
@@ -22,7 +22,7 @@ use std::sync::OnceLock;
 
 const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
 
-/// A motion of somebody.
+/// A model with its motion and soles.
 #[derive(Clone)]
 struct Moving {
     model: Model,
@@ -38,7 +38,7 @@ impl Moving {
         Moving { model: model.clone(), soles, grid: trajectory.grid(), columns }
     }
 
-    /// Somebody who stands still for a while.
+    /// A person who stands still for a while.
     fn standing(seconds: f64) -> Moving {
         let human = MAN.human().unwrap();
         let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: (100.0 * seconds) as usize };
@@ -57,7 +57,7 @@ impl Moving {
         &mut self.columns[id.index()]
     }
 
-    /// The way forward as it is seen from a belt that has gone back by `way`, at `speed` [m, m/s], functions of time.
+    /// The motion relative to a belt that has moved back by `way`, at `speed` [m, m/s], functions of time.
     fn on_belt(mut self, way: impl Fn(f64) -> f64, speed: impl Fn(f64) -> f64) -> Moving {
         let grid = self.grid;
         let forward = self.column("pelvis_tx");
@@ -68,7 +68,7 @@ impl Moving {
         self
     }
 
-    /// The body turned in the world; gravity stays, or turns too.
+    /// The body rotated in the world; gravity stays or rotates with it.
     fn turned(mut self, rotation: Mat3, with_gravity: bool) -> Moving {
         let turn = Pose { rotation, translation: Vec3::new(0.3, -0.2, 0.7) };
         let mut bodies = self.model.bodies().to_vec();
@@ -81,7 +81,7 @@ impl Moving {
         self
     }
 
-    /// A part of it.
+    /// A range of the frames.
     fn cut(mut self, frames: std::ops::Range<usize>) -> Moving {
         self.grid = TimeGrid { start_s: self.grid.time(frames.start), frames: frames.len(), ..self.grid };
         for series in self.columns.iter_mut().flatten() {
@@ -120,7 +120,7 @@ fn known(moving: &Moving) -> Vec<Event> {
         let loads = walk.loads.iter().filter(|load| of_side(&walk.human.model.bodies()[load.body.index()].name));
         let mut vertical = vec![0.0; walk.loads[0].times.len()];
         loads.for_each(|load| vertical.iter_mut().zip(&load.force).for_each(|(sum, f)| *sum += f.y));
-        for contact in contacts(&walk.loads[0].times, &vertical) {
+        for contact in contacts_from_force(&walk.loads[0].times, &vertical) {
             let event = |kind, time_s| Event { side, kind, time_s };
             events.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
             events.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
@@ -140,7 +140,7 @@ fn farthest(events: &[Event], found: &[Event]) -> f64 {
     events.iter().map(nearest).fold(0.0, f64::max)
 }
 
-/// Asserts that two lists tell of the same events to within a time [s].
+/// Asserts that two lists have the same events to within a time [s].
 #[track_caller]
 fn assert_same(a: &[Event], b: &[Event], within_s: f64) {
     let far = farthest(a, b).max(farthest(b, a));
@@ -156,14 +156,14 @@ fn the_contacts_of_a_synthetic_walk_are_found() {
         println!("{event:?} off by {:.1} ms", 1e3 * farthest(&[*event], &events));
     }
     assert!(known.len() >= 20, "{known:?}");
-    // The soft soles are in touch before and after they carry; the aim against plates is 30 ms.
+    // The soft soles touch the ground before and after they are loaded; the limit for force plates is 30 ms.
     assert!(farthest(&known, &events) < 0.03, "{} s", farthest(&known, &events));
     let inside = events.iter().filter(|e| (known[0].time_s - 0.1..walk.grid.end_s() - 0.15).contains(&e.time_s));
     assert!(inside.count() <= known.len() + 1);
     assert!(found.floor_velocity.norm() <= 0.0 && found.falls.iter().all(|f| f.floor_velocity.norm() <= 0.0));
     // The floor of the simulator lies at height zero; soft soles sink by some millimetres.
     assert!(found.falls.iter().all(|f| f.floor_height_m.abs() < 0.02), "{:?}", found.falls);
-    // The feet do not stand where the other foot does.
+    // The stances of one foot are not those of the other.
     let swapped: Vec<Event> = known.iter().map(|e| Event { side: other(e.side), ..*e }).collect();
     assert!(farthest(&swapped, &events) > 0.1);
 }
@@ -199,14 +199,14 @@ fn a_belt_that_changes_its_speed_is_followed() {
 }
 
 #[test]
-fn the_world_may_be_turned() {
+fn a_rotated_world_changes_nothing() {
     let straight = walk().footfalls();
     let about = |axis: Vec3, angle: f64| *nalgebra::Rotation3::new(axis * angle).matrix();
     let turned = walk().turned(about(Vec3::y(), 0.9), false).footfalls();
     assert_same(&straight.events(), &turned.events(), 1e-9);
     let lying = walk().turned(about(Vec3::new(0.6, 0.0, 0.8), 1.4), true).footfalls();
     assert_same(&straight.events(), &lying.events(), 1e-9);
-    // Heights are counted from the origin, which the walk was moved against.
+    // Heights are relative to the origin, by which the walk was displaced.
     assert!((turned.falls[2].floor_height_m - straight.falls[2].floor_height_m + 0.2).abs() < 1e-9);
 }
 
@@ -239,7 +239,7 @@ fn a_mirrored_walk_swaps_the_feet() {
 }
 
 #[test]
-fn a_walk_that_runs_backwards_lands_where_it_left() {
+fn in_a_reversed_walk_strikes_and_offs_are_exchanged() {
     let forwards = walk();
     let mut backwards = forwards.clone();
     for [value, rate, acceleration] in &mut backwards.columns {
@@ -260,7 +260,7 @@ fn a_walk_that_runs_backwards_lands_where_it_left() {
 }
 
 #[test]
-fn what_the_recording_cuts_has_no_event() {
+fn a_stance_that_the_recording_cuts_has_no_event_there() {
     let whole = walk();
     let fall = *whole.footfalls().falls.iter().find(|f| f.strike_s.is_some() && f.off_s.is_some()).unwrap();
     let frame = |t: f64| ((t - whole.grid.start_s) / whole.grid.step_s).round() as usize;
@@ -269,13 +269,13 @@ fn what_the_recording_cuts_has_no_event() {
     assert_eq!(after.of(fall.side).next().unwrap().strike_s, None);
     let before = whole.clone().cut(0..middle).footfalls();
     assert_eq!(before.of(fall.side).last().unwrap().off_s, None);
-    // Of both parts together the events are those of the whole.
+    // Both parts together have the events of the whole.
     let both = [before.events(), after.events()].concat();
     assert!(farthest(&whole.footfalls().events(), &both) < 0.02);
 }
 
 #[test]
-fn who_stands_stands_from_end_to_end() {
+fn standing_is_one_stance_over_the_whole_recording() {
     let found = Moving::standing(3.0).footfalls();
     assert_eq!(found.falls.len(), 2, "{found:?}");
     for fall in &found.falls {
@@ -285,7 +285,7 @@ fn who_stands_stands_from_end_to_end() {
     assert!(found.events().is_empty());
 }
 
-/// Standing, the right knee drawn up, the body leaning so far to the left [rad].
+/// Standing with the right knee raised, the body leaning to the left by `lean` [rad].
 fn on_one_leg(lean: f64) -> Moving {
     let mut standing = Moving::standing(3.0);
     standing.column("hip_flexion_r")[0].fill(1.0);
@@ -294,15 +294,15 @@ fn on_one_leg(lean: f64) -> Moving {
 }
 
 #[test]
-fn a_foot_held_still_in_the_air_does_not_stand() {
-    // Leaning by a tenth brings the left foot under the mass centre, leaning the other way the right one would be asked to carry.
+fn a_foot_held_still_in_the_air_is_not_in_stance() {
+    // Leaning by 0.1 rad brings the left foot under the mass centre; leaning the other way would load the right foot.
     let sides = |lean: f64| on_one_leg(lean).footfalls().falls.iter().map(|f| f.side).collect::<Vec<_>>();
     assert_eq!(sides(0.1), [Side::Left]);
     assert!(sides(-0.1).contains(&Side::Right));
 }
 
 #[test]
-fn nobody_stands_in_a_jump() {
+fn a_jump_has_no_stance_in_flight() {
     let (leaves, lands, gravity) = (1.0, 1.4, 9.80665);
     let mut jump = Moving::standing(3.0);
     let grid = jump.grid;
@@ -326,7 +326,7 @@ fn nobody_stands_in_a_jump() {
 }
 
 #[test]
-fn whatever_moves_strikes_and_offs_take_turns() {
+fn strikes_and_offs_alternate_in_any_motion() {
     for seed in 0..30 {
         let mut random = common::random::Random::new(seed);
         let mut wild = Moving::standing(0.1 + 0.2 * seed as f64);
@@ -355,7 +355,7 @@ fn whatever_moves_strikes_and_offs_take_turns() {
 }
 
 #[test]
-fn recordings_of_a_few_frames_are_no_trouble() {
+fn recordings_of_a_few_frames_are_accepted() {
     for frames in 0..5 {
         let found = walk().cut(20..20 + frames).footfalls();
         assert!(found.falls.len() <= 2 && found.events().len() <= 1, "{frames}: {found:?}");
@@ -363,11 +363,11 @@ fn recordings_of_a_few_frames_are_no_trouble() {
 }
 
 #[test]
-fn on_a_belt_the_world_may_be_turned_too() {
+fn a_rotated_world_changes_nothing_on_a_belt() {
     let on_belt = || walk().on_belt(|t| 1.2 * t, |_| 1.2);
     let turn = *nalgebra::Rotation3::new(Vec3::y() * 0.9).matrix();
     let (straight, turned) = (on_belt().footfalls(), on_belt().turned(turn, false).footfalls());
-    // The velocities gather at one place wherever the search begins, to the search's tolerance.
+    // The mean shift converges to one velocity from any start, within its tolerance.
     assert_same(&straight.events(), &turned.events(), 1e-3);
     assert!((turned.floor_velocity - turn * straight.floor_velocity).norm() < 1e-2);
 }

@@ -1,15 +1,15 @@
 //! Force plates against examples worked by hand.
 //!
-//! A person pushes the plate of [`plate_files::CORNERS_MM`] so that it pushes back with F = (30, 50, 700) N at the point
-//! (250, 200, 0) mm and with a free moment of 4 N.m about the vertical, all in the laboratory's axes. About the centre of the
+//! The plate of [`plate_files::CORNERS_MM`] acts on a foot with F = (30, 50, 700) N at the point
+//! (250, 200, 0) mm and with a free moment of 4 N.m about the vertical, all in the axes of the laboratory. About the centre of the
 //! surface, C = (200, 300, 0) mm, the arm is r = (0.05, -0.1, 0) m, and
 //!
 //! ```text
 //! M_C = r × F + (0, 0, 4) = (-0.1·700, -0.05·700, 0.05·50 + 0.1·30 + 4) = (-70, -35, 9.5) N.m
 //! ```
 //!
-//! The plate's y and z are the laboratory's turned round: F' = (30, -50, -700) N, M' = (-70, 35, -9.5) N.m. The comments
-//! below carry this on to the channels of each type.
+//! y and z of the plate are opposite to those of the laboratory: F' = (30, -50, -700) N, M' = (-70, 35, -9.5) N.m. The comments
+//! below derive the channels of each type.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -38,11 +38,11 @@ fn assert_vector(found: Vec3, expected: [f64; 3], tolerance: f64) {
     assert!((found - Vec3::from(expected)).norm() <= tolerance, "{found:?} instead of {expected:?}");
 }
 
-/// That the plate tells of the person above.
+/// Asserts the forces of the example above.
 #[track_caller]
 fn assert_person(plate: &PlateRecording) {
     assert_vector(plate.force[LOADED], [30.0, 50.0, 700.0], ROUNDING);
-    // About the laboratory's origin: (0.25, 0.2, 0) × F + (0, 0, 4).
+    // About the origin of the laboratory: (0.25, 0.2, 0) × F + (0, 0, 4).
     assert_vector(plate.moment[LOADED], [140.0, -175.0, 0.25 * 50.0 - 0.2 * 30.0 + 4.0], ROUNDING);
     assert_vector(plate.moment_about_center(LOADED), [-70.0, -35.0, 9.5], ROUNDING);
     assert_vector(plate.center_of_pressure(LOADED), [0.25, 0.2, 0.0], 1e-6);
@@ -77,7 +77,7 @@ const ORIGIN_3: [f64; 3] = [120.0, 200.0, -40.0];
 
 #[test]
 fn type_1_gives_force_point_and_free_moment() {
-    // The point relative to the centre, in the plate's axes: (50, 100) mm; the free moment about its z, -4 N.m.
+    // The point relative to the centre, in the axes of the plate: (50, 100) mm; the free moment about its z, -4 N.m.
     let mut file = File::step(1, [0.0, 0.0, -40.0], &[30.0, -50.0, -700.0, 50.0, 100.0, -4_000.0]);
     file.units = vec!["N", "N", "N", "mm", "mm", "Nmm"];
     assert_person(&read(&file).0);
@@ -107,7 +107,7 @@ fn mixing_matrix(columns: usize) -> Vec<Vec<f64>> {
     matrix
 }
 
-/// The channels that the matrix turns into [`TYPE_2`].
+/// The channels that the matrix converts to [`TYPE_2`].
 fn volts() -> [f64; 6] {
     let c3 = (-700.0 - 0.1 * 15.0) / 5.0;
     [15.0, -25.0, c3, -70_600.0 / 700.0, (34_850.0 - c3) / 700.0, -9_515.0 / 400.0]
@@ -159,24 +159,24 @@ fn type_7_is_type_3_after_a_matrix() {
 }
 
 #[test]
-fn an_origin_of_the_other_sign_is_turned_round_and_told() {
+fn an_origin_of_the_other_sign_is_reversed_and_reported() {
     let (plate, findings) = read(&File::step(2, ORIGIN_2.map(|x| -x), &TYPE_2));
     assert_person(&plate);
     assert!(findings.has(Code::PlatesOriginTurned));
-    // Half distances of sensors have no sign; the height has. ezc3d turns all three, and with them both moments.
+    // Half distances of sensors have no sign; the height has. ezc3d reverses all three, and with them both moments.
     assert_person(&read(&File::step(3, [120.0, 200.0, 40.0], &TYPE_3)).0);
 }
 
 #[test]
-fn a_plate_that_records_the_force_on_itself_is_turned_round_and_told() {
+fn forces_on_the_plate_are_reversed_and_reported() {
     let (plate, findings) = read(&File::step(2, ORIGIN_2, &TYPE_2.map(|x| -x)));
     assert_person(&plate);
     assert!(findings.has(Code::PlatesForceOnPlate));
 }
 
 #[test]
-fn markers_tell_which_side_of_the_plate_is_up() {
-    // The corners run the other way round: the plate's x is turned, its z points up. Seen from its own axes, F' = (-30,
+fn markers_determine_the_upper_side_of_the_plate() {
+    // The corners are in reverse order: x of the plate is reversed, z points up. In its axes F' = (-30,
     // -50, 700) and M' = (70, 35, 9.5).
     let mut file = File::step(2, [0.0; 3], &[-30.0, -50.0, 700.0, 70_000.0, 35_000.0, 9_500.0]);
     file.corners_mm = [CORNERS_MM[1], CORNERS_MM[0], CORNERS_MM[3], CORNERS_MM[2]];
@@ -184,13 +184,13 @@ fn markers_tell_which_side_of_the_plate_is_up() {
     let (plate, findings) = read(&file);
     assert_person(&plate);
     assert!(!findings.has(Code::PlatesForceOnPlate));
-    // Without markers z is taken as down, and the load as one that pulls.
+    // Without markers z is assumed to point down, and the load to pull.
     file.markers_mm.clear();
     assert!(read(&file).1.has(Code::PlatesForceOnPlate));
 }
 
 #[test]
-fn moments_without_a_unit_are_those_that_put_the_center_on_the_plate() {
+fn the_unit_of_moments_is_inferred_from_the_center_of_pressure() {
     let mut values = TYPE_2;
     values[3..].iter_mut().for_each(|m| *m /= 1000.0);
     let mut file = File::step(2, ORIGIN_2, &values);
@@ -198,7 +198,7 @@ fn moments_without_a_unit_are_those_that_put_the_center_on_the_plate() {
     let (plate, findings) = read(&file);
     assert_person(&plate);
     assert!(findings.has(Code::PlatesReadingChanged));
-    // With the unit there is nothing to guess.
+    // With the unit nothing is inferred.
     file.units = vec!["N", "N", "N", "Nm", "Nm", "Nm"];
     let (plate, findings) = read(&file);
     assert_person(&plate);
@@ -206,7 +206,7 @@ fn moments_without_a_unit_are_those_that_put_the_center_on_the_plate() {
 }
 
 #[test]
-fn a_center_beside_the_plate_is_told() {
+fn a_center_outside_the_plate_is_reported() {
     let mut values = TYPE_2;
     values[4] += 700_000.0; // 1 m further along x
     let (plate, findings) = read(&File::step(2, ORIGIN_2, &values));
@@ -215,7 +215,7 @@ fn a_center_beside_the_plate_is_told() {
 }
 
 #[test]
-fn what_the_unloaded_plate_shows_is_removed_from_every_channel() {
+fn the_signal_of_the_unloaded_plate_is_removed_from_every_channel() {
     let mut file = type_2();
     let offsets = [3.0, -5.0, 25.0, 900.0, -1_500.0, 300.0];
     for (channel, offset) in file.channels.iter_mut().zip(offsets) {
@@ -253,7 +253,7 @@ fn levels(levels: &[f64]) -> File {
 }
 
 #[test]
-fn somebody_who_stands_all_the_time_is_no_offset() {
+fn continuous_standing_is_not_an_offset() {
     let (plate, _) = read(&levels(&[600.0, 600.0]));
     assert!(plate.baseline_n.is_none() && (plate.vertical(5) - 600.0).abs() < ROUNDING);
     assert!((standing_weight_n(&[plate]).unwrap() - 600.0).abs() < ROUNDING);
@@ -263,22 +263,22 @@ fn somebody_who_stands_all_the_time_is_no_offset() {
 }
 
 #[test]
-fn a_large_offset_is_believed_with_the_witness_of_the_zero_frames_or_below_zero() {
+fn a_large_offset_is_removed_if_the_zero_frames_confirm_it_or_it_is_negative() {
     let mut file = levels(&[120.0, 820.0, 120.0]);
     assert!(read(&file).0.baseline_n.is_none());
     file.zero = [1, 50];
     let (plate, findings) = read(&file);
     assert!((plate.peak_n() - 700.0).abs() < ROUNDING, "{}", plate.peak_n());
     assert!(findings.as_slice().iter().any(|f| f.message.contains("ZERO frames")), "{findings:?}");
-    // ZERO frames in which somebody stands are no witness.
+    // ZERO frames under load confirm nothing.
     file.zero = [120, 180];
     assert!(read(&file).0.baseline_n.is_none());
-    // No foot pulls: a level below zero is an offset.
+    // A foot cannot pull: a negative level is an offset.
     let (plate, _) = read(&levels(&[-210.0, 500.0, -210.0]));
     assert!((plate.peak_n() - 710.0).abs() < ROUNDING, "{}", plate.peak_n());
 }
 
-/// A stance as half a sine, on a plate that shows `quiet` without load, cut off at `limit` [N].
+/// A stance as half a sine, on a plate with the signal `quiet` without load, clipped at `limit` [N].
 fn sine(limit: f64) -> File {
     let mut file = type_2();
     let stance = |i: usize| 800.0 * (std::f64::consts::PI * i as f64 / 140.0).sin();
@@ -289,7 +289,7 @@ fn sine(limit: f64) -> File {
 }
 
 #[test]
-fn a_clipped_channel_is_told_and_a_rounded_peak_is_not() {
+fn a_clipped_channel_is_reported_and_a_rounded_peak_is_not() {
     let (clipped, findings) = read(&sine(600.0));
     assert!(findings.has(Code::PlatesClipped));
     // asin(600/800) of half a sine of 0.7 s: from 0.589 to 0.911 s.
@@ -300,7 +300,7 @@ fn a_clipped_channel_is_told_and_a_rounded_peak_is_not() {
 }
 
 #[test]
-fn plates_stand_at_heights_of_their_own() {
+fn plates_may_have_different_heights() {
     let mut step = type_2();
     step.corners_mm.iter_mut().for_each(|c| c[2] += 150.0);
     let mut findings = Findings::default();
@@ -326,7 +326,7 @@ fn a_plate_that_cannot_be_read_is_left_out_with_the_reason_and_the_others_stay()
     let point = File { corners_mm: [[0.0; 3]; 4], ..type_2() };
     assert!(read(point).contains("shortest edge"));
     let crossed = File { corners_mm: [CORNERS_MM[0], CORNERS_MM[2], CORNERS_MM[1], CORNERS_MM[3]], ..type_2() };
-    assert!(read(crossed).contains("no rectangle"));
+    assert!(read(crossed).contains("do not form a rectangle"));
     let few = File { channels: type_2().channels[..4].to_vec(), ..type_2() };
     assert!(read(few).contains("4 channels"));
     let unmixed = File { kind: 5, channels: vec![vec![0.0; 80]; 8], ..type_2() };
@@ -334,14 +334,14 @@ fn a_plate_that_cannot_be_read_is_left_out_with_the_reason_and_the_others_stay()
 }
 
 #[test]
-fn a_plate_without_distances_of_its_sensors_gives_forces_and_says_so() {
+fn a_plate_without_sensor_distances_gives_forces_and_a_warning() {
     let (plate, findings) = read(&File::step(3, [0.0; 3], &TYPE_3));
     assert_vector(plate.force[LOADED], [30.0, 50.0, 700.0], ROUNDING);
     assert!(findings.has(Code::PlatesNoSensorDistance));
 }
 
 #[test]
-fn a_type_4_without_matrix_is_read_as_it_is_and_told() {
+fn type_4_without_a_matrix_is_assumed_calibrated_and_reported() {
     let (plate, findings) = read(&File::step(4, ORIGIN_2, &TYPE_2));
     assert_person(&plate);
     assert!(findings.has(Code::PlatesNoCalibration));
@@ -366,7 +366,7 @@ fn plates_of_four_hundred_metres_were_written_in_millimetres() {
 }
 
 #[test]
-fn volts_without_matrix_and_polynomials_that_are_not_used_are_told() {
+fn volts_without_a_matrix_and_unused_polynomials_are_reported() {
     let mut file = type_2();
     file.units[0] = "V";
     assert!(read(&file).1.has(Code::PlatesUnitUnknown));
@@ -380,10 +380,10 @@ fn volts_without_matrix_and_polynomials_that_are_not_used_are_told() {
 }
 
 #[test]
-fn turning_the_axes_turns_everything_alike() {
+fn rotating_the_axes_rotates_all_vectors() {
     let (plate, _) = read(&type_2());
     let world_from_lab = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
-    let turned = plate.turned(&world_from_lab);
+    let turned = plate.rotated(&world_from_lab);
     assert_vector(turned.force[LOADED], [50.0, 700.0, 30.0], ROUNDING);
     assert_vector(turned.center_of_pressure(LOADED), [0.2, 0.0, 0.25], 1e-6);
     assert!((turned.free_moment(LOADED) - plate.free_moment(LOADED)).abs() < 1e-9);

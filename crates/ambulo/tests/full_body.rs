@@ -1,4 +1,4 @@
-//! The full body in three dimensions: the planar figure's masses in joints that turn in space, with the conventions' signs.
+//! The full body in three dimensions: the masses of the planar figure, spatial joints, and the signs of the conventions.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop where a figure cannot be built")]
 
@@ -7,7 +7,7 @@ mod common;
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
+use ambulo::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
 use ambulo::model::{Drive, Model, Side, to_osim};
 use ambulo::spatial::Vec3;
 use common::assert_near;
@@ -40,7 +40,7 @@ fn marker(model: &Model, bodies: &[BodyMotion], name: &str) -> Vec3 {
     bodies[marker.body.unwrap().index()].pose.place(marker.location)
 }
 
-/// How far a point goes when a coordinate turns [m].
+/// Displacement of a point by a rotation of a coordinate [m].
 fn travel(model: &Model, coordinate: &str, by: f64, point: &str) -> Vec3 {
     marker(model, &moved(model, coordinate, by), point) - marker(model, &moved(model, "", 0.0), point)
 }
@@ -76,7 +76,7 @@ fn every_row_of_the_sign_table_holds() {
 }
 
 #[test]
-fn joints_that_the_sign_table_lacks_turn_the_way_their_names_say() {
+fn joints_that_are_not_in_the_sign_table_rotate_as_named() {
     let human = full_body(&build(SegmentTable::DeLevaMale)).unwrap();
     let model = &human.model;
     for (side, out) in [("r", 1.0), ("l", -1.0)] {
@@ -87,14 +87,14 @@ fn joints_that_the_sign_table_lacks_turn_the_way_their_names_say() {
         assert!(go("arm_add", "elbow").z * out < -0.01, "adduction leads to the middle");
         assert!(go("elbow_flex", "wrist").x > 0.01);
         assert!(go("mtp_angle", "toe").y > 0.004);
-        // Inversion and inward turn of the toes go together.
+        // Inversion is coupled with inward rotation of the toes.
         assert!(go("subtalar_angle", "toe").z * out < -0.004);
         let sole = |by: f64| {
             let bodies = moved(model, &format!("subtalar_angle_{side}"), by);
             bodies[model.body(&format!("calcn_{side}")).unwrap().index()].pose.rotation * -Vec3::y()
         };
         assert!(sole(STEP).z * out < -0.05, "inversion turns the sole to the middle");
-        // Inward rotation of the arm and pronation bring what is in front to the middle.
+        // Inward rotation of the arm and pronation move the front towards the middle.
         for (coordinate, body) in [("arm_rot", "humerus"), ("pro_sup", "forearm")] {
             let bodies = moved(model, &format!("{coordinate}_{side}"), STEP);
             let front = bodies[model.body(&format!("{body}_{side}")).unwrap().index()].pose.rotation * Vec3::x();
@@ -163,7 +163,7 @@ fn a_reshaped_body_keeps_its_mass_and_stands_on_its_soles() {
     let mut dimensions = human.dimensions;
     dimensions.ankle_height *= 1.2;
     dimensions.leg_length = 1.1 * (dimensions.thigh + dimensions.shank) + dimensions.ankle_height;
-    let feet = [FootPrint { ankle_height: dimensions.ankle_height, forward: 0.01, right: -0.003 }; 2];
+    let feet = [SolePlacement { ankle_height: dimensions.ankle_height, forward: 0.01, right: -0.003 }; 2];
     let markers = human.model.markers().to_vec();
     let mut shape = SubjectShape { segments: shapes, markers, feet, dimensions, locked: vec!["lumbar_bending".into()] };
     let other = reshaped(&human, &shape).unwrap();

@@ -48,7 +48,7 @@ fn one_of_each() -> Vec<(&'static str, Function, Vec<f64>)> {
     ]
 }
 
-/// Worst error of both derivatives at x against finite differences, less what the differences themselves miss.
+/// Largest error of both derivatives at x relative to finite differences, minus the error of the differences.
 fn derivative_excess(function: &Function, x: f64) -> f64 {
     const STEP: f64 = 1e-3;
     let of_function = |x: f64| vec![function.at(x)[0], function.at(x)[1]];
@@ -72,7 +72,7 @@ fn both_derivatives_of_every_kind_are_those_of_its_values() {
 }
 
 #[test]
-fn a_wrong_derivative_is_seen_by_the_differences() {
+fn a_wrong_derivative_is_detected_by_the_differences() {
     struct Wrong;
     impl Wrong {
         fn at(x: f64) -> [f64; 3] {
@@ -141,7 +141,7 @@ fn simm_splines_of_two_knots_are_lines_and_of_three_knots_parabolas() {
 }
 
 #[test]
-fn simm_splines_go_straight_on_beyond_their_ends() {
+fn simm_splines_are_straight_beyond_their_ends() {
     for seed in 0..100 {
         let knots = random::knots(&mut Random::new(seed));
         let spline = SimmSpline::new(knots.clone()).expect("two knots or more");
@@ -211,7 +211,7 @@ fn piecewise_functions_take_their_values_from_the_knots() {
 /// OpenSim's `PiecewiseLinearFunction::calcValue`: y₀ + (x - x₀) b₀ before the first knot, yₙ + (x - xₙ) bₙ after the
 /// last, b the slopes of the outer pieces.
 #[test]
-fn piecewise_lines_go_on_beyond_their_ends_as_in_opensim() {
+fn piecewise_lines_continue_beyond_their_ends_as_in_opensim() {
     let lines = Function::PiecewiseLinear(points(&[(0.0, 1.0), (2.0, 5.0), (3.0, 4.0)]));
     assert_near(lines.at(-1.0)[0], -1.0, ROUNDING, "before the first knot");
     assert_near(lines.at(-1.0)[1], 2.0, ROUNDING, "slope before the first knot");
@@ -234,7 +234,7 @@ fn a_scaled_function_is_the_function_times_the_factor() {
 }
 
 #[test]
-fn knots_that_do_not_rise_or_match_are_refused() {
+fn knots_that_do_not_increase_or_match_are_rejected() {
     let refused = [
         (vec![], vec![]),
         (vec![0.0, 0.0], vec![1.0, 2.0]),

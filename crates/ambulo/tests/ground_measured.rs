@@ -1,4 +1,4 @@
-//! Measured ground forces against closed forms: what a plate says about a known push, and nothing else.
+//! Measured ground forces against closed forms: known forces on a plate are recovered exactly.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -23,12 +23,12 @@ fn grid() -> TimeGrid {
     TimeGrid { start_s: 0.0, step_s: 0.01, frames: FRAMES }
 }
 
-/// Two feet, each free in the world.
+/// Two feet that move independently.
 fn feet(gravity: Vec3) -> Model {
     free_bodies(gravity, &[("calcn_r", 35.0), ("calcn_l", 35.0)])
 }
 
-/// The feet held at these coordinates.
+/// The feet at rest at these coordinates.
 fn held(model: &Model, values: [f64; 12]) -> Trajectory {
     let columns = values.map(|q| [vec![q; FRAMES], vec![0.0; FRAMES], vec![0.0; FRAMES]]).to_vec();
     Trajectory::new(model, grid(), columns).unwrap()
@@ -38,7 +38,7 @@ fn right(model: &Model) -> BodyId {
     model.body("calcn_r").unwrap()
 }
 
-/// A plate on the frames' own instants.
+/// A plate sampled at the frames.
 fn plate(body: BodyId, at: impl Fn(f64) -> (Vec3, Vec3, Vec3)) -> ForceRecording {
     let times = grid().times();
     let (mut force, mut point, mut moment) = (Vec::new(), Vec::new(), Vec::new());
@@ -63,7 +63,7 @@ fn assert_near(found: Vec3, expected: Vec3, tolerance: f64, what: &str) {
     assert!((found - expected).norm() <= tolerance, "{what}: {found:?} instead of {expected:?}");
 }
 
-/// A push that swells and wanders on a surface at this height.
+/// A force that grows and moves on a surface at this height.
 fn wandering(height: f64) -> impl Fn(f64) -> (Vec3, Vec3, Vec3) {
     move |t| {
         let force = Vec3::new(80.0 * (9.0 * t).cos(), 500.0 + 300.0 * (7.0 * t).sin(), -40.0 + 50.0 * t);
@@ -73,7 +73,7 @@ fn wandering(height: f64) -> impl Fn(f64) -> (Vec3, Vec3, Vec3) {
 }
 
 #[test]
-fn a_known_push_on_a_raised_plate_gives_back_its_point_and_free_moment() {
+fn a_known_force_on_a_raised_plate_gives_its_point_and_free_moment() {
     let model = feet(DOWN_Y);
     let trajectory = held(&model, [0.0; 12]);
     for height in [-0.0075, 0.0, 0.12, 0.8] {
@@ -90,8 +90,8 @@ fn a_known_push_on_a_raised_plate_gives_back_its_point_and_free_moment() {
 }
 
 #[test]
-fn the_height_of_the_surface_matters_by_the_slope_of_the_force() {
-    // One push, its point slid down the line of force to the floor: the wrench is the same, the centre is not.
+fn the_height_of_the_surface_shifts_the_center_of_pressure_by_the_slope_of_the_force() {
+    // The point of application moved along the line of action to the floor: the wrench is the same, the centre is not.
     let model = feet(DOWN_Y);
     let trajectory = held(&model, [0.0; 12]);
     let height = 0.12;
@@ -109,7 +109,7 @@ fn the_height_of_the_surface_matters_by_the_slope_of_the_force() {
         assert_near(raised.center_of_pressure[i] - floor.center_of_pressure[i], expected, ROUNDING, "shift");
         largest = largest.max(expected.x.abs());
     }
-    assert!(largest > 0.01, "the case is too tame to tell heights apart: {largest} m");
+    assert!(largest > 0.01, "the heights make no clear difference: {largest} m");
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn two_plates_under_one_foot_add_up_and_the_center_is_weighted_by_load() {
         assert_near(foot.force[i], Vec3::new(40.0, 700.0, -3.0), ROUNDING, "sum of the forces");
         let center = heel * (1.0 - share(t)) + toe * share(t);
         assert_near(foot.center_of_pressure[i], center, ROUNDING, "weighted centre");
-        // What the horizontal forces turn about the common centre, and the front plate's own free moment.
+        // The moment of the horizontal forces about the common centre, and the free moment of the front plate.
         let couple =
             (heel - center).cross(&Vec3::new(-20.0, 0.0, 5.0)) + (toe - center).cross(&Vec3::new(60.0, 0.0, -8.0));
         assert_near(foot.free_moment[i], Vec3::new(0.0, 3.0 + couple.y, 0.0), ROUNDING, "free moment");
@@ -153,7 +153,7 @@ fn a_foot_below_twenty_newtons_has_no_center_of_pressure() {
 }
 
 #[test]
-fn a_force_in_the_axes_of_a_body_is_turned_with_it() {
+fn a_force_in_the_axes_of_a_body_rotates_with_it() {
     let model = feet(DOWN_Y);
     // The foot stands on its heel: its x points up (a quarter turn about z).
     let mut pose = [0.0; 12];
@@ -169,14 +169,14 @@ fn a_force_in_the_axes_of_a_body_is_turned_with_it() {
     assert_near(foot.moment[3], point.cross(&turned) + moment, ROUNDING, "moment");
     assert_near(foot.center_of_pressure[3], point, ROUNDING, "centre of pressure");
     assert_near(foot.free_moment[3], moment, ROUNDING, "free moment");
-    // Read as if it stood in the world, the push is another one altogether.
+    // Read in the axes of the world, the force is different.
     push.force_frame = None;
     let unturned = on_foot(&model, &trajectory, &[push], None);
     assert!((unturned.force[3] - turned).norm() > 900.0);
 }
 
 #[test]
-fn a_point_in_the_frame_of_a_moving_body_goes_with_it() {
+fn a_point_in_the_frame_of_a_moving_body_moves_with_it() {
     let model = feet(DOWN_Y);
     // The right foot slides along x at 1 m/s and turns about y.
     let mut columns = vec![[vec![0.0; FRAMES], vec![0.0; FRAMES], vec![0.0; FRAMES]]; 12];
@@ -197,7 +197,7 @@ fn a_point_in_the_frame_of_a_moving_body_goes_with_it() {
 }
 
 #[test]
-fn without_a_filter_the_numbers_are_untouched() {
+fn without_a_filter_the_forces_are_unchanged() {
     let model = feet(DOWN_Y);
     let trajectory = held(&model, [0.0; 12]);
     let noisy = |t: f64| {
@@ -218,7 +218,7 @@ fn without_a_filter_the_numbers_are_untouched() {
 }
 
 #[test]
-fn the_filter_works_on_the_moment_about_the_origin_and_not_on_the_center_of_pressure() {
+fn the_moment_about_the_origin_is_filtered_not_the_center_of_pressure() {
     // A step from heel to toe while the load jumps: a smoothed point times a smoothed force is another moment.
     let model = feet(DOWN_Y);
     let trajectory = held(&model, [0.0; 12]);
@@ -244,7 +244,7 @@ fn the_filter_works_on_the_moment_about_the_origin_and_not_on_the_center_of_pres
 }
 
 #[test]
-fn where_gravity_points_along_minus_z_the_plate_lies_in_x_and_y() {
+fn with_gravity_along_minus_z_the_plate_lies_in_x_and_y() {
     let model = feet(Vec3::new(0.0, 0.0, -9.81));
     let trajectory = held(&model, [0.0; 12]);
     let push = |t: f64| {
@@ -256,14 +256,14 @@ fn where_gravity_points_along_minus_z_the_plate_lies_in_x_and_y() {
         assert_near(foot.center_of_pressure[i], push(t).1, ROUNDING, "centre of pressure");
         assert_near(foot.free_moment[i], push(t).2, ROUNDING, "free moment");
     }
-    // With gravity along -y the same push is no standing foot: its load along y is negative.
+    // With gravity along -y the same force is not a stance: its load along y is negative.
     let model = feet(DOWN_Y);
     let foot = on_foot(&model, &held(&model, [0.0; 12]), &[plate(right(&model), push)], None);
     assert!(foot.center_of_pressure[0].x.is_nan());
 }
 
 #[test]
-fn a_plate_that_names_no_point_is_unloaded_below_twenty_newtons_and_an_error_above() {
+fn a_missing_point_is_no_load_below_twenty_newtons_and_an_error_above() {
     let model = feet(DOWN_Y);
     let trajectory = held(&model, [0.0; 12]);
     let nowhere = Vec3::repeat(f64::NAN);

@@ -1,10 +1,10 @@
-//! Forces without plates, against those that a simulator applied to the same motion.
+//! Predicted forces against those that the simulator applied to the same motion.
 //!
 //! | claim                                                     | tolerance and its reason                                    |
 //! |-----------------------------------------------------------|-------------------------------------------------------------|
 //! | the total force is the sum of the feet's                  | 2 N: what the simulated walk's root lacks (synthetic_walk.rs) |
-//! | the feet's forces add to the total while somebody stands  | rounding                                                    |
-//! | with everything known the forces are the simulator's      | 25 N: the total's 2 N, and 20 N below which no foot is loaded |
+//! | the forces of the feet add to the total in stance         | rounding                                                    |
+//! | with everything prescribed the forces are the simulator's | 25 N: the total's 2 N, and 20 N below which no foot is loaded |
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -13,8 +13,8 @@ use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
-use ambulo::ground::phases::contacts;
-use ambulo::ground::predict::{Known, PredictError, PredictSettings, Prediction, predict, total_wrench};
+use ambulo::ground::phases::contacts_from_force;
+use ambulo::ground::predict::{PredictError, PredictSettings, Prediction, Prescribed, predict, total_wrench};
 use ambulo::ground::{GroundForces, feet, measured};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::{BySide, Model, Side};
@@ -28,7 +28,7 @@ fn walk() -> SyntheticWalk {
     synthesise(&order, &mut Findings::default()).unwrap()
 }
 
-/// What the simulator applied, one entry a foot.
+/// Ground forces that the simulator applied, one entry per foot.
 fn applied(walk: &SyntheticWalk) -> GroundForces {
     let mut findings = Findings::default();
     let ground = measured(&walk.human.model, &walk.trajectory, &walk.loads, None, &mut findings).unwrap();
@@ -36,19 +36,19 @@ fn applied(walk: &SyntheticWalk) -> GroundForces {
     GroundForces { bodies }
 }
 
-fn predicted(walk: &SyntheticWalk, known: Known) -> Prediction {
+fn predicted(walk: &SyntheticWalk, prescribed: Prescribed) -> Prediction {
     let soles = Person::of_human(&walk.human).soles;
-    let settings = PredictSettings { known, ..PredictSettings::default() };
+    let settings = PredictSettings { prescribed, ..PredictSettings::default() };
     predict(&walk.human.model, &walk.trajectory, &soles, &settings, &mut Findings::default()).unwrap()
 }
 
-/// Stances by the simulator's own forces.
+/// Stances from the forces of the simulator.
 fn true_footfalls(walk: &SyntheticWalk, applied: &GroundForces) -> Footfalls {
     let times = walk.trajectory.grid().times();
     let mut falls = Vec::new();
     for (side, foot) in Side::BOTH.into_iter().zip(&applied.bodies) {
         let vertical: Vec<f64> = foot.force.iter().map(|f| f.y).collect();
-        falls.extend(contacts(&times, &vertical).into_iter().map(|contact| Footfall {
+        falls.extend(contacts_from_force(&times, &vertical).into_iter().map(|contact| Footfall {
             side,
             strike_s: contact.strike_s,
             off_s: contact.off_s,
@@ -81,16 +81,19 @@ fn the_total_force_is_what_the_simulator_applied() {
 #[test]
 fn both_feet_together_give_the_total() {
     let walk = walk();
-    let prediction = predicted(&walk, Known::default());
+    let prediction = predicted(&walk, Prescribed::default());
     let [right, left] = &prediction.ground.bodies[..] else { panic!("two feet") };
     let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
     let missing: Vec<Vec3> =
         (0..right.force.len()).map(|i| right.force[i] + left.force[i] - prediction.total[i].force).collect();
-    // Behind a low-pass: what is sharper than markers show comes from what is expected of a foot.
+    // After a low-pass filter: sharper features come from the prior.
     let window = 25;
     let means = missing.windows(window).map(|w| w.iter().sum::<Vec3>() / window as f64);
     let worst = means.map(|mean| mean.norm() / weight).fold(0.0, f64::max);
-    println!("over a quarter of a second the feet miss {:.2} % of the weight at most", 100.0 * worst);
+    println!(
+        "averaged over a quarter of a second the feet deviate from the total by {:.2} % of the weight at most",
+        100.0 * worst
+    );
     assert!(worst < 0.05, "{worst} of the weight");
     assert!(prediction.footfalls.events().len() >= 8, "{:?}", prediction.footfalls.events());
     let mut swings = 0;
@@ -106,31 +109,31 @@ fn both_feet_together_give_the_total() {
 }
 
 #[test]
-fn with_everything_known_the_forces_are_those_that_were_applied() {
+fn with_everything_prescribed_the_forces_are_those_that_were_applied() {
     let walk = walk();
     let applied = applied(&walk);
     let [right, left] = &applied.bodies[..] else { panic!("two feet") };
     let share = right.force.iter().zip(&left.force).map(|(r, l)| r.y / (r.y + l.y)).collect();
-    let known = Known {
+    let prescribed = Prescribed {
         footfalls: Some(true_footfalls(&walk, &applied)),
         total: Some(total_wrench(&walk.human.model, &walk.trajectory)),
         right_share: Some(share),
         centers: Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() }),
     };
-    let vertical = |known: Known| {
-        let prediction = predicted(&walk, known);
+    let vertical = |prescribed: Prescribed| {
+        let prediction = predicted(&walk, prescribed);
         let feet = prediction.ground.bodies.iter().zip(&applied.bodies);
         feet.flat_map(|(found, truth)| found.force.iter().zip(&truth.force).map(|(a, b)| (a.y - b.y).abs()))
             .fold(0.0, f64::max)
     };
-    let (informed, alone) = (vertical(known), vertical(Known::default()));
-    println!("vertical forces differ by {informed:.1} N with everything known, by {alone:.1} N without");
+    let (informed, alone) = (vertical(prescribed), vertical(Prescribed::default()));
+    println!("vertical forces differ by {informed:.1} N with everything prescribed, by {alone:.1} N without");
     assert!(informed < 25.0, "{informed} N");
     assert!(alone > 2.0 * informed, "{alone} N without, {informed} N with");
 }
 
 #[test]
-fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
+fn a_model_without_feet_and_prescribed_series_of_another_length_are_rejected() {
     let walk = walk();
     let soles = Person::of_human(&walk.human).soles;
     let model = &walk.human.model;
@@ -140,23 +143,23 @@ fn a_model_without_feet_and_known_numbers_of_another_length_are_refused() {
     let error = refused(model, &BySide { left: None, ..soles }, &PredictSettings::default());
     assert_eq!(error, PredictError::NoSole { model: model.name().to_owned(), side: Side::Left });
     assert!(error.to_string().contains("left sole") && error.to_string().contains("expected"), "{error}");
-    let known = Known { right_share: Some(vec![0.5; 3]), ..Known::default() };
-    let error = refused(model, &soles, &PredictSettings { known, ..PredictSettings::default() });
+    let prescribed = Prescribed { right_share: Some(vec![0.5; 3]), ..Prescribed::default() };
+    let error = refused(model, &soles, &PredictSettings { prescribed, ..PredictSettings::default() });
     assert!(error.to_string().contains("3 frames"), "{error}");
     let mut bodies = model.bodies().to_vec();
     for body in &mut bodies {
         body.name = body.name.replace("calcn", "hoof").replace("talus", "pastern");
     }
     let horse = Model::new("horse", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new()).unwrap();
-    assert_eq!(horse.anatomy().feet(), model.anatomy().feet(), "other names are feet all the same");
+    assert_eq!(horse.anatomy().feet(), model.anatomy().feet(), "feet are recognised under any name");
     let error = refused(&horse, &BySide::default(), &PredictSettings::default());
-    assert!(error.to_string().contains("horse") && error.to_string().contains("expected feet"), "{error}");
+    assert!(error.to_string().contains("horse") && error.to_string().contains("expected both legs"), "{error}");
 }
 
 #[test]
-fn forces_forward_and_up_follow_those_of_the_simulator() {
+fn fore_aft_and_vertical_forces_follow_those_of_the_simulator() {
     let walk = walk();
-    let (prediction, applied) = (predicted(&walk, Known::default()), applied(&walk));
+    let (prediction, applied) = (predicted(&walk, Prescribed::default()), applied(&walk));
     let weight = walk.human.model.mass() * walk.human.model.gravity().norm();
     for (found, truth) in prediction.ground.bodies.iter().zip(&applied.bodies) {
         for (axis, most) in [(0, 0.05), (1, 0.15)] {
@@ -171,19 +174,19 @@ fn forces_forward_and_up_follow_those_of_the_simulator() {
                 100.0 * apart,
                 100.0 * size
             );
-            // A wrong sign would be off by twice the size.
+            // A wrong sign would be an error of twice the size.
             assert!(apart < most && apart < 0.5 * size, "axis {axis}: {apart} of {size}");
         }
     }
 }
 
 #[test]
-fn twice_the_mass_takes_twice_the_force() {
+fn twice_the_mass_needs_twice_the_force() {
     let walk = walk();
     let soles = Person::of_human(&walk.human).soles;
     let model = &walk.human.model;
     let heavier = model.scaled(&vec![Vec3::repeat(1.0); model.bodies().len()], Some(2.0 * model.mass())).unwrap();
-    let one = predicted(&walk, Known::default());
+    let one = predicted(&walk, Prescribed::default());
     let two =
         predict(&heavier, &walk.trajectory, &soles, &PredictSettings::default(), &mut Findings::default()).unwrap();
     for (a, b) in one.ground.bodies.iter().zip(&two.ground.bodies) {
@@ -194,17 +197,17 @@ fn twice_the_mass_takes_twice_the_force() {
 }
 
 #[test]
-fn a_known_stance_before_the_recording_changes_nothing_and_one_that_runs_backwards_is_refused() {
+fn a_prescribed_stance_before_the_recording_changes_nothing_and_a_reversed_one_is_rejected() {
     let walk = walk();
     let footfalls = true_footfalls(&walk, &applied(&walk));
     let fall = |strike_s, off_s| Footfall { strike_s: Some(strike_s), off_s: Some(off_s), ..footfalls.falls[0] };
     let with = |fall: Footfall| {
         let mut more = footfalls.clone();
         more.falls.insert(0, fall);
-        Known { footfalls: Some(more), ..Known::default() }
+        Prescribed { footfalls: Some(more), ..Prescribed::default() }
     };
-    let plain = predicted(&walk, Known { footfalls: Some(footfalls.clone()), ..Known::default() });
-    // As long as the others, so that what is usual stays what it was.
+    let plain = predicted(&walk, Prescribed { footfalls: Some(footfalls.clone()), ..Prescribed::default() });
+    // As long as the others, so that the usual duration does not change.
     let mut usual: Vec<f64> = footfalls.falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?)).collect();
     usual.sort_by(f64::total_cmp);
     let earlier = predicted(&walk, with(fall(-60.0, -60.0 + usual[usual.len() / 2])));
@@ -213,13 +216,13 @@ fn a_known_stance_before_the_recording_changes_nothing_and_one_that_runs_backwar
         assert!(worst < 0.1, "{worst} N");
     }
     let soles = Person::of_human(&walk.human).soles;
-    let settings = PredictSettings { known: with(fall(-59.4, -60.0)), ..PredictSettings::default() };
+    let settings = PredictSettings { prescribed: with(fall(-59.4, -60.0)), ..PredictSettings::default() };
     let error = predict(&walk.human.model, &walk.trajectory, &soles, &settings, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, PredictError::Footfalls { .. }), "{error}");
 }
 
 #[test]
-fn gravity_that_holds_nobody_is_refused() {
+fn too_little_gravity_is_rejected() {
     let walk = walk();
     let model = &walk.human.model;
     let bodies = model.bodies().to_vec();

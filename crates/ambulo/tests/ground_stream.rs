@@ -1,14 +1,14 @@
-//! Forces frame by frame against those of the whole recording, the simulator and plates.
+//! Streamed forces compared with those of the whole recording, the simulator and force plates.
 //!
 //! | claim | limit and its reason |
 //! |---|---|
 //! | recordings, after the first 0.8 s: stream - whole recording | 3, 8, 3 % of body weight forward, up, right: half as much again as the worst of nine |
-//! | stream - plates | vertical no more than 4 % of body weight above what the whole recording has |
-//! | without a delay | more than half as far again from the whole recording: nothing is known of what follows |
-//! | the same frames in two goes | the same bits |
+//! | stream - plates | vertical error at most 4 % of body weight above that of the whole recording |
+//! | without a delay | error at least half as large again: the following motion is not known |
+//! | the same frames with a pause | the same bits |
 //! | ten times the frames | not a byte more |
 //!
-//! The recordings are not part of the repository; without them that test says `skipped` and passes.
+//! The recordings are not part of the repository; without them that test prints `skipped` and passes.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -32,11 +32,11 @@ use ambulo::spatial::Vec3;
 use footfall_trials::{Recorded, everything};
 use std::sync::OnceLock;
 
-/// What is known of the first steps is not yet that of a walk [s].
+/// The first steps are left out [s].
 const SETTLED_S: f64 = 0.8;
 /// A foot is loaded above this [N].
 const LOADED_N: f64 = 20.0;
-/// Low-pass of plates, as predictions are compared with.
+/// Low-pass filter of force plates for the comparison.
 const OF_PLATES: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
 
 fn walk() -> &'static SyntheticWalk {
@@ -75,13 +75,13 @@ fn whole(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -
     predict(model, trajectory, soles, &PredictSettings::default(), &mut Findings::default()).unwrap()
 }
 
-/// Root of the mean square along x, y, z.
+/// Root mean square along x, y, z.
 fn rms(differences: &[Vec3]) -> Vec3 {
     let sum: Vec3 = differences.iter().map(|d| d.component_mul(d)).sum();
     (sum / differences.len() as f64).map(f64::sqrt)
 }
 
-/// Streamed forces less others', from a time on, where either loads the foot.
+/// Streamed forces minus other forces, from a time on, where either loads the foot.
 fn apart(streamed: &[StreamFrame], others: &[BodyForces], from_s: f64) -> Vec<Vec3> {
     let mut out = Vec::new();
     for given in streamed.iter().filter(|given| given.time_s >= from_s) {
@@ -95,7 +95,7 @@ fn apart(streamed: &[StreamFrame], others: &[BodyForces], from_s: f64) -> Vec<Ve
 }
 
 #[test]
-fn a_synthetic_walk_is_streamed_like_the_whole_of_it() {
+fn a_synthetic_walk_is_streamed_as_it_is_predicted_whole() {
     let walk = walk();
     let (model, frames) = (&walk.human.model, frames_of(&walk.trajectory));
     let soles = Person::of_human(&walk.human).soles;
@@ -115,7 +115,7 @@ fn a_synthetic_walk_is_streamed_like_the_whole_of_it() {
     assert!(late.x < 3.0 && late.y < 8.0 && late.z < 3.0, "{late}");
     assert!(of_stream.y < of_batch.y + 4.0, "{of_stream} {of_batch}");
     assert!(at_once.y > 1.5 * late.y, "{at_once} {late}");
-    // The other foot's forces are not these.
+    // The forces of the other foot are different.
     let swapped = [batch.ground.bodies[1].clone(), batch.ground.bodies[0].clone()];
     assert!(rms(&apart(&streamed, &swapped, SETTLED_S)).y > 0.3 * weight);
 }
@@ -132,7 +132,7 @@ fn as_frames(batch: &Prediction, streamed: &[StreamFrame]) -> Vec<StreamFrame> {
 }
 
 #[test]
-fn every_frame_is_given_once_with_loads_that_joints_balance() {
+fn every_frame_is_returned_once_with_loads_that_the_joints_balance() {
     let walk = walk();
     let frames = frames_of(&walk.trajectory);
     let mut stream = stream_of(walk, &unsmoothed());
@@ -157,7 +157,7 @@ fn every_frame_is_given_once_with_loads_that_joints_balance() {
         count += 1;
     }
     assert!(count > frames.len(), "{count} loads in {} frames", frames.len());
-    // Under right loads little is left for the joint that carries the pelvis.
+    // With correct loads the residual force at the pelvis is small.
     let model = &walk.human.model;
     let root: Vec<usize> = model.bodies()[0].joint.coordinates().iter().map(|id| id.index()).collect();
     let left = |f: &StreamFrame| root.iter().map(|&c| f.generalized[c].abs()).fold(0.0, f64::max);
@@ -175,7 +175,7 @@ fn a_stream_that_pauses_gives_the_same_bits() {
     let mut first = stream_of(walk, &settings);
     let mut given: Vec<StreamFrame> = frames[..90].iter().filter_map(|q| first.push(q).unwrap()).collect();
     let resumed = first.clone();
-    // What happens to the other one meanwhile is nobody's business.
+    // Two streams do not influence each other.
     drop(pushed(first, &frames[..20]));
     given.extend(pushed(resumed, &frames[90..140]));
     assert_eq!(given, at_once);
@@ -202,7 +202,7 @@ fn settings_frames(settings: &StreamSettings) -> usize {
 }
 
 #[test]
-fn a_short_gap_is_bridged_and_a_long_one_begins_anew() {
+fn a_short_gap_is_interpolated_and_a_long_one_restarts_the_stream() {
     let walk = walk();
     let frames = frames_of(&walk.trajectory);
     let settings = StreamSettings { window_s: 1.2, ..unsmoothed() };
@@ -213,7 +213,7 @@ fn a_short_gap_is_bridged_and_a_long_one_begins_anew() {
         pushed(stream_of(walk, &settings), &frames)
     };
     let numbers = |given: &[StreamFrame]| given.iter().map(|f| f.frame).collect::<Vec<usize>>();
-    // While the newest frame is incomplete nothing is given: frames 93 to 102 were due then.
+    // No frame is returned while the newest one is incomplete: frames 93 to 102 were due then.
     let short = with_gap(100..110);
     assert_eq!(numbers(&short), (0..93).chain(103..170).collect::<Vec<_>>());
     let late = |given: &[StreamFrame]| given.iter().filter(|f| f.frame >= 120).cloned().collect::<Vec<_>>();
@@ -225,12 +225,12 @@ fn a_short_gap_is_bridged_and_a_long_one_begins_anew() {
     }
     let long = with_gap(60..100);
     assert_eq!(numbers(&long), (0..53).chain(100..170).collect::<Vec<_>>());
-    // Nothing that was never seen is given.
+    // No frame is returned that was never recorded.
     assert!(with_gap(0..170).is_empty());
 }
 
 #[test]
-fn what_cannot_be_streamed_is_refused_with_a_reason() {
+fn settings_and_frames_out_of_range_are_rejected_with_a_reason() {
     let walk = walk();
     let (model, soles) = (&walk.human.model, Person::of_human(&walk.human).soles);
     let refused = |settings: StreamSettings| Stream::new(model.clone(), soles, &settings).unwrap_err().to_string();
@@ -256,7 +256,7 @@ fn what_cannot_be_streamed_is_refused_with_a_reason() {
     assert!(matches!(error, StreamError::Prediction(PredictError::NoSole { side: Side::Left, .. })), "{error}");
 }
 
-/// What one recording says.
+/// Errors of one recording.
 struct Row {
     name: &'static str,
     /// Stream - whole recording; stream - plates; whole recording - plates: forward, up, right [% of body weight].
@@ -265,7 +265,7 @@ struct Row {
     centers: [Vec3; 3],
 }
 
-/// Frames of whole stances that plates saw.
+/// Frames of whole stances on plates.
 fn seen(trial: &Recorded, side: Side, time: f64) -> bool {
     let events: Vec<_> = trial.plates.iter().filter(|event| event.side == side).collect();
     let strikes = events.iter().filter(|e| e.kind == EventKind::Strike && e.time_s <= time);

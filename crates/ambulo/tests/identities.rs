@@ -8,7 +8,7 @@ mod common;
 
 use ambulo::dynamics::{self, BodyLoad, Forces, Workspace};
 use ambulo::kinematics::{BodyMotion, body_motion};
-use ambulo::model::{Body, BodyId, Joint, JointAxis, Measure, Model};
+use ambulo::model::{Body, BodyId, Joint, JointAxis, JointSpeeds, Model};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3, Wrench};
 use common::assembly::{Assembly, Axes, Frames, inertia};
 use common::random::{self, Case, Random, Recipe, Waves};
@@ -327,8 +327,8 @@ fn mirrored_joint(joint: &Joint) -> Joint {
         rotations: joint.rotations.iter().map(|a| image(a, -1.0)).collect(),
         translations: joint.translations.iter().map(|a| image(a, 1.0)).collect(),
         // p = radii * z_M, and the image of z_M is -(M z_M): the image of p asks for negative half axes.
-        measure: match joint.measure {
-            Measure::Ellipsoid(radii) => Measure::Ellipsoid(-radii),
+        speeds: match joint.speeds {
+            JointSpeeds::Ellipsoid(radii) => JointSpeeds::Ellipsoid(-radii),
             same => same,
         },
         ..joint.clone()
@@ -350,7 +350,7 @@ fn mirrored_load(load: &BodyLoad) -> BodyLoad {
 /// Signs of the generalised forces in the mirror: moments about axes of F are pseudo-vectors, all others stay.
 fn signs_in_the_mirror(model: &Model) -> Vec<f64> {
     let mut signs = vec![1.0; model.coordinates().len()];
-    for joint in model.bodies().iter().map(|b| &b.joint).filter(|j| j.measure != Measure::Rates) {
+    for joint in model.bodies().iter().map(|b| &b.joint).filter(|j| j.speeds != JointSpeeds::Rates) {
         let ids = joint.coordinates();
         signs[ids[0].index()] = -1.0;
         signs[ids[1].index()] = -1.0;
@@ -447,7 +447,7 @@ fn an_added_point_mass_is_a_small_body_welded_on() {
             child_from_joint: Pose::IDENTITY,
             rotations: Vec::new(),
             translations: Vec::new(),
-            measure: Measure::Rates,
+            speeds: JointSpeeds::Rates,
         };
         bodies.push(Body { name: "bag".into(), inertia: inertia(2.5, [0.0; 3], [0.0; 3]), joint });
         let welded = Model::new("welded", model.gravity(), bodies, model.coordinates().to_vec(), Vec::new())

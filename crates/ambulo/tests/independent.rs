@@ -13,7 +13,7 @@
 mod common;
 
 use ambulo::dynamics::{self, BodyLoad, Workspace};
-use ambulo::model::{BodyId, Displacement, Joint, Measure, Model};
+use ambulo::model::{BodyId, Displacement, Joint, JointSpeeds, Model};
 use ambulo::spatial::{Mat3, Vec3};
 use common::random::{self, Case, Curves, KINDS, Kind, Random, Recipe};
 use common::{State, distance, largest, load_series, trajectory, turn};
@@ -98,7 +98,7 @@ impl Tree {
             last = self.push(sliding(last, axis.direction, travel));
             self.share(last, follows);
         }
-        if let Measure::Ellipsoid(radii) = joint.measure {
+        if let JointSpeeds::Ellipsoid(radii) = joint.speeds {
             last = self.push_ellipsoid(last, radii, ball_coordinates(joint), state);
         }
         let (mut e, mut f_from_axis) = (Mat3::zeros(), Mat3::identity());
@@ -109,7 +109,7 @@ impl Tree {
             last = self.push(turning(last, axis.direction, travel));
             self.share(last, follows);
         }
-        if joint.measure != Measure::Rates {
+        if joint.speeds != JointSpeeds::Rates {
             self.balls.push((ball_coordinates(joint), e));
         }
         last

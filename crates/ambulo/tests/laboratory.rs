@@ -1,4 +1,4 @@
-//! Axes and units of a laboratory from a stick person whose way is known.
+//! Axes and units of a laboratory from a stick figure whose path is known.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -14,7 +14,7 @@ use plate_files::File;
 /// A handful of roundings of numbers near one.
 const ROUNDING: f64 = 1e-12;
 
-/// Places in world axes (x forward, y up, z right) on a body that stands at the origin [m].
+/// Marker positions in world axes (x forward, y up, z right) on a body at the origin [m].
 const BODY: [(&str, [f64; 3]); 9] = [
     ("RASI", [0.10, 1.0, 0.12]),
     ("LASI", [0.10, 1.0, -0.12]),
@@ -27,7 +27,7 @@ const BODY: [(&str, [f64; 3]); 9] = [
     ("LFHD", [0.06, 1.7, -0.07]),
 ];
 
-/// The body for two seconds; `way` is its place at each of 101 instants [m].
+/// The body for two seconds; `way` is its position in each of 101 frames [m].
 fn walk(way: impl Fn(f64) -> Vec3) -> MarkerRecording {
     let times: Vec<f64> = (0..101).map(|i| f64::from(i) / 50.0).collect();
     let path = |(name, place): &(&str, [f64; 3])| MarkerPath {
@@ -46,7 +46,7 @@ fn found(markers: &MarkerRecording) -> (Laboratory, Findings) {
     (laboratory(markers, &[], "mm", &mut findings), findings)
 }
 
-/// Rotations whose columns are the world's axes in the laboratory, as laboratories lie.
+/// Rotations whose columns are the axes of the world in the laboratory, for usual laboratories.
 fn laboratories() -> Vec<(Mat3, &'static str)> {
     let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
     let lab_from_world = |forward: Vec3, up: Vec3| Mat3::from_columns(&[forward, up, forward.cross(&up)]);
@@ -63,9 +63,9 @@ fn laboratories() -> Vec<(Mat3, &'static str)> {
 }
 
 #[test]
-fn every_way_to_lay_a_laboratory_is_found_and_told_in_one_line() {
+fn every_orientation_of_a_laboratory_is_found_and_stated_in_one_line() {
     for (lab_from_world, expected) in laboratories() {
-        let (found, findings) = found(&straight().turned(&lab_from_world));
+        let (found, findings) = found(&straight().rotated(&lab_from_world));
         assert_eq!(found.statement, format!("{expected} -> world x forward, y up, z right, m"));
         assert!((found.world_from_lab * lab_from_world - Mat3::identity()).norm() < ROUNDING, "{expected}");
         assert!((found.world_from_lab.determinant() - 1.0).abs() < ROUNDING, "{expected}");
@@ -75,9 +75,9 @@ fn every_way_to_lay_a_laboratory_is_found_and_told_in_one_line() {
 }
 
 #[test]
-fn who_stays_in_place_is_turned_to_where_they_look() {
+fn forward_is_the_facing_direction_of_a_body_that_stays_in_place() {
     for (lab_from_world, expected) in laboratories() {
-        let (found, _) = found(&walk(|_| Vec3::zeros()).turned(&lab_from_world));
+        let (found, _) = found(&walk(|_| Vec3::zeros()).rotated(&lab_from_world));
         assert!(found.statement.starts_with(&expected.replace("walking", "facing")), "{}", found.statement);
         assert!((found.world_from_lab * lab_from_world - Mat3::identity()).norm() < ROUNDING, "{expected}");
         assert_eq!(found.heading, Heading::Facing);
@@ -90,18 +90,18 @@ fn turn_about_up(deg: f64) -> Mat3 {
 }
 
 #[test]
-fn a_way_near_an_axis_is_that_axis_and_another_is_the_measured_one() {
-    let (near, _) = found(&straight().turned(&turn_about_up(6.0)));
+fn a_heading_near_an_axis_is_rounded_to_it_and_another_is_kept() {
+    let (near, _) = found(&straight().rotated(&turn_about_up(6.0)));
     assert!((near.world_from_lab - Mat3::identity()).norm() < ROUNDING, "{}", near.world_from_lab);
     assert_eq!(near.turn_deg, None);
     assert!(near.statement.contains("walking +x ->"), "{}", near.statement);
-    let (apart, _) = found(&straight().turned(&turn_about_up(30.0)));
+    let (apart, _) = found(&straight().rotated(&turn_about_up(30.0)));
     assert!((apart.world_from_lab * turn_about_up(30.0) - Mat3::identity()).norm() < 1e-9);
     assert!(apart.statement.contains("walking 30 degrees from +x towards -z"), "{}", apart.statement);
 }
 
 #[test]
-fn a_turn_on_the_way_is_told() {
+fn a_turning_walk_is_reported() {
     // A quarter of a circle of 1.5 m.
     let circle = |t: f64| {
         let angle = t / 2.0 * std::f64::consts::FRAC_PI_2;
@@ -115,7 +115,7 @@ fn a_turn_on_the_way_is_told() {
 }
 
 #[test]
-fn who_walks_backwards_looks_forward_and_who_goes_sideways_is_told() {
+fn forward_is_the_facing_direction_in_backward_walking_and_sideways_walking_is_reported() {
     let (backwards, findings) = found(&walk(|t| Vec3::new(-1.2 * t, 0.0, 0.0)));
     assert!((backwards.world_from_lab - Mat3::identity()).norm() < ROUNDING);
     assert!(findings.has(Code::LaboratoryBackwards));
@@ -126,21 +126,21 @@ fn who_walks_backwards_looks_forward_and_who_goes_sideways_is_told() {
 
 #[test]
 fn a_body_of_a_thousand_metres_was_written_in_millimetres() {
-    let big = straight().turned(&(Mat3::identity() * 1000.0));
+    let big = straight().rotated(&(Mat3::identity() * 1000.0));
     let (found_big, findings) = found(&big);
     assert!((found_big.metres_per_stated_metre - 0.001).abs() < ROUNDING && findings.has(Code::LaboratoryUnitChanged));
     assert!(found_big.statement.contains("mm x 0.001"), "{}", found_big.statement);
     let back = found_big.markers(&big);
     assert!((back.marker("RASI").unwrap().positions[0] - Vec3::from(BODY[0].1)).norm() < 1e-9);
-    let (small, _) = found(&straight().turned(&(Mat3::identity() * 0.01)));
+    let (small, _) = found(&straight().rotated(&(Mat3::identity() * 0.01)));
     assert!((small.metres_per_stated_metre - 100.0).abs() < ROUNDING);
     // A child of half the size is a child.
-    let (child, findings) = found(&straight().turned(&(Mat3::identity() * 0.5)));
+    let (child, findings) = found(&straight().rotated(&(Mat3::identity() * 0.5)));
     assert!((child.metres_per_stated_metre - 1.0).abs() < ROUNDING && findings.as_slice().is_empty());
 }
 
 #[test]
-fn without_known_names_the_longest_axis_is_up_and_the_way_forward() {
+fn without_known_names_the_longest_axis_is_up_and_motion_is_forward() {
     let mut markers = straight();
     for (i, marker) in markers.markers.iter_mut().enumerate() {
         marker.name = format!("P{i}");
@@ -157,11 +157,11 @@ fn without_known_names_the_longest_axis_is_up_and_the_way_forward() {
 }
 
 #[test]
-fn plates_say_what_is_up_where_markers_do_not() {
+fn plates_determine_up_without_marker_names() {
     let mut findings = Findings::default();
     let file = File::step(2, [0.0; 3], &[0.0, 0.0, -700.0, 0.0, 0.0, 0.0]);
     let plates = plates_from_c3d(&file.record(), PlateSettings::default(), &mut findings).unwrap();
-    // Two points side by side that go along y.
+    // Two points side by side that move along y.
     let path = |name: &str, x: f64| MarkerPath {
         name: name.to_owned(),
         positions: (0..51).map(|i| Vec3::new(x, 0.03 * f64::from(i), 0.9)).collect(),
@@ -175,15 +175,15 @@ fn plates_say_what_is_up_where_markers_do_not() {
     let found = laboratory(&markers, &plates, "mm", &mut findings);
     assert!(found.statement.starts_with("lab z up, mm, walking +y"), "{}", found.statement);
     assert!(!findings.has(Code::LaboratoryUpUnclear), "{findings:?}");
-    // The world sees the force upwards.
+    // In the world the force points up.
     assert!((found.plate(&plates[0]).force[60] - Vec3::new(0.0, 700.0, 0.0)).norm() < 1e-3);
 }
 
 #[test]
-fn gaps_do_not_turn_the_laboratory() {
+fn gaps_do_not_rotate_the_laboratory() {
     let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
     let lab_from_world = Mat3::from_columns(&[y, z, x]);
-    let mut markers = straight().turned(&lab_from_world);
+    let mut markers = straight().rotated(&lab_from_world);
     for (i, marker) in markers.markers.iter_mut().enumerate() {
         for position in marker.positions.iter_mut().skip(7 * i).take(30) {
             *position = Vec3::repeat(f64::NAN);
@@ -195,7 +195,7 @@ fn gaps_do_not_turn_the_laboratory() {
 }
 
 #[test]
-fn landmarks_are_known_by_the_names_of_many_laboratories() {
+fn landmarks_are_recognised_by_the_names_of_many_laboratories() {
     let recording = |names: &[&str]| MarkerRecording {
         name: String::new(),
         rate_hz: 100.0,

@@ -1,7 +1,7 @@
-//! Recordings as laboratories write them: plates, axes, feet on plates, events.
+//! Recordings of real laboratories: plates, axes, feet on plates, events.
 //!
-//! The recordings are not part of the repository. They are looked for in `shared/data` beside it, or in
-//! `$AMBULO_DATA/data`; without them each test says `skipped` and passes.
+//! The recordings are not part of the repository. They are searched in `shared/data` next to it, or in
+//! `$AMBULO_DATA/data`; without them each test prints `skipped` and passes.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --show-output")]
@@ -11,7 +11,7 @@ mod shared_data;
 use ambulo::analysis::event_agreement;
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::plates::{ContactQuality, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::{
@@ -24,7 +24,7 @@ use ambulo_formats::trc::Trc;
 use shared_data::data;
 use std::path::Path;
 
-/// A trial in the world's axes.
+/// A trial in the axes of the world.
 struct Trial {
     markers: MarkerRecording,
     plates: Vec<PlateRecording>,
@@ -48,20 +48,20 @@ fn trial(folder: &Path, name: &str) -> Trial {
     }
 }
 
-/// A plate's contacts of one foot, as the data's README tells them: plate, side, first and last loaded instant [s],
+/// Contacts of one foot with plates, from the README of the data: plate, side, first and last loaded time [s],
 /// peak [body weights].
-type Told = (usize, Side, f64, f64, f64);
+type Documented = (usize, Side, f64, f64, f64);
 
-/// A peak that the README does not give.
+/// A peak that is not in the README.
 const UNTOLD: f64 = f64::NAN;
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
-const HC032A03: [Told; 2] = [(1, R, 1.667, 2.282, 1.04), (0, L, 2.191, 2.819, 1.15)];
-const HC002D06: [Told; 2] = [(1, R, 1.830, 2.350, 1.25), (0, L, 2.284, 2.807, 1.19)];
-const BTKDATA: [Told; 3] = [(0, L, 7.853, 8.511, 1.09), (1, R, 8.382, 9.045, 1.13), (2, L, 8.93, 9.60, 1.14)];
+const HC032A03: [Documented; 2] = [(1, R, 1.667, 2.282, 1.04), (0, L, 2.191, 2.819, 1.15)];
+const HC002D06: [Documented; 2] = [(1, R, 1.830, 2.350, 1.25), (0, L, 2.284, 2.807, 1.19)];
+const BTKDATA: [Documented; 3] = [(0, L, 7.853, 8.511, 1.09), (1, R, 8.382, 9.045, 1.13), (2, L, 8.93, 9.60, 1.14)];
 
-fn events_of(told: &[Told]) -> Vec<Event> {
+fn events_of(told: &[Documented]) -> Vec<Event> {
     let event = |side, kind, time_s| Event { side, kind, time_s };
     told.iter().flat_map(|t| [event(t.1, EventKind::Strike, t.2), event(t.1, EventKind::Off, t.3)]).collect()
 }
@@ -78,7 +78,7 @@ fn events_of_table(path: &Path, columns: [(Side, &str); 2], until_s: f64) -> Vec
     let (table, _) = Table::read_storage(&std::fs::read(path).unwrap()).unwrap();
     let mut out = Vec::new();
     for (side, column) in columns {
-        for contact in contacts(table.times().unwrap(), table.column(column).unwrap()) {
+        for contact in contacts_from_force(table.times().unwrap(), table.column(column).unwrap()) {
             let event = |kind, time_s| Event { side, kind, time_s };
             out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
             out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
@@ -89,9 +89,9 @@ fn events_of_table(path: &Path, columns: [(Side, &str); 2], until_s: f64) -> Vec
 }
 
 #[test]
-fn events_from_motion_are_those_of_the_plates_within_the_published_errors() {
+fn events_from_motion_agree_with_plates_within_the_published_errors() {
     let Some(data) = data() else { return };
-    let c3d = |name: &str, told: &[Told]| {
+    let c3d = |name: &str, told: &[Documented]| {
         let trial = trial(&data, name);
         (name.to_owned(), trial.markers, events_of(told))
     };
@@ -150,7 +150,7 @@ fn events_from_motion_are_those_of_the_plates_within_the_published_errors() {
 #[test]
 fn peaks_and_contact_times_are_those_of_the_readme() {
     let Some(data) = data() else { return };
-    let recordings: [(&str, f64, &[Told]); 5] = [
+    let recordings: [(&str, f64, &[Documented]); 5] = [
         ("biomechzoo-HC032A/HC032A03.c3d", 60.3, &HC032A03),
         ("biomechzoo-HC002D/HC002D06.c3d", 32.1, &HC002D06),
         ("btkdata-pig-adult3plates/PiG_Motion3_FF.c3d", 74.0, &BTKDATA),
@@ -170,7 +170,7 @@ fn peaks_and_contact_times_are_those_of_the_readme() {
                 contact.side, contact.start_s, contact.end_s
             );
             assert_eq!(contact.side, Some(*side), "{name} plate {plate}");
-            // The README gives milliseconds, or hundredths where it says so.
+            // The README has milliseconds, or hundredths where stated.
             let hundredths = |t: f64| ((t * 100.0).round() - t * 100.0).abs() < 1e-6;
             let rounding = if hundredths(*strike_s) && hundredths(*off_s) { 0.005 } else { 0.0 };
             assert!((contact.start_s - strike_s).abs() <= 0.005 + rounding, "{name} plate {plate}: {contact:?}");
@@ -199,7 +199,7 @@ fn the_instrumented_windows_are_those_of_the_readme() {
 }
 
 #[test]
-fn the_foot_that_leaves_its_plate_early_is_a_partial_hit_and_bars_its_time() {
+fn a_foot_that_leaves_its_plate_early_is_partial_and_ends_the_window() {
     let Some(data) = data() else { return };
     let mut trial = trial(&data, "biomechzoo-HC032A/HC032A18.c3d");
     let motion = foot_motion(&trial.markers, &mut trial.findings);
@@ -212,7 +212,7 @@ fn the_foot_that_leaves_its_plate_early_is_a_partial_hit_and_bars_its_time() {
 }
 
 #[test]
-fn both_feet_on_one_plate_of_the_static_trial_are_seen_and_weighed() {
+fn both_feet_on_one_plate_of_the_standing_trial_are_detected_and_weighed() {
     let Some(data) = data() else { return };
     for (name, weight_n) in [("biomechzoo-HC032A/HC032A01.c3d", 591.7), ("biomechzoo-HC002D/HC002D02.c3d", 304.7)] {
         let mut trial = trial(&data, name);
@@ -225,7 +225,7 @@ fn both_feet_on_one_plate_of_the_static_trial_are_seen_and_weighed() {
 }
 
 #[test]
-fn one_line_says_how_each_laboratory_lies() {
+fn axes_and_unit_of_each_laboratory_are_stated_in_one_line() {
     let Some(data) = data() else { return };
     let world = "world x forward, y up, z right, m";
     for (name, expected) in [
@@ -254,7 +254,7 @@ fn one_line_says_how_each_laboratory_lies() {
 }
 
 #[test]
-fn the_offset_of_an_unloaded_plate_is_removed_and_told() {
+fn the_offset_of_an_unloaded_plate_is_removed_and_reported() {
     let Some(data) = data() else { return };
     for letters in ["pi", "pr", "vi", "vr", "si", "sr"] {
         let trial = trial(&data, &format!("c3d-format-variants/Eb015{letters}.c3d"));
@@ -288,7 +288,7 @@ fn one_recording_as_type_2_and_as_type_4_agrees_to_three_percent() {
             );
             assert!((b.peak_n() / peak - 1.0).abs() < 0.03 && apart < 0.03 * peak, "{}", a.name);
             // TYPE-2.C3D scales Mx and My by 36.83 and 37.03 N.mm a bit, TYPE-4.C3D by 741.87 x 0.0611 = 45.33 and 45.19:
-            // the two files themselves disagree by a fifth about moments, whoever reads them.
+            // the moments in the two files themselves differ by a fifth.
             let allowed = if two.file.channels.len() == 6 { 0.03 } else { 0.002 };
             assert!(moved < allowed, "{}: {moved} m", a.name);
         }
@@ -299,7 +299,7 @@ fn one_recording_as_type_2_and_as_type_4_agrees_to_three_percent() {
 fn vertical_peaks_of_the_variants_are_those_of_ezc3d() {
     let Some(data) = data() else { return };
     // ezc3d 1.7.2, python: c3d(file, extract_forceplat_data=True)["data"]["platform"][i]["force"][2].max(). It leaves
-    // offsets where they are. FP1 and FP2 hold the force on the plate (positive along a z that points down), which
+    // offsets where they are. FP1 and FP2 have the force on the plate (positive along a z that points down), which
     // ezc3d passes on as -284.46 and -302.93 N.
     let folder = data.join("c3d-format-variants");
     for (name, expected) in [
@@ -326,7 +326,7 @@ fn vertical_peaks_of_the_variants_are_those_of_ezc3d() {
 }
 
 #[test]
-fn strikes_and_offs_of_a_foot_take_turns_in_turns_too() {
+fn strikes_and_offs_of_a_foot_alternate_in_turning_walks() {
     let Some(data) = data() else { return };
     for name in [
         "biomechzoo-HC032A/HC032A18.c3d",
@@ -343,13 +343,13 @@ fn strikes_and_offs_of_a_foot_take_turns_in_turns_too() {
         let listed = events_from_c3d(&trial.file, &mut trial.findings);
         let rows = event_agreement(&listed, &motion.events);
         println!("{name}: the file's own list and motion: {rows:?}");
-        // Whoever set them: they stand in whole frames of 10 ms.
+        // They were set in whole frames of 10 ms.
         assert!(rows.iter().all(|r| r.pairs >= 4 && r.missed + r.extra <= 1 && r.mean_absolute_ms < 40.0), "{rows:?}");
     }
 }
 
 #[test]
-fn over_a_whole_cycle_on_plates_the_ground_carries_the_weight_and_pushes_nowhere() {
+fn over_a_whole_cycle_on_plates_the_mean_ground_force_is_the_body_weight() {
     let Some(data) = data() else { return };
     let trial = trial(&data, "btkdata-pig-adult3plates/PiG_Motion3_FF.c3d");
     // One cycle inside the instrumented window: as long as from the left foot's first strike to its second.

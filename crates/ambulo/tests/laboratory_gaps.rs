@@ -1,4 +1,4 @@
-//! Markers of a laboratory's own files that are not seen for a while: what becomes of the joint moments of the built-in body.
+//! Effect of gaps in real marker trajectories on the joint moments of the built-in body.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a recording cannot be used")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -19,7 +19,7 @@ const JOINTS: [&str; 6] =
 const FOOT: [&str; 14] =
     ["HEE", "TOE", "ANK", "MMA", "CPG", "PCA", "LCA", "STL", "NAV", "P1M", "D1M", "P5M", "D5M", "HLX"];
 
-/// A subject's files in the laboratory's axes, and when plates see every foot on the ground [s].
+/// Files of a subject in the axes of the laboratory, and the instrumented window [s].
 struct Trial {
     subject: Subject,
     still: LaboratoryRecording,
@@ -42,7 +42,7 @@ fn trial(subject: Option<Subject>, window: [f64; 2]) -> Option<Trial> {
     Some(Trial { subject, still, walk, window })
 }
 
-/// Moments at hip, knee and ankle [N.m], one row a joint, and the names of the markers that were fitted.
+/// Moments at hip, knee and ankle [N.m], one row per joint, and the names of the fitted markers.
 fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Findings, Vec<String>) {
     let mut findings = Findings::default();
     let body = Body::BuiltIn { person: &trial.subject.person, set: None };
@@ -63,7 +63,7 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     (JOINTS.iter().map(column).collect(), findings, body.fit.errors.into_iter().map(|e| e.name).collect())
 }
 
-/// Root mean square of the differences over that of the moments: all joints together, and the largest of the joints' own.
+/// Root mean square of the differences divided by that of the moments: of all joints together, and the largest of a single joint.
 fn change(moments: &[Vec<f64>], reference: &[Vec<f64>]) -> ([f64; 2], usize) {
     let (mut all, mut of_all, mut worst, mut which) = (0.0, 0.0, 0.0_f64, 0);
     for (k, (a, b)) in moments.iter().zip(reference).enumerate() {
@@ -91,7 +91,7 @@ fn without(walk: &LaboratoryRecording, names: &[String], from: f64, span: f64) -
     cut
 }
 
-/// Each group of markers is lost from each of these times for `span`; the largest change. Asserts that every loss is said.
+/// Largest change when each group of markers is lost from each of these times for `span`. Asserts that every loss is reported.
 fn worst_change(trial: &Trial, reference: &[Vec<f64>], groups: &[Vec<String>], starts: &[f64], span: f64) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for group in groups {
@@ -112,7 +112,7 @@ fn worst_change(trial: &Trial, reference: &[Vec<f64>], groups: &[Vec<String>], s
     worst
 }
 
-/// `allowed` is how much of its own size the moment of any one joint may change.
+/// `allowed` is the largest relative change of the moment of a single joint.
 fn assert_losses_change_little(trial: Option<Trial>, allowed: f64) {
     let Some(trial) = trial else { return };
     let name = trial.subject.name;
@@ -147,8 +147,8 @@ fn lost_markers_change_the_moments_of_the_child_little() {
     assert_losses_change_little(trial(child(), [1.87, 2.74]), 0.10);
 }
 
-/// Two markers on each thigh: without the knee's for 0.3 s its moment changes by up to 13 % of its size. A tenth is the aim and is
-/// missed here; the bound keeps what was reached.
+/// Two markers on each thigh: without the knee marker for 0.3 s the knee moment changes by up to 13 % of its size. The aim of 10 % is
+/// missed here; the limit is the present result.
 #[test]
 fn lost_markers_change_the_moments_of_the_adult_with_sixteen_markers_little() {
     assert_losses_change_little(trial(adult(), [7.97, 9.46]), 0.15);

@@ -1,4 +1,4 @@
-//! Whatever stands in a file, the way from a file to feet on plates ends in a result or an error, never in a panic.
+//! Any file content gives a result or an error, never a panic, from the file to feet on plates.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -12,7 +12,7 @@ use ambulo_formats::c3d::{C3d, Event, Point};
 use plate_files::File;
 use proptest::prelude::*;
 
-/// Numbers that files hold and should not.
+/// Unusual numbers in files.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => -2000.0..2000.0,

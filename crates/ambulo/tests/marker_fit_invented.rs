@@ -111,7 +111,7 @@ fn turning_the_laboratory_changes_only_what_carries_the_body() {
         }
         let plain = fitted(&model, &markers);
         let (rotation, shift) = (turn(r.unit(), r.within(3.0)), r.vector(4.0));
-        let mut turned = markers.turned(&rotation);
+        let mut turned = markers.rotated(&rotation);
         for marker in &mut turned.markers {
             marker.positions.iter_mut().for_each(|p| *p += shift);
         }
@@ -159,7 +159,7 @@ fn a_mirror_changes_no_coordinate() {
             marker.positions.iter_mut().for_each(|p| *p += off);
         }
         let plain = fitted(&model, &markers);
-        let image = fitted(&mirrored(&model), &markers.turned(&Mat3::from_diagonal(&Vec3::new(-1.0, 1.0, 1.0))));
+        let image = fitted(&mirrored(&model), &markers.rotated(&Mat3::from_diagonal(&Vec3::new(-1.0, 1.0, 1.0))));
         for (c, (a, b)) in plain.motion.columns.iter().zip(&image.motion.columns).enumerate() {
             for (a, b) in a.as_ref().unwrap().iter().zip(b.as_ref().unwrap()) {
                 assert!((a - b).abs() < 1e-6, "seed {seed}, q{c}: {a} and {b}");

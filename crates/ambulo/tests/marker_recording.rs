@@ -1,4 +1,4 @@
-//! Markers as cameras saw them: units, gaps, axes.
+//! Recorded markers: units, gaps, axes.
 
 #![expect(clippy::unwrap_used, reason = "tests may unwrap")]
 
@@ -28,33 +28,33 @@ fn a_position_of_exactly_zero_is_a_gap_and_is_reported() {
 }
 
 #[test]
-fn turning_the_axes_turns_every_position_and_leaves_gaps() {
+fn rotating_the_axes_rotates_every_position_and_keeps_gaps() {
     let gap = [f64::NAN; 3];
     let file = trc(&[("HEEL", [[1.0, 2.0, 3.0], gap])]);
     let markers = markers_from_trc(&file, &mut Findings::default()).unwrap();
     // Laboratory z up, walking along +y: x forward is +y, y up is +z, z right is +x.
-    let turned = markers.turned(&Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0));
+    let turned = markers.rotated(&Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0));
     assert_eq!(turned.markers[0].positions[0], Vec3::new(2.0, 3.0, 1.0));
     assert!(!turned.markers[0].is_seen(1));
     assert_eq!((turned.frames(), turned.rate_hz), (2, markers.rate_hz));
 }
 
 #[test]
-fn a_recording_without_a_seen_marker_is_refused_with_the_names_that_it_lists() {
+fn a_recording_without_visible_markers_is_rejected_with_its_marker_names() {
     let error = markers_from_trc(&trc(&[("HEEL", [[f64::NAN; 3]; 2])]), &mut Findings::default()).unwrap_err();
     assert!(matches!(&error, MarkerError::NoMarker { frames: 2, .. }), "{error}");
     assert!(error.to_string().contains("HEEL"), "{error}");
 }
 
 #[test]
-fn times_that_stand_still_are_refused_with_the_frame() {
+fn times_that_do_not_increase_are_rejected_with_the_frame() {
     let marker = Marker { name: "HEEL".to_owned(), positions_m: vec![[0.1, 0.2, 0.3]; 3] };
     let file = Trc::new(100.0, vec![0.0, 0.01, 0.01], vec![marker]).unwrap();
     let error = markers_from_trc(&file, &mut Findings::default()).unwrap_err();
     assert!(matches!(error, MarkerError::TimeNotRising { frame: 3, .. }), "{error}");
 }
 
-/// A C3D record in mm whose points all stand at (100, 200, 300).
+/// A C3D file in mm with all points at (100, 200, 300).
 fn c3d(names: &[&str]) -> C3d {
     let mut file = C3d::new(100.0, "mm");
     file.points = names.iter().map(|name| Point::new(name, vec![[100.0, 200.0, 300.0]; 3])).collect();
@@ -79,7 +79,7 @@ fn points_of_a_c3d_file_become_metres_at_the_times_of_its_frames() {
 }
 
 #[test]
-fn angles_forces_axes_and_unlabelled_points_are_no_markers() {
+fn angles_forces_axes_and_unlabelled_points_are_not_markers() {
     let mut file = c3d(&["LASI", "LHipAngles", "*7", "", "LFEO", "LFEA", "LFEL", "LFEP", "PELO", "HEDA", "LKNEPower"]);
     let list = |name: &str, labels: &[&str]| {
         Parameter::list(name, Values::Texts(labels.iter().map(|l| (*l).to_owned()).collect()))
@@ -90,7 +90,7 @@ fn angles_forces_axes_and_unlabelled_points_are_no_markers() {
         locked: false,
         parameters: vec![list("ANGLES", &["LHipAngles"]), list("POWERS", &["LKNEPower"])],
     });
-    // One corner of an axis alone (PELO, HEDA) may be a marker that somebody called so.
+    // A single point of an axis (PELO, HEDA) may be a marker with this name.
     assert_eq!(names(&file), ["LASI", "PELO", "HEDA"]);
 }
 
@@ -102,7 +102,7 @@ fn a_prefix_that_all_labels_share_is_cut_off() {
 }
 
 #[test]
-fn of_two_points_with_one_name_the_one_that_was_seen_longer_is_kept() {
+fn of_two_points_with_one_name_the_one_visible_longer_is_kept() {
     let mut file = c3d(&["RANK", "LANK", "RANK"]);
     file.points[0].positions[0] = [f64::NAN; 3];
     file.points[2].positions[2] = [400.0; 3];
@@ -114,7 +114,7 @@ fn of_two_points_with_one_name_the_one_that_was_seen_longer_is_kept() {
 }
 
 #[test]
-fn a_file_without_unit_of_length_and_places_beyond_reach_are_told() {
+fn a_missing_unit_of_length_and_impossible_positions_are_reported() {
     let mut file = c3d(&["LASI", "RASI"]);
     file.points[1].positions[1] = [1e12, 0.0, 0.0];
     let mut findings = Findings::default();
@@ -126,7 +126,7 @@ fn a_file_without_unit_of_length_and_places_beyond_reach_are_told() {
 }
 
 #[test]
-fn ends_without_markers_are_cut_off_and_gaps_inside_stay() {
+fn ends_without_markers_are_removed_and_gaps_inside_are_kept() {
     let path = |name: &str, seen: std::ops::Range<usize>, gap: usize| MarkerPath {
         name: name.into(),
         positions: (0..20)
@@ -139,12 +139,12 @@ fn ends_without_markers_are_cut_off_and_gaps_inside_stay() {
         times: (0..20).map(|i| i as f64 / 10.0).collect(),
         markers: vec![path("A", 3..17, 9), path("B", 5..19, 9), path("C", 5..15, 8), path("never", 0..0, 0)],
     };
-    let seen = recording.while_seen();
-    // Two of the three that were ever seen: from frame 5 to frame 16.
+    let seen = recording.trimmed_to_visible();
+    // Two of the three markers that are ever visible: from frame 5 to frame 16.
     assert_eq!((seen.times.first(), seen.times.last()), (Some(&0.5), Some(&1.6)));
     assert!(!seen.markers[0].is_seen(4) && seen.markers[0].is_seen(5), "the gap at 0.9 s is still one");
     assert!((seen.markers[0].positions[0].x - 5.0).abs() < 1e-12);
-    assert_eq!(seen.while_seen().times, seen.times);
+    assert_eq!(seen.trimmed_to_visible().times, seen.times);
     let nothing = MarkerRecording { markers: vec![path("never", 0..0, 0)], ..recording };
-    assert_eq!(nothing.while_seen().frames(), 20);
+    assert_eq!(nothing.trimmed_to_visible().frames(), 20);
 }

@@ -1,16 +1,16 @@
-//! Marker sets: the built-in ones are whole and as docs/MARKERS.md lists them, names of real recordings are recognised.
+//! Marker sets: the built-in ones agree with docs/MARKERS.md, and names of real recordings are recognised.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop where a set cannot be read")]
 
 use ambulo::findings::Code;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
-use ambulo::model::marker_set::{Landmark, MarkerSet, Recognised, Segment};
+use ambulo::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers, Segment};
 use ambulo::model::{Side, marker_set::MarkerSetError};
 
 const PAGE: &str = include_str!("../../../docs/MARKERS.md");
 
-fn recognised(names: &str) -> Recognised {
+fn recognised(names: &str) -> RecognisedMarkers {
     MarkerSet::recognise(names.split_whitespace()).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -68,7 +68,7 @@ fn the_page_lists_every_landmark() {
 }
 
 #[test]
-fn markers_stand_on_the_body_where_their_names_say() {
+fn markers_are_on_the_body_where_their_names_mean() {
     let human =
         full_body(&Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true }).unwrap();
     for set in MarkerSet::built_in().unwrap() {
@@ -86,7 +86,7 @@ fn markers_stand_on_the_body_where_their_names_say() {
                 "{}",
                 marker.name
             );
-            // No marker is further from its segment's origin than 0.8 m, the top of the head from the lumbar joint.
+            // No marker is further from the origin of its segment than 0.8 m, the distance of the vertex from the lumbar joint.
             assert!(marker.location.norm() < 0.8, "{}", marker.name);
         }
     }
@@ -137,7 +137,7 @@ fn prefixes_and_capitals_do_not_matter() {
 }
 
 #[test]
-fn unknown_names_are_refused_with_what_was_found_and_what_was_needed() {
+fn unknown_names_are_rejected_with_those_found_and_those_expected() {
     let message = MarkerSet::recognise(["M1", "M2", "M3", "LASI"]).unwrap_err().to_string();
     for part in ["4 markers", "`M1`", "at most 1", "plug-in-gait", "`RASI`", "docs/MARKERS.md"] {
         assert!(message.contains(part), "{part}: {message}");
@@ -146,7 +146,7 @@ fn unknown_names_are_refused_with_what_was_found_and_what_was_needed() {
 }
 
 #[test]
-fn a_second_marker_on_a_landmark_counts_as_technical() {
+fn a_second_marker_on_a_landmark_is_technical() {
     let found = recognised("LASI RASI LPSI RPSI LKNE L.Knee.Lat R.Knee.Lat");
     let knees: Vec<Option<Landmark>> = found
         .markers
@@ -158,7 +158,7 @@ fn a_second_marker_on_a_landmark_counts_as_technical() {
 }
 
 #[test]
-fn a_set_of_ones_own_is_read_and_its_faults_are_named() {
+fn a_custom_set_is_read_and_its_errors_are_stated() {
     let text = "name = 'mine'\n[[pair]]\nright = 'kr'\nleft = ['kl', 'knee left']\nlandmark = 'lateral_epicondyle'\n\
                 [[single]]\nnames = 'x1'\nsegment = 'femur'\nside = 'left'\nplace = [0, -0.5, 0.1]\nweight = 2";
     let set = MarkerSet::from_toml(text).unwrap();

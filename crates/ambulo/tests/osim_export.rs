@@ -22,11 +22,11 @@ fn read_back(model: &Model) -> Model {
 }
 
 #[test]
-fn every_figure_reads_back_as_it_was() {
+fn every_figure_is_unchanged_after_writing_and_reading() {
     for table in SegmentTable::ALL {
         for toe_joint in [true, false] {
             let (written, read) = (figure(table, toe_joint), &read_back(&figure(table, toe_joint)));
-            // OpenSim takes no blanks in names.
+            // OpenSim allows no spaces in names.
             assert_eq!(read.name(), written.name().replace(" ", "_"));
             assert_eq!(read.gravity(), written.gravity());
             assert_eq!(read.bodies().len(), written.bodies().len());
@@ -49,13 +49,13 @@ fn every_figure_reads_back_as_it_was() {
 }
 
 #[test]
-fn what_was_read_back_moves_the_same_way() {
+fn a_model_that_was_written_and_read_moves_the_same() {
     let written = figure(SegmentTable::DeLevaFemale, true);
     assert_same_motions(&written, &read_back(&written));
 }
 
 fn assert_same_motions(written: &Model, read: &Model) {
-    // Any numbers, by name: the order of coordinates may differ.
+    // Arbitrary numbers, by name: the order of coordinates may differ.
     let number = |name: &str, k: usize| {
         let sum: usize = name.bytes().enumerate().map(|(i, b)| (i + 1) * usize::from(b)).sum();
         ((sum * (k + 3)) % 97) as f64 / 97.0 - 0.5
@@ -76,7 +76,7 @@ fn assert_same_motions(written: &Model, read: &Model) {
 }
 
 #[test]
-fn what_the_writer_does_not_know_is_refused() {
+fn models_that_the_format_cannot_express_are_rejected() {
     let document = r#"<OpenSimDocument Version="40000"><Model name="m"><BodySet><objects>
         <Body name="b"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
         <JointSet><objects><BallJoint name="ball"><socket_parent_frame>/ground</socket_parent_frame>
@@ -90,7 +90,10 @@ fn what_the_writer_does_not_know_is_refused() {
     let odd = Model::new("m", ball.gravity(), bodies, ball.coordinates().to_vec(), Vec::new()).unwrap();
     let error = to_osim(&odd).unwrap_err();
     assert!(matches!(&error, ExportError::Unknown { name, .. } if name == "ball"), "{error}");
-    assert!(error.to_string().contains("joint `ball`: found forces that go with angular velocity"), "{error}");
+    assert!(
+        error.to_string().contains("joint `ball`: found angular velocities about its own axes as speeds"),
+        "{error}"
+    );
 
     let still = "<TransformAxis><axis>1 0 0</axis></TransformAxis>".repeat(6);
     let end = format!("<SpatialTransform>{still}</SpatialTransform></CustomJoint>");
@@ -101,7 +104,7 @@ fn what_the_writer_does_not_know_is_refused() {
 }
 
 #[test]
-fn the_full_body_reads_back_as_it_was() {
+fn the_full_body_is_unchanged_after_writing_and_reading() {
     for table in SegmentTable::ALL {
         let build = Build { table, mass: 71.3, height: 1.734, toe_joint: true };
         let written = ambulo::model::full_body::full_body(&build).unwrap().model;
@@ -111,7 +114,7 @@ fn the_full_body_reads_back_as_it_was() {
 }
 
 #[test]
-fn joints_that_count_angular_velocities_read_back_as_they_were() {
+fn joints_with_angular_velocities_are_unchanged_after_writing_and_reading() {
     let body = |name: &str| format!(r#"<Body name="{name}"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body>"#);
     let joint = |kind: &str, parent: &str, child: &str, count: usize, rest: &str| {
         let coordinates: String = (0..count).map(|k| format!(r#"<Coordinate name="{child}{k}"/>"#)).collect();
@@ -150,7 +153,7 @@ fn assert_same_curve(a: &Function, b: &Function, name: &str) {
 }
 
 fn assert_same_axes(a: &[JointAxis], b: &[JointAxis], name: &str) -> usize {
-    // What a joint lacks is written as an axis that stands still.
+    // A missing axis of a joint is written as a constant one.
     assert!(b.len() == 3 || a.len() == b.len(), "{name}");
     let still = |axis: &JointAxis| matches!(axis.displacement, Displacement::Fixed(0.0));
     assert!(b[a.len()..].iter().all(still), "{name}");
@@ -170,14 +173,14 @@ fn assert_same_axes(a: &[JointAxis], b: &[JointAxis], name: &str) -> usize {
     curves
 }
 
-/// Everything of two models but the kind of their joints' names; the number of curves that are no straight lines.
+/// Asserts that two models are the same except for joint names; returns the number of curves that are not straight lines.
 fn assert_same_models(a: &Model, b: &Model) -> usize {
     assert_eq!((a.name(), a.gravity()), (b.name(), b.gravity()));
     assert_eq!((a.bodies().len(), a.coordinates().len()), (b.bodies().len(), b.coordinates().len()));
     let mut curves = 0;
     for (a, b) in a.bodies().iter().zip(b.bodies()) {
         assert_eq!((&a.name, &a.inertia), (&b.name, &b.inertia));
-        assert_eq!((&a.joint.name, a.joint.parent, a.joint.measure), (&b.joint.name, b.joint.parent, b.joint.measure));
+        assert_eq!((&a.joint.name, a.joint.parent, a.joint.speeds), (&b.joint.name, b.joint.parent, b.joint.speeds));
         let frames = |body: &ambulo::model::Body| [body.joint.parent_from_joint, body.joint.child_from_joint];
         for (x, y) in frames(a).iter().zip(frames(b)) {
             assert_eq!(x.translation, y.translation, "{}", a.name);
@@ -204,7 +207,7 @@ fn assert_same_models(a: &Model, b: &Model) -> usize {
 }
 
 #[test]
-fn published_models_read_back_as_they_were() {
+fn published_models_are_unchanged_after_writing_and_reading() {
     let Some((gait2392, rajagopal)) = marker_data::gait2392().zip(marker_data::rajagopal()) else { return };
     let coupled = |model: &Model| model.coordinates().iter().filter(|c| matches!(c.drive, Drive::Coupled(..))).count();
     let locked = |model: &Model| model.coordinates().iter().filter(|c| matches!(c.drive, Drive::Locked)).count();
@@ -220,14 +223,14 @@ fn published_models_read_back_as_they_were() {
 }
 
 #[test]
-fn driven_coordinates_and_smoothed_curves_read_back_as_they_were() {
+fn driven_coordinates_and_smoothed_curves_are_unchanged_after_writing_and_reading() {
     let axis = |name: &str, direction: &str, function: &str| {
         format!("<TransformAxis><coordinates>{name}</coordinates><axis>{direction}</axis>{function}</TransformAxis>")
     };
     let points = "<x>-2 -1.1 -0.4 0.3 0.9 1.6 2.2</x><y>0 0.3 -0.2 0.5 0.1 0.4 -0.6</y>";
     let smoothed =
         format!("<GCVSpline><half_order>2</half_order><error_variance>0.01</error_variance>{points}</GCVSpline>");
-    // The axes name the coordinates in another order than the joint has them.
+    // The axes have the coordinates in another order than the joint.
     let axes = [
         axis("c", "0 0 1", &smoothed),
         axis("a", "1 0 0", "<StepFunction><start_time>0</start_time><end_time>0.5</end_time></StepFunction>"),
@@ -259,7 +262,7 @@ fn driven_coordinates_and_smoothed_curves_read_back_as_they_were() {
 }
 
 #[test]
-fn a_joint_that_cannot_move_is_welded_where_it_stands() {
+fn a_joint_that_cannot_move_is_written_as_a_weld() {
     let axis = |direction: &str, value: f64| {
         format!("<TransformAxis><axis>{direction}</axis><Constant><value>{value}</value></Constant></TransformAxis>")
     };
@@ -278,7 +281,7 @@ fn a_joint_that_cannot_move_is_welded_where_it_stands() {
     );
     let model = Model::from_osim(document.as_bytes(), &mut Findings::default()).unwrap();
     let written = to_osim(&model).unwrap();
-    // OpenSim 4.6 ends with a segmentation fault where a custom joint has no coordinate.
+    // OpenSim 4.6 ends with a segmentation fault if a custom joint has no coordinate.
     assert_eq!(written.joints[0].kind, OsimJointKind::Weld);
     assert_same_motions(&model, &read_back(&model));
 }

@@ -1,4 +1,4 @@
-//! From OpenSim documents to models: every layout says the same, and what is wrong is said with its place.
+//! Reading models from OpenSim documents: every layout gives the same model, and errors state the position.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -20,7 +20,7 @@ fn import(text: &str) -> (Model, Findings) {
     (from_osim(&document, &mut findings).unwrap_or_else(|e| panic!("{e}\n{text}")), findings)
 }
 
-/// The message of whichever step refuses the document.
+/// The message of the step that rejects the document.
 fn refusal(text: &str) -> String {
     match OsimModel::read(text.as_bytes()) {
         Err(error) => error.to_string(),
@@ -34,7 +34,7 @@ fn with_causes(error: &dyn std::error::Error) -> String {
     causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }
 
-/// Asserts that the document is refused with the line of `place` (the beginning of an element) and these words.
+/// Asserts that the document is rejected with the line of `place` (the beginning of an element) and these words.
 #[track_caller]
 fn assert_refused(text: &str, place: &str, words: &[&str]) {
     let message = refusal(text);
@@ -50,7 +50,7 @@ const HIP_COORDINATE: &str =
     r#"<Coordinate name="hip_angle"><default_value>0.1</default_value><range>-2 2</range></Coordinate>"#;
 const KNEE_COORDINATE: &str = r#"<Coordinate name="knee_angle"><default_value>-0.2</default_value></Coordinate>"#;
 
-/// The knee: turns about an oblique axis, its centre moves along a spline.
+/// The knee: rotation about an oblique axis, with a centre that moves along a spline.
 fn spatial_transform(spline: &str, wrap: impl Fn(&str) -> String) -> String {
     let axis = |name: &str, coordinates: &str, axis: &str, function: &str| {
         format!(
@@ -166,7 +166,7 @@ fn connectors(name: &str, target: &str) -> String {
     )
 }
 
-/// Two sockets of one joint stand in one `<connectors>`.
+/// Two sockets of one joint in one `<connectors>`.
 fn joined_connectors(text: String) -> String {
     text.replace("</connectors><connectors>", "")
 }
@@ -216,7 +216,7 @@ fn one_leg_is_the_same_model_in_every_layout_of_the_format() {
         assert_eq!(model.coordinates()[0].range, Some([-2.0, 2.0]), "{name}");
         let difference = distance(&behaviour(&model), &expected);
         assert!(difference < ROUNDING, "{name} differs by {difference}");
-        // Beside it: a frame turned by a hundredth of a radian is seen.
+        // Counter-example: a frame rotated by a hundredth of a radian is noticed.
         let turned = import(&text.replace(HIP_TURN, "0.21 -0.1 0.3")).0;
         assert!(distance(&behaviour(&turned), &expected) > 1e-3, "{name}: a turned frame goes unnoticed");
     }
@@ -297,7 +297,7 @@ fn each_joint_type_has_its_coordinates_in_opensims_order_and_kind() {
         let found: Vec<_> = model.coordinates().iter().map(|c| c.kind).collect();
         assert_eq!(found, kinds, "{kind}");
         assert!(findings.as_slice().is_empty(), "{kind}: {:?}", findings.as_slice());
-        // One coordinate too many is refused with the number that the joint has.
+        // One coordinate too many is rejected with the number of the joint.
         let more =
             simple(kind, &names[..(kinds.len() + 1) % 7]).replace("</Ell", "<radii_x_y_z>1 1 1</radii_x_y_z></Ell");
         if kinds.len() < 6 {
@@ -318,10 +318,10 @@ fn joints_move_along_the_axes_that_the_format_defines() {
     let near =
         |found: Vec3, x: f64, y: f64, z: f64| assert!((found - Vec3::new(x, y, z)).norm() < ROUNDING, "{found:?}");
     near(place(&simple("SliderJoint", &["a"]), &[0.5]), 0.5, 0.0, 0.0);
-    // The planar joint turns first and moves along the axes of the parent.
+    // The planar joint rotates first and moves along the axes of the parent.
     near(place(&simple("PlanarJoint", &["a", "b", "c"]), &[0.7, 0.5, 0.25]), 0.5, 0.25, 0.0);
     near(place(&simple("FreeJoint", &["a", "b", "c", "d", "e", "f"]), &[1.0, 1.0, 1.0, 0.1, 0.2, 0.3]), 0.1, 0.2, 0.3);
-    // The ellipsoid joint's centre lies where its z axis points: x by sin b, y by -sin a cos b, z by cos a cos b.
+    // The centre of the ellipsoid joint is in the direction of its z axis: x by sin b, y by -sin a cos b, z by cos a cos b.
     let text = simple("EllipsoidJoint", &["a", "b", "c"])
         .replace("</EllipsoidJoint>", "<radii_x_y_z>0.3 0.4 0.5</radii_x_y_z></EllipsoidJoint>");
     let ((sa, ca), (sb, cb)) = (0.4_f64.sin_cos(), 0.9_f64.sin_cos());
@@ -353,7 +353,7 @@ fn each_function_gives_its_value() {
         // A spline through ordinates up to 49 returns them to a few roundings.
         assert!((found - expected).abs() < 1e-11, "{function} at {q}: {found} instead of {expected}");
     }
-    // An axis with a coordinate and no function follows it; without either it stands still.
+    // An axis with a coordinate and no function follows it; without either it is constant.
     assert!((place(&rising(""), &[0.3, 0.0]).y - 0.3).abs() < ROUNDING);
 }
 
@@ -395,7 +395,7 @@ fn a_coupler_ties_one_coordinate_to_another_unless_it_is_switched_off() {
 }
 
 #[test]
-fn a_constraint_that_closes_a_loop_is_not_enforced_and_said() {
+fn a_constraint_that_closes_a_loop_is_not_enforced_but_reported() {
     let more = "<ConstraintSet><objects>\n<PointConstraint name=\"pin\"></PointConstraint>\n</objects></ConstraintSet>";
     let (_, findings) = import(&custom("q", "", more));
     assert!(findings.has(Code::ModelConstraint));
@@ -419,13 +419,13 @@ fn locked_and_prescribed_coordinates_are_driven() {
         panic!("free")
     };
     assert!((function.at(2.0)[0] - 2.0).abs() < ROUNDING);
-    // A function that is not switched on, and a lock that is off, do nothing; a lock wins.
+    // A function that is not switched on and a lock that is off have no effect; a lock has priority.
     assert!(matches!(with(&format!("{line}<prescribed>false</prescribed><locked>false</locked>")).drive, Drive::Free));
     assert!(matches!(with(&format!("{line}<prescribed>true</prescribed><locked>true</locked>")).drive, Drive::Locked));
 }
 
 #[test]
-fn markers_sit_on_bodies_on_frames_and_on_ground() {
+fn markers_are_on_bodies_on_frames_and_on_ground() {
     let more = "<MarkerSet><objects>\n\
         <Marker name=\"old\"><body>stone</body><location>0.1 0.2 0.3</location></Marker>\n\
         <Marker name=\"new\">\
@@ -456,7 +456,7 @@ fn markers_sit_on_bodies_on_frames_and_on_ground() {
 }
 
 #[test]
-fn what_plays_no_part_is_counted_in_one_note() {
+fn unused_parts_are_counted_in_one_note() {
     let more = "<ForceSet><objects>\n<Thelen2003Muscle name=\"a\"/><Thelen2003Muscle name=\"b\"/>\
         <CoordinateActuator name=\"c\"/>\n\
         </objects></ForceSet>";
@@ -468,7 +468,7 @@ fn what_plays_no_part_is_counted_in_one_note() {
 }
 
 #[test]
-fn an_inertia_that_no_body_has_and_a_body_without_mass_are_warned_about() {
+fn an_impossible_inertia_and_a_body_without_mass_give_warnings() {
     let text = custom("q", "", "");
     let with = |old: &str, new: &str| import(&text.replace(old, new)).1;
     let findings = with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 0.3");
@@ -478,7 +478,7 @@ fn an_inertia_that_no_body_has_and_a_body_without_mass_are_warned_about() {
     let findings = with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 -0.1");
     assert!(findings.as_slice()[0].message.contains("one is negative"), "{:?}", findings.as_slice());
     assert!(with("<mass>2<", "<mass>0<").has(Code::ModelMassless));
-    // A thin rod lies on the border and is allowed.
+    // A thin rod is the limiting case and is allowed.
     assert!(with("<inertia>0.1 0.1 0.1", "<inertia>0.1 0.1 0").as_slice().is_empty());
 }
 
@@ -493,7 +493,7 @@ fn an_unknown_version_is_read_and_remarked() {
 }
 
 #[test]
-fn what_is_wrong_is_said_with_line_and_element() {
+fn errors_state_line_and_element() {
     let text = custom("q", "", "");
     assert_refused(&simple("ScrewJoint", &["q"]), "<ScrewJoint", &["joint type `ScrewJoint`", "PinJoint", "FreeJoint"]);
     assert_refused(&simple("CustomJoint", &["q"]), "<CustomJoint", &["name=\"joint\"", "<SpatialTransform>", "six"]);
@@ -532,7 +532,7 @@ fn what_is_wrong_is_said_with_line_and_element() {
 }
 
 #[test]
-fn a_body_must_hang_on_exactly_one_joint() {
+fn a_body_must_be_the_child_of_exactly_one_joint() {
     let text = custom("q", "", "");
     let body = "<Body name=\"drifter\"><mass>1</mass></Body>\n</objects></BodySet>";
     let loose = text.replace("</objects></BodySet>", body);
@@ -540,29 +540,29 @@ fn a_body_must_hang_on_exactly_one_joint() {
     let second = "<WeldJoint name=\"second\"><socket_parent_frame>/ground</socket_parent_frame>\
         <socket_child_frame>/bodyset/stone</socket_child_frame></WeldJoint>\n</objects></JointSet>";
     let looped = text.replace("</objects></JointSet>", second);
-    assert_refused(&looped, "<WeldJoint", &["body `stone`", "`joint` and `second`", "closed loops are not computed"]);
+    assert_refused(&looped, "<WeldJoint", &["body `stone`", "`joint` and `second`", "closed loops are not supported"]);
 }
 
 #[test]
-fn a_negative_mass_is_refused_with_the_bodys_name_and_line() {
+fn a_negative_mass_is_rejected_with_the_name_and_line_of_the_body() {
     let text = custom("q", "", "").replace("<mass>2<", "<mass>-2<");
     assert_refused(&text, "<Body name", &["body `stone`", "the mass is -2 kg", "zero or more"]);
 }
 
 #[test]
-fn a_coordinate_that_stands_twice_is_refused_with_its_name_and_line() {
+fn a_repeated_coordinate_is_rejected_with_its_name_and_line() {
     let text = custom("q", "", "").replace("name=\"p\"", "name=\"q\"");
     assert_refused(&text, "<Coordinate name", &["`q`"]);
 }
 
 #[test]
-fn a_joint_in_the_old_layout_whose_parent_is_no_body_names_that_parent() {
+fn an_unknown_parent_in_the_old_layout_is_named() {
     let text = nested(30000, "SimmSpline").replace("<parent_body>thigh<", "<parent_body>femur<");
     assert_refused(&text, "<CustomJoint", &["`femur`"]);
 }
 
 #[test]
-fn no_document_and_no_xml_are_refused() {
+fn other_documents_and_other_text_are_rejected() {
     assert_eq!(refusal(" \n"), "the file is empty; expected an <OpenSimDocument>");
     for text in ["no xml", "\u{0}\u{1}"] {
         assert!(refusal(text).contains("expected an XML document, which begins with `<`"), "{}", refusal(text));
@@ -576,7 +576,7 @@ fn no_document_and_no_xml_are_refused() {
 }
 
 #[test]
-fn a_document_cut_at_any_byte_is_refused() {
+fn a_document_truncated_at_any_byte_is_rejected() {
     for (name, text) in layouts() {
         let end = text.trim_end().len();
         for cut in 0..end {
@@ -607,7 +607,7 @@ fn real_files() -> Vec<PathBuf> {
 
 #[test]
 fn the_real_models_load_with_the_masses_that_their_authors_state() {
-    // File, bodies, coordinates, mass [kg] with the digits that the data's README has.
+    // File, bodies, coordinates, mass [kg] with the digits in the README of the data.
     let expected =
         [("subject01.osim", 10, 72.6), ("subject01_simbody.osim", 23, 72.6), ("subject_walk_scaled.osim", 0, 85.27)];
     for file in real_files() {
@@ -634,7 +634,7 @@ fn the_real_models_load_with_the_masses_that_their_authors_state() {
 }
 
 #[test]
-fn a_real_model_cut_anywhere_is_refused_without_a_panic() {
+fn a_real_model_truncated_anywhere_is_rejected_without_a_panic() {
     for file in real_files() {
         let bytes = std::fs::read(&file).unwrap();
         for cut in (0..bytes.len() - 64).step_by(10_007) {

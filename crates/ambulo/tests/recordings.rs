@@ -1,4 +1,4 @@
-//! From a table to a trajectory: units, names, clocks, gaps, filters, and what else decides a coordinate.
+//! From a table to a trajectory: units, names, times, gaps, filters, and coordinates that are not recorded.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -74,18 +74,18 @@ fn a_header_that_states_no_unit_is_read_as_radians_with_a_warning() {
 }
 
 #[test]
-fn degrees_under_a_header_that_says_radians_are_noticed() {
+fn degrees_under_a_header_that_states_radians_are_detected() {
     let (_, findings) = import(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t30\t0.5\n")));
     assert_eq!(codes(&findings), [(Code::MotionDegreesAsRadians, 1)]);
     let text = &findings.as_slice()[0].message;
     assert!(text.contains("look like degrees: they reach `pelvis_rx` 30") && text.contains("inDegrees=yes"), "{text}");
-    // A length of 30 m is no angle.
+    // A length of 30 m is not an angle.
     let (_, findings) = import(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t0.3\t30\n")));
     assert!(findings.as_slice().is_empty(), "{:?}", findings.as_slice());
 }
 
 #[test]
-fn radians_under_a_header_that_says_degrees_are_noticed_where_enough_angles_move() {
+fn radians_under_a_header_that_states_degrees_are_detected_if_enough_angles_move() {
     let model = free_bodies(DOWN_Y, &[("pelvis", 10.0), ("torso", 10.0)]);
     let names = "time\tpelvis_rx\tpelvis_ry\tpelvis_rz\ttorso_rx\n";
     let read = |rows: &str| {
@@ -96,12 +96,12 @@ fn radians_under_a_header_that_says_degrees_are_noticed_where_enough_angles_move
     };
     assert_eq!(read("0\t0.3\t-1.2\t0.5\t0.7\n"), [(Code::MotionRadiansAsDegrees, 1)]);
     assert_eq!(read("0\t0.3\t-12\t0.5\t0.7\n"), []);
-    // Three angles near zero are no evidence.
+    // Three angles near zero are not enough.
     assert_eq!(read("0\t0.3\t-1.2\t0.5\t0\n"), []);
 }
 
 #[test]
-fn state_paths_name_coordinates_and_speeds_are_passed_over() {
+fn state_paths_are_coordinates_and_speeds_are_ignored() {
     let names = "time\t/jointset/ground_pelvis/pelvis_rx/value\t/jointset/ground_pelvis/pelvis_rx/speed\tpelvis_tx\n";
     let (motion, findings) = import(&storage("inDegrees=no\n", &format!("{names}0\t0.25\t9\t0.5\n")));
     let motion = motion.unwrap();
@@ -111,7 +111,7 @@ fn state_paths_name_coordinates_and_speeds_are_passed_over() {
 }
 
 #[test]
-fn a_column_that_the_model_does_not_know_is_named_beside_the_coordinates_without_one() {
+fn an_unknown_column_is_reported_with_the_coordinates_that_have_none() {
     let (motion, findings) = import(&storage("inDegrees=no\n", "time\tpelvis_rx\tpelvis_tilt\n0\t0.1\t0.2\n"));
     assert!(motion.is_ok());
     assert_eq!(codes(&findings), [(Code::MotionUnknownCoordinate, 1)]);
@@ -137,15 +137,15 @@ fn a_repeated_row_is_dropped_and_counted_and_a_contradiction_is_an_error() {
     let text = message(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t1\t2\n0.1\t1\t2\n0.1\t1\t2.5\n")));
     // Three header lines, names, and the third row: line 8.
     let expected = "line 8: a second row for time 0.1 s with other numbers in `pelvis_tx`; \
-                    expected one row an instant. \
+                    expected one row per time. \
                     hint: delete one of the two";
     assert_eq!(text, expected);
 }
 
 #[test]
-fn a_clock_that_runs_back_or_is_no_number_is_an_error_with_its_line() {
+fn a_decreasing_or_non_finite_time_is_an_error_with_its_line() {
     let text = message(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t1\t2\n0.2\t1\t2\n0.1\t1\t2\n")));
-    assert!(text.starts_with("line 8: time 0.1 s comes after 0.2 s; expected rising times. hint:"), "{text}");
+    assert!(text.starts_with("line 8: time 0.1 s comes after 0.2 s; expected increasing times. hint:"), "{text}");
     for word in ["nan", "inf", "-inf"] {
         let text = message(&storage("inDegrees=no\n", &format!("{NAMES}0.0\t1\t2\n{word}\t1\t2\n")));
         let shown = word.replace("nan", "NaN");
@@ -162,7 +162,7 @@ fn clock() -> Vec<f64> {
     (0..FRAMES).map(|i| i as f64 / RATE_HZ).collect()
 }
 
-/// One coordinate recorded at these instants; the others are missing.
+/// One coordinate recorded at these times; the others are missing.
 fn recorded(times: Vec<f64>, values: Vec<f64>) -> Motion {
     let mut columns = vec![None; 6];
     columns[0] = Some(values);
@@ -192,7 +192,7 @@ fn errors(found: &SmoothMotion) -> [f64; 3] {
 }
 
 #[test]
-fn a_short_gap_is_bridged_and_said() {
+fn a_short_gap_is_interpolated_and_reported() {
     let mut values: Vec<f64> = clock().into_iter().map(wave).collect();
     values[100..115].fill(f64::NAN);
     values[200] = f64::NAN;
@@ -220,7 +220,7 @@ fn a_long_gap_and_missing_ends_are_errors_that_name_column_and_time() {
 }
 
 #[test]
-fn the_hint_to_cut_the_range_helps_against_missing_ends_and_long_gaps() {
+fn a_range_without_missing_ends_and_long_gaps_is_accepted() {
     for (from, to) in [(0, 10), (290, 301), (240, 280)] {
         let mut values: Vec<f64> = clock().into_iter().map(wave).collect();
         values[from..to].fill(f64::NAN);
@@ -231,7 +231,7 @@ fn the_hint_to_cut_the_range_helps_against_missing_ends_and_long_gaps() {
 }
 
 #[test]
-fn an_uneven_clock_is_resampled_and_said() {
+fn uneven_time_steps_are_resampled_and_reported() {
     let times: Vec<f64> = clock().iter().enumerate().map(|(i, t)| t + 0.002 * (i as f64 * 0.7).sin()).collect();
     let values = times.iter().map(|&t| wave(t)).collect();
     let (found, findings) = smoothed(&recorded(times, values), Smoother::Off, Window::default());
@@ -245,7 +245,7 @@ fn an_uneven_clock_is_resampled_and_said() {
     let values = even.iter().map(|&t| wave(t)).collect();
     let (_, findings) = smoothed(&recorded(even, values), Smoother::Off, Window::default());
     assert!(findings.as_slice().is_empty(), "a clock rounded to 0.1 ms is even: {:?}", findings.as_slice());
-    // A hole in the clock is a gap, not unevenness.
+    // A missing time interval is a gap.
     let holed: Vec<f64> = clock().iter().map(|&t| if t > 1.0 { t + 0.5 } else { t }).collect();
     let values = holed.iter().map(|&t| wave(t)).collect();
     let text = smoothed(&recorded(holed, values), Smoother::Off, Window::default()).0.unwrap_err().to_string();
@@ -253,9 +253,9 @@ fn an_uneven_clock_is_resampled_and_said() {
 }
 
 #[test]
-fn a_clock_of_tiny_and_large_steps_does_not_ask_for_a_huge_grid() {
+fn tiny_and_large_time_steps_do_not_make_a_huge_grid() {
     // A logger that stamps each sample four times, a microsecond apart: the median step is a microsecond, the recording
-    // lasts a second. Resampling at the median step takes a million frames a column, at a nanosecond a billion.
+    // lasts a second. Resampling at the median step takes a million frames per column, at a nanosecond a billion.
     let times: Vec<f64> = (0..40).map(|i| f64::from(i / 4) * 0.1 + f64::from(i % 4) * 1e-6).collect();
     let values = times.iter().map(|&t| wave(t)).collect();
     let (found, _) = smoothed(&recorded(times, values), Smoother::Off, Window::default());
@@ -274,14 +274,14 @@ fn a_window_keeps_the_frames_inside_and_changes_no_number() {
     assert_near(part.grid.start_s, 0.5, ROUNDING, "first frame [s]");
     assert_near(part.grid.end_s(), 2.0, ROUNDING, "last frame [s]");
     for (whole, part) in whole.columns[0].iter().flatten().zip(part.columns[0].iter().flatten()) {
-        // The spline is read at instants that differ in the last bit.
+        // The spline is evaluated at times that differ in the last bit.
         let largest = whole[50..201].iter().zip(part).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(largest < 1e-10, "the window changes a number by {largest}");
     }
 }
 
 #[test]
-fn too_few_frames_are_an_error_that_says_how_long_the_recording_is() {
+fn too_few_frames_are_an_error_with_the_duration_of_the_recording() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let window = |from: f64, to: f64| Window { from_s: Some(from), to_s: Some(to) };
     let text = |motion, window| smoothed(motion, Smoother::Off, window).0.unwrap_err().to_string();
@@ -339,7 +339,7 @@ fn noise(standard_deviation: f64, seed: u64) -> Vec<f64> {
 }
 
 #[test]
-fn the_spline_finds_the_derivatives_of_a_noisy_sine_and_the_size_of_the_noise() {
+fn the_spline_estimates_the_derivatives_of_a_noisy_sine_and_its_noise() {
     const NOISE: f64 = 0.002;
     const SEED: u64 = 7;
     let noisy: Vec<f64> = clock().into_iter().zip(noise(NOISE, SEED)).map(|(t, e)| wave(t) + e).collect();
@@ -363,7 +363,7 @@ fn the_spline_finds_the_derivatives_of_a_noisy_sine_and_the_size_of_the_noise() 
 }
 
 #[test]
-fn a_cutoff_beyond_half_the_rate_is_refused_with_the_column_and_the_limit() {
+fn a_cutoff_beyond_half_the_rate_is_rejected_with_the_column_and_the_limit() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let filter = Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 60.0 });
     let error = smoothed(&motion, filter, Window::default()).0.unwrap_err();
@@ -372,7 +372,7 @@ fn a_cutoff_beyond_half_the_rate_is_refused_with_the_column_and_the_limit() {
     assert!(text.contains("`pelvis_rx`") && text.contains("60 Hz") && text.contains("below 50 Hz"), "{text}");
 }
 
-/// A body that stands still, with coordinates that nothing uses, each driven in another way: leader, follower, locked,
+/// A body at rest with unused coordinates of every kind: leader, follower, locked,
 /// prescribed, free.
 fn driven() -> Model {
     let ids = coordinate_ids(5);
@@ -442,7 +442,7 @@ fn locked_prescribed_and_missing_coordinates_get_their_own_values() {
 }
 
 #[test]
-fn a_follower_recorded_in_degrees_is_recognised_and_one_that_agrees_is_not_mentioned() {
+fn a_follower_recorded_in_degrees_is_detected_and_one_that_agrees_is_not_reported() {
     let follower = |scale: f64| {
         let values = leader()[0].iter().map(|x| scale * (x * x + 0.5 * x + 0.25)).collect();
         Some([values, vec![0.0; 50], vec![0.0; 50]])
@@ -457,7 +457,7 @@ fn a_follower_recorded_in_degrees_is_recognised_and_one_that_agrees_is_not_menti
 }
 
 #[test]
-fn numbers_that_are_not_finite_stop_at_the_border_of_the_trajectory() {
+fn numbers_that_are_not_finite_are_rejected_by_the_trajectory() {
     let model = pelvis();
     let grid = TimeGrid { start_s: 1.0, step_s: 0.1, frames: 4 };
     let column = || [vec![0.0; 4], vec![0.0; 4], vec![0.0; 4]];
@@ -473,7 +473,7 @@ fn numbers_that_are_not_finite_stop_at_the_border_of_the_trajectory() {
 }
 
 #[test]
-fn another_rate_reads_the_same_curve_at_other_instants() {
+fn another_rate_evaluates_the_same_curve_at_other_times() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let at = |rate_hz| {
         let settings = SmoothSettings { smoother: Smoother::Off, window: Window::default(), rate_hz };

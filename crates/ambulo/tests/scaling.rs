@@ -1,4 +1,4 @@
-//! Models brought to another size: as OpenSim does it, and back from a standing trial.
+//! Scaling of models: compared with OpenSim, and recovery of known sizes from a standing trial.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -9,7 +9,8 @@ mod marker_data;
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::scaling::{
-    MeasuredBody, Measurement, ScalingError, SizeSettings, SizedModel, fit_size, measured_factors, size_by_measurements,
+    DistanceMeasurement, MeasuredBody, ScalingError, SizeSettings, SizedModel, fit_size, measured_factors,
+    size_by_measurements,
 };
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{Drive, Model, ScaleError};
@@ -19,7 +20,7 @@ use common::random::Random;
 use marker_data::{Subject, gait2392, rajagopal};
 use std::path::Path;
 
-/// Rows of a file of OpenSim's numbers: a name and values.
+/// Rows of a file with OpenSim's results: a name and values.
 fn rows(file: &str) -> Vec<(String, Vec<f64>)> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/testdata/opensim_scale").join(file);
     let text = std::fs::read_to_string(path).unwrap();
@@ -30,7 +31,7 @@ fn rows(file: &str) -> Vec<(String, Vec<f64>)> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// Places of the markers in ground, in the model's order [m].
+/// Positions of the markers in ground, in the order of the model [m].
 fn places(model: &Model, q: &[f64]) -> Vec<Vec3> {
     let zeros = vec![0.0; q.len()];
     let bodies = body_motion(model, Posture { q, qd: &zeros, qdd: &zeros });
@@ -68,14 +69,14 @@ fn assert_scales_as_opensim(model: &Model, name: &str) {
 }
 
 #[test]
-fn models_scale_as_opensim_scales_them() {
+fn models_are_scaled_as_by_opensim() {
     if let (Some(a), Some(b)) = (rajagopal(), gait2392()) {
         assert_scales_as_opensim(&a.model, "rajagopal");
         assert_scales_as_opensim(&b.model, "gait2392");
     }
 }
 
-/// Bodies that are disturbed together; a body without markers cannot tell its own size.
+/// Bodies that are scaled together: the size of a body without markers is not determined.
 const GROUPS: [&[&str]; 5] = [
     &["pelvis"],
     &["femur"],
@@ -92,7 +93,7 @@ fn disturbed(model: &Model, r: &mut Random) -> (Model, Vec<f64>) {
     (model.scaled(&all, Some(55.0)).unwrap(), factors)
 }
 
-/// From each joint to the joint of its parent, on the parent [mm], at the default posture.
+/// Distance from each joint to the joint of its parent [mm], in the default posture.
 fn lengths(model: &Model) -> Vec<(String, f64)> {
     let joint = |b: &ambulo::model::Body| {
         let parent = &model.bodies()[b.joint.parent?.index()];
@@ -114,7 +115,7 @@ fn worst_length(a: &Model, b: &Model) -> (f64, String) {
     worst
 }
 
-/// `from_stored_mm`: how far the legs may be from those of the stored model, which another program scaled from other distances.
+/// `from_stored_mm`: allowed difference of the leg lengths from those of the stored model, which another program scaled by other distances.
 fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     let mut findings = Findings::default();
     let settings = SizeSettings { mass: Some(subject.model.mass()) };
@@ -147,7 +148,7 @@ fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     }
 }
 
-/// The model's markers are where the person has them in the standing posture.
+/// Asserts that the markers of the model match the standing trial.
 fn assert_fits_standing(subject: &Subject, sized: &SizedModel) {
     let fit = fit_markers(&sized.model, &subject.standing, &FitSettings::default(), &mut Findings::default()).unwrap();
     let middle = fit.rms_m[fit.rms_m.len() / 2];
@@ -156,7 +157,7 @@ fn assert_fits_standing(subject: &Subject, sized: &SizedModel) {
 }
 
 #[test]
-fn a_disturbed_model_comes_back_to_size_from_a_standing_trial() {
+fn the_size_of_a_disturbed_model_is_recovered_from_a_standing_trial() {
     if let (Some(a), Some(b)) = (gait2392(), rajagopal()) {
         assert_comes_back("gait2392", &a, 5.0);
         assert_comes_back("rajagopal", &b, 20.0);
@@ -164,7 +165,7 @@ fn a_disturbed_model_comes_back_to_size_from_a_standing_trial() {
 }
 
 #[test]
-fn sizes_that_are_none_are_refused() {
+fn impossible_sizes_are_rejected() {
     let Some(subject) = gait2392() else { return };
     let ones = vec![Vec3::repeat(1.0); subject.model.bodies().len()];
     assert!(matches!(subject.model.scaled(&ones[1..], None), Err(ScaleError::Count { .. })));
@@ -175,7 +176,7 @@ fn sizes_that_are_none_are_refused() {
     assert!(matches!(subject.model.scaled(&ones, Some(-1.0)), Err(ScaleError::Mass { .. })));
 }
 
-/// A person of a known size, standing in the model's default posture.
+/// A person of known size, standing in the default posture of the model.
 fn standing_person(model: &Model, factors: &[Vec3]) -> MarkerRecording {
     let person = model.scaled(factors, None).unwrap();
     let mut q: Vec<f64> = person.coordinates().iter().map(|c| c.default_value).collect();
@@ -192,8 +193,8 @@ fn standing_person(model: &Model, factors: &[Vec3]) -> MarkerRecording {
     MarkerRecording { name: "known".into(), rate_hz: 100.0, times: vec![0.0, 0.01, 0.02], markers }
 }
 
-fn measurement(name: &str, pairs: &[[&str; 2]], bodies: &[(&str, [bool; 3])]) -> Measurement {
-    Measurement {
+fn measurement(name: &str, pairs: &[[&str; 2]], bodies: &[(&str, [bool; 3])]) -> DistanceMeasurement {
+    DistanceMeasurement {
         name: name.into(),
         pairs: pairs.iter().map(|[a, b]| [(*a).to_owned(), (*b).to_owned()]).collect(),
         bodies: bodies.iter().map(|(body, axes)| MeasuredBody { body: (*body).to_owned(), axes: *axes }).collect(),
@@ -229,7 +230,8 @@ fn measured_distances_give_the_factors_of_a_known_person() {
     assert!((sized.model.mass() - 60.0).abs() < 1e-9);
     assert!(sized.moved.iter().all(|m| m.distance_m < 1e-7));
 
-    let error = |m: Measurement| measured_factors(model, &standing, &[m], &mut Findings::default()).unwrap_err();
+    let error =
+        |m: DistanceMeasurement| measured_factors(model, &standing, &[m], &mut Findings::default()).unwrap_err();
     let nowhere = error(measurement("nowhere", &[["A", "B"]], &[("pelvis", ALL)]));
     assert!(matches!(nowhere, ScalingError::NoPair { .. }) && nowhere.to_string().contains("A - B"), "{nowhere}");
     let strange = error(measurement("tail", &[["R.ASIS", "L.ASIS"]], &[("tail", ALL)]));
@@ -239,7 +241,7 @@ fn measured_distances_give_the_factors_of_a_known_person() {
 }
 
 #[test]
-fn axes_that_a_measurement_does_not_name_keep_their_size() {
+fn axes_without_a_measurement_keep_their_size() {
     let Some(subject) = gait2392() else { return };
     let ones = vec![Vec3::repeat(1.0); subject.model.bodies().len()];
     let standing = standing_person(&subject.model, &ones);

@@ -1,4 +1,4 @@
-//! Skeletons of BVH files as recordings of joint centres: names, unit, axes, forward kinematics; invented and real files.
+//! Skeletons of BVH files as recordings of joint centres: names, unit, axes, forward kinematics; synthetic and real files.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -6,7 +6,7 @@
 mod shared_data;
 
 use ambulo::findings::{Code, Findings};
-use ambulo::motion::skeleton::{REACH, SkeletonError, SkeletonRecording, skeleton_from_bvh};
+use ambulo::motion::skeleton::{POINT_DISTANCE_M, SkeletonError, SkeletonRecording, skeleton_from_bvh};
 use ambulo::spatial::Vec3;
 use ambulo_formats::bvh::Bvh;
 
@@ -101,12 +101,12 @@ fn assert_at(recording: &SkeletonRecording, name: &str, frame: usize, place: [f6
 }
 
 #[test]
-fn joint_centres_stand_where_the_bones_put_them() {
+fn joint_centres_follow_from_the_bones() {
     let (recording, findings) = read(FIGURE, None);
     println!("{}", recording.statement);
     assert_eq!(
         recording.statement,
-        "lengths in centimetres (thigh and shank 0.850 m go with a stature of 1.73 m); \
+        "lengths in centimetres (thigh and shank of 0.850 m correspond to a stature of 1.73 m); \
          +y up, facing along +z -> world x forward, y up, z right"
     );
     // The person faces +z of the file, so -x of the file is to the right: world z.
@@ -117,7 +117,7 @@ fn joint_centres_stand_where_the_bones_put_them() {
     assert_at(&recording, "toe_tip_r", 0, [0.2, 0.02, 0.09]);
     assert_at(&recording, "toe_tip_l", 0, [0.14, 0.02, -0.09]);
     assert_at(&recording, "shoulder_r", 0, [0.0, 1.43, 0.17]);
-    // A turn of +90 degrees about x, which points to the left, brings the shank from down to backwards: a bent knee.
+    // A rotation of +90 degrees about x, which points to the left, moves the shank from down to backwards: a flexed knee.
     assert_at(&recording, "knee_r", 1, [0.0, 0.5, 0.09]);
     assert_at(&recording, "ankle_r", 1, [-0.42, 0.5, 0.09]);
     assert_at(&recording, "toe_r", 1, [-0.48, 0.36, 0.09]);
@@ -125,24 +125,24 @@ fn joint_centres_stand_where_the_bones_put_them() {
 }
 
 #[test]
-fn points_beside_a_joint_show_how_its_segment_is_turned() {
+fn points_next_to_a_joint_show_the_orientation_of_its_segment() {
     let (recording, _) = read(FIGURE, None);
-    assert_at(&recording, "pelvis_up", 0, [0.0, 0.93 + REACH, 0.0]);
-    assert_at(&recording, "pelvis_front", 0, [REACH, 0.93, 0.0]);
-    assert_at(&recording, "thigh_side_r", 0, [0.0, 0.5, 0.09 + REACH]);
-    assert_at(&recording, "thigh_side_l", 0, [0.0, 0.5, REACH - 0.09]);
-    assert_at(&recording, "shank_side_r", 1, [-0.42, 0.5, 0.09 + REACH]);
+    assert_at(&recording, "pelvis_up", 0, [0.0, 0.93 + POINT_DISTANCE_M, 0.0]);
+    assert_at(&recording, "pelvis_front", 0, [POINT_DISTANCE_M, 0.93, 0.0]);
+    assert_at(&recording, "thigh_side_r", 0, [0.0, 0.5, 0.09 + POINT_DISTANCE_M]);
+    assert_at(&recording, "thigh_side_l", 0, [0.0, 0.5, POINT_DISTANCE_M - 0.09]);
+    assert_at(&recording, "shank_side_r", 1, [-0.42, 0.5, 0.09 + POINT_DISTANCE_M]);
     let turned = FIGURE.replace("0 93 0 0 0 0  0 0 0 0 90", "0 93 0 0 0 90  0 0 0 0 90");
     let (recording, _) = read(&turned, None);
-    // A turn of +90 degrees about y: who faced forward faces left, and what was to the right is in front.
+    // A rotation of +90 degrees about y: the person faces left, and right becomes forward.
     assert_at(&recording, "hip_r", 1, [0.09, 0.93, 0.0]);
-    assert_at(&recording, "pelvis_front", 1, [0.0, 0.93, -REACH]);
-    assert_at(&recording, "thigh_side_r", 1, [0.09 + REACH, 0.5, 0.0]);
+    assert_at(&recording, "pelvis_front", 1, [0.0, 0.93, -POINT_DISTANCE_M]);
+    assert_at(&recording, "thigh_side_r", 1, [0.09 + POINT_DISTANCE_M, 0.5, 0.0]);
 }
 
 #[test]
-fn a_rig_whose_legs_lie_when_it_rests_stands_by_its_mean_posture() {
-    // The bones of the legs lie along +z at rest; thighs turned by 90 degrees about x hang down. (x, y, z) = Rx(90) (x, z, -y).
+fn with_a_resting_pose_that_is_not_upright_the_mean_posture_is_used() {
+    // The bones of the legs lie along +z at rest; thighs rotated by 90 degrees about x hang down. (x, y, z) = Rx(90) (x, z, -y).
     let lying = FIGURE
         .replace("OFFSET 0 -43 0", "OFFSET 0 0 43")
         .replace("OFFSET 0 -42 0", "OFFSET 0 0 42")
@@ -157,13 +157,13 @@ fn a_rig_whose_legs_lie_when_it_rests_stands_by_its_mean_posture() {
         ("ankle_r", [0.0, 0.08, 0.09]),
         ("toe_r", [0.14, 0.02, 0.09]),
         ("toe_tip_r", [0.2, 0.02, 0.09]),
-        ("pelvis_up", [0.0, 0.93 + REACH, 0.0]),
-        ("pelvis_front", [REACH, 0.93, 0.0]),
-        ("thigh_side_r", [0.0, 0.5, 0.09 + REACH]),
-        ("shank_side_l", [0.0, 0.08, REACH - 0.09]),
-        ("foot_front_r", [REACH, 0.08, 0.09]),
-        ("foot_side_r", [0.0, 0.08, 0.09 + REACH]),
-        ("toe_front_r", [0.14 + REACH, 0.02, 0.09]),
+        ("pelvis_up", [0.0, 0.93 + POINT_DISTANCE_M, 0.0]),
+        ("pelvis_front", [POINT_DISTANCE_M, 0.93, 0.0]),
+        ("thigh_side_r", [0.0, 0.5, 0.09 + POINT_DISTANCE_M]),
+        ("shank_side_l", [0.0, 0.08, POINT_DISTANCE_M - 0.09]),
+        ("foot_front_r", [POINT_DISTANCE_M, 0.08, 0.09]),
+        ("foot_side_r", [0.0, 0.08, 0.09 + POINT_DISTANCE_M]),
+        ("toe_front_r", [0.14 + POINT_DISTANCE_M, 0.02, 0.09]),
         // A third of 0.2 m behind the ankle, as low as the ball.
         ("heel_r", [-0.2 / 3.0, 0.02, 0.09]),
     ] {
@@ -176,11 +176,11 @@ fn a_rig_whose_legs_lie_when_it_rests_stands_by_its_mean_posture() {
 fn rotations_are_applied_in_the_order_of_the_channels() {
     let turned = FIGURE.replace("0 93 0 0 0 0  0 0 0 0 90", "0 93 0 0 0 0  0 90 90 0 0");
     let (recording, _) = read(&turned, None);
-    // Z, then X, then Y: R = Rz(0) Rx(90) Ry(90); the thigh (0,-1,0) is left alone by Ry and turned backwards by Rx.
+    // Z, then X, then Y: R = Rz(0) Rx(90) Ry(90); the thigh (0,-1,0) is unchanged by Ry and rotated backwards by Rx.
     assert_at(&recording, "knee_r", 1, [-0.43, 0.93, 0.09]);
     let other = turned.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Xrotation Yrotation Zrotation");
     let (recording, _) = read(&other, None);
-    // X 0, Y 90, Z 90: R = Ry(90) Rz(90); Rz turns (0,-1,0) to +x, Ry turns +x to -z: backwards again, by another way.
+    // X 0, Y 90, Z 90: R = Ry(90) Rz(90); Rz turns (0,-1,0) to +x, Ry turns +x to -z: backwards again, by another sequence.
     assert_at(&recording, "knee_r", 1, [-0.43, 0.93, 0.09]);
     let third = turned.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Xrotation Zrotation Yrotation");
     let (recording, _) = read(&third, None);
@@ -189,7 +189,7 @@ fn rotations_are_applied_in_the_order_of_the_channels() {
 }
 
 #[test]
-fn unit_and_axes_are_told_from_the_body() {
+fn unit_and_axes_are_inferred_from_the_body() {
     for (unit, metres, name) in [(0.01, 1.0, "metres"), (10.0, 0.001, "millimetres"), (1.0 / 2.54, 0.0254, "inches")] {
         let (recording, _) = read(&scaled(unit), None);
         assert!(recording.statement.starts_with(&format!("lengths in {name} (")), "{}", recording.statement);
@@ -197,7 +197,7 @@ fn unit_and_axes_are_told_from_the_body() {
         let knee = recording.markers.marker("knee_r").unwrap().positions[0];
         assert!((knee - Vec3::new(0.0, 0.5, 0.09)).norm() < 1e-12, "{knee:?}");
     }
-    // A unit of 3 cm is none; legs of 28.3 make a person of 1.9 m in inches nonetheless, and the stated stature wins.
+    // A unit of 3 cm is not usual; legs of 28.3 inches are plausible for 1.9 m, but the stated stature decides.
     let (recording, findings) = read(&scaled(1.0 / 3.0), Some(1.3));
     assert!(!findings.has(Code::BvhUnit) && recording.statement.contains("inches"), "{}", recording.statement);
     let (recording, findings) = read(&scaled(1.0 / 20.0), Some(1.7));
@@ -226,7 +226,7 @@ fn scaled(factor: f64) -> String {
 }
 
 #[test]
-fn a_figure_that_stands_along_z_comes_out_the_same() {
+fn a_figure_with_z_up_gives_the_same_result() {
     // (x, y, z) -> (-x, z, y): z up, facing +y.
     let swap = |words: &[&str]| format!("{} {} {}", negative(words[0]), words[2], words[1]);
     let line = |line: &str| {
@@ -241,7 +241,7 @@ fn a_figure_that_stands_along_z_comes_out_the_same() {
     assert!(recording.statement.ends_with("+z up, facing along +y -> world x forward, y up, z right"));
     assert_at(&recording, "hip_r", 0, [0.0, 0.93, 0.09]);
     assert_at(&recording, "toe_r", 0, [0.14, 0.02, 0.09]);
-    assert_at(&recording, "pelvis_front", 0, [REACH, 0.93, 0.0]);
+    assert_at(&recording, "pelvis_front", 0, [POINT_DISTANCE_M, 0.93, 0.0]);
 }
 
 fn negative(word: &str) -> String {
@@ -249,7 +249,7 @@ fn negative(word: &str) -> String {
 }
 
 #[test]
-fn positions_of_a_joint_replace_its_offset_or_are_added_whichever_they_are_nearer_to() {
+fn positions_of_a_joint_replace_its_offset_or_are_added_depending_on_their_values() {
     let six = |values: [&str; 2]| {
         let six = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation";
         let (head, tail) = FIGURE.split_once("JOINT RightLeg").unwrap();
@@ -268,7 +268,7 @@ fn positions_of_a_joint_replace_its_offset_or_are_added_whichever_they_are_neare
 }
 
 #[test]
-fn names_of_many_programs_are_known() {
+fn joint_names_of_many_programs_are_recognised() {
     let rename = |names: [&str; 8]| {
         let old = ["Hips", "RightUpLeg", "RightLeg", "RightFoot", "RightToeBase", "LeftUpLeg", "LeftLeg", "LeftFoot"];
         old.iter()
@@ -300,7 +300,7 @@ fn names_of_many_programs_are_known() {
         }
         assert_at(&recording, "toe_r", 0, [0.14, 0.02, 0.09]);
     }
-    // 3ds Max Biped: every name begins alike, the arm too.
+    // 3ds Max Biped: all names have the same prefix.
     let biped = rename([
         "Bip01",
         "Bip01 R Thigh",
@@ -318,7 +318,7 @@ fn names_of_many_programs_are_known() {
 }
 
 #[test]
-fn a_skeleton_that_is_no_person_is_refused_with_what_was_found() {
+fn a_skeleton_that_is_not_a_person_is_rejected_with_its_joint_names() {
     let message = refused(&FIGURE.replace("LeftLeg", "Tail"));
     assert!(message.starts_with("no joint was recognised as left knee; expected the joints of both legs"), "{message}");
     assert!(message.contains("Found: Hips, RightUpLeg, RightLeg"), "{message}");
@@ -335,7 +335,7 @@ fn a_skeleton_that_is_no_person_is_refused_with_what_was_found() {
 }
 
 #[test]
-fn values_that_were_not_seen_are_gaps() {
+fn missing_values_are_gaps() {
     let (recording, _) = read(&FIGURE.replace("0 0 0 0 90 0", "0 0 0 nan 90 0"), None);
     let seen = |name: &str, frame: usize| recording.markers.marker(name).unwrap().is_seen(frame);
     let all = [seen("ankle_r", 0), seen("knee_r", 1), seen("ankle_r", 1), seen("ankle_l", 1)];
@@ -361,7 +361,7 @@ fn the_walk_in_a_figure_of_eight_is_a_person_of_usual_size_and_speed() {
     let [hip, toe] = ["hip_r", "toe_r"].map(|name| heights(&recording, name));
     let path = &recording.markers.marker("hip_r").unwrap().positions;
     let level = |a: Vec3, b: Vec3| (a - b).xz().norm();
-    // A tenth of a second between the points of the way, so that noise adds nothing.
+    // A tenth of a second between the points of the path, so that noise does not add to it.
     let way: f64 = path.iter().step_by(12).zip(path.iter().step_by(12).skip(1)).map(|(a, b)| level(*a, *b)).sum();
     let speed = way / (recording.markers.times.last().unwrap() - recording.markers.times[0]);
     println!("{}\n{findings:?}", recording.statement);

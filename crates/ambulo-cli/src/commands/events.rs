@@ -6,7 +6,7 @@ use crate::{Verdict, files, printer};
 use ambulo::analysis::{LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
@@ -92,7 +92,7 @@ fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec
     let mut events = Vec::new();
     for (side, column) in columns {
         findings.report(Code::EventsColumns, format!("the {side} foot's upward force is `{column}`"));
-        for contact in contacts(times, table.column(&column).unwrap_or_default()) {
+        for contact in contacts_from_force(times, table.column(&column).unwrap_or_default()) {
             push(&mut events, side, contact.strike_s, contact.off_s);
         }
     }

@@ -109,7 +109,7 @@ fn recording(human: &Human, trajectory: &Trajectory) -> Result<C3d, LaboratoryEr
 
 fn points(human: &Human, trajectory: &Trajectory, markers: &[Marker]) -> Vec<Point> {
     let turn = in_laboratory() * MILLIMETRES;
-    let paths = marker_paths(&human.model, trajectory, markers).turned(&turn).markers;
+    let paths = marker_paths(&human.model, trajectory, markers).rotated(&turn).markers;
     let point = |path: MarkerPath| Point::new(&path.name, path.positions.into_iter().map(Into::into).collect());
     paths.into_iter().map(point).collect()
 }

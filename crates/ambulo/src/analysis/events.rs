@@ -1,6 +1,6 @@
 //! Foot strikes and toe-offs, named and counted: from the times during which feet were loaded.
 
-pub use crate::ground::phases::{Contact, SHORTEST_CONTACT_S, contacts};
+pub use crate::ground::phases::{Contact, SHORTEST_CONTACT_S, contacts_from_force};
 use crate::model::Side;
 pub use crate::motion::{Event, EventKind};
 

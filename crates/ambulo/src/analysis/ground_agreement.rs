@@ -19,7 +19,7 @@ use super::predicted::PredictedAnalysis;
 use super::recording::{Analysis, Mass};
 use super::walking_direction::WalkingDirection;
 use crate::ground::footfalls::Footfalls;
-use crate::ground::phases::contacts_of_events;
+use crate::ground::phases::contacts_from_events;
 use crate::ground::predict::{FootDeviation, Prediction};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet, upward};
 use crate::model::{Model, Movement, Side};
@@ -172,7 +172,7 @@ impl PlateCoverage {
         let mut seen = PlateCoverage { stances: Vec::new(), window: None, events: measured.events.clone() };
         let mut free = if to > from { vec![[from, to]] } else { Vec::new() };
         for side in Side::BOTH {
-            let contacts = contacts_of_events(&measured.events, side);
+            let contacts = contacts_from_events(&measured.events, side);
             seen.stances.extend(contacts.iter().filter_map(|c| Some((side, [c.strike_s?, c.off_s?]))));
             let spans: Vec<[f64; 2]> = contacts.iter().map(|c: &Contact| c.span(from, to)).collect();
             for fall in footfalls.of(side) {

@@ -14,7 +14,7 @@ use crate::kinematics::calibration::{
 };
 use crate::kinematics::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, fit_markers};
 use crate::kinematics::scaling::{ScalingError, SizeSettings, SizedModel, fit_size};
-use crate::model::marker_set::{MarkerSet, Recognised, RecognitionError};
+use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
 use crate::model::{Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion};
@@ -50,7 +50,7 @@ pub enum Body<'a> {
     /// The built-in one, made to the person's measure. Without a set of markers the one whose names are found is taken.
     BuiltIn {
         /// What is known of the person.
-        person: &'a calibration::Person,
+        person: &'a calibration::PersonMeasurements,
         /// The set of markers.
         set: Option<&'a MarkerSet>,
     },
@@ -153,7 +153,7 @@ pub(crate) fn follow_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { walk, still, body, plate_feet } = trial;
     let (axes, LaboratoryRecording { markers, plates, .. }) = walk.in_world(findings);
-    let markers = while_seen(&markers, findings);
+    let markers = trimmed_to_visible(&markers, findings);
     progress.end(Stage::Axes)?;
     let still = still.map(|still| still.in_world(findings).1.markers);
     let subject = match body {
@@ -288,14 +288,14 @@ impl Subject {
     fn built_in(
         walk: &MarkerRecording,
         still: Option<&MarkerRecording>,
-        person: &calibration::Person,
+        person: &calibration::PersonMeasurements,
         set: Option<&MarkerSet>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
         let (recording, trial) = still.map_or((walk, Trial::Moving), |still| (still, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
-            Some(set) => Recognised::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
+            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
             None => MarkerSet::recognise(names)?,
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
@@ -312,8 +312,8 @@ impl Subject {
 }
 
 /// The recording without ends in which hardly a marker was seen.
-fn while_seen(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
-    let seen = markers.while_seen();
+fn trimmed_to_visible(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
+    let seen = markers.trimmed_to_visible();
     if let (true, [first, .., last]) = (seen.frames() < markers.frames(), &seen.times[..]) {
         let message = format!(
             "less than half of the markers were seen before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",

@@ -23,7 +23,7 @@ mod weighing;
 pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
-pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts, events};
+pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use ground_agreement::{
     BandAgreement, CenterAgreement, Compared, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement,
     PlateCoverage, ground_agreement,

@@ -11,7 +11,7 @@ use super::recording::{
 use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
 use crate::findings::{Code, Finding, Findings};
-use crate::ground::predict::{Known, PredictSettings, Prediction, predict};
+use crate::ground::predict::{PredictSettings, Prediction, Prescribed, predict};
 use crate::ground::upward;
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
@@ -91,7 +91,7 @@ fn prediction_of_whole_motion(
     const SAME_INSTANT: f64 = 1e-3;
     let is_the_same =
         settings.smoother == Smoother::Butterworth(LowPass::MOTION) && settings.window == Window::default();
-    if is_the_same || input.settings.known != Known::default() {
+    if is_the_same || input.settings.prescribed != Prescribed::default() {
         return None;
     }
     let settings = Settings { smoother: Smoother::Butterworth(LowPass::MOTION), ..settings };

@@ -1,7 +1,7 @@
 //! One recording, from observed coordinates and measured forces to joint forces, events and cycles.
 
 use super::cycles::{Cycle, cycles};
-use super::events::{Contact, Event, EventKind, contacts, events};
+use super::events::{Contact, Event, EventKind, contacts_from_force, events};
 use super::feasibility::{Verdict, over_ground};
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
@@ -231,7 +231,7 @@ pub(super) fn with_forces(
     let up = ground::upward(model);
     let vertical = vertical_by_side(model, plates, up);
     let contacts: Vec<(Side, Vec<Contact>)> =
-        vertical.iter().map(|(side, (times, force))| (*side, contacts(times, force))).collect();
+        vertical.iter().map(|(side, (times, force))| (*side, contacts_from_force(times, force))).collect();
     let grid = trajectory.grid();
     let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = events(&contacts).into_iter().filter(inside).collect();

@@ -1,9 +1,9 @@
-//! Ground forces from force plates or other sensors, brought to the instants of a trajectory.
+//! Ground forces from force plates or other sensors, resampled to the frames of a trajectory.
 //!
-//! Each sensor's wrench is first taken about the world's origin, M₀ = p × F + T, where it can be filtered, interpolated
-//! and added to that of other sensors; a centre of pressure cannot (it jumps, and is undefined without load). The
-//! centre of pressure and the free moment are found at the end, with u the upward unit vector and h the height of the
-//! plate's surface:
+//! The wrench of each sensor is first expressed about the world's origin, M₀ = p × F + T. There it can be filtered, interpolated
+//! and added to those of other sensors; a centre of pressure cannot (it jumps, and is undefined without load). The
+//! centre of pressure and the free moment are computed at the end, with u the upward unit vector and h the height of the
+//! surface of the plate:
 //!
 //!   p = (u × M₀ + h F) / (u · F)            free moment = u · (M₀ - p × F)
 //!
@@ -27,42 +27,42 @@ use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::spatial::{Pose, Vec3, Wrench};
 use std::ops::Range;
 
-/// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
+/// Below this vertical force the centre of pressure is undefined and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = crate::motion::force_plate::CENTER_OF_PRESSURE_LOAD_N;
 
-/// The ground's action on one body over a trajectory.
+/// Ground reaction force on one body over a trajectory, with its centre of pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyForces {
-    /// The body that feels it.
+    /// The body that the ground acts on.
     pub body: BodyId,
-    /// Force [N], one entry a frame.
+    /// Force [N], one entry per frame.
     pub force: Vec<Vec3>,
-    /// Moment about the world's origin [N.m], one entry a frame.
+    /// Moment about the world's origin [N.m], one entry per frame.
     pub moment: Vec<Vec3>,
     /// Centre of pressure [m]; not a number below [`CENTER_OF_PRESSURE_LOAD_N`].
     pub center_of_pressure: Vec<Vec3>,
     /// Moment about the vertical through the centre of pressure [N.m]; not a number below the threshold.
     pub free_moment: Vec<Vec3>,
-    /// Height of the surface that carries the body above the world's origin [m], one entry a frame.
+    /// Height above the world's origin of the surface under the body [m], one entry per frame.
     surface_height: Vec<f64>,
 }
 
-/// What the ground does, by body, whoever found it: plates, a simulation or a prediction.
+/// Ground reaction forces by body: measured, simulated or predicted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundForces {
-    /// One entry for each body that was pushed.
+    /// One entry per body in contact.
     pub bodies: Vec<BodyForces>,
 }
 
 impl GroundForces {
-    /// As loads for [`crate::dynamics::inverse`].
+    /// The loads for [`crate::dynamics::inverse`].
     #[must_use]
     pub fn loads(&self) -> Vec<LoadSeries> {
         self.bodies.iter().map(BodyForces::load).collect()
     }
 }
 
-/// What the ground does to each side's foot: the sum over the bodies of that side, on the one that carried most.
+/// Ground reaction force on each foot: the sum over the bodies of that side, assigned to the most loaded one.
 #[must_use]
 pub fn feet(model: &Model, ground: &GroundForces) -> Vec<(Side, BodyForces)> {
     let up = upward(model);
@@ -78,21 +78,21 @@ pub fn feet(model: &Model, ground: &GroundForces) -> Vec<(Side, BodyForces)> {
 }
 
 impl BodyForces {
-    /// From forces and moments about the world's origin, whoever made them, one entry a frame; the ground stands at
-    /// `surface_height` along `up` [m]. Series of different length are cut to the shorter.
+    /// Computes centres of pressure from forces and moments about the world's origin, one entry per frame. The ground is at
+    /// `surface_height` along `up` [m]. Series of different length are cut to the shortest.
     #[must_use]
     pub fn on_level_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: f64) -> BodyForces {
         BodyForces::on_ground(body, force, moment, up, &vec![surface_height; force.len()])
     }
 
-    /// The same on ground whose height changes from frame to frame, as on steps [m].
+    /// As [`BodyForces::on_level_ground`], for ground whose height changes from frame to frame, as on stairs [m].
     #[must_use]
     pub fn on_ground(body: BodyId, force: &[Vec3], moment: &[Vec3], up: Vec3, surface_height: &[f64]) -> BodyForces {
         let frames = force.len().min(moment.len()).min(surface_height.len());
         combine(body, &[(&force[..frames], &moment[..frames], &surface_height[..frames])], up)
     }
 
-    /// Some of the frames.
+    /// A range of the frames.
     #[must_use]
     pub(crate) fn within(&self, frames: Range<usize>) -> BodyForces {
         BodyForces {
@@ -115,7 +115,7 @@ impl BodyForces {
     }
 }
 
-/// What one sensor saw, on the trajectory's instants.
+/// The wrench of one sensor at the frames of the trajectory.
 struct Series {
     body: BodyId,
     /// Force [N].
@@ -126,12 +126,12 @@ struct Series {
     surface_height: Vec<f64>,
 }
 
-/// Filters the recordings (if asked), brings them to the trajectory's instants and adds those that act on one body.
+/// Filters the recordings, resamples them to the frames of the trajectory and adds those that act on the same body.
 ///
-/// Samples without a point (not a number) count as unloaded.
+/// Samples below the threshold without a point of application (not a number) count as unloaded.
 ///
 /// # Errors
-/// A force that is not a number, a cut-off that the sensor's rate does not allow.
+/// A force that is not a number under load, or a cut-off frequency that the sensor's rate does not allow.
 pub fn measured(
     model: &Model,
     trajectory: &Trajectory,
@@ -143,12 +143,12 @@ pub fn measured(
     let mut series = Vec::new();
     for recording in recordings {
         let recording = in_world(model, trajectory, &usable(recording, trajectory.grid()));
-        series.push(bring(&recording, trajectory.grid(), filter, up, findings)?);
+        series.push(resampled(&recording, trajectory.grid(), filter, up, findings)?);
     }
     let mut bodies: Vec<BodyForces> = Vec::new();
     for body in model.body_ids() {
         let of_body = series.iter().filter(|s| s.body == body);
-        let parts: Vec<Part<'_>> =
+        let parts: Vec<SensorWrench<'_>> =
             of_body.map(|s| (s.force.as_slice(), s.moment.as_slice(), s.surface_height.as_slice())).collect();
         if !parts.is_empty() {
             bodies.push(combine(body, &parts, up));
@@ -157,7 +157,7 @@ pub fn measured(
     Ok(GroundForces { bodies })
 }
 
-/// The recording as far around the trajectory as it has its numbers.
+/// The part of the recording around the trajectory that has no gap.
 fn usable(recording: &ForceRecording, grid: TimeGrid) -> ForceRecording {
     let window = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
     let complete = |row: usize| {
@@ -176,13 +176,13 @@ fn usable(recording: &ForceRecording, grid: TimeGrid) -> ForceRecording {
     out
 }
 
-/// The direction against gravity; world y without gravity.
+/// The upward direction, against gravity; world y without gravity.
 #[must_use]
 pub fn upward(model: &Model) -> Vec3 {
     model.gravity().try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down)
 }
 
-/// The recording with force, moment and point in the world.
+/// Transforms force, moment and point to the world's axes.
 fn in_world(model: &Model, trajectory: &Trajectory, recording: &ForceRecording) -> ForceRecording {
     let mut out = recording.clone();
     if recording.force_frame.is_none() && recording.point_frame.is_none() {
@@ -208,7 +208,7 @@ fn body_poses(model: &Model, trajectory: &Trajectory) -> Vec<Vec<Pose>> {
     poses
 }
 
-fn bring(
+fn resampled(
     recording: &ForceRecording,
     grid: TimeGrid,
     filter: Option<LowPass>,
@@ -230,7 +230,7 @@ fn bring(
     Ok(Series { body: recording.body, force: vector(0), moment: vector(3), surface_height })
 }
 
-/// Whether a frame lies inside the recording, give or take one of its samples: beyond, nothing was measured.
+/// Whether a frame lies inside the recording, within one sample.
 fn covered(recording: &ForceRecording, grid: TimeGrid) -> impl Fn(usize) -> bool + use<> {
     let step_s = TimeGrid::spanning(&recording.times).map_or(0.0, |own| own.step_s);
     let from_s = recording.times.first().map_or(f64::INFINITY, |t| t - step_s);
@@ -238,7 +238,7 @@ fn covered(recording: &ForceRecording, grid: TimeGrid) -> impl Fn(usize) -> bool
     move |frame: usize| (from_s..=to_s).contains(&grid.time(frame))
 }
 
-/// M₀ = p × F + T, beside F.
+/// F and M₀ = p × F + T, as six columns.
 fn about_origin(recording: &ForceRecording, findings: &mut Findings) -> Result<[Vec<f64>; 6], MotionError> {
     let mut columns: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(recording.times.len()));
     for (i, &time) in recording.times.iter().enumerate() {
@@ -294,11 +294,11 @@ fn surface_height(recording: &ForceRecording, up: Vec3) -> f64 {
     heights.get(heights.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Force, moment about the origin and surface height of one part, one entry a frame each.
-type Part<'a> = (&'a [Vec3], &'a [Vec3], &'a [f64]);
+/// Force, moment about the origin and surface height of one sensor, one entry per frame each.
+type SensorWrench<'a> = (&'a [Vec3], &'a [Vec3], &'a [f64]);
 
-/// The sum of several parts on one body.
-fn combine(body: BodyId, parts: &[Part<'_>], up: Vec3) -> BodyForces {
+/// Adds the wrenches of several sensors on one body.
+fn combine(body: BodyId, parts: &[SensorWrench<'_>], up: Vec3) -> BodyForces {
     let frames = parts.first().map_or(0, |(force, _, _)| force.len());
     let mut out = BodyForces {
         body,
@@ -311,7 +311,7 @@ fn combine(body: BodyId, parts: &[Part<'_>], up: Vec3) -> BodyForces {
     for i in 0..frames {
         let force: Vec3 = parts.iter().map(|(force, _, _)| force[i]).sum();
         let moment: Vec3 = parts.iter().map(|(_, moment, _)| moment[i]).sum();
-        // Where several surfaces carry the foot, it is on the most loaded one.
+        // A foot on several surfaces takes the height of the most loaded one.
         let most_loaded = parts.iter().max_by(|a, b| a.0[i].dot(&up).total_cmp(&b.0[i].dot(&up)));
         let height = most_loaded.map_or(0.0, |(_, _, height)| height[i]);
         let (center, free_moment) = center_of_pressure(force, moment, up, height);

@@ -1,4 +1,4 @@
-//! Wrenches between feet and ground.
+//! Ground reaction forces: measured, or predicted from the motion; and when each foot is on the ground.
 
 pub mod foot_motion;
 pub mod footfalls;

@@ -1,36 +1,36 @@
-//! When a foot stands on the ground: from the vertical force that it carries, or from a list of events.
+//! When a foot is on the ground, from its vertical force or from a list of events.
 //!
-//! A foot is loaded while the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`]; the instant of crossing is found on the
-//! straight line between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks are
+//! A foot is loaded while the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`]; the time of crossing is interpolated
+//! linearly between two samples. Contacts and breaks shorter than [`SHORTEST_CONTACT_S`] are noise: breaks are
 //! closed first, then contacts that remain too short are dropped.
 
 use super::CENTER_OF_PRESSURE_LOAD_N;
 use crate::model::Side;
 use crate::motion::{Event, EventKind};
 
-/// A contact or a break shorter than this is noise [s]. Sprinters' contacts last about 0.08 s (unverified).
+/// A contact or a break shorter than this is noise [s]. Contacts of sprinters last about 0.08 s (unverified).
 pub const SHORTEST_CONTACT_S: f64 = 0.05;
 
-/// A time during which a foot was loaded.
+/// The time from foot strike to foot off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Foot strike [s]; `None` if the foot was loaded when the recording began.
     pub strike_s: Option<f64>,
-    /// Toe-off [s]; `None` if the foot was still loaded when it ended.
+    /// Foot off [s]; `None` if the foot was still loaded when the recording ended.
     pub off_s: Option<f64>,
 }
 
 impl Contact {
-    /// From strike to off [s]; where the recording cuts it, to the bound that is given.
+    /// From strike to off [s]; a missing end is replaced by the given bound.
     #[must_use]
     pub fn span(&self, from_s: f64, to_s: f64) -> [f64; 2] {
         [self.strike_s.unwrap_or(from_s), self.off_s.unwrap_or(to_s)]
     }
 }
 
-/// Contacts from a foot's vertical force [N] at rising instants [s].
+/// Contacts from the vertical force on a foot [N] at increasing times [s].
 #[must_use]
-pub fn contacts(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
+pub fn contacts_from_force(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
     let mut found: Vec<Contact> = Vec::new();
     let mut loaded = false;
     for i in 0..times.len().min(vertical.len()) {
@@ -49,7 +49,7 @@ pub fn contacts(times: &[f64], vertical: &[f64]) -> Vec<Contact> {
     close_breaks(found).into_iter().filter(is_long_enough).collect()
 }
 
-/// Instant between samples i - 1 and i at which the threshold is crossed [s].
+/// Time between samples i - 1 and i at which the threshold is crossed [s].
 fn crossing(times: &[f64], vertical: &[f64], i: usize) -> f64 {
     let (before, after) = (vertical[i - 1], vertical[i]);
     let share = (CENTER_OF_PRESSURE_LOAD_N - before) / (after - before);
@@ -72,15 +72,15 @@ fn close_breaks(found: Vec<Contact>) -> Vec<Contact> {
 fn is_long_enough(contact: &Contact) -> bool {
     match (contact.strike_s, contact.off_s) {
         (Some(strike), Some(off)) => off - strike >= SHORTEST_CONTACT_S,
-        // Cut by the end of the recording: its length is not known.
+        // Cut by an end of the recording: its length is not known.
         _ => true,
     }
 }
 
-/// Contacts of one side from strikes and offs in order of time. An off before the first strike belongs to a contact that was under way; of
-/// several strikes without an off between them the first counts, of several offs the first.
+/// Contacts of one foot from strikes and offs in order of time. An off before the first strike ends a contact that began before the
+/// recording. Of several strikes without an off between them the first counts; likewise of several offs.
 #[must_use]
-pub fn contacts_of_events(events: &[Event], side: Side) -> Vec<Contact> {
+pub fn contacts_from_events(events: &[Event], side: Side) -> Vec<Contact> {
     let mut found: Vec<Contact> = Vec::new();
     for event in events.iter().filter(|e| e.side == side) {
         let first = found.is_empty();

@@ -3,7 +3,7 @@
 //! The sweeps use only the joint frames M on the children: inertia, mass centre and the joints of the children are given in the
 //! axes of M, so that an offset on the child costs nothing per frame.
 
-use crate::model::{Displacement, Function, Joint, JointAxis, Measure, Model};
+use crate::model::{Displacement, Function, Joint, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Inertia, Mat3, Pose, Vec3};
 use std::ops::Range;
 
@@ -46,7 +46,7 @@ pub(crate) struct Segment {
     pub(crate) joint_from_body: Pose,
 }
 
-/// A joint with [`Measure::AngularVelocity`] or [`Measure::Ellipsoid`].
+/// A joint with [`JointSpeeds::AngularVelocity`] or [`JointSpeeds::Ellipsoid`].
 #[derive(Debug, Clone)]
 pub(crate) struct Spherical {
     /// Coordinates of the three rotations.
@@ -143,10 +143,10 @@ impl Plan {
 }
 
 fn spherical(joint: &Joint) -> Option<Spherical> {
-    let radii = match joint.measure {
-        Measure::Rates => return None,
-        Measure::AngularVelocity => None,
-        Measure::Ellipsoid(radii) => Some(radii),
+    let radii = match joint.speeds {
+        JointSpeeds::Rates => return None,
+        JointSpeeds::AngularVelocity => None,
+        JointSpeeds::Ellipsoid(radii) => Some(radii),
     };
     let coordinates: Vec<usize> = joint.coordinates().iter().map(|c| c.index()).take(3).collect();
     Some(Spherical { coordinates: coordinates.try_into().ok()?, radii })

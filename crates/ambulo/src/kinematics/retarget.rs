@@ -11,9 +11,9 @@
 use super::marker_fit::{FitError, FitSettings, JointLimits, MarkerFit, OutlierDetection, fit_markers};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions, Human};
-use crate::model::full_body::{FootPrint, SegmentShape, SubjectShape, full_body, reshaped};
+use crate::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
 use crate::model::{BodyId, Marker, Side};
-use crate::motion::skeleton::{REACH, SkeletonRecording};
+use crate::motion::skeleton::{POINT_DISTANCE_M, SkeletonRecording};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -140,7 +140,7 @@ impl Measured<'_> {
         };
         let (front, right, way) = (ways("foot_front")?, ways("foot_side")?, ways(point)?);
         let local = |frame: usize| {
-            let (x, z) = (front[frame] / REACH, right[frame] / REACH);
+            let (x, z) = (front[frame] / POINT_DISTANCE_M, right[frame] / POINT_DISTANCE_M);
             Mat3::from_columns(&[x, z.cross(&x), z]).transpose() * way[frame]
         };
         let places: Vec<Vec3> = (0..way.len()).map(local).collect();
@@ -242,7 +242,7 @@ impl Lengths {
         }
         let Fitting { shapes, markers, .. } = fitting;
         let dimensions = self.dimensions(table.dimensions);
-        let feet = [FootPrint::of(&table.dimensions); 2];
+        let feet = [SolePlacement::of(&table.dimensions); 2];
         Ok(reshaped(table, &SubjectShape { segments: shapes, markers, feet, dimensions, locked: Vec::new() })?)
     }
 }
@@ -282,8 +282,8 @@ impl Fitting<'_> {
         if d.lumbar_height.is_some() {
             self.shape("torso", factor, Vec3::y() * lumbar);
         }
-        self.marker("pelvis_up".to_owned(), &root, Vec3::y() * REACH);
-        self.marker("pelvis_front".to_owned(), &root, Vec3::x() * REACH);
+        self.marker("pelvis_up".to_owned(), &root, Vec3::y() * POINT_DISTANCE_M);
+        self.marker("pelvis_front".to_owned(), &root, Vec3::x() * POINT_DISTANCE_M);
         for side in Side::BOTH {
             self.marker(sided("hip", side), &root, outward(side, lengths.hip_width / 2.0));
             let shoulder = outward(side, lengths.shoulder_width / 2.0) + Vec3::y() * (lengths.shoulder_height - lumbar);
@@ -300,16 +300,16 @@ impl Fitting<'_> {
         self.shape(&tibia, shank / d.shank, knee);
         self.shape(&calcn, 1.0, ankle);
         self.marker(sided("knee", side), &femur, knee);
-        self.marker(sided("thigh_side", side), &femur, knee + Vec3::z() * REACH);
+        self.marker(sided("thigh_side", side), &femur, knee + Vec3::z() * POINT_DISTANCE_M);
         self.marker(sided("ankle", side), &tibia, ankle);
-        self.marker(sided("shank_side", side), &tibia, ankle + Vec3::z() * REACH);
+        self.marker(sided("shank_side", side), &tibia, ankle + Vec3::z() * POINT_DISTANCE_M);
     }
 
     fn foot(&mut self, measured: &Measured<'_>, side: Side) {
         let d = &self.table.dimensions;
         let [calcn, toes] = ["calcn", "toes"].map(|name| sided(name, side));
-        self.marker(sided("foot_front", side), &calcn, Vec3::x() * REACH);
-        self.marker(sided("foot_side", side), &calcn, Vec3::z() * REACH);
+        self.marker(sided("foot_front", side), &calcn, Vec3::x() * POINT_DISTANCE_M);
+        self.marker(sided("foot_side", side), &calcn, Vec3::z() * POINT_DISTANCE_M);
         if let Some(heel) = measured.in_foot("heel", side) {
             self.marker(sided("heel", side), &calcn, heel);
         }
@@ -329,7 +329,7 @@ impl Fitting<'_> {
         self.marker(sided("toe", side), &calcn, toe);
         let length = measured.distance(&sided("toe", side), &sided("toe_tip", side)).unwrap_or(0.0);
         self.shape(&toes, if length > 0.0 { length / d.ball_to_toe } else { factor }, joint);
-        self.marker(sided("toe_front", side), &toes, toe - joint + Vec3::x() * REACH);
+        self.marker(sided("toe_front", side), &toes, toe - joint + Vec3::x() * POINT_DISTANCE_M);
     }
 
     fn arm(&mut self, lengths: &Lengths, side: Side, k: usize) {

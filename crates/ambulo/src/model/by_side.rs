@@ -1,4 +1,4 @@
-//! A pair of things, one on each side of the body.
+//! A pair of values, one for each side of the body.
 
 use super::Side;
 use std::ops::{Index, IndexMut};

@@ -1,8 +1,8 @@
-//! From a [`Model`] to an OpenSim document.
+//! Writes a [`Model`] as an OpenSim document.
 
 use super::{
-    Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, Knots, Marker, Measure,
-    Model,
+    Body, BodyId, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Knots,
+    Marker, Model,
 };
 use crate::spatial::{Pose, Vec3};
 use ambulo_formats::osim::{
@@ -12,32 +12,32 @@ use ambulo_formats::osim::{
 use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why a model makes no document.
+/// Why a model cannot be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// Something that the writer does not know.
+    /// A part that the format cannot express.
     #[error("{part} `{name}`: found {found}; expected {expected}")]
     Unknown {
         /// `joint` or `coordinate`.
         part: &'static str,
         /// Its name.
         name: String,
-        /// What it has.
+        /// What was found.
         found: &'static str,
         /// What can be written.
         expected: &'static str,
     },
 }
 
-/// The layout of the document.
+/// Version of the document.
 const VERSION: u32 = 40000;
 const GROUND: &str = "ground";
 
-/// The document of a model: its bodies, joints with their curves, couplers of coordinates and markers.
+/// Converts a model to a document: bodies, joints with their curves, couplers of coordinates, and markers.
 ///
 /// # Errors
-/// Joints that count angular velocities about other axes than x, y, z in turn; coordinates that move no joint.
+/// Joints with angular velocities about other axes than x, y, z in this order; coordinates that move no joint.
 pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
     check_coordinates(model)?;
     let joints = model.body_ids().map(|id| joint(model, id)).collect::<Result<_, _>>()?;
@@ -54,7 +54,7 @@ pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
     })
 }
 
-/// A document has a coordinate where a joint follows it; one that none follows has no place.
+/// Checks that every coordinate moves a joint, because a document has coordinates only in joints.
 fn check_coordinates(model: &Model) -> Result<(), ExportError> {
     let moving: BTreeSet<CoordinateId> = model.bodies().iter().flat_map(|body| body.joint.coordinates()).collect();
     match model.coordinate_ids().find(|id| !moving.contains(id)) {
@@ -79,7 +79,7 @@ fn body(body: &Body) -> OsimBody {
     }
 }
 
-/// A name that OpenSim takes: it refuses these characters in names of components.
+/// A name that OpenSim accepts: these characters are not allowed in names of components.
 fn component_name(name: &str) -> String {
     name.replace([' ', '\t', '\n', '\r', '/', '\\', '*', '+'], "_")
 }
@@ -100,7 +100,7 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     let as_stated = joint.parent_from_joint;
     let (kind, on_parent) = match (ball_kind(joint)?, standing(joint)) {
         (Some(kind), _) => (kind, as_stated),
-        // OpenSim 4.6 breaks down over a custom joint without coordinates.
+        // OpenSim 4.6 crashes with a custom joint without coordinates.
         (None, Some(standing)) => (OsimJointKind::Weld, as_stated * standing),
         (None, None) => (OsimJointKind::Custom(Box::new(axes(model, joint))), as_stated),
     };
@@ -114,8 +114,8 @@ fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     })
 }
 
-/// The kind of a joint that counts angular velocities, whose axes a document does not state: x, y, z of the joint's frames, each with
-/// the coordinate of its place. `None` for joints that count the rates of their coordinates.
+/// Type of a joint with angular velocities as speeds, whose axes are not in the document: x, y, z of the joint frames, each with
+/// the coordinate in its position. `None` for joints with the rates of their coordinates as speeds.
 fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
     let in_turn = |axes: &[JointAxis]| {
         let units = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -124,25 +124,25 @@ fn ball_kind(joint: &Joint) -> Result<Option<OsimJointKind>, ExportError> {
     let leaders: Vec<CoordinateId> = joint.coordinates();
     let is_known = in_turn(&joint.rotations) && leaders.is_sorted();
     let slides = !joint.translations.is_empty();
-    match joint.measure {
-        Measure::Rates => Ok(None),
-        Measure::AngularVelocity if is_known && !slides => Ok(Some(OsimJointKind::Ball)),
-        Measure::AngularVelocity if is_known && in_turn(&joint.translations) && leaders.len() == 6 => {
+    match joint.speeds {
+        JointSpeeds::Rates => Ok(None),
+        JointSpeeds::AngularVelocity if is_known && !slides => Ok(Some(OsimJointKind::Ball)),
+        JointSpeeds::AngularVelocity if is_known && in_turn(&joint.translations) && leaders.len() == 6 => {
             Ok(Some(OsimJointKind::Free))
         }
-        Measure::Ellipsoid(radii) if is_known && !slides => {
+        JointSpeeds::Ellipsoid(radii) if is_known && !slides => {
             Ok(Some(OsimJointKind::Ellipsoid { radii_m: radii.into() }))
         }
         _ => Err(ExportError::Unknown {
             part: "joint",
             name: joint.name.clone(),
-            found: "forces that go with angular velocity about axes of its own",
-            expected: "turns about x, y, z, and shifts along x, y, z or none",
+            found: "angular velocities about its own axes as speeds",
+            expected: "rotations about x, y, z, and translations along x, y, z or none",
         }),
     }
 }
 
-/// Where the child's frame of a joint stands in the parent's; `None` where a coordinate moves it.
+/// Pose of the joint frame of the child in that of the parent; `None` if a coordinate moves it.
 fn standing(joint: &Joint) -> Option<Pose> {
     let mut pose = Pose::IDENTITY;
     for (axis, value) in fixed(&joint.rotations)? {
@@ -152,7 +152,7 @@ fn standing(joint: &Joint) -> Option<Pose> {
     Some(pose)
 }
 
-/// Directions and displacements of axes; `None` where a coordinate moves one.
+/// Directions and displacements of axes; `None` if a coordinate moves one.
 fn fixed(axes: &[JointAxis]) -> Option<Vec<(Vec3, f64)>> {
     let displacement = |axis: &JointAxis| match axis.displacement {
         Displacement::Fixed(value) => Some((axis.direction, value)),
@@ -161,7 +161,7 @@ fn fixed(axes: &[JointAxis]) -> Option<Vec<(Vec3, f64)>> {
     axes.iter().map(displacement).collect()
 }
 
-/// Three rotations and three translations; those that the joint lacks stand still, at right angles to the others.
+/// Three rotations and three translations; missing ones are constant, perpendicular to the others.
 fn axes(model: &Model, joint: &Joint) -> [OsimAxis; 6] {
     let mut all: [OsimAxis; 6] = std::array::from_fn(|_| still(Vec3::zeros()));
     for (first, list) in [(0, &joint.rotations), (3, &joint.translations)] {
@@ -200,7 +200,7 @@ fn function(curve: &Function) -> OsimFunction {
         Function::Linear { slope, intercept } => OsimFunction::Linear { slope: *slope, intercept: *intercept },
         Function::Polynomial(coefficients) => OsimFunction::Polynomial(coefficients.clone()),
         Function::SimmSpline(spline) => OsimFunction::SimmSpline(points(spline.knots())),
-        // A smoothed spline is the one of its degree that goes through its own fitted values.
+        // A smoothing spline is the interpolating spline of its degree through its fitted values.
         Function::NaturalSpline(spline) => OsimFunction::GcvSpline {
             degree: spline.degree(),
             knots: ambulo_formats::osim::Knots { x: spline.times().to_vec(), y: spline.fitted_values().collect() },

@@ -1,8 +1,8 @@
-//! The full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with joints that turn in space.
+//! The built-in full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with spatial joints.
 //!
-//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint of the same [`Build`]; only the
+//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint for the same [`Build`]; only the
 //! joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are those of Gait2392 and
-//! docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides count alike.
+//! docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have the same signs.
 //!
 //! | body              | coordinates, in the order of the rotations                                     | axes (right side) |
 //! |-------------------|--------------------------------------------------------------------------------|-------------------|
@@ -15,16 +15,16 @@
 //! | `humerus_s`       | `arm_flex_s`, `arm_add_s`, `arm_rot_s` (+ inwards)                               | z, x, y           |
 //! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
 //!
-//! There is no talus: ankle and subtalar axes cross in the ankle centre, and the calcaneus turns about both. The subtalar axis is
+//! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The subtalar axis is
 //! that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are rigid with the forearm.
-//! Tables that do not split the trunk have no lumbar joint; their root is `torso`.
+//! With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
 //!
-//! A subject's body is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
+//! The body of a person is the same tree with other lengths: see [`SubjectShape`] and [`reshaped`].
 
 use super::anthropometry::{Build, BuildError, ContactSphere, Dimensions, Human};
 use super::{
-    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
-    Measure, Model, Side,
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
+    JointSpeeds, Marker, Model, Side,
 };
 use crate::spatial::{Inertia, Pose, Vec3};
 
@@ -32,13 +32,13 @@ use crate::spatial::{Inertia, Pose, Vec3};
 const SUBTALAR: [f64; 3] = [0.787_179_61, 0.604_747_46, -0.120_949_49];
 
 /// Anterior tilt of the pelvis in standing [rad]: 11.7°, mean of the walking speeds slow to fast of Schwartz, Rozumalski,
-/// Trost 2008 (10.97° to 13.13°). Hip angles are measured against the tilted pelvis, so a standing hip is flexed by as much.
+/// Trost 2008 (10.97° to 13.13°). Hip angles are relative to the tilted pelvis, so a standing hip is flexed by the same angle.
 pub const STANDING_TILT: f64 = 11.7 * std::f64::consts::PI / 180.0;
 
 /// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35, rotation of the
 /// trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90 both ways; pronation and
-/// supination 90: tables of normal ranges of motion such as the Merck manual's; the wider number is taken (unverified).
-/// Rotations of the trunk count both ways.
+/// supination 90: tables of normal ranges of motion such as the Merck manual's; the larger value is used (unverified).
+/// Rotations of the trunk are allowed to both sides.
 const RANGES: [(&str, [f64; 2]); 8] = [
     ("hip_adduction", [-50.0, 30.0]),
     ("hip_rotation", [-60.0, 45.0]),
@@ -50,30 +50,30 @@ const RANGES: [(&str, [f64; 2]); 8] = [
     ("pro_sup", [-90.0, 90.0]),
 ];
 
-/// The full body of a mass and a stature, all joints turning in space. The toes have a joint whatever `build` says.
+/// Builds the full body with spatial joints for a mass and a stature. The toes always have a joint.
 ///
 /// # Errors
-/// A mass or a height outside of what walkers have, each alone or together.
+/// An implausible mass, stature or combination of both.
 pub fn full_body(build: &Build) -> Result<Human, BuildError> {
     let planar = Build { toe_joint: true, ..*build }.human()?;
-    let mut making = Making { planar: &planar.model, bodies: Vec::new(), coordinates: Vec::new() };
+    let mut builder = FullBodyBuilder { planar: &planar.model, bodies: Vec::new(), coordinates: Vec::new() };
     for body in planar.model.bodies() {
-        making.take(body);
+        builder.take(body);
     }
-    let Making { bodies, coordinates, .. } = making;
+    let FullBodyBuilder { bodies, coordinates, .. } = builder;
     let mut markers = planar.model.markers().to_vec();
     markers.extend(Side::BOTH.map(|side| hip_side(&planar, side)));
     let model = Model::new(planar.model.name(), planar.model.gravity(), bodies, coordinates, markers)?;
     Ok(Human { model, ..planar })
 }
 
-/// The point of the pelvis beside the hip, named as in docs/CONVENTIONS.md.
+/// A point of the pelvis lateral to the hip, named as in docs/CONVENTIONS.md.
 fn hip_side(human: &Human, side: Side) -> Marker {
     let location = Vec3::new(0.0, 0.0, mirrored(side) * human.dimensions.hip_width);
     Marker { name: format!("hip_{}_side", side.letter()), body: Some(BodyId(0)), location }
 }
 
-/// Plus one on the right.
+/// Sign of mirrored axes: +1 on the right, -1 on the left.
 fn mirrored(side: Side) -> f64 {
     match side {
         Side::Right => 1.0,
@@ -82,14 +82,14 @@ fn mirrored(side: Side) -> f64 {
 }
 
 /// A model under construction.
-struct Making<'a> {
+struct FullBodyBuilder<'a> {
     planar: &'a Model,
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
 }
 
-impl Making<'_> {
-    /// Takes a body of the planar figure over, with the joint that it has in space.
+impl FullBodyBuilder<'_> {
+    /// Adds a body of the planar figure with its spatial joint.
     fn take(&mut self, body: &Body) {
         let (side, stem) = match Side::split_name(&body.name) {
             Some((side, stem)) => (Some(side), stem),
@@ -115,7 +115,7 @@ impl Making<'_> {
                 .to_vec(),
             Some(_) => Vec::new(),
         };
-        let joint = Joint { rotations, translations, measure: Measure::Rates, ..body.joint.clone() };
+        let joint = Joint { rotations, translations, speeds: JointSpeeds::Rates, ..body.joint.clone() };
         self.bodies.push(Body { name: body.name.clone(), inertia: body.inertia, joint });
     }
 
@@ -145,7 +145,7 @@ impl Making<'_> {
         )
     }
 
-    /// The planar figure's coordinate of this name.
+    /// The coordinate of this name in the planar figure.
     fn in_plane(&self, name: &str) -> Option<&Coordinate> {
         self.planar.coordinates().iter().find(|c| c.name == name)
     }
@@ -158,75 +158,74 @@ impl Making<'_> {
     }
 }
 
-/// How a segment of one subject differs from the table's: its size, and how its joint stands in its parent and in itself.
+/// Size and joint frames of a segment of a person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentShape {
-    /// Length over the table's length; mass centre and radii of gyration go with it, the mass does not change.
+    /// Length divided by that of the segment table; mass centre and radii of gyration scale with it, the mass does not.
     pub factor: f64,
     /// The joint frame on the parent.
     pub parent_from_joint: Pose,
-    /// The joint frame on the segment itself.
+    /// The joint frame on the segment.
     pub child_from_joint: Pose,
 }
 
 impl SegmentShape {
-    /// Every segment as it stands.
+    /// The unchanged shape of every segment.
     #[must_use]
     pub fn of(human: &Human) -> Vec<SegmentShape> {
-        let as_it_stands = |body: &Body| SegmentShape {
+        let unchanged = |body: &Body| SegmentShape {
             factor: 1.0,
             parent_from_joint: body.joint.parent_from_joint,
             child_from_joint: body.joint.child_from_joint,
         };
-        human.model.bodies().iter().map(as_it_stands).collect()
+        human.model.bodies().iter().map(unchanged).collect()
     }
 }
 
-/// Where a subject's sole lies: the point under the ankle centre and the rear of the heel, seen from the ankle centre of a foot that
-/// stands flat.
+/// Position of the sole of a flat foot relative to the ankle centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FootPrint {
-    /// Ankle centre above the ground [m].
+pub struct SolePlacement {
+    /// Height of the ankle centre above the ground [m].
     pub ankle_height: f64,
-    /// How much further forward the foot lies than the table's foot of its size [m].
+    /// Forward shift relative to the foot of the segment table at this size [m].
     pub forward: f64,
-    /// How far to the right of the ankle centre its middle lies [m].
+    /// Shift of the middle of the sole to the right of the ankle centre [m].
     pub right: f64,
 }
 
-impl FootPrint {
-    /// The table's foot.
+impl SolePlacement {
+    /// The foot of the segment table.
     #[must_use]
-    pub fn of(dimensions: &Dimensions) -> FootPrint {
-        FootPrint { ankle_height: dimensions.ankle_height, forward: 0.0, right: 0.0 }
+    pub fn of(dimensions: &Dimensions) -> SolePlacement {
+        SolePlacement { ankle_height: dimensions.ankle_height, forward: 0.0, right: 0.0 }
     }
 
-    /// Where a point of the table's foot, grown by a factor, lies in this one: `above` the ground, `forward` of the ankle [m].
+    /// Position of a point of the scaled foot of the segment table in this foot: `above` the ground, `forward` of the ankle [m].
     #[must_use]
     pub fn place(&self, forward: f64, above: f64) -> Vec3 {
         Vec3::new(forward + self.forward, above - self.ankle_height, self.right)
     }
 }
 
-/// The body of one subject.
+/// Shape of the body of one person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubjectShape {
-    /// One a body, in the model's order.
+    /// One per body, in the order of the model.
     pub segments: Vec<SegmentShape>,
-    /// Markers instead of the figure's own.
+    /// Markers, which replace those of the figure.
     pub markers: Vec<Marker>,
     /// Right and left foot.
-    pub feet: [FootPrint; 2],
-    /// Lengths; the leg's is the height at which the pelvis stands.
+    pub feet: [SolePlacement; 2],
+    /// Lengths; the leg length is the height of the pelvis in standing.
     pub dimensions: Dimensions,
-    /// Coordinates that are held at zero.
+    /// Coordinates that are locked at zero.
     pub locked: Vec<String>,
 }
 
-/// The body with the shape of one subject; the masses stay.
+/// Gives a body the shape of one person; the masses do not change.
 ///
 /// # Errors
-/// A factor that is no number above zero, markers or joints that make no model.
+/// A factor that is not positive, markers or joints that do not fit the model.
 pub fn reshaped(human: &Human, shape: &SubjectShape) -> Result<Human, BuildError> {
     let model = &human.model;
     let mut bodies = model.bodies().to_vec();
@@ -251,7 +250,7 @@ pub fn reshaped(human: &Human, shape: &SubjectShape) -> Result<Human, BuildError
     Ok(Human { model, soles, dimensions: shape.dimensions, build: human.build })
 }
 
-/// A sphere scaled with its foot, and set so that it touches the ground under a foot that stands flat.
+/// Scales a sphere with its foot, and places it so that it touches the ground under a flat foot.
 fn resoled(model: &Model, shape: &SubjectShape, sphere: &ContactSphere) -> ContactSphere {
     let foot = shape.feet[usize::from(sphere.side == Side::Left)];
     let index = sphere.body.index();
@@ -259,7 +258,7 @@ fn resoled(model: &Model, shape: &SubjectShape, sphere: &ContactSphere) -> Conta
     let radius = sphere.radius * factor;
     let body = &model.bodies()[index];
     let center = if body.name.starts_with("toes") {
-        // From the ball of the foot, which stands a ball's radius above the ground.
+        // Relative to the ball of the foot, which is one ball radius above the ground.
         let above = body.joint.parent_from_joint.translation.y + foot.ankle_height;
         Vec3::new(sphere.center.x * factor, radius - above, 0.0)
     } else {

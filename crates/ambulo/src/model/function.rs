@@ -1,4 +1,4 @@
-//! Functions of one variable with two derivatives: how a joint's axes follow its coordinates.
+//! Functions of one variable with two derivatives, which relate the axes of a joint to its coordinates.
 
 use super::knots::Knots;
 use super::simm_spline::SimmSpline;
@@ -18,20 +18,20 @@ pub enum Function {
     },
     /// Polynomial, highest power first.
     Polynomial(Vec<f64>),
-    /// Cubic spline as the SIMM program and OpenSim's `SimmSpline` fit it.
+    /// Cubic spline of the SIMM program, OpenSim's `SimmSpline`.
     SimmSpline(SimmSpline),
     /// Natural spline of odd degree, interpolating or smoothing.
     NaturalSpline(NaturalSpline),
-    /// Straight lines between rising knots; the outer ones go on beyond the ends (as OpenSim's
+    /// Straight lines between knots, continued beyond the ends (as OpenSim's
     /// `PiecewiseLinearFunction`).
     PiecewiseLinear(Knots),
-    /// The ordinate of the last knot at or before x, the first one before all knots.
+    /// The ordinate of the last knot at or before x; before all knots, that of the first one.
     PiecewiseConstant(Knots),
-    /// A smooth step between two levels (quintic, level with zero curvature at both ends).
+    /// A smooth step between two levels (quintic, with zero slope and curvature at both ends).
     Step {
-        /// Abscissa and ordinate where the step begins.
+        /// Abscissa and ordinate at the beginning of the step.
         start: (f64, f64),
-        /// Abscissa and ordinate where the step ends.
+        /// Abscissa and ordinate at the end of the step.
         end: (f64, f64),
     },
     /// y = amplitude sin(omega x + phase) + offset.
@@ -70,7 +70,7 @@ impl Function {
         }
     }
 
-    /// The value where the function does not depend on x.
+    /// The value of a constant function; `None` if it depends on x.
     #[must_use]
     pub fn as_constant(&self) -> Option<f64> {
         match self {

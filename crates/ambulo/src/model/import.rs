@@ -1,8 +1,8 @@
-//! From an OpenSim document to a [`Model`].
+//! Reads a [`Model`] from an OpenSim document.
 
 use super::{
-    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Knots,
-    Marker, Measure, Model, ModelError, SimmSpline,
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
+    JointSpeeds, Knots, Marker, Model, ModelError, SimmSpline,
 };
 use crate::findings::{Code, Finding, Findings};
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
@@ -12,13 +12,13 @@ use ambulo_formats::osim::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why a document, though it reads, describes no body that can be computed.
+/// Why a document does not describe a model that can be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportError {
-    /// A body that hangs in the air.
+    /// A body that is not connected to ground.
     #[error(
-        "body `{body}` (line {line}) is not joined to ground; expected a joint whose child it is. hint: a FreeJoint to ground lets it move freely"
+        "body `{body}` (line {line}) is not connected to ground; expected a joint with this body as its child. hint: a FreeJoint to ground lets it move freely"
     )]
     Unjoined {
         /// The body.
@@ -26,9 +26,9 @@ pub enum ImportError {
         /// Its line.
         line: usize,
     },
-    /// A joint that carries ground.
+    /// A joint whose child is ground.
     #[error(
-        "joint `{joint}` (line {line}) has ground as its child; expected a body. hint: exchange its parent and child frames"
+        "joint `{joint}` (line {line}) has ground as its child; expected a body. hint: swap its parent and child frames"
     )]
     ChildIsGround {
         /// The joint.
@@ -43,12 +43,12 @@ pub enum ImportError {
         joint: String,
         /// Its line.
         line: usize,
-        /// The parent that it names.
+        /// Its parent.
         parent: String,
-        /// The bodies that are there.
+        /// The bodies of the model.
         known: String,
     },
-    /// A coordinate that two joints have.
+    /// Two coordinates with the same name.
     #[error("coordinate `{coordinate}` (line {line}) has the name of another one; expected different names")]
     DuplicateCoordinate {
         /// The coordinate.
@@ -56,7 +56,7 @@ pub enum ImportError {
         /// Its line.
         line: usize,
     },
-    /// A mass or an inertia that was refused.
+    /// A mass or an inertia that is not possible.
     #[error("body `{body}` (line {line})")]
     Inertia {
         /// The body.
@@ -66,31 +66,31 @@ pub enum ImportError {
         /// Why.
         source: InertiaError,
     },
-    /// A body with two joints to a parent.
+    /// A body that is the child of two joints.
     #[error(
-        "body `{body}` is the child of two joints, `{first}` and `{second}` (line {line}); expected a tree. hint: closed loops are not computed; remove one of the two joints"
+        "body `{body}` is the child of two joints, `{first}` and `{second}` (line {line}); expected a tree. hint: closed loops are not supported; remove one of the two joints"
     )]
     Loop {
         /// The body.
         body: String,
-        /// The joint that came first.
+        /// The first joint.
         first: String,
-        /// The joint that came second.
+        /// The second joint.
         second: String,
-        /// Line of the second.
+        /// Line of the second joint.
         line: usize,
     },
-    /// A function that no curve can follow.
+    /// A function that is not valid.
     #[error("joint `{joint}` (line {line}): {reason}")]
     Function {
         /// The joint or constraint.
         joint: String,
         /// Its line.
         line: usize,
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
-    /// A coupler or prescribed motion that names a coordinate which is not there.
+    /// A coupler with an unknown coordinate.
     #[error(
         "constraint `{constraint}` (line {line}) names the coordinate `{coordinate}`; expected one of the model's coordinates"
     )]
@@ -99,22 +99,22 @@ pub enum ImportError {
         constraint: String,
         /// Its line.
         line: usize,
-        /// The name.
+        /// The coordinate.
         coordinate: String,
     },
-    /// Parts that do not fit.
+    /// Parts that do not fit together.
     #[error(transparent)]
     Model(#[from] ModelError),
 }
 
-/// Why the bytes of an `.osim` file make no model.
+/// Why an `.osim` file cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OsimError {
-    /// No OpenSim document.
+    /// The file is not an OpenSim document.
     #[error(transparent)]
     File(#[from] ambulo_formats::Error),
-    /// A document that describes no body.
+    /// The document does not describe a model that can be computed.
     #[error(transparent)]
     Model(#[from] ImportError),
 }
@@ -123,7 +123,7 @@ impl Model {
     /// Reads an OpenSim model (`.osim`).
     ///
     /// # Errors
-    /// Bytes that are not an OpenSim document, or a document without a body that can be computed.
+    /// Bytes that are not an OpenSim document, or a model that cannot be computed.
     ///
     /// ```no_run
     /// use ambulo::findings::Findings;
@@ -139,11 +139,11 @@ impl Model {
     }
 }
 
-/// A model from an OpenSim document. What plays no part in the dynamics is noted once, with counts; odd inertias,
-/// massless bodies and constraints that close loops are warned about.
+/// Reads a model from an OpenSim document. Parts without effect on the dynamics are reported in one note, with counts; impossible
+/// inertias, massless bodies and constraints that close loops give warnings.
 ///
 /// # Errors
-/// Bodies outside the tree, negative masses, names that lead nowhere: see [`ImportError`].
+/// Bodies outside the tree, negative masses, unknown names: see [`ImportError`].
 pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model, ImportError> {
     for remark in &document.remarks {
         findings.report(Code::ModelDocument, remark.to_string());
@@ -179,7 +179,7 @@ fn note_ignored(document: &OsimModel, findings: &mut Findings) {
     let kinds: Vec<_> = document.ignored.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     findings.add(Finding {
         code: Code::ModelIgnored,
-        message: format!("the model's forces and geometry play no part in inverse dynamics: {}", kinds.join(", ")),
+        message: format!("forces and geometry of the model are not used by inverse dynamics: {}", kinds.join(", ")),
         count: 1,
     });
 }
@@ -204,7 +204,7 @@ fn check_joints(document: &OsimModel) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Each body with its joint, parents first; among those that are ready, in the order of the document's joints.
+/// Each body with its joint, parents first, otherwise in the order of the joints in the document.
 fn tree_order(document: &OsimModel) -> Result<Vec<(&OsimBody, &OsimJoint)>, ImportError> {
     let mut joint_of: BTreeMap<&str, &OsimJoint> = BTreeMap::new();
     for joint in &document.joints {
@@ -247,8 +247,10 @@ fn import_inertia(body: &OsimBody, findings: &mut Findings) -> Result<Inertia, I
         findings.report(Code::ModelMassless, format!("body `{}` (line {}) has no mass", body.name, body.line));
     }
     if let Some(defect) = inertia.defect() {
-        let message =
-            format!("body `{}` (line {}) has an inertia that no rigid body has: {defect}", body.name, body.line);
+        let message = format!(
+            "body `{}` (line {}) has an inertia that is impossible for a rigid body: {defect}",
+            body.name, body.line
+        );
         findings.report(Code::ModelInertia, message);
     }
     Ok(inertia)
@@ -260,14 +262,14 @@ fn pose(frame: &OsimFrame) -> Pose {
     Pose { rotation, translation: Vec3::from(frame.translation_m) }
 }
 
-/// The joint, its coordinates appended to the model's list.
+/// Reads a joint and appends its coordinates to `coordinates`.
 fn import_joint(
     joint: &OsimJoint,
     bodies: &BTreeMap<&str, BodyId>,
     coordinates: &mut Vec<Coordinate>,
 ) -> Result<Joint, ImportError> {
     let first = coordinates.len();
-    let (rotations, translations, measure) = import_axes(joint, first)?;
+    let (rotations, translations, speeds) = import_axes(joint, first)?;
     let imported = Joint {
         name: joint.name.clone(),
         parent: bodies.get(joint.parent.body.as_str()).copied(),
@@ -275,7 +277,7 @@ fn import_joint(
         child_from_joint: pose(&joint.child),
         rotations,
         translations,
-        measure,
+        speeds,
     };
     for (i, coordinate) in joint.coordinates.iter().enumerate() {
         let kind = coordinate_kind(&imported, CoordinateId(first + i));
@@ -284,7 +286,7 @@ fn import_joint(
     Ok(imported)
 }
 
-type Axes = (Vec<JointAxis>, Vec<JointAxis>, Measure);
+type Axes = (Vec<JointAxis>, Vec<JointAxis>, JointSpeeds);
 
 fn import_axes(joint: &OsimJoint, first: usize) -> Result<Axes, ImportError> {
     let axis = |direction: Vec3, i: usize| JointAxis {
@@ -295,20 +297,20 @@ fn import_axes(joint: &OsimJoint, first: usize) -> Result<Axes, ImportError> {
     let xyz = |from: usize| vec![axis(x, from), axis(y, from + 1), axis(z, from + 2)];
     let none = Vec::new;
     Ok(match &joint.kind {
-        OsimJointKind::Weld => (none(), none(), Measure::Rates),
-        OsimJointKind::Pin => (vec![axis(z, 0)], none(), Measure::Rates),
-        OsimJointKind::Slider => (none(), vec![axis(x, 0)], Measure::Rates),
-        OsimJointKind::Universal => (vec![axis(x, 0), axis(y, 1)], none(), Measure::Rates),
-        OsimJointKind::Gimbal => (xyz(0), none(), Measure::Rates),
-        OsimJointKind::Planar => (vec![axis(z, 0)], vec![axis(x, 1), axis(y, 2)], Measure::Rates),
-        OsimJointKind::Ball => (xyz(0), none(), Measure::AngularVelocity),
-        OsimJointKind::Free => (xyz(0), xyz(3), Measure::AngularVelocity),
-        OsimJointKind::Ellipsoid { radii_m } => (xyz(0), none(), Measure::Ellipsoid(Vec3::from(*radii_m))),
+        OsimJointKind::Weld => (none(), none(), JointSpeeds::Rates),
+        OsimJointKind::Pin => (vec![axis(z, 0)], none(), JointSpeeds::Rates),
+        OsimJointKind::Slider => (none(), vec![axis(x, 0)], JointSpeeds::Rates),
+        OsimJointKind::Universal => (vec![axis(x, 0), axis(y, 1)], none(), JointSpeeds::Rates),
+        OsimJointKind::Gimbal => (xyz(0), none(), JointSpeeds::Rates),
+        OsimJointKind::Planar => (vec![axis(z, 0)], vec![axis(x, 1), axis(y, 2)], JointSpeeds::Rates),
+        OsimJointKind::Ball => (xyz(0), none(), JointSpeeds::AngularVelocity),
+        OsimJointKind::Free => (xyz(0), xyz(3), JointSpeeds::AngularVelocity),
+        OsimJointKind::Ellipsoid { radii_m } => (xyz(0), none(), JointSpeeds::Ellipsoid(Vec3::from(*radii_m))),
         OsimJointKind::Custom(axes) => {
             let import = |a: &OsimAxis| import_axis(joint, a, first);
             let rotations = axes[..3].iter().map(import).collect::<Result<_, _>>()?;
             let translations = axes[3..].iter().map(import).collect::<Result<_, _>>()?;
-            (rotations, translations, Measure::Rates)
+            (rotations, translations, JointSpeeds::Rates)
         }
     })
 }
@@ -328,7 +330,8 @@ fn import_axis(joint: &OsimJoint, axis: &OsimAxis, first: usize) -> Result<Joint
 fn import_function(joint: &str, line: usize, function: &OsimFunction) -> Result<Function, ImportError> {
     let error = |reason: String| ImportError::Function { joint: joint.to_owned(), line, reason };
     let points = |knots: &ambulo_formats::osim::Knots| {
-        Knots::new(knots.x.clone(), knots.y.clone()).ok_or_else(|| error("its knots do not rise".into()))
+        Knots::new(knots.x.clone(), knots.y.clone())
+            .ok_or_else(|| error("the abscissae of its knots do not increase".into()))
     };
     Ok(match function {
         OsimFunction::Constant(value) => Function::Constant(*value),
@@ -361,7 +364,7 @@ fn import_function(joint: &str, line: usize, function: &OsimFunction) -> Result<
     })
 }
 
-/// Rotation or translation where some axis follows the coordinate with slope one, else coupled (OpenSim's rule,
+/// Rotation or translation if an axis follows the coordinate with slope one, otherwise coupled (OpenSim's rule,
 /// `CustomJoint.cpp`); the last such axis decides.
 fn coordinate_kind(joint: &Joint, id: CoordinateId) -> CoordinateKind {
     const SLOPE_TOLERANCE: f64 = 1e-12;

@@ -1,9 +1,9 @@
-//! How a body may move in its parent.
+//! Joints between a body and its parent.
 //!
 //! Every joint is a chain of at most three rotations and three translations, as OpenSim's `SpatialTransform`:
 //! with F the joint frame on the parent and M the one on the child,
 //!
-//!   R_FM = R(a₁, θ₁) R(a₂, θ₂) R(a₃, θ₃)      each axis fixed in the frame that the ones before it have turned
+//!   R_FM = R(a₁, θ₁) R(a₂, θ₂) R(a₃, θ₃)      each axis fixed in the frame rotated by the previous ones
 //!   p_FM = d₁ a₄ + d₂ a₅ + d₃ a₆               axes fixed in F
 //!
 //! where each θ [rad] and d [m] is a function of at most one coordinate. Pin, slider, universal, ball, gimbal, planar
@@ -27,11 +27,11 @@ pub struct Joint {
     pub rotations: Vec<JointAxis>,
     /// Translations along axes of F, at most three.
     pub translations: Vec<JointAxis>,
-    /// What the joint's generalised forces are dual to.
-    pub measure: Measure,
+    /// The generalised speeds to which the generalised forces belong.
+    pub speeds: JointSpeeds,
 }
 
-/// One axis of a joint and how far the child has gone along it.
+/// One axis of a joint, with the displacement of the child about or along it.
 #[derive(Debug, Clone)]
 pub struct JointAxis {
     /// Unit direction.
@@ -40,19 +40,19 @@ pub struct JointAxis {
     pub displacement: Displacement,
 }
 
-/// Where an axis value comes from.
+/// Displacement about or along an axis.
 #[derive(Debug, Clone)]
 pub enum Displacement {
-    /// It never changes.
+    /// Constant.
     Fixed(f64),
-    /// It follows a coordinate.
+    /// A function of a coordinate.
     Follows(CoordinateId, Function),
 }
 
-/// What a joint's generalised forces are dual to.
+/// Generalised speeds of a joint. Its generalised forces are dual to them: force times speed is power.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Measure {
-    /// The rates of the coordinates: moment about each axis, force along each axis.
+pub enum JointSpeeds {
+    /// The rates of the coordinates: the forces are moments about and forces along each axis.
     Rates,
     /// The angular velocity of M in F, in axes of F, for the rotations (OpenSim's ball and free joints, whose
     /// coordinates are body-fixed X-Y-Z angles but whose speeds are the angular velocity).

@@ -1,6 +1,6 @@
-//! Points that a function goes through.
+//! Points of an interpolating function.
 
-/// Points with strictly rising abscissae.
+/// Points with strictly increasing abscissae.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Knots {
     x: Vec<f64>,
@@ -8,7 +8,7 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// As many ordinates as strictly rising, finite abscissae, at least one; `None` otherwise.
+    /// Checks the points: finite, strictly increasing abscissae, one ordinate each, at least one point; `None` otherwise.
     #[must_use]
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Option<Knots> {
         let finite = x.iter().chain(&y).all(|v| v.is_finite());
@@ -28,7 +28,7 @@ impl Knots {
         &self.y
     }
 
-    /// Index of the last knot at or before x; 0 before all of them.
+    /// Index of the last knot at or before x; 0 before all knots.
     pub(super) fn before(&self, x: f64) -> usize {
         self.x.partition_point(|&knot| knot <= x).saturating_sub(1)
     }

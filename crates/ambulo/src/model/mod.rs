@@ -1,7 +1,7 @@
-//! The body as a description: segments, joints, coordinates, markers. Never changes once made.
+//! Musculoskeletal models: segments, joints, coordinates, markers. A model is immutable.
 //!
-//! A [`Model`] is a tree: every body has one joint to its parent or to ground, parents stand before their children.
-//! Coordinates are numbered in the order of the bodies, which is the order in which OpenSim reports them.
+//! A [`Model`] is a tree: every body has one joint to its parent or to ground, and parents precede their children.
+//! Coordinates are numbered in the order of the bodies, as in OpenSim's results.
 
 pub mod anatomy;
 pub mod anthropometry;
@@ -23,7 +23,7 @@ pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
 pub use import::{ImportError, OsimError, from_osim};
-pub use joint::{Displacement, Joint, JointAxis, Measure};
+pub use joint::{Displacement, Joint, JointAxis, JointSpeeds};
 pub use knots::Knots;
 pub use scaled::ScaleError;
 pub use side::Side;
@@ -32,11 +32,11 @@ pub use simm_spline::SimmSpline;
 use crate::spatial::{Inertia, InertiaError, Vec3};
 use std::sync::Arc;
 
-/// Names a body of one model.
+/// Index of a body in its model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(pub(crate) usize);
 
-/// Names a coordinate of one model.
+/// Index of a coordinate in its model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CoordinateId(pub(crate) usize);
 
@@ -56,7 +56,7 @@ impl CoordinateId {
     }
 }
 
-/// A rigid segment and the joint that carries it.
+/// A rigid segment and the joint to its parent.
 #[derive(Debug, Clone)]
 pub struct Body {
     /// Name of the body.
@@ -67,24 +67,24 @@ pub struct Body {
     pub joint: Joint,
 }
 
-/// One number of the body's configuration.
+/// A generalised coordinate.
 #[derive(Debug, Clone)]
 pub struct Coordinate {
     /// Name of the coordinate.
     pub name: String,
-    /// What it measures.
+    /// Rotation, translation or coupled.
     pub kind: CoordinateKind,
-    /// Value when a recording says nothing [rad or m].
+    /// Value if it is not recorded [rad or m].
     pub default_value: f64,
-    /// Range that the model's author allows [rad or m], if stated.
+    /// Range stated by the author of the model [rad or m].
     pub range: Option<[f64; 2]>,
-    /// Whether motion must stay inside the range; otherwise the range is the author's advice.
+    /// Whether motion must stay inside the range; otherwise the range is a recommendation.
     pub clamped: bool,
-    /// What else decides its value.
+    /// Whether it is free, locked, prescribed or coupled.
     pub drive: Drive,
 }
 
-/// What a coordinate measures.
+/// The physical quantity of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoordinateKind {
     /// An angle about an axis [rad]; its generalised force is a moment [N.m].
@@ -96,7 +96,7 @@ pub enum CoordinateKind {
 }
 
 impl CoordinateKind {
-    /// The ending of the generalised force's column name, as OpenSim has it.
+    /// Suffix of the column name of the generalised force, as in OpenSim.
     #[must_use]
     pub fn force_suffix(self) -> &'static str {
         match self {
@@ -106,27 +106,27 @@ impl CoordinateKind {
     }
 }
 
-/// What decides a coordinate's value when it is not the recording.
+/// How the value of a coordinate is determined.
 #[derive(Debug, Clone)]
 pub enum Drive {
-    /// The recording decides.
+    /// By the recording.
     Free,
-    /// Held at the default value.
+    /// Fixed at the default value.
     Locked,
-    /// Follows a function of time [s].
+    /// By a function of time [s].
     Prescribed(Function),
-    /// Follows another coordinate.
+    /// By a function of another coordinate.
     Coupled(CoordinateId, Function),
 }
 
-/// A point fixed to a body, seen by cameras.
+/// A marker fixed to a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Marker {
     /// Name of the marker.
     pub name: String,
     /// The body; `None` is ground.
     pub body: Option<BodyId>,
-    /// Place in the body frame [m].
+    /// Position in the body frame [m].
     pub location: Vec3,
 }
 
@@ -141,30 +141,30 @@ pub struct Model {
     anatomy: Arc<Anatomy>,
 }
 
-/// Why parts make no model.
+/// Why parts cannot be assembled into a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// No body at all.
+    /// The model has no body.
     #[error("the model has no body; expected at least one")]
     NoBody,
-    /// A parent that does not stand before its child.
-    #[error("body `{body}` stands before its parent; expected parents first")]
+    /// A parent that does not precede its child.
+    #[error("body `{body}` precedes its parent; expected parents first")]
     ParentAfterChild {
         /// The child.
         body: String,
     },
-    /// A coordinate number that the model does not have, or that two joints use.
+    /// A coordinate that the model does not have, or that two joints use.
     #[error("joint `{joint}` uses coordinate {index}; expected one of {count} that no other joint uses")]
     Coordinate {
         /// The joint.
         joint: String,
-        /// What it asked for.
+        /// Index of the coordinate.
         index: usize,
-        /// How many there are.
+        /// Number of coordinates.
         count: usize,
     },
-    /// Two things with one name.
+    /// Two bodies or coordinates with the same name.
     #[error("two {what} are named `{name}`; expected different names")]
     Duplicate {
         /// Bodies or coordinates.
@@ -172,7 +172,7 @@ pub enum ModelError {
         /// The name.
         name: String,
     },
-    /// Too many axes, or an axis that is no direction.
+    /// Too many axes, or an axis without direction.
     #[error("joint `{joint}`: {found}; expected at most three rotations and three translations about unit axes")]
     Axis {
         /// The joint.
@@ -180,13 +180,13 @@ pub enum ModelError {
         /// What was found.
         found: String,
     },
-    /// Couplers that lead in a circle, or to a coordinate that follows another.
+    /// A coupler whose leader follows another coordinate.
     #[error("coordinate `{coordinate}` follows a coordinate that itself follows another; expected a free one")]
     CouplerChain {
         /// The follower.
         coordinate: String,
     },
-    /// A mass that was refused.
+    /// A mass that is not possible.
     #[error("body `{body}` cannot have this mass")]
     Inertia {
         /// The body.
@@ -197,10 +197,10 @@ pub enum ModelError {
 }
 
 impl Model {
-    /// Puts a model together. Gravity in world axes [m/s²]; bodies parent first.
+    /// Assembles a model. Gravity is in world axes [m/s²]; parents precede their children.
     ///
     /// # Errors
-    /// Parts that do not fit: see [`ModelError`].
+    /// Parts that do not fit together: see [`ModelError`].
     pub fn new(
         name: impl Into<String>,
         gravity: Vec3,
@@ -277,7 +277,7 @@ impl Model {
         &self.markers
     }
 
-    /// What the parts are, anatomically.
+    /// Anatomical meaning of the parts.
     #[must_use]
     pub fn anatomy(&self) -> &Anatomy {
         &self.anatomy
@@ -318,7 +318,7 @@ impl Model {
         (0..self.coordinates.len()).map(CoordinateId)
     }
 
-    /// The same model with a point mass [kg] fixed to a body at a place in its frame [m]: a shoe, a battery, a load.
+    /// The model with a point mass [kg] fixed to a body at a position in its frame [m]: a shoe, a battery, a load.
     ///
     /// # Errors
     /// A negative mass, or numbers that are not finite.
@@ -331,7 +331,7 @@ impl Model {
         Ok(model)
     }
 
-    /// The same model with another mass, mass centre and inertia of a body, in the body's frame.
+    /// The model with another mass, mass centre and inertia of a body, in the frame of the body.
     #[must_use]
     pub fn with_inertia(&self, body: BodyId, inertia: Inertia) -> Model {
         let mut model = self.clone();
@@ -339,7 +339,7 @@ impl Model {
         model
     }
 
-    /// Names of the generalised forces, one for each coordinate: `<coordinate>_moment` or `<coordinate>_force`.
+    /// Names of the generalised forces, one per coordinate: `<coordinate>_moment` or `<coordinate>_force`.
     #[must_use]
     pub fn force_names(&self) -> Vec<String> {
         self.coordinates.iter().map(|c| format!("{}_{}", c.name, c.kind.force_suffix())).collect()
@@ -356,7 +356,7 @@ fn unique<'a>(what: &'static str, names: impl Iterator<Item = &'a String>) -> Re
     Ok(())
 }
 
-/// Three rotations, each by a coordinate of its own with slope one.
+/// Whether a joint has three rotations, each by its own coordinate with slope one.
 fn is_ball_like(joint: &Joint) -> bool {
     let leader = |axis: &JointAxis| match &axis.displacement {
         Displacement::Follows(id, Function::Linear { slope: 1.0, .. }) => Some(*id),
@@ -372,8 +372,10 @@ fn check_axes(joint: &Joint) -> Result<(), ModelError> {
     if joint.rotations.len() > 3 || joint.translations.len() > 3 {
         return error(format!("{} rotations and {} translations", joint.rotations.len(), joint.translations.len()));
     }
-    if joint.measure != Measure::Rates && !is_ball_like(joint) {
-        return error("a ball-like measure without three rotations that each follow a coordinate of their own".into());
+    if joint.speeds != JointSpeeds::Rates && !is_ball_like(joint) {
+        return error(
+            "angular velocities as speeds without three rotations that each follow their own coordinate".into(),
+        );
     }
     for axis in joint.rotations.iter().chain(&joint.translations) {
         let length = axis.direction.norm();

@@ -1,9 +1,9 @@
-//! Poses of all bodies at given coordinates, and how each coordinate turns or shifts the body that it moves.
+//! Poses of all bodies of a model at given coordinates, and the motion of a body per unit rate of a coordinate.
 //!
-//! Plain arithmetic for the few postures that describe a model (its neutral one). Motions are computed by
-//! [`kinematics`](crate::kinematics), which works on many frames at once.
+//! For the few postures that describe a model (its neutral one). Motions are computed by
+//! [`kinematics`](crate::kinematics), which processes many frames at once.
 
-use super::{BodyId, CoordinateId, Displacement, Drive, Joint, JointAxis, Measure, Model};
+use super::{BodyId, CoordinateId, Displacement, Drive, Joint, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 impl JointAxis {
@@ -27,13 +27,13 @@ impl Joint {
             rotation *= turn(axis.direction, axis.at(q, None).0);
         }
         let mut translation: Vec3 = self.translations.iter().map(|axis| axis.direction * axis.at(q, None).0).sum();
-        if let Measure::Ellipsoid(radii) = self.measure {
+        if let JointSpeeds::Ellipsoid(radii) = self.speeds {
             translation += radii.component_mul(&rotation.column(2));
         }
         self.parent_from_joint * Pose { rotation, translation } * self.child_from_joint.inverse()
     }
 
-    /// Angular velocity and velocity of the child's joint frame per unit of a coordinate's rate, in the axes of the parent.
+    /// Angular velocity and velocity of the joint frame of the child per unit rate of a coordinate, in the axes of the parent.
     fn slopes(&self, q: &[f64], id: CoordinateId) -> [Vec3; 2] {
         let (mut turned, mut angular) = (Mat3::identity(), Vec3::zeros());
         for axis in &self.rotations {
@@ -50,18 +50,18 @@ fn turn(axis: Vec3, angle: f64) -> Mat3 {
     *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()
 }
 
-/// A model in one posture.
+/// The poses of all bodies of a model in one posture.
 #[derive(Debug, Clone)]
-pub(crate) struct PostureOf<'a> {
+pub(crate) struct ModelPosture<'a> {
     model: &'a Model,
     q: Vec<f64>,
     /// `world_from_body` of every body.
     pub(crate) poses: Vec<Pose>,
 }
 
-impl<'a> PostureOf<'a> {
-    /// At these coordinates; those with couplers follow their leaders.
-    pub(crate) fn new(model: &'a Model, mut q: Vec<f64>) -> PostureOf<'a> {
+impl<'a> ModelPosture<'a> {
+    /// Computes the poses at these coordinates; coupled ones follow their leaders.
+    pub(crate) fn new(model: &'a Model, mut q: Vec<f64>) -> ModelPosture<'a> {
         for (i, coordinate) in model.coordinates().iter().enumerate() {
             if let Drive::Coupled(leader, function) = &coordinate.drive {
                 q[i] = function.at(q[leader.index()])[0];
@@ -72,10 +72,10 @@ impl<'a> PostureOf<'a> {
             let parent = body.joint.parent.map_or(Pose::IDENTITY, |parent| poses[parent.index()]);
             poses.push(parent * body.joint.parent_from_child(&q));
         }
-        PostureOf { model, q, poses }
+        ModelPosture { model, q, poses }
     }
 
-    /// Centre of the joint that joins a body to its parent [m].
+    /// Centre of the joint between a body and its parent [m].
     pub(crate) fn joint_center(&self, body: BodyId) -> Vec3 {
         let joint = &self.model.bodies()[body.index()].joint;
         self.poses[body.index()].place(joint.child_from_joint.translation)
@@ -86,8 +86,8 @@ impl<'a> PostureOf<'a> {
         self.poses[body.index()].place(self.model.bodies()[body.index()].inertia.center())
     }
 
-    /// Angular velocity and velocity that a coordinate of a body's joint gives it relative to its parent, per unit of the
-    /// coordinate's rate, in world axes.
+    /// Angular velocity and velocity of a body relative to its parent per unit rate of a coordinate of its joint, in world
+    /// axes.
     pub(crate) fn slopes(&self, body: BodyId, id: CoordinateId) -> [Vec3; 2] {
         let joint = &self.model.bodies()[body.index()].joint;
         let parent = joint.parent.map_or_else(Mat3::identity, |parent| self.poses[parent.index()].rotation);

@@ -1,40 +1,40 @@
-//! A model brought to another size, body by body, as OpenSim's scaling does it.
+//! Scales a model body by body, as OpenSim does.
 //!
-//! Factors are along the axes of each body's own frame. With S = diag(factors of the body):
-//! - mass centre, markers and the frames of joints on the body: place S p, orientation unchanged;
-//! - translations of a joint follow the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
-//!   coordinate (slope one, no intercept) does not, for its value is a length of the motion, not of the body;
-//! - the half axes of an ellipsoid follow the parent;
-//! - a coupler whose follower is a translation is multiplied by the parent's factor along it;
-//! - masses keep their shares; inertias go with the square of the factor, or, where the three factors differ, as those of a cylinder
-//!   with the body's smallest and another moment.
+//! Factors are along the axes of the frame of each body. With S = diag(factors of the body):
+//! - mass centre, markers and joint frames on the body: position S p, orientation unchanged;
+//! - translations of a joint are scaled by the factors of the parent, aᵀ S a along their axis a; a translation that is itself a
+//!   coordinate (slope one, no intercept) is not, because its value is a length of the motion, not of the body;
+//! - the half axes of an ellipsoid are scaled by the factors of the parent;
+//! - a coupler whose follower is a translation is multiplied by the factor of the parent along it;
+//! - masses keep their shares; inertias scale with the square of the factor or, if the three factors differ, as those of a cylinder
+//!   with the smallest and another moment of inertia of the body.
 //!
 //! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp (`scale`), read.
-//! Differs from it: an axis against x, y or z is scaled as one along it (OpenSim multiplies by the negative factor); couplers of
+//! Differences: an axis opposite to x, y or z is scaled as one along it (OpenSim multiplies by the negative factor); couplers of
 //! translations may have unequal factors.
 //! Pinned by: tests/scaling.rs, against OpenSim 4.6
 
 use super::{
-    Body, BodyId, CoordinateKind, Displacement, Drive, Function, JointAxis, Marker, Measure, Model, ModelError,
+    Body, BodyId, CoordinateKind, Displacement, Drive, Function, JointAxis, JointSpeeds, Marker, Model, ModelError,
 };
 use crate::spatial::{Inertia, InertiaError, Mat3, Pose, Vec3};
 
-/// Factors that differ by less than this share are one factor.
+/// Factors that differ by less than this share are equal.
 const SAME_FACTOR: f64 = 1e-12;
 
-/// Why a model cannot be brought to a size.
+/// Why a model cannot be scaled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScaleError {
-    /// As many factors as there are no bodies.
-    #[error("found factors for {found} bodies; expected {expected}, one for each body of the model")]
+    /// The number of factors is not that of bodies.
+    #[error("found factors for {found} bodies; expected {expected}, one per body of the model")]
     Count {
         /// Number of factors.
         found: usize,
         /// Number of bodies.
         expected: usize,
     },
-    /// A factor that is no size.
+    /// A factor that is not finite and positive.
     #[error("body `{body}` has the factors {found:?}; expected finite numbers above zero")]
     Factor {
         /// The body.
@@ -42,15 +42,17 @@ pub enum ScaleError {
         /// Its factors.
         found: [f64; 3],
     },
-    /// A mass that is none, or one for a body without mass.
-    #[error("the mass asked for is {found} kg and the model's is {own} kg; expected finite numbers above zero")]
+    /// A mass that is not positive, or a model without mass.
+    #[error(
+        "the requested mass is {found} kg and the mass of the model is {own} kg; expected finite numbers above zero"
+    )]
     Mass {
-        /// What was asked for [kg].
+        /// Requested mass [kg].
         found: f64,
-        /// The model's own [kg].
+        /// Mass of the model [kg].
         own: f64,
     },
-    /// Numbers that are no inertia.
+    /// An inertia that is not possible.
     #[error("body `{body}` cannot be scaled")]
     Inertia {
         /// The body.
@@ -58,13 +60,13 @@ pub enum ScaleError {
         /// Why.
         source: InertiaError,
     },
-    /// Parts that no longer fit.
+    /// The scaled model is not valid.
     #[error(transparent)]
     Model(#[from] ModelError),
 }
 
 impl Model {
-    /// The same model with every body scaled along its axes, and its masses all multiplied so that the whole has `mass` [kg]
+    /// Scales every body along its axes, and all masses by one factor to the total `mass` [kg]
     /// (`None` keeps them).
     ///
     /// # Errors
@@ -86,10 +88,10 @@ impl Model {
         Ok(Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?)
     }
 
-    /// The same model with other markers.
+    /// The model with other markers.
     ///
     /// # Errors
-    /// None of today's checks can fail; see [`ModelError`].
+    /// None at present; see [`ModelError`].
     pub fn with_markers(&self, markers: Vec<Marker>) -> Result<Model, ModelError> {
         Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)
     }
@@ -121,7 +123,7 @@ fn scaled_body(body: &Body, own: &Vec3, parent: &Vec3, share: f64) -> Result<Bod
     joint.parent_from_joint = scaled_pose(&joint.parent_from_joint, parent);
     joint.child_from_joint = scaled_pose(&joint.child_from_joint, own);
     joint.translations.iter_mut().for_each(|axis| scale_axis(axis, parent));
-    if let Measure::Ellipsoid(radii) = &mut joint.measure {
+    if let JointSpeeds::Ellipsoid(radii) = &mut joint.speeds {
         *radii = radii.component_mul(parent);
     }
     Ok(Body { name: body.name.clone(), inertia, joint })
@@ -156,7 +158,7 @@ fn is_the_coordinate(function: &Function) -> bool {
         if (slope - 1.0).abs() < f64::MIN_POSITIVE && intercept.abs() < f64::MIN_POSITIVE)
 }
 
-/// Couplers that lead translations of this joint.
+/// Scales couplers of translations of this joint.
 fn scale_couplers(body: &Body, parent: &Vec3, coordinates: &mut [super::Coordinate]) {
     for axis in &body.joint.translations {
         let Displacement::Follows(id, _) = &axis.displacement else { continue };
@@ -181,8 +183,8 @@ fn scaled_inertia(inertia: &Inertia, s: &Vec3, share: f64) -> Result<Inertia, In
     Inertia::new(mass * share, s.component_mul(&inertia.center()), scaled * share)
 }
 
-/// A cylinder along the axis k of the smallest moment, m r²/2, with length from another one, m (l²/12 + r²/4); products go with
-/// both their factors.
+/// Scales a cylinder along the axis k of the smallest moment, m r²/2, whose length follows from another moment, m (l²/12 + r²/4);
+/// products of inertia scale with both their factors.
 fn as_cylinder(mass: f64, about: &Mat3, s: &Vec3) -> Mat3 {
     let moments = about.diagonal();
     let k = if moments.x <= moments.y {

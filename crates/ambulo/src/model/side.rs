@@ -1,4 +1,4 @@
-//! Right and left.
+//! Sides of the body.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -19,7 +19,7 @@ impl Side {
     /// Both sides, right first.
     pub const BOTH: [Side; 2] = [Side::Right, Side::Left];
 
-    /// `r` or `l`, as column names have it.
+    /// `r` or `l`, as in column names.
     #[must_use]
     pub fn letter(self) -> &'static str {
         match self {
@@ -37,7 +37,7 @@ impl Side {
         }
     }
 
-    /// The side that a name ends with (`calcn_r`) or carries inside (`knee_angle_r_beta`).
+    /// The side in a name, at its end (`calcn_r`) or inside (`knee_angle_r_beta`).
     #[must_use]
     pub fn of_name(name: &str) -> Option<Side> {
         Side::split_name(name).map(|(side, _)| side)

@@ -1,8 +1,8 @@
-//! The cubic spline of the SIMM program, which OpenSim keeps as `SimmSpline`.
+//! The cubic spline of the SIMM program, OpenSim's `SimmSpline`.
 //!
 //! Interpolating cubic with continuous curvature. End conditions: the third derivative at each end equals that of the
 //! cubic through the four outermost points (Forsythe, Malcolm, Moler 1977, "Computer Methods for Mathematical
-//! Computations" (unverified), as OpenSim's `SimmSpline.cpp` applies it). Beyond the ends a straight line continues with
+//! Computations" (unverified), as in OpenSim's `SimmSpline.cpp`). Beyond the ends a straight line continues with
 //! the end slope. Two points give a straight line, three points a third derivative of zero at the ends.
 //!
 //! With curvatures M = y'' at the knots and h the spacings, the interior rows are
@@ -11,7 +11,7 @@
 
 use super::knots::Knots;
 
-/// Cubic through rising knots.
+/// Cubic spline through knots, with linear extrapolation.
 #[derive(Debug, Clone)]
 pub struct SimmSpline {
     knots: Knots,
@@ -20,7 +20,7 @@ pub struct SimmSpline {
 }
 
 impl SimmSpline {
-    /// Fits the knots, at least two; `None` for fewer.
+    /// Fits the knots; `None` for fewer than two.
     #[must_use]
     pub fn new(knots: Knots) -> Option<SimmSpline> {
         let curvature = match knots.x().len() {
@@ -31,7 +31,7 @@ impl SimmSpline {
         Some(SimmSpline { knots, curvature })
     }
 
-    /// The points that it goes through.
+    /// The interpolated points.
     #[must_use]
     pub fn knots(&self) -> &Knots {
         &self.knots

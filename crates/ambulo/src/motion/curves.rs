@@ -1,6 +1,6 @@
-//! Splines through recorded columns: what a simulation follows.
+//! Splines through recorded columns, which a simulation follows.
 //!
-//! A natural quintic through every sample, short gaps bridged; no filter.
+//! A natural quintic spline through every sample; short gaps are interpolated; no filter.
 
 use super::gaps::{fill_gaps, spline_through};
 use super::import::{coordinates_from_table, rows_with_rising_time};
@@ -11,47 +11,47 @@ use crate::model::{CoordinateId, Model};
 use crate::numerics::NaturalSpline;
 use ambulo_formats::table::Table;
 
-/// A recording read from the bytes of a `.mot` or `.sto` file, not yet tied to a model.
+/// The table of a `.mot` or `.sto` file, independent of a model.
 #[derive(Debug, Clone)]
 pub struct RecordedTable {
     origin: String,
     table: Table,
 }
 
-/// Why bytes give no curves.
+/// Why a file gives no curves.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CurveError {
-    /// No table.
+    /// The file is not a table.
     #[error(transparent)]
     File(#[from] ambulo_formats::Error),
-    /// A table that records no usable motion.
+    /// The table has no usable motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A column that the table does not have.
+    /// The table does not have a column.
     #[error("there is no column `{column}`; found {found}")]
     NoColumn {
-        /// What was wanted.
+        /// Name of the column.
         column: String,
-        /// The columns that are there.
+        /// The columns of the table.
         found: String,
     },
 }
 
-/// Curves of a model's coordinates.
+/// Splines of the coordinates of a model.
 #[derive(Debug, Clone)]
 pub struct CoordinateCurves {
-    /// First and last instant [s].
+    /// First and last time [s].
     pub span_s: [f64; 2],
-    /// One entry a coordinate of the model; `None` where the recording has none [rad or m].
+    /// One entry per coordinate of the model; `None` if not recorded [rad or m].
     pub columns: Vec<Option<NaturalSpline>>,
 }
 
 impl RecordedTable {
-    /// Reads a `.mot` or `.sto` file; `origin` is its name, for people.
+    /// Reads a `.mot` or `.sto` file; `origin` is its name, for messages.
     ///
     /// # Errors
-    /// Bytes that are no table.
+    /// Bytes that are not a table.
     pub fn read(bytes: &[u8], origin: &str, findings: &mut Findings) -> Result<RecordedTable, CurveError> {
         let (table, remarks) = Table::read_storage(bytes)?;
         for remark in remarks {
@@ -60,10 +60,10 @@ impl RecordedTable {
         Ok(RecordedTable { origin: origin.to_owned(), table })
     }
 
-    /// Curves of all coordinates of `model` for which `wanted` holds.
+    /// Splines of all coordinates of `model` for which `wanted` is true.
     ///
     /// # Errors
-    /// Times that do not rise, no known column, long gaps, fewer samples than a quintic needs.
+    /// Times that do not increase, no known column, long gaps, fewer samples than a quintic spline needs.
     pub fn coordinates(
         &self,
         model: &Model,
@@ -82,11 +82,11 @@ impl RecordedTable {
         Ok(CoordinateCurves { span_s: span(&times), columns })
     }
 
-    /// The curve of one column; `turns` says that it is an angle, which the header may have in degrees. With it the first
-    /// and last instant [s].
+    /// Spline of one column with its first and last time [s]; `turns` means that it is an angle, which may be in degrees
+    /// by the header.
     ///
     /// # Errors
-    /// As for [`RecordedTable::coordinates`], and a column that is not there.
+    /// As for [`RecordedTable::coordinates`], and a missing column.
     pub fn column(
         &self,
         name: &str,
@@ -110,7 +110,7 @@ impl RecordedTable {
     }
 }
 
-/// Instants without the rounding of print, where the clock is even.
+/// Times without rounding errors, if they are uniform.
 fn even(times: &[f64]) -> Vec<f64> {
     TimeGrid::through(times).map_or_else(|| times.to_vec(), |grid| grid.times())
 }

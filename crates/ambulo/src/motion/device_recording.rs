@@ -1,7 +1,7 @@
-//! What a worn device (an exoskeleton, a prosthesis) contributes to the joints.
+//! Contribution of a worn device (an exoskeleton, a prosthesis) to the joint moments.
 //!
-//! Inverse dynamics gives the total at each joint; what the body itself does is the total less the device:
-//! biological moment = total - device. A device that pushes against both segments of a joint changes nothing else; its
+//! Inverse dynamics gives the total at each joint; the contribution of the body is
+//! biological moment = total - device. A device that acts on both segments of a joint changes nothing else; its
 //! mass is added to the model (`Model::with_point_mass`).
 
 use super::import::rows_with_rising_time;
@@ -14,25 +14,25 @@ use ambulo_formats::table::Table;
 /// Generalised forces of a device over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeviceRecording {
-    /// Instants [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times: Vec<f64>,
-    /// One column a coordinate of the model [N.m or N]; `None` where the device does nothing.
+    /// One column per coordinate of the model [N.m or N]; `None` where the device does not act.
     pub columns: Vec<Option<Vec<f64>>>,
 }
 
 impl DeviceRecording {
-    /// Says when the device was recorded for part of a grid only.
+    /// Reports a device that was recorded for only a part of a time grid.
     pub fn report_cover(&self, grid: TimeGrid, findings: &mut Findings) {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return };
         if *first > grid.start_s + grid.step_s || *last < grid.end_s() - grid.step_s {
             let message = format!(
-                "the device was recorded from {first:.3} s to {last:.3} s only; elsewhere its contribution counts as zero"
+                "the device was recorded only from {first:.3} s to {last:.3} s; elsewhere its contribution is assumed zero"
             );
             findings.report(Code::DeviceShorterThanMotion, message);
         }
     }
 
-    /// The device on the frames of a grid: one column a coordinate, zero where and when it does nothing.
+    /// The forces of the device at the frames of a grid: one column per coordinate, zero where it does not act.
     #[must_use]
     pub fn on(&self, grid: TimeGrid) -> Vec<Vec<f64>> {
         let (first, last) = (self.times.first().copied(), self.times.last().copied());
@@ -48,10 +48,10 @@ impl DeviceRecording {
     }
 }
 
-/// A device from a table whose columns are named as the generalised forces of the model (`ankle_angle_r_moment`).
+/// Reads a device from a table whose columns are named as the generalised forces of the model (`ankle_angle_r_moment`).
 ///
 /// # Errors
-/// Times that do not rise, no column that the model knows, numbers that are not finite.
+/// Times that do not increase, no known column, numbers that are not finite.
 pub fn device_from_table(
     model: &Model,
     table: &Table,
@@ -64,8 +64,10 @@ pub fn device_from_table(
         DeviceRecording { times: kept.iter().map(|&row| times[row]).collect(), columns: vec![None; names.len()] };
     for (name, values) in table.columns().skip(1) {
         let Some(index) = names.iter().position(|n| n == name) else {
-            findings
-                .report(Code::DeviceUnknownColumn, format!("the model has no generalised force `{name}`; not used"));
+            findings.report(
+                Code::DeviceUnknownColumn,
+                format!("the model has no generalised force `{name}`; this column was not used"),
+            );
             continue;
         };
         if let Some(&row) = kept.iter().find(|&&row| !values[row].is_finite()) {

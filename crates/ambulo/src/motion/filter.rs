@@ -1,24 +1,24 @@
-//! Zero-phase Butterworth low-pass.
+//! Zero-phase Butterworth low-pass filter.
 //!
 //! gain(f) = 1 / (1 + (tan(π f T) / Ω)^(2 order)),   Ω = tan(π cutoff T),   T the sampling interval
 //!
-//! The filter runs forwards and backwards, so phases cancel and this gain is that of one pass, squared.
+//! The filter runs forwards and backwards, so phases cancel and this gain is the square of that of one pass.
 //! **The cut-off is that of one pass, where its gain is 0.707; after both passes the gain there is 1/2 (-6 dB).**
-//! OpenSim's `Signal::LowpassIIR` has the same convention. Texts that name the -3 dB point of both passes divide the
+//! OpenSim's `Signal::LowpassIIR` has the same convention. Texts that state the -3 dB point of both passes divide the
 //! cut-off by (√2 - 1)^(1/(2 order)), 0.863 for order 3, before designing the filter.
 //!
 //! | code      | symbol | unit    | shape                                       |
 //! | `omega`   | Ω      | 1       | cut-off after pre-warping, in half samples   |
 //! | `damping` | 1/Q    | 1       | per pole pair, 2 sin((2k-1)π/(2 order))      |
-//! | `delay`   | τ      | samples | lag of a section behind a straight line      |
+//! | `delay`   | τ      | samples | lag of a section for a straight line         |
 //! | `pad`     |        | samples | half of the series, added at each end        |
 //!
 //! Ends: the series is extended by odd reflection about its end samples, 2x₀ - xⱼ, which keeps value and slope; by half
-//! of its samples, as OpenSim's `Storage::pad(size / 2)` in its inverse dynamics tool. Each pass begins in the state
-//! that a straight line through its first samples would have left, so constants and straight lines pass unchanged.
-//! OpenSim begins each pass with three unfiltered samples instead, which leaves a transient: of order 3, its remainder
-//! where the data begin is exp(-π/2 cutoff x duration) of a start error, 1e-8 at 6 Hz and 2 s. Beyond it both agree to
-//! 1e-11 (OpenSim 4.6). Where OpenSim lowers a cut-off above half the rate to 0.49 of the rate, this is an error here.
+//! of its samples, as by OpenSim's `Storage::pad(size / 2)` in its inverse dynamics tool. Each pass begins in the state
+//! after a straight line through its first samples, so constants and straight lines pass unchanged.
+//! OpenSim begins each pass with three unfiltered samples instead, which causes a transient: for order 3, its remainder
+//! at the beginning of the data is exp(-π/2 cutoff x duration) of the start error, 1e-8 at 6 Hz and 2 s. Otherwise both agree
+//! to 1e-11 (OpenSim 4.6). OpenSim lowers a cut-off above half the rate to 0.49 of the rate; here it is an error.
 //!
 //! Source: OpenSim `Common/Signal.cpp` (LowpassIIR, Pad), `Common/Storage.cpp` (pad, lowpassIIR),
 //! `Tools/InverseDynamicsTool.cpp`; pole positions: any text on Butterworth filters, derived at `Section::cascade`.
@@ -28,39 +28,39 @@
 
 use std::f64::consts::PI;
 
-/// Highest order offered.
+/// Highest order.
 const MAX_ORDER: usize = 8;
 
-/// Fewest samples that can be filtered: OpenSim's limit.
+/// Smallest number of samples that can be filtered: OpenSim's limit.
 const MIN_SAMPLES: usize = 4;
 
-/// A zero-phase Butterworth low-pass.
+/// A zero-phase Butterworth low-pass filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowPass {
-    /// Poles of one pass, 1 to 8. OpenSim's filter has 3.
+    /// Number of poles of one pass, 1 to 8. OpenSim's filter has 3.
     pub order: usize,
-    /// Frequency at which one pass has gain 0.707, and both have 1/2 (Hz).
+    /// Cut-off frequency, at which one pass has gain 0.707 and both have 1/2 [Hz].
     pub cutoff_hz: f64,
 }
 
 impl LowPass {
-    /// The usual low-pass of recorded motion: 6 Hz, third order. Prediction of ground forces was fitted with it.
+    /// Default for recorded motion: 6 Hz, third order. The prediction of ground forces was fitted with it.
     pub const MOTION: LowPass = LowPass { order: 3, cutoff_hz: 6.0 };
-    /// The usual low-pass of plates that a prediction is compared with: 20 Hz, second order.
+    /// Default for force plates in comparisons with predictions: 20 Hz, second order.
     pub const COMPARED_PLATES: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
 }
 
-/// A filtered series with the extension it was filtered in.
+/// A filtered series with its extension at both ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaddedSeries {
     /// `pad` samples before the data, the data, `pad` samples after.
     pub samples: Vec<f64>,
-    /// Samples added at each end.
+    /// Number of samples added at each end.
     pub pad: usize,
 }
 
 impl PaddedSeries {
-    /// The samples that stand where data were.
+    /// The filtered data without the extension.
     pub fn data(&self) -> &[f64] {
         &self.samples[self.pad..self.samples.len() - self.pad]
     }
@@ -71,7 +71,7 @@ impl PaddedSeries {
 #[non_exhaustive]
 pub enum FilterError {
     /// The order is out of range.
-    #[error("filter order is {found}: allowed is 1 to {MAX_ORDER}")]
+    #[error("filter order is {found}: 1 to {MAX_ORDER} are allowed")]
     Order {
         /// The order found.
         found: usize,
@@ -93,7 +93,7 @@ pub enum FilterError {
         /// Half of the sampling rate (Hz).
         allowed: f64,
     },
-    /// Fewer samples than a filter needs.
+    /// Too few samples.
     #[error("{found} samples are too few to filter: at least {MIN_SAMPLES} are needed")]
     TooFewSamples {
         /// Samples given.
@@ -109,13 +109,13 @@ pub enum FilterError {
     },
 }
 
-/// Filters evenly sampled values; the result has as many.
+/// Filters uniformly sampled values; the result has the same length.
 pub fn low_pass(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f64>, FilterError> {
     Ok(low_pass_padded(samples, rate_hz, filter)?.data().to_vec())
 }
 
-/// Filters evenly sampled values and keeps the extension by half of the samples at each end, in which a spline may end
-/// without touching the data.
+/// Filters uniformly sampled values and keeps the extension by half of the samples at each end, so that a spline through the
+/// result has its ends outside the data.
 pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<PaddedSeries, FilterError> {
     check(samples, rate_hz, filter)?;
     let pad = samples.len() / 2;
@@ -123,14 +123,14 @@ pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result
     Ok(PaddedSeries { samples, pad })
 }
 
-/// Filters evenly sampled values that need no extension, or have one already.
+/// Filters uniformly sampled values without extension, for series that are extended already.
 pub fn low_pass_unpadded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f64>, FilterError> {
     check(samples, rate_hz, filter)?;
     Ok(run_both_ways(samples.to_vec(), rate_hz, filter))
 }
 
-/// The series with `pad` samples more at each end, 2x₀ - xⱼ and its like at the end. Serves values and times.
-/// `pad` is cut to the samples that can be reflected, one less than there are.
+/// Extends a series by odd reflection with `pad` samples at each end: 2x₀ - xⱼ at the start. Applies to values and times.
+/// `pad` is limited to the number of samples minus one.
 pub fn extend_by_reflection(samples: &[f64], pad: usize) -> Vec<f64> {
     let [first, .., last] = samples else {
         return samples.to_vec();
@@ -170,8 +170,8 @@ fn run_both_ways(mut samples: Vec<f64>, rate_hz: f64, filter: LowPass) -> Vec<f6
     samples
 }
 
-/// One pass. Each section is told the straight line its input begins with; its output begins with the same line,
-/// delayed. The slope is taken over the delay of the whole filter, so that noise in it is not amplified by the delay.
+/// One pass. Each section starts in the state after a straight line through the beginning of its input; its output begins with the
+/// same line, delayed. The slope is computed over the delay of the whole filter, so that the delay does not amplify its noise.
 fn run(sections: &[Section], samples: &mut [f64]) {
     let delay: f64 = sections.iter().map(|section| section.delay).sum();
     let reach = (delay.ceil() as usize).clamp(1, samples.len() - 1);
@@ -221,8 +221,8 @@ impl Section {
         Self { b: [omega * scale, omega * scale, 0.0], a: [(omega - 1.0) * scale, 0.0], delay: 0.5 / omega }
     }
 
-    /// Filters in place, in the state that the line `start + slope k` for k < 0 leaves. Inputs are taken relative to
-    /// `start`, so that a large offset costs no digits.
+    /// Filters in place, from the state after the line `start + slope k` for k < 0. Inputs are relative to
+    /// `start`, so that a large offset loses no precision.
     fn run(&self, samples: &mut [f64], start: f64, slope: f64) {
         let ([b0, b1, b2], [a1, a2]) = (self.b, self.a);
         let past_input = |k: f64| -slope * k;

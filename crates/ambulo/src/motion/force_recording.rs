@@ -1,4 +1,4 @@
-//! What force plates or other sensors measured: a force, where it acts, and a moment about that place.
+//! Forces from force plates or other sensors: force, point of application and moment about it.
 
 use super::import::rows_with_rising_time;
 use super::recording::MotionError;
@@ -8,30 +8,30 @@ use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 
-/// A measured load on one body.
+/// A recorded load on one body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceRecording {
     /// Name of the load.
     pub name: String,
-    /// The body that feels it.
+    /// The body that the load acts on.
     pub body: BodyId,
-    /// The body whose axes the force and the moment are given in; `None` is the world.
+    /// The body in whose axes force and moment are given; `None` is the world.
     pub force_frame: Option<BodyId>,
     /// The body in whose frame the point is given; `None` is the world.
     pub point_frame: Option<BodyId>,
-    /// Instants [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times: Vec<f64>,
-    /// Force [N], one entry an instant.
+    /// Force [N], one entry per time.
     pub force: Vec<Vec3>,
-    /// Where it acts [m]; not a number where the sensor says nothing.
+    /// Point of application [m]; not a number where it is not measured.
     pub point: Vec<Vec3>,
     /// Moment about the point [N.m].
     pub moment: Vec<Vec3>,
 }
 
 impl ForceRecording {
-    /// The same load seen from world axes that are turned, `rotation * v`; what is given in a body's axes stays.
-    pub fn turn(&mut self, rotation: &Mat3) {
+    /// Rotates the world axes, `rotation * v`; vectors in the axes of a body do not change.
+    pub fn rotate(&mut self, rotation: &Mat3) {
         if self.force_frame.is_none() {
             self.force.iter_mut().chain(&mut self.moment).for_each(|v| *v = rotation * *v);
         }
@@ -41,15 +41,15 @@ impl ForceRecording {
     }
 }
 
-/// A loaded point further from the origin than this [m] is probably in millimetres.
+/// Largest plausible distance of a loaded point from the origin [m]; a larger one is probably in millimetres.
 const FARTHEST_PLAUSIBLE_POINT_M: f64 = 60.0;
-/// A load is worth judging above this [N].
+/// Smallest load for this test [N].
 const LOADED_N: f64 = 20.0;
 
-/// The loads that an external-loads document describes, with their numbers from `table`.
+/// Reads the loads of an external-loads document from the columns of `table`.
 ///
 /// # Errors
-/// Bodies or columns that are not there, times that do not rise.
+/// Unknown bodies or columns, times that do not increase.
 pub fn force_recordings(
     model: &Model,
     loads: &ExternalLoads,
@@ -62,7 +62,10 @@ pub fn force_recordings(
     let mut recordings = Vec::new();
     for load in &loads.forces {
         if !load.enabled {
-            findings.report(Code::LoadsSwitchedOff, format!("the load `{}` is switched off in its file", load.name));
+            findings.report(
+                Code::LoadsSwitchedOff,
+                format!("the load `{}` is switched off in its file; it was not used", load.name),
+            );
             continue;
         }
         let recording = ForceRecording {

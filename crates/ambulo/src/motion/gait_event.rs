@@ -1,37 +1,37 @@
-//! Foot strikes and toe-offs as things that are named, and those that a C3D file lists.
+//! Foot strikes and foot offs, and reading them from C3D files.
 
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use ambulo_formats::c3d::C3d;
 use std::fmt;
 
-/// Events of one kind and side closer than this are one [s].
+/// Events of one kind and side closer than this are the same event [s].
 const REPEATED_S: f64 = 0.005;
 
-/// What happened.
+/// The kind of a gait event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum EventKind {
-    /// The foot meets the ground.
+    /// Foot strike.
     Strike,
-    /// The foot leaves the ground.
+    /// Foot off.
     Off,
 }
 
-/// A foot strike or a toe-off.
+/// A foot strike or a foot off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// Which foot.
     pub side: Side,
-    /// What happened.
+    /// Strike or off.
     pub kind: EventKind,
-    /// When [s].
+    /// Time [s].
     pub time_s: f64,
 }
 
 impl EventKind {
-    /// `strike` or `off`, as `events.csv` has it.
+    /// `strike` or `off`, as in `events.csv`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -41,8 +41,8 @@ impl EventKind {
     }
 }
 
-/// The foot strikes and toe-offs that a C3D file lists, in order of time. Other events, and those without a side, are
-/// counted in a note.
+/// Reads the foot strikes and foot offs of a C3D file, in order of time. Other events, and those without a side, are
+/// reported in a note.
 #[must_use]
 pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
     let mut found = Vec::new();
@@ -53,7 +53,7 @@ pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
             }
             _ => {
                 let message = format!(
-                    "the file's event `{}` of `{}` is no foot strike or toe-off of a side; it was not used",
+                    "the file's event `{}` of `{}` is not a foot strike or foot off of a side; it was not used",
                     event.label, event.context
                 );
                 findings.report(Code::EventsNotUsed, message);
@@ -64,7 +64,7 @@ pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
     without_repetitions(found)
 }
 
-/// Old programs write every event twice, into the header as well.
+/// Removes repetitions: old programs write every event twice, into the header as well.
 fn without_repetitions(events: Vec<Event>) -> Vec<Event> {
     let mut kept: Vec<Event> = Vec::new();
     for event in events {
@@ -92,7 +92,7 @@ fn kind_of(label: &str) -> Option<EventKind> {
     has(&["off"]).then_some(EventKind::Off)
 }
 
-/// By the context (`Left`), or by the first letter of a short label (`LHS`).
+/// The side from the context (`Left`), or from the first letter of a short label (`LHS`).
 fn side_of(context: &str, label: &str) -> Option<Side> {
     let first = |text: &str| text.trim().chars().next().map(|c| c.to_ascii_lowercase());
     let side = |letter: Option<char>| match letter {

@@ -1,4 +1,4 @@
-//! Missing numbers: which part of a recording can be used, and short gaps bridged.
+//! Gaps: selects the usable part of a recording, and interpolates short gaps.
 
 use super::recording::MotionError;
 use super::time_grid::Window;
@@ -6,11 +6,11 @@ use crate::findings::{Code, Findings};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 use std::ops::Range;
 
-/// Gaps inside a recording up to this long are bridged by a spline [s].
+/// Longest gap inside a recording that is interpolated by a spline [s].
 pub(crate) const LONGEST_GAP_S: f64 = 0.2;
 
-/// The rows inside a window, and those around it that lead up to it without a break: filters want a run-in, but what
-/// lies beyond a gap that the window leaves out is of no use. `complete` says whether a row has all its numbers.
+/// The rows inside a window, and those before and after it without a gap in between, which filters need at
+/// their ends. `complete` returns whether a row has all its numbers.
 pub(crate) fn rows_around(times: &[f64], window: Window, complete: impl Fn(usize) -> bool) -> Range<usize> {
     let mut start = window.from_s.map_or(0, |from| times.partition_point(|&t| t < from));
     let mut end = window.to_s.map_or(times.len(), |to| times.partition_point(|&t| t <= to));
@@ -27,7 +27,7 @@ pub(crate) fn rows_around(times: &[f64], window: Window, complete: impl Fn(usize
     start..end
 }
 
-/// Bridges runs of missing numbers by a quintic spline through the rest.
+/// Interpolates gaps by a quintic spline through the other samples.
 pub(super) fn fill_gaps(
     name: &str,
     times: &[f64],
@@ -66,7 +66,7 @@ fn pick(values: &[f64], indices: &[usize]) -> Vec<f64> {
     indices.iter().map(|&i| values[i]).collect()
 }
 
-/// A natural quintic through every sample.
+/// A natural quintic spline through every sample.
 pub(super) fn spline_through(name: &str, times: &[f64], values: &[f64]) -> Result<NaturalSpline, MotionError> {
     let error = |source| MotionError::Spline { column: name.to_owned(), source };
     SplineFitter::new(SplineDegree::Quintic, times).map_err(error)?.fit(values, Smoothing::Interpolate).map_err(error)

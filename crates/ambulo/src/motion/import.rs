@@ -1,24 +1,24 @@
-//! From a table of numbers to a recording of a model's coordinates.
+//! Reads the coordinates of a model from a table.
 
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateKind, Model};
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
-/// A rotation outside ±this [rad] under a header that says radians was written in degrees.
+/// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
 const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
-/// Rotations that all stay within ±this [deg] under a header that says degrees were written in radians.
+/// If all angles under a header that states degrees are smaller than this [deg], they were written in radians.
 const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
-/// The test for radians under a degrees header needs at least this many moving rotations.
+/// Smallest number of moving rotations for this test.
 const ENOUGH_ROTATIONS: usize = 4;
 
-/// The coordinates of `model` that a table records. Columns are coordinate names or absolute state paths
-/// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees where the header says so.
+/// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
+/// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.
 ///
-/// Columns that the model does not know, repeated rows and angles in the wrong unit are findings.
+/// Unknown columns, repeated rows and angles in the wrong unit are findings.
 ///
 /// # Errors
-/// Times that do not rise, two different rows at one instant, no known column.
+/// Times that do not increase, two different rows at one time, no known column.
 pub fn coordinates_from_table(
     model: &Model,
     table: &Table,
@@ -67,7 +67,7 @@ fn no_coordinate(model: &Model, table: &Table) -> MotionError {
     }
 }
 
-/// Rows to keep: a row that repeats its predecessor to the last digit is dropped and counted.
+/// Rows to keep: exact repetitions of the previous row are dropped and counted.
 pub(super) fn rows_with_rising_time(table: &Table, findings: &mut Findings) -> Result<Vec<usize>, MotionError> {
     let first_name = table.names().first().cloned().unwrap_or_default();
     let Some(times) = table.times() else { return Err(MotionError::NoTime { found: first_name }) };
@@ -152,7 +152,7 @@ fn report_wrong_unit(model: &Model, motion: &Motion, in_degrees: bool, findings:
     let moving: Vec<f64> = rotations.iter().map(|(_, largest)| largest.to_degrees()).filter(|x| *x > 0.0).collect();
     if moving.len() >= ENOUGH_ROTATIONS && moving.iter().all(|x| *x < SMALLEST_PLAUSIBLE_SPAN_DEG) {
         let message = format!(
-            "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} where the header says degrees; they look like radians. hint: set inDegrees=no in the header"
+            "no angle exceeds {SMALLEST_PLAUSIBLE_SPAN_DEG} under a header that states degrees; the angles look like radians. hint: set inDegrees=no in the header"
         );
         findings.report(Code::MotionRadiansAsDegrees, message);
     }

@@ -1,12 +1,12 @@
-//! How a laboratory's axes lie in the world: x forward, y up, z right.
+//! Determines the axes of a laboratory relative to the world: x forward, y up, z right.
 //!
-//! **Up** is the way in which feet are pushed by plates, and the way from the feet to the pelvis and the head; it is
-//! taken as one of the laboratory's axes. **Forward** is the way that the pelvis goes; if it goes nowhere (a treadmill,
-//! standing) the way that feet and pelvis look to. Within [`SNAP_DEG`] of an axis it is that axis, otherwise the measured
+//! **Up** is the direction of the forces of the plates on the feet, and the direction from the feet to pelvis and head; it is
+//! rounded to one of the laboratory's axes. **Forward** is the direction in which the pelvis moves; if it does not move (a treadmill,
+//! standing), the direction that feet and pelvis face. Within [`SNAP_DEG`] of an axis it is that axis, otherwise the measured
 //! heading. The rows of `world_from_lab` are forward, up and right = forward × up.
 //!
 //! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is not that of a person, the power
-//! of ten that makes it so is taken.
+//! of ten that makes it plausible is used.
 //! Pinned by: tests/laboratory.rs, tests/laboratory_files.rs
 
 use super::force_plate::PlateRecording;
@@ -17,69 +17,69 @@ use crate::model::Side;
 use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
 
-/// A heading within this of an axis of the laboratory is that axis [deg].
+/// A heading closer than this to an axis of the laboratory is rounded to it [deg].
 const SNAP_DEG: f64 = 10.0;
-/// A direction must lie within this of an axis to be called up [deg]; bodies lean and plates are flat.
+/// Largest angle between an upward direction and an axis [deg].
 const UPRIGHT_DEG: f64 = 30.0;
-/// A pelvis that ends further away than this went somewhere [m] ...
+/// The body walks if its pelvis moves further than this [m] ...
 const WALKED_M: f64 = 0.4;
-/// ... if it was also faster than this [m/s].
+/// ... and faster than this [m/s].
 const WALKED_M_S: f64 = 0.15;
-/// Headings of first and second half of a path that differ by more than this are a turn [deg].
+/// A turn: the headings of the first and second half of the path differ by more than this [deg].
 const TURN_DEG: f64 = 20.0;
-/// Who goes this far from where they look goes sideways [deg], and beyond 180° less this, backwards.
+/// Smallest angle between walking and facing direction in sideways walking [deg]; beyond 180° minus this it is backwards.
 const SIDEWAYS_DEG: f64 = 60.0;
-/// Heights of the markers of a person, from a set for the legs of a child to a tall adult with raised arms [m].
+/// Plausible heights of the markers, from a set for the legs of a child to a tall adult with raised arms [m].
 const HEIGHT_M: [f64; 2] = [0.35, 3.0];
-/// Factors that slips of unit bring.
-const SLIPS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
-/// Directions are only averaged if they agree: length of the mean of the unit vectors.
-const AGREEING: f64 = 0.7;
+/// Factors of wrong units.
+const UNIT_FACTORS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+/// Directions are averaged only if the mean of the unit vectors is at least this long.
+const LEAST_AGREEMENT: f64 = 0.7;
 
-/// Axes of a laboratory, and what one of its metres is worth.
+/// Axes and unit of a laboratory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Laboratory {
     /// Rotation from the laboratory's axes to the world's.
     pub world_from_lab: Mat3,
-    /// 1, or the factor that puts a wrong unit right.
+    /// 1, or the factor that corrects a wrong unit.
     pub metres_per_stated_metre: f64,
-    /// How forward was found.
+    /// How forward was determined.
     pub heading: Heading,
-    /// How far the body turns on its way [deg]; `None` where it walks straight or not at all.
+    /// Change of walking direction [deg]; `None` for a straight walk or none.
     pub turn_deg: Option<f64>,
-    /// One line for people: `lab z up, mm, walking +y -> world x forward, y up, z right, m`.
+    /// Summary in one line: `lab z up, mm, walking +y -> world x forward, y up, z right, m`.
     pub statement: String,
 }
 
-/// How forward was found.
+/// How forward was determined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Heading {
-    /// The pelvis went that way.
+    /// By the motion of the pelvis.
     Walking,
-    /// The body stays where it is and looks that way.
+    /// By the facing direction of a body that stays in place.
     Facing,
-    /// Neither was found; an axis was taken.
+    /// Unknown; an axis was assumed.
     Unknown,
 }
 
 impl Laboratory {
-    /// Markers in the world's axes, in metres.
+    /// Transforms markers to the axes of the world, in metres.
     #[must_use]
     pub fn markers(&self, recording: &MarkerRecording) -> MarkerRecording {
-        recording.turned(&(self.world_from_lab * self.metres_per_stated_metre))
+        recording.rotated(&(self.world_from_lab * self.metres_per_stated_metre))
     }
 
-    /// A plate in the world's axes. Its lengths were put right when it was read.
+    /// Transforms a plate to the axes of the world. Its unit was corrected when it was read.
     #[must_use]
     pub fn plate(&self, plate: &PlateRecording) -> PlateRecording {
-        plate.turned(&self.world_from_lab)
+        plate.rotated(&self.world_from_lab)
     }
 }
 
-/// The laboratory of a recording: its markers in metres and its plates, both in the laboratory's axes. `unit` is what
-/// the file says, for the statement.
+/// Determines the laboratory of a recording from its markers in metres and its plates, both in the laboratory's axes. `unit` is the
+/// unit in the file, for the statement.
 ///
-/// What could not be found is a warning.
+/// Whatever cannot be determined is reported as a warning.
 #[must_use]
 pub fn laboratory(
     markers: &MarkerRecording,
@@ -97,7 +97,7 @@ pub fn laboratory(
     let way = match heading {
         Heading::Walking => "walking",
         Heading::Facing => "facing",
-        Heading::Unknown => "forward taken as",
+        Heading::Unknown => "forward assumed as",
     };
     let unit = if (scale - 1.0).abs() > 0.0 { format!("{unit} x {scale}") } else { unit.to_owned() };
     Laboratory {
@@ -129,7 +129,7 @@ fn upward(
     match (of_body, of_plates) {
         (Some((body, deg)), Some((plate, _))) if deg <= UPRIGHT_DEG && body != plate => {
             let message = format!(
-                "the bodies' markers say that {} is up, the force plates {}; the markers were believed",
+                "by the markers {} is up, by the force plates {}; the markers were used",
                 up_name(body),
                 up_name(plate)
             );
@@ -141,7 +141,7 @@ fn upward(
         (body, None) => {
             let up = body.map_or_else(|| longest_axis(markers), |(axis, _)| axis);
             let message = format!(
-                "no plate and no posture says which axis is up; {} was taken. hint: name heel, toe and pelvis markers as in the list of marker sets",
+                "the upward axis cannot be determined from plates or posture; {} was assumed. hint: name heel, toe and pelvis markers as in the list of marker sets",
                 up_name(up)
             );
             findings.report(Code::LaboratoryUpUnclear, message);
@@ -150,7 +150,7 @@ fn upward(
     }
 }
 
-/// Mean direction from the feet to pelvis and head, where the names of the markers are known.
+/// Mean direction from the feet to pelvis and head, from markers with known names.
 fn body_axis(markers: &MarkerRecording, landmarks: &Landmarks) -> Option<Vec3> {
     let low: Vec<usize> = landmarks.right.all().chain(landmarks.left.all()).collect();
     let high: Vec<usize> = landmarks.pelvis().into_iter().chain(landmarks.head.iter().copied()).collect();
@@ -158,10 +158,10 @@ fn body_axis(markers: &MarkerRecording, landmarks: &Landmarks) -> Option<Vec3> {
         let (low, high) = (mean_of_seen(markers, &low, i)?, mean_of_seen(markers, &high, i)?);
         (high - low).try_normalize(f64::MIN_POSITIVE)
     });
-    agreeing(directions)
+    mean_direction(directions)
 }
 
-/// The axis along which the markers of one frame are spread most.
+/// The axis along which the markers of a frame extend furthest.
 fn longest_axis(markers: &MarkerRecording) -> Vec3 {
     let spread = |axis: &Vec3| median((0..markers.frames()).filter_map(|i| extent(markers, i, *axis)));
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -180,9 +180,9 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
     if fits(1.0) || height <= 0.0 {
         return 1.0;
     }
-    let Some(factor) = SLIPS.into_iter().find(|&f| fits(f)) else {
+    let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f)) else {
         let message = format!(
-            "the markers span {height:.3} m from lowest to highest, which is no standing person and no slip of unit; lengths were left as they are"
+            "the markers span {height:.3} m from lowest to highest, which is not a standing person in any unit; lengths were not changed"
         );
         findings.report(Code::LaboratorySizeOdd, message);
         return 1.0;
@@ -195,7 +195,7 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
     factor
 }
 
-/// From the lowest to the highest marker of a frame; `None` with fewer than three.
+/// Distance from the lowest to the highest marker of a frame; `None` with fewer than three.
 fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
     let seen = markers.markers.iter().filter(|m| m.is_seen(frame)).map(|m| m.positions[frame].dot(&axis));
     let (low, high, count) =
@@ -214,12 +214,12 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
                 return (snapped(travel, up), Heading::Walking);
             }
             if apart >= 180.0 - SIDEWAYS_DEG {
-                let message = "the body goes backwards: forward is where it looks to, against its way";
+                let message = "the body walks backwards: forward is its facing direction, opposite to its motion";
                 findings.report(Code::LaboratoryBackwards, message);
                 return (snapped(-travel, up), Heading::Walking);
             }
             let message = format!(
-                "the body goes {apart:.0} degrees beside where it looks to; forward is where it looks to. hint: swapped left and right markers look like this too"
+                "the body moves at {apart:.0} degrees to its facing direction; forward is the facing direction. hint: check whether left and right markers are swapped"
             );
             findings.report(Code::LaboratorySideways, message);
             (snapped(facing, up), Heading::Facing)
@@ -228,7 +228,7 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
         (None, None) => {
             let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
             let message = format!(
-                "nothing says which way is forward (the body stays where it is, and no heel, toe or pelvis marker is known); {} was taken",
+                "the forward direction cannot be determined (the body stays in place, and no heel, toe or pelvis marker is known); {} was assumed",
                 direction_name(forward, up)
             );
             findings.report(Code::LaboratoryForwardUnclear, message);
@@ -237,14 +237,14 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
     }
 }
 
-/// The way of the pelvis along the floor.
+/// Horizontal motion of the pelvis.
 #[derive(Debug, Clone, Copy)]
 struct Travel {
     direction: Vec3,
     turn_deg: Option<f64>,
 }
 
-/// The way of the pelvis; `None` if it stays where it is.
+/// Horizontal motion of the pelvis; `None` if it stays in place.
 fn travel(
     markers: &MarkerRecording,
     landmarks: &Landmarks,
@@ -270,15 +270,19 @@ fn travel(
         let way = inside.last()?.1 - inside.first()?.1;
         (way.norm() * scale >= WALKED_M).then(|| way.normalize())
     });
-    let chosen = if on_plates.is_some() { "its way over the loaded plates" } else { "its way from beginning to end" };
+    let chosen = if on_plates.is_some() {
+        "its direction over the loaded plates"
+    } else {
+        "its direction from beginning to end"
+    };
     let message = format!(
-        "the body turns by about {turn:.0} degrees on its way; forward is {chosen}, and angles of the pelvis and fore-aft forces mean less than on a straight way"
+        "the body turns by about {turn:.0} degrees; forward is {chosen}, so that pelvis angles and fore-aft forces are less meaningful than in a straight walk"
     );
     findings.report(Code::LaboratoryTurning, message);
     Some(Travel { direction: on_plates.unwrap_or_else(|| way.normalize()), turn_deg: Some(turn) })
 }
 
-/// Instants and horizontal places of the pelvis, or of the middle of all markers that are always seen.
+/// Times and horizontal positions of the pelvis, or of the mean of the markers that are visible longest.
 fn body_path(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<(f64, Vec3)> {
     let of = |chosen: &[usize]| -> Vec<(f64, Vec3)> {
         let place = |i: usize| mean_of(markers, chosen, i).map(|p| (markers.times[i], level(p, up)));
@@ -296,14 +300,14 @@ fn body_path(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<
     of(&steady)
 }
 
-/// First and last instant at which a plate was loaded [s].
+/// First and last time at which a plate is loaded [s].
 fn loaded_span(plates: &[PlateRecording]) -> Option<[f64; 2]> {
     let loaded = || plates.iter().flat_map(|p| (0..p.times.len()).filter(|&i| p.is_loaded(i)).map(|i| p.times[i]));
     let (from, to) = (loaded().reduce(f64::min)?, loaded().reduce(f64::max)?);
     (to > from).then_some([from, to])
 }
 
-/// Where pelvis and feet look to, on average.
+/// Mean facing direction of pelvis and feet.
 fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<Vec3> {
     let level = |v: Vec3| level(v, up).try_normalize(f64::MIN_POSITIVE);
     let at = |marker: Option<usize>, i: usize| {
@@ -318,12 +322,12 @@ fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<
         (0..markers.frames()).filter_map(move |i| level(at(foot.toe, i)? - at(foot.heel, i)?)).collect::<Vec<_>>()
     };
     let feet = Side::BOTH.into_iter().flat_map(foot);
-    agreeing(pelvis.chain(feet))
+    mean_direction(pelvis.chain(feet))
 }
 
 // ---- directions ----
 
-/// A level direction, or the axis of the laboratory that it is next to.
+/// A horizontal direction, or the axis of the laboratory close to it.
 fn snapped(direction: Vec3, up: Vec3) -> Vec3 {
     let level = level(direction, up).normalize();
     let (axis, deg) = nearest_axis(level);
@@ -334,7 +338,7 @@ fn level(v: Vec3, up: Vec3) -> Vec3 {
     v - up * v.dot(&up)
 }
 
-/// The axis of the laboratory next to a unit vector, and the angle to it [deg].
+/// The axis of the laboratory nearest to a unit vector, and the angle between them [deg].
 fn nearest_axis(direction: Vec3) -> (Vec3, f64) {
     let i = direction.iamax();
     let mut axis = Vec3::zeros();
@@ -346,13 +350,13 @@ fn angle_deg(a: Vec3, b: Vec3) -> f64 {
     a.cross(&b).norm().atan2(a.dot(&b)).to_degrees()
 }
 
-/// The mean direction, if the directions agree.
-fn agreeing(directions: impl Iterator<Item = Vec3>) -> Option<Vec3> {
+/// The mean direction; `None` if the directions do not agree.
+fn mean_direction(directions: impl Iterator<Item = Vec3>) -> Option<Vec3> {
     let (sum, count) = directions.fold((Vec3::zeros(), 0.0), |(s, n), d| (s + d, n + 1.0));
-    (count > 0.0 && sum.norm() / count >= AGREEING).then(|| sum.normalize())
+    (count > 0.0 && sum.norm() / count >= LEAST_AGREEMENT).then(|| sum.normalize())
 }
 
-/// `+y`, or the angle of a direction that is no axis.
+/// `+y`, or the angle of a direction that is not an axis.
 fn direction_name(direction: Vec3, up: Vec3) -> String {
     let (axis, deg) = nearest_axis(direction);
     if deg < 1e-6 {
@@ -369,20 +373,20 @@ fn axis_name(axis: Vec3) -> String {
     format!("{sign}{}", ["x", "y", "z"][i])
 }
 
-/// `z`, or `-z` where the axis points down.
+/// `z`, or `-z` if the axis points down.
 fn up_name(up: Vec3) -> String {
     axis_name(up).trim_start_matches('+').to_owned()
 }
 
 // ---- markers ----
 
-/// Mean of those markers that were seen in a frame.
+/// Mean of the markers that are visible in a frame.
 fn mean_of_seen(markers: &MarkerRecording, chosen: &[usize], frame: usize) -> Option<Vec3> {
     let seen: Vec<usize> = chosen.iter().copied().filter(|&m| markers.markers[m].is_seen(frame)).collect();
     mean_of(markers, &seen, frame)
 }
 
-/// Mean of some markers in a frame; `None` unless all of them were seen, so that the mean does not jump.
+/// Mean of some markers in a frame; `None` unless all of them are visible, so that the mean does not jump.
 fn mean_of(markers: &MarkerRecording, chosen: &[usize], frame: usize) -> Option<Vec3> {
     if chosen.is_empty() || !chosen.iter().all(|&m| markers.markers[m].is_seen(frame)) {
         return None;

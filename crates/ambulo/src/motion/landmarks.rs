@@ -1,7 +1,7 @@
-//! Which markers stand on heels, toes, ankles and pelvis, by the names that laboratories use.
+//! Finds the markers on heels, toes, ankles and pelvis by the names that laboratories use.
 //!
-//! Names are compared without case, points and underscores, with the side in front (`R.Heel`, `RHEE`, `right_heel`) or
-//! behind (`heel_r`). Of several names for one landmark the first of its list wins.
+//! Names are compared without case, points and underscores, with the side at the beginning (`R.Heel`, `RHEE`, `right_heel`) or
+//! at the end (`heel_r`). Of several names for one landmark the first in its list is used.
 //!
 //! | set | heel | toe | ankle | pelvis |
 //! |---|---|---|---|---|
@@ -30,40 +30,40 @@ const HEAD: [&str; 9] = ["fhd", "bhd", "temple", "tophead", "head", "vertex", "e
 pub struct FootMarkers {
     /// Back of the heel.
     pub heel: Option<usize>,
-    /// Tip of the foot, or the heads of its inner rays.
+    /// Tip of the foot, or a medial metatarsal head.
     pub toe: Option<usize>,
-    /// Outer side of the forefoot.
+    /// Lateral side of the forefoot.
     pub side: Option<usize>,
     /// Ankle.
     pub ankle: Option<usize>,
 }
 
 impl FootMarkers {
-    /// The markers that are there.
+    /// All markers of the foot.
     pub fn all(&self) -> impl Iterator<Item = usize> + use<> {
         [self.heel, self.toe, self.side, self.ankle].into_iter().flatten()
     }
 }
 
-/// Markers that say where a body stands and where it looks to, as indices into [`MarkerRecording::markers`].
+/// Markers that show the position and the facing direction of the body, as indices into [`MarkerRecording::markers`].
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Landmarks {
     /// Right foot.
     pub right: FootMarkers,
     /// Left foot.
     pub left: FootMarkers,
-    /// Right front of the pelvis.
+    /// Right anterior superior iliac spine.
     pub asis_r: Option<usize>,
-    /// Left front of the pelvis.
+    /// Left anterior superior iliac spine.
     pub asis_l: Option<usize>,
-    /// Back of the pelvis: both spines, or the sacrum.
+    /// Back of the pelvis: both posterior spines, or the sacrum.
     pub back_of_pelvis: Vec<usize>,
     /// Head.
     pub head: Vec<usize>,
 }
 
 impl Landmarks {
-    /// The landmarks of a recording, by the names of its markers.
+    /// Finds the landmarks of a recording by the names of its markers.
     #[must_use]
     pub fn find(recording: &MarkerRecording) -> Landmarks {
         let names: Vec<Name> = recording.markers.iter().map(|m| Name::of(&m.name)).collect();
@@ -99,14 +99,14 @@ impl Landmarks {
         }
     }
 
-    /// The markers of the pelvis that are there.
+    /// All markers of the pelvis.
     #[must_use]
     pub fn pelvis(&self) -> Vec<usize> {
         [self.asis_r, self.asis_l].into_iter().flatten().chain(self.back_of_pelvis.iter().copied()).collect()
     }
 }
 
-/// A name in lower case without what joins words.
+/// A name in lower case, letters and digits only.
 struct Name {
     plain: String,
 }
@@ -118,7 +118,7 @@ impl Name {
         Name { plain }
     }
 
-    /// Every way to read a side from the name, with what is left of it.
+    /// Every possible side in the name, with the rest of the name.
     fn without_side(&self) -> impl Iterator<Item = (Side, &str)> {
         let words = [("right", Side::Right), ("left", Side::Left), ("r", Side::Right), ("l", Side::Left)];
         let front = words.into_iter().filter_map(|(word, side)| Some((side, self.plain.strip_prefix(word)?)));

@@ -1,4 +1,4 @@
-//! What cameras saw: the paths of markers, in metres, gaps as not-a-number.
+//! Marker trajectories in metres; gaps are not-a-number.
 
 use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
@@ -6,46 +6,46 @@ use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
 
-/// Paths of markers over time. From a file they stand in the laboratory's axes; [`MarkerRecording::turned`] brings them
-/// to the world's.
+/// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::rotated`] rotates them
+/// to those of the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerRecording {
-    /// Where they came from, for people.
+    /// Name of their source, for messages.
     pub name: String,
-    /// Frames a second [Hz].
+    /// Frame rate [Hz].
     pub rate_hz: f64,
-    /// Instants [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times: Vec<f64>,
     /// The markers, in the order of the file.
     pub markers: Vec<MarkerPath>,
 }
 
-/// The path of one marker.
+/// The trajectory of one marker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerPath {
-    /// Name as it stands in the file, without the subject's prefix.
+    /// Name in the file, without the prefix of the subject.
     pub name: String,
-    /// Position [m], one a frame; not a number where it was not seen.
+    /// Position [m], one per frame; not a number in gaps.
     pub positions: Vec<Vec3>,
 }
 
-/// Nobody is recorded further from the origin than this, in whatever unit [m].
+/// Largest possible distance from the origin, in any unit [m].
 const FARTHEST_M: f64 = 1e6;
 
 /// Why markers cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarkerError {
-    /// No marker that was seen at least once.
+    /// No marker is visible in any frame.
     #[error(
-        "no marker was seen in any of the {frames} frames of `{name}` (listed: {listed}); expected at least one. hint: is this the recording of the trial, and were its markers labelled?"
+        "no marker was seen in any of the {frames} frames of `{name}` (listed: {listed}); expected at least one. hint: check that this is the recording of the trial, and that its markers are labelled"
     )]
     NoMarker {
-        /// Where they came from.
+        /// Name of their source.
         name: String,
-        /// How many frames the recording has.
+        /// Number of frames of the recording.
         frames: usize,
-        /// The first names that it lists.
+        /// Its first marker names.
         listed: String,
     },
     /// Lengths without a unit.
@@ -53,27 +53,27 @@ pub enum MarkerError {
         "the markers have the unit `{found}` (POINT:UNITS); expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
-        /// What the file says.
+        /// The unit in the file.
         found: String,
     },
-    /// Time that runs backwards or stands still.
+    /// Times that do not increase.
     #[error(
-        "frame {frame} of `{name}`: time {later} s comes after {earlier} s; expected rising times. hint: sort the rows, or cut the file where the clock was reset"
+        "frame {frame} of `{name}`: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset"
     )]
     TimeNotRising {
-        /// Where they came from.
+        /// Name of their source.
         name: String,
         /// Frame, counted from 1.
         frame: usize,
-        /// The instant before.
+        /// The time before [s].
         earlier: f64,
-        /// The instant that follows it.
+        /// The time that follows [s].
         later: f64,
     },
 }
 
 impl MarkerPath {
-    /// Whether the marker was seen in a frame.
+    /// Whether the marker is visible in a frame.
     #[must_use]
     pub fn is_seen(&self, frame: usize) -> bool {
         self.positions.get(frame).is_some_and(is_finite)
@@ -93,10 +93,10 @@ impl MarkerRecording {
         self.markers.iter().find(|marker| marker.name == name)
     }
 
-    /// Without the frames at both ends in which less than half of the markers were seen: people walk into the cameras' view and out of
-    /// it. The whole recording if that leaves nothing.
+    /// Removes the frames at both ends in which less than half of the markers are visible: the person walks into and out of the view
+    /// of the cameras. Returns the whole recording if nothing would be left.
     #[must_use]
-    pub fn while_seen(&self) -> MarkerRecording {
+    pub fn trimmed_to_visible(&self) -> MarkerRecording {
         let ever_seen: Vec<&MarkerPath> =
             self.markers.iter().filter(|marker| (0..self.frames()).any(|frame| marker.is_seen(frame))).collect();
         let enough = |frame: &usize| 2 * ever_seen.iter().filter(|m| m.is_seen(*frame)).count() >= ever_seen.len();
@@ -114,9 +114,9 @@ impl MarkerRecording {
         }
     }
 
-    /// The same paths seen from axes that are turned: `world_from_lab * p`.
+    /// The trajectories in rotated axes: `world_from_lab * p`.
     #[must_use]
-    pub fn turned(&self, world_from_lab: &Mat3) -> MarkerRecording {
+    pub fn rotated(&self, world_from_lab: &Mat3) -> MarkerRecording {
         let turn = |path: &MarkerPath| MarkerPath {
             name: path.name.clone(),
             positions: path.positions.iter().map(|p| world_from_lab * p).collect(),
@@ -130,12 +130,12 @@ impl MarkerRecording {
     }
 }
 
-/// The markers of a TRC file, in the laboratory's axes.
+/// Reads the markers of a TRC file, in the axes of the laboratory.
 ///
-/// A position of exactly 0 0 0 is how some programs write a gap; it is read as one and reported.
+/// Some programs write gaps as positions of exactly 0 0 0; these are read as gaps and reported.
 ///
 /// # Errors
-/// Times that do not rise, no marker that was ever seen.
+/// Times that do not increase, no visible marker.
 pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     let paths = trc.markers().iter().map(|marker| MarkerPath {
         name: marker.name.clone(),
@@ -150,14 +150,14 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
     checked(recording, findings)
 }
 
-/// The markers of a C3D file, in the laboratory's axes.
+/// Reads the markers of a C3D file, in the axes of the laboratory.
 ///
-/// Points that hold angles, forces, moments, powers or scalars, points that programs computed (axes and joint centres of
-/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A subject's prefix that all labels share is cut off:
-/// `Anna:LASI` becomes `LASI`. Of two points with one name the one that was seen longer is kept.
+/// Points with angles, forces, moments, powers or scalars, computed points (axes and joint centres of
+/// Plug-in Gait), and unlabelled ones (`*7`, no name) are left out. A prefix of the subject that all labels share is removed:
+/// `Anna:LASI` becomes `LASI`. Of two points with the same name the one that is visible longer is kept.
 ///
 /// # Errors
-/// No unit of length, times that do not rise, no marker that was ever seen.
+/// No unit of length, times that do not increase, no visible marker.
 pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     let Some(unit_m) = file.metres_per_unit() else {
         return Err(MarkerError::Unit { found: file.point_unit.clone() });
@@ -178,7 +178,7 @@ pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRec
     checked(recording, findings)
 }
 
-/// The recording with zeros read as gaps, if it is one at all.
+/// Checks the recording and reads zeros as gaps.
 fn checked(mut recording: MarkerRecording, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
     if let Some(i) = (1..recording.frames()).find(|&i| recording.times[i - 1] >= recording.times[i]) {
         let (earlier, later) = (recording.times[i - 1], recording.times[i]);
@@ -208,13 +208,12 @@ fn read_zeros_as_gaps(recording: &mut MarkerRecording, findings: &mut Findings) 
         }
     }
     if count > 0 {
-        let message =
-            format!("{count} positions of exactly 0 0 0 were read as gaps, of the markers {}", names.join(", "));
+        let message = format!("{count} positions of exactly 0 0 0 were read as gaps; markers: {}", names.join(", "));
         findings.report(Code::MarkersZeroIsGap, message);
     }
 }
 
-/// Numbers that a broken file holds are gaps.
+/// Reads impossible positions, as in broken files, as gaps.
 fn drop_impossible_places(recording: &mut MarkerRecording, findings: &mut Findings) {
     let possible = |p: &Vec3| p.iter().all(|x| x.abs() < FARTHEST_M);
     let mut count = 0;
@@ -234,7 +233,7 @@ fn is_finite(position: &Vec3) -> bool {
     position.iter().all(|x| x.is_finite())
 }
 
-/// Keeps one path per name: the one that was seen longest, at the place of the first.
+/// Keeps one trajectory per name: the one that is visible longest, at the position of the first.
 fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<MarkerPath> {
     let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
     let mut kept: Vec<MarkerPath> = Vec::new();
@@ -242,7 +241,7 @@ fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<Mark
         match kept.iter_mut().find(|k| k.name == path.name) {
             None => kept.push(path),
             Some(before) => {
-                let message = format!("two points are called {}; the one that was seen longer was kept", path.name);
+                let message = format!("two points are named {}; the one that is visible longer was kept", path.name);
                 findings.report(Code::MarkersNameTwice, message);
                 if seen(&path) > seen(before) {
                     *before = path;

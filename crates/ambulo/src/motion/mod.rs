@@ -1,7 +1,7 @@
-//! What was observed: named sampled series, their gaps, filters and derivatives.
+//! Recorded motion and forces: sampled series with names and units, their gaps, filters and derivatives.
 //!
-//! A [`Motion`] is a recording of coordinates as it stands in a file, in SI units. [`smooth`] puts it on a uniform
-//! [`TimeGrid`], filters it and differentiates it. A [`ForceRecording`] is what force plates or other sensors measured.
+//! A [`Motion`] has recorded coordinates as in the file, in SI units. [`smooth`] resamples them to a uniform
+//! [`TimeGrid`], filters and differentiates them. A [`ForceRecording`] has the forces of force plates or other sensors.
 
 mod curves;
 mod device_recording;

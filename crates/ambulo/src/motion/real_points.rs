@@ -1,15 +1,15 @@
-//! Which points of a C3D file are markers that cameras saw.
+//! Selects the points of a C3D file that are recorded markers.
 
 use ambulo_formats::c3d::{C3d, Point};
 
-/// Parameters of POINT that list points which are no places (Vicon's type groups), or were computed.
+/// Parameters of POINT that list points which are not positions (Vicon's type groups), or are computed.
 const TYPE_GROUPS: [&str; 7] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "MODELED_MARKERS", "REACTIONS"];
 
-/// Segments whose axes Plug-in Gait and the Oxford foot model write as four points: origin O, anterior A, lateral L,
+/// Segments whose axes are written by Plug-in Gait and the Oxford foot model as four points: origin O, anterior A, lateral L,
 /// proximal P, as in `LFEO`, `LFEA`, `LFEL`, `LFEP`.
 const AXES: [&str; 11] = ["PEL", "HED", "TRX", "FE", "TI", "FO", "TO", "CL", "HU", "RA", "HN"];
 
-/// The points that are markers: with a name, listed in no type group, none of the computed axes.
+/// The points that are markers: with a name, not in a type group, not a computed axis.
 pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
     let listed: Vec<&str> = TYPE_GROUPS.iter().flat_map(|group| file.parameters.texts("POINT", group)).collect();
     let names: Vec<&str> = file.points.iter().map(|p| p.name.as_str()).collect();
@@ -22,7 +22,7 @@ pub(super) fn real_points(file: &C3d) -> Vec<&Point> {
     file.points.iter().filter(is_real).collect()
 }
 
-/// Whether a name is one of four that make the axes of a segment.
+/// Whether a name is one of the four points of the axes of a segment.
 fn is_axis(name: &str, all: &[&str]) -> bool {
     let plain = name.rsplit(':').next().unwrap_or(name);
     let Some(stem) = plain.strip_suffix(['O', 'A', 'L', 'P']) else { return false };
@@ -31,7 +31,7 @@ fn is_axis(name: &str, all: &[&str]) -> bool {
     segment && ["O", "A", "L", "P"].iter().all(|end| all.iter().any(|n| n.trim() == format!("{head}{stem}{end}")))
 }
 
-/// Length of the prefix up to a colon that all names share, zero if they share none.
+/// Length of the prefix up to a colon that all names share; zero if there is none.
 pub(super) fn shared_prefix(names: &[&str]) -> usize {
     let Some(end) = names.first().and_then(|n| n.find(':')).map(|i| i + 1) else { return 0 };
     let prefix = &names[0][..end];

@@ -1,17 +1,17 @@
-//! A recording of coordinates, as observed.
+//! Recorded coordinates of a model, and errors of recordings.
 
 use super::filter::FilterError;
 use crate::model::CoordinateId;
 use crate::numerics::SplineError;
 
-/// Coordinates over time as a file holds them: SI units, rising times, gaps as not-a-number.
+/// Coordinates over time as in the file: SI units, increasing times, gaps as not-a-number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// Where it came from, for people.
+    /// Name of its source, for messages.
     pub origin: String,
-    /// Instants [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times: Vec<f64>,
-    /// One column a coordinate of the model, in its order; `None` where the recording has none [rad or m].
+    /// One column per coordinate of the model, in its order; `None` if not recorded [rad or m].
     pub columns: Vec<Option<Vec<f64>>>,
 }
 
@@ -22,42 +22,42 @@ pub enum MotionError {
     /// The first column is not the time.
     #[error("the first column is `{found}`; expected `time`")]
     NoTime {
-        /// What the first column is called.
+        /// Name of the first column.
         found: String,
     },
-    /// An instant that is no number.
+    /// A time that is not finite.
     #[error("{place}: the time is {found}; expected a finite number of seconds")]
     TimeNotFinite {
-        /// Line of the file, or row.
+        /// Line or row of the file.
         place: String,
         /// The value.
         found: f64,
     },
-    /// Time that runs backwards or stands still.
+    /// Times that do not increase.
     #[error(
-        "{place}: time {later} s comes after {earlier} s; expected rising times. hint: sort the rows, or cut the file where the clock was reset"
+        "{place}: time {later} s comes after {earlier} s; expected increasing times. hint: sort the rows, or cut the file where the clock was reset"
     )]
     TimeNotRising {
-        /// Line of the file, or row.
+        /// Line or row of the file.
         place: String,
-        /// The instant before.
+        /// The time before [s].
         earlier: f64,
-        /// The instant that follows it.
+        /// The time that follows [s].
         later: f64,
     },
-    /// Two different rows for one instant.
+    /// Two different rows for one time.
     #[error(
-        "{place}: a second row for time {time} s with other numbers in `{column}`; expected one row an instant. hint: delete one of the two"
+        "{place}: a second row for time {time} s with other numbers in `{column}`; expected one row per time. hint: delete one of the two"
     )]
     TwoRows {
-        /// Line of the file, or row.
+        /// Line or row of the file.
         place: String,
-        /// The instant.
+        /// The time [s].
         time: f64,
         /// A column that differs.
         column: String,
     },
-    /// No column that the model knows.
+    /// No column of a coordinate of the model.
     #[error(
         "no column names a coordinate of the model `{model}`; found {found}; expected some of {known}. hint: is this the motion of another model?"
     )]
@@ -69,18 +69,18 @@ pub enum MotionError {
         /// The model's coordinates.
         known: String,
     },
-    /// A column that a force recording must have.
+    /// A required column of a force recording is missing.
     #[error("no column `{column}` for {purpose}; found {found}. hint: check the identifiers of the external loads")]
     NoColumn {
         /// The column.
         column: String,
-        /// What it was wanted for.
+        /// What it is needed for.
         purpose: String,
-        /// The columns that are there.
+        /// The columns of the file.
         found: String,
     },
     /// A load on a body that the model does not have.
-    #[error("the load `{load}` acts on the body `{body}`; expected one of {known}")]
+    #[error("the load `{load}` acts on the body `{body}`, which the model does not have; expected one of {known}")]
     UnknownBody {
         /// Name of the load.
         load: String,
@@ -89,7 +89,7 @@ pub enum MotionError {
         /// The model's bodies.
         known: String,
     },
-    /// A device that helps no coordinate of the model.
+    /// A device without a column of a generalised force of the model.
     #[error("no column of the device names a generalised force of the model; found {found}; expected some of {known}")]
     NoDeviceColumn {
         /// The first columns.
@@ -97,23 +97,23 @@ pub enum MotionError {
         /// The model's generalised forces.
         known: String,
     },
-    /// A gap that is too long to fill, or that touches the end.
+    /// A gap that is too long to fill, or at an end of the recording.
     #[error(
         "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most {longest_s} s. hint: choose a range without the gap"
     )]
     Gap {
         /// The column.
         column: String,
-        /// First instant without a number.
+        /// First time without a number [s].
         from_s: f64,
-        /// Last instant without a number.
+        /// Last time without a number [s].
         to_s: f64,
-        /// Longest gap that is filled.
+        /// Longest gap that is filled [s].
         longest_s: f64,
     },
-    /// A clock whose steps are of very different lengths.
+    /// Time steps of very different lengths.
     #[error(
-        "the clock of {samples} samples steps by {shortest_s:.1e} s to {longest_s:.1e} s; expected steps of about one length. hint: was the time column rounded or merged from two recordings?"
+        "the time steps of {samples} samples are {shortest_s:.1e} s to {longest_s:.1e} s long; expected similar lengths. hint: check whether the time column was rounded, or merged from two recordings"
     )]
     UnevenClock {
         /// Shortest step [s].
@@ -123,9 +123,9 @@ pub enum MotionError {
         /// Number of samples.
         samples: usize,
     },
-    /// A rate at which no result can be given.
+    /// A frame rate of the results that is not possible.
     #[error(
-        "{found_hz} frames a second were asked for; expected a rate above 0 and at most {highest_hz} Hz that has two frames in the range"
+        "a frame rate of {found_hz} Hz was requested; expected a rate above 0 and at most {highest_hz} Hz, with at least two frames in the range"
     )]
     Rate {
         /// The rate [Hz].
@@ -133,35 +133,35 @@ pub enum MotionError {
         /// Highest rate [Hz].
         highest_hz: f64,
     },
-    /// A measured force that is no number.
+    /// A measured force that is not finite.
     #[error(
-        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s while it carries force; expected numbers. hint: choose a range without this instant"
+        "the load `{load}` has a force, point or torque that is not a number at {time_s:.4} s under load; expected numbers. hint: choose a range without this time"
     )]
     ForceNotFinite {
         /// Name of the load.
         load: String,
-        /// The instant [s].
+        /// The time [s].
         time_s: f64,
     },
-    /// Nothing is left to compute.
+    /// Too few frames in the range.
     #[error(
         "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and forces were both recorded from {first_s} s to {last_s} s"
     )]
     TooShort {
-        /// How many frames there are.
+        /// Number of frames in the range.
         found: usize,
-        /// How many are needed.
+        /// Number of frames that are needed.
         expected: usize,
-        /// Start of the range asked for.
+        /// Start of the requested range [s].
         from_s: f64,
-        /// End of the range asked for.
+        /// End of the requested range [s].
         to_s: f64,
         /// Start of the recording.
         first_s: f64,
         /// End of the recording.
         last_s: f64,
     },
-    /// The filter refused.
+    /// A column that cannot be filtered.
     #[error("`{column}` cannot be filtered")]
     Filter {
         /// The column.
@@ -169,8 +169,8 @@ pub enum MotionError {
         /// Why.
         source: FilterError,
     },
-    /// The spline refused.
-    #[error("`{column}` cannot be followed by a spline")]
+    /// A column that cannot be fitted by a spline.
+    #[error("`{column}` cannot be fitted by a spline")]
     Spline {
         /// The column.
         column: String,

@@ -1,10 +1,10 @@
-//! From recorded samples to smooth curves with two derivatives on a uniform grid.
+//! Smooths recorded samples to curves with two derivatives on a uniform time grid.
 //!
-//! Butterworth: the series is extended by odd reflection, low-passed forwards and backwards, and a natural quintic
-//! spline through the extended series gives the derivatives, so that neither the filter nor the spline has its ends
-//! where the data are (OpenSim's inverse dynamics tool does the same).
-//! Spline: a natural quintic smoothing spline whose stiffness is found by generalised cross-validation for each
-//! coordinate (Woltring 1986); its noise estimate is kept.
+//! Butterworth: the series is extended by odd reflection, low-pass filtered forwards and backwards, and a natural quintic
+//! spline through the extended series gives the derivatives, so that the ends of filter and spline are outside the
+//! data (as in OpenSim's inverse dynamics tool).
+//! Spline: a natural quintic smoothing spline whose smoothing parameter is chosen by generalised cross-validation for each
+//! coordinate (Woltring 1986); it also estimates the noise.
 
 use super::filter::{LowPass, low_pass_padded};
 use super::gaps::{LONGEST_GAP_S, fill_gaps, rows_around, spline_through};
@@ -14,46 +14,46 @@ use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model};
 use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
 
-/// How a recording is smoothed.
+/// The smoothing method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Smoother {
-    /// Not at all: a spline through the samples.
+    /// No smoothing: a spline through the samples.
     Off,
-    /// Zero-phase low-pass.
+    /// Zero-phase low-pass filter.
     Butterworth(LowPass),
-    /// Quintic spline, stiffness by generalised cross-validation.
+    /// Quintic smoothing spline with generalised cross-validation.
     Spline,
 }
 
-/// How a recording is smoothed, and which instants are wanted.
+/// Settings of [`smooth`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SmoothSettings {
-    /// The filter.
+    /// The smoothing method.
     pub smoother: Smoother,
-    /// The range of time.
+    /// The time range of the result.
     pub window: Window,
-    /// Frames a second of the result, read from the splines; `None` keeps the recording's own [Hz].
+    /// Frame rate of the result [Hz], evaluated from the splines; `None` keeps that of the recording.
     pub rate_hz: Option<f64>,
 }
 
 /// Smoothed coordinates with two derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothMotion {
-    /// The instants.
+    /// The time grid.
     pub grid: TimeGrid,
-    /// Per coordinate of the model, where recorded: value, rate, acceleration, one entry a frame.
+    /// Value, rate and acceleration of each recorded coordinate of the model, one entry per frame.
     pub columns: Vec<Option<[Vec<f64>; 3]>>,
-    /// Per coordinate, where the smoother estimates it: standard deviation of the recorded noise [rad or m].
+    /// Standard deviation of the recorded noise of each coordinate, if the smoother estimates it [rad or m].
     pub noise: Vec<Option<f64>>,
 }
 
-/// A quintic spline needs this many samples.
+/// Number of samples that a quintic spline needs.
 const FEWEST_SAMPLES: usize = 6;
-/// Results at a higher rate than this [Hz] say nothing more of a human motion.
+/// Highest frame rate of the result [Hz].
 const HIGHEST_RATE_HZ: f64 = 20_000.0;
-/// More frames than this are not kept in memory at once: ten minutes at the highest rate are 12 million, of 100 columns each.
+/// Largest number of frames, because of memory: ten minutes at the highest rate are 12 million, of 100 columns each.
 const MOST_FRAMES: f64 = 2e6;
-/// An uneven clock may ask for this many frames for each of its samples; more is no clock.
+/// Largest number of resampled frames per sample of a recording with uneven time steps.
 const MOST_FRAMES_PER_SAMPLE: f64 = 4.0;
 
 impl SmoothMotion {
@@ -64,8 +64,8 @@ impl SmoothMotion {
     }
 }
 
-/// Smooths the recording as far around `window` as it has no gaps, then keeps the frames inside. What is recorded for
-/// coordinates that the model drives itself is smoothed only where it is complete.
+/// Smooths the part of the recording around `window` that has no gaps, then keeps the frames inside the window. Recorded
+/// values of coordinates that are not free in the model are smoothed only if they are complete.
 ///
 /// # Errors
 /// Gaps that are too long, fewer frames than a quintic spline needs, a cut-off that the sampling rate does not allow.
@@ -111,7 +111,7 @@ pub fn smooth(
     Ok(out)
 }
 
-/// The recording cut to the rows around the window that have all the numbers that will be used.
+/// The part of the recording around the window that has all the numbers in use.
 fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
     let free = |(c, _): &(&Coordinate, &Option<Vec<f64>>)| matches!(c.drive, Drive::Free);
     let used: Vec<&Vec<f64>> =
@@ -124,7 +124,7 @@ fn usable(model: &Model, motion: &Motion, window: Window) -> Motion {
     }
 }
 
-/// The grid from the same start, at another rate.
+/// The grid with the same start at another rate.
 fn at_rate(grid: TimeGrid, rate_hz: Option<f64>) -> Result<TimeGrid, MotionError> {
     let Some(rate_hz) = rate_hz else { return Ok(grid) };
     let intervals = ((grid.end_s() - grid.start_s) * rate_hz + 1e-6).floor();
@@ -172,7 +172,7 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
     }
     let frames = intervals as usize + 1;
     let message = format!(
-        "the recording's clock is uneven (steps of {:.4} to {longest:.4} s); it was resampled at {:.2} Hz",
+        "the time steps of the recording are uneven ({:.4} to {longest:.4} s); it was resampled at {:.2} Hz",
         steps[0],
         intervals / (end_s - start_s)
     );
@@ -185,7 +185,7 @@ fn resample(name: &str, times: &[f64], values: &[f64], grid: &TimeGrid) -> Resul
     Ok((0..grid.frames).map(|i| spline.value(grid.time(i))).collect())
 }
 
-/// Fits the columns of one recording; the factorisation, which depends on the times only, is made once.
+/// Fits the columns of one recording; the factorisation depends only on the times and is computed once.
 struct Fitters {
     whole: TimeGrid,
     smoother: Smoother,

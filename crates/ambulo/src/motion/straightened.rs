@@ -1,17 +1,17 @@
-//! Walks that turn, as if they went straight ahead.
+//! Straightens walks on a curved path.
 //!
-//! Methods that find events in markers look along world x. Of a walk on a curve each frame is seen here from the pelvis, from the
-//! way that the body faces, and the pelvis is put on the x axis, as far along as its way was long so far:
+//! Methods that detect events in markers use world x as forward. On a curve each frame is transformed here into axes that follow the
+//! pelvis and its facing direction; the pelvis moves along x by the distance that it has covered:
 //!
 //!   x' = s(t) + (p - c) · f        z' = (p - c) · r        s(t) = ∫ ċ · f dt
 //!
 //! | code | symbol | meaning |
 //! |---|---|---|
-//! | `center` | c | middle of the pelvis' markers, on the level |
-//! | `forward` | f | where the pelvis faces, level, averaged over [`STEADY_S`] |
+//! | `center` | c | middle of the pelvis markers, horizontal |
+//! | `forward` | f | facing direction of the pelvis, horizontal, averaged over [`STEADY_S`] |
 //! | | r | f × up, to the right |
 //!
-//! A foot that stands moves in this view by the turning of the body, at ω times its distance from the pelvis: 0.3 m/s on a circle
+//! A stance foot moves in these axes because of the rotation of the body, at ω times its distance from the pelvis: 0.3 m/s on a circle
 //! of 1.5 m radius.
 //! Pinned by: tests/retarget.rs
 
@@ -19,11 +19,11 @@ use super::landmarks::Landmarks;
 use super::marker_recording::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 
-/// The pelvis turns to and fro with each stride; over about this long its facing is that of the walk [s].
+/// Averaging time that removes the rotation of the pelvis in each stride [s].
 const STEADY_S: f64 = 1.0;
 
-/// The recording seen from the way that the body faces; `None` without two markers of the pelvis, right and left. World axes in, world
-/// axes out. Frames in which the pelvis was not seen have gaps.
+/// Transforms a recording in world axes to a straight walk along x; `None` without a right and a left marker of the
+/// pelvis. Frames without visible pelvis markers have gaps.
 #[must_use]
 pub fn straightened(markers: &MarkerRecording) -> Option<MarkerRecording> {
     let landmarks = Landmarks::find(markers);
@@ -54,7 +54,7 @@ fn level(v: Vec3) -> Vec3 {
     Vec3::new(v.x, 0.0, v.z)
 }
 
-/// One long; not a number where the pelvis was seen in none of the frames around.
+/// Unit vector; not a number if the pelvis is not visible in any frame of the averaging time.
 fn mean_facing(facing: &[Vec3], frame: usize, half: usize) -> Vec3 {
     let around = &facing[frame.saturating_sub(half)..(frame + half + 1).min(facing.len())];
     let sum: Vec3 = around.iter().filter(|f| f.iter().all(|x| x.is_finite())).sum();

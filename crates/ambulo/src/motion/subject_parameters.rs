@@ -1,16 +1,16 @@
-//! What a C3D states of the person who was recorded.
+//! Reads the data of the person from a C3D file.
 //!
-//! No standard names them. Vicon's programs write `PROCESSING:Bodymass` [kg], `PROCESSING:Height` [mm] and the measures of
-//! Plug-in-Gait [mm]; c3d.org's samples have `SUBJECT:WEIGHT` [kg] and `SUBJECT:HEIGHT`, whose unit field contradicts its value.
-//! So lengths are believed by size: no person is taller than 3 m, and none who is recorded is smaller than 0.3 m.
+//! Their names are not standardised. Vicon's programs write `PROCESSING:Bodymass` [kg], `PROCESSING:Height` [mm] and the measurements
+//! of Plug-in-Gait [mm]; the samples of c3d.org have `SUBJECT:WEIGHT` [kg] and `SUBJECT:HEIGHT`, whose unit field contradicts its
+//! value. The unit of a stature is therefore inferred from its size: people are 0.3 to 3 m tall.
 
 use ambulo_formats::c3d::C3d;
 
-/// Statures that are believed [m].
+/// Plausible statures [m].
 const STATURES: [f64; 2] = [0.3, 3.0];
-/// Masses that are believed [kg].
+/// Plausible masses [kg].
 const MASSES: [f64; 2] = [1.0, 400.0];
-/// Names under which programs store a mass, in kg; groups before names.
+/// Parameters with a body mass, in kg: group and name.
 const MASS_NAMES: [(&str, &str); 6] = [
     ("PROCESSING", "Bodymass"),
     ("PROCESSING", "BodyMass"),
@@ -19,29 +19,29 @@ const MASS_NAMES: [(&str, &str); 6] = [
     ("SUBJECTS", "WEIGHT"),
     ("SUBJECTS", "MASS"),
 ];
-/// Names under which programs store a stature.
+/// Parameters with a stature: group and name.
 const HEIGHT_NAMES: [(&str, &str); 3] = [("PROCESSING", "Height"), ("SUBJECT", "HEIGHT"), ("SUBJECTS", "HEIGHT")];
 
-/// A person as a file describes them.
+/// Data of a person in a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SubjectParameters {
     /// Body mass [kg].
     pub mass_kg: Option<f64>,
     /// Stature [m].
     pub height_m: Option<f64>,
-    /// Every number of the group PROCESSING by its name, as it stands there; lengths in mm.
+    /// Every number of the group PROCESSING with its name, unchanged; lengths in mm.
     pub processing: Vec<(String, f64)>,
 }
 
 impl SubjectParameters {
-    /// The number with this name in the group PROCESSING; upper and lower case are one.
+    /// The number with this name in the group PROCESSING, ignoring case.
     #[must_use]
     pub fn processing(&self, name: &str) -> Option<f64> {
         self.processing.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, value)| *value)
     }
 }
 
-/// What the file states of the person. Values that no person has are left out.
+/// Reads the data of the person. Implausible values are left out.
 #[must_use]
 pub fn subject_from_c3d(c3d: &C3d) -> SubjectParameters {
     let stated = |names: &[(&str, &str)]| names.iter().find_map(|(group, name)| c3d.parameters.number(group, name));

@@ -1,55 +1,54 @@
-//! Instants: uniform grids, windows, and values between samples.
+//! Uniform time grids, time windows, and interpolation between samples.
 
-/// Instants at a constant step.
+/// Times at a constant step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeGrid {
-    /// First instant [s].
+    /// First time [s].
     pub start_s: f64,
-    /// Time from one frame to the next [s].
+    /// Time step [s].
     pub step_s: f64,
-    /// Number of instants.
+    /// Number of frames.
     pub frames: usize,
 }
 
-/// A range of time; an open end is a `None`.
+/// A range of time; `None` is an open end.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Window {
-    /// Earliest instant [s].
+    /// Start [s].
     pub from_s: Option<f64>,
-    /// Latest instant [s].
+    /// End [s].
     pub to_s: Option<f64>,
 }
 
-/// Clocks that print four decimals miss the grid by this share of a step at 1 kHz; instants closer than this are the
-/// grid's own.
+/// Largest distance of a recorded time from the grid, as a share of the step: the rounding of four decimals at 1 kHz.
 const GRID_TOLERANCE: f64 = 0.06;
 
 impl TimeGrid {
-    /// The instant of a frame [s].
+    /// Time of a frame [s].
     #[must_use]
     pub fn time(&self, frame: usize) -> f64 {
         self.start_s + self.step_s * frame as f64
     }
 
-    /// All instants [s].
+    /// All times [s].
     #[must_use]
     pub fn times(&self) -> Vec<f64> {
         (0..self.frames).map(|i| self.time(i)).collect()
     }
 
-    /// Frames a second [Hz].
+    /// Frame rate [Hz].
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
         1.0 / self.step_s
     }
 
-    /// Last instant [s].
+    /// Last time [s].
     #[must_use]
     pub fn end_s(&self) -> f64 {
         self.time(self.frames.saturating_sub(1))
     }
 
-    /// The grid that these rising instants lie on to within a rounded clock, if there is one; at least two instants.
+    /// The grid of these increasing times, up to rounding; `None` if they are not uniform or fewer than two.
     #[must_use]
     pub fn through(times: &[f64]) -> Option<TimeGrid> {
         let grid = TimeGrid::spanning(times)?;
@@ -57,7 +56,7 @@ impl TimeGrid {
         times.iter().enumerate().all(near).then_some(grid)
     }
 
-    /// A uniform grid with as many instants and the same ends; at least two instants.
+    /// A uniform grid with the same ends and number of times; `None` for fewer than two.
     #[must_use]
     pub fn spanning(times: &[f64]) -> Option<TimeGrid> {
         let (&first, &last) = (times.first()?, times.last()?);
@@ -69,7 +68,7 @@ impl TimeGrid {
         })
     }
 
-    /// Frames inside a window, ends included, as first frame and number.
+    /// Frames inside a window, including its ends, as first frame and number of frames.
     #[must_use]
     pub fn inside(&self, window: Window) -> (usize, usize) {
         let slack = 1e-6 * self.step_s;
@@ -86,7 +85,7 @@ impl TimeGrid {
 }
 
 impl Window {
-    /// The instants that lie in both.
+    /// The intersection of two windows.
     #[must_use]
     pub fn overlap(self, other: Window) -> Window {
         let later = |a: Option<f64>, b: Option<f64>| match (a, b) {
@@ -101,7 +100,7 @@ impl Window {
     }
 }
 
-/// Value at `t` on straight lines between samples; the end values beyond the ends. `times` rise.
+/// Linear interpolation at `t`, constant beyond the ends. `times` increase.
 #[must_use]
 pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     let after = times.partition_point(|&x| x <= t);

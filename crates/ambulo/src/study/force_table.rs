@@ -47,7 +47,7 @@ pub(super) fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3
         );
         return;
     }
-    plates.iter_mut().for_each(|plate| plate.turn(world_from_lab));
+    plates.iter_mut().for_each(|plate| plate.rotate(world_from_lab));
 }
 
 /// Usual prefixes on the model's feet, reported as a finding.

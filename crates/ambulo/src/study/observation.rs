@@ -12,7 +12,7 @@ use crate::analysis::{Body, BodyInMotion, LaboratoryRecording, MarkerTrial, Prog
 use crate::findings::{Code, Findings};
 use crate::ground::plates::PlateContact;
 use crate::kinematics::Trajectory;
-use crate::kinematics::calibration::{self, Measures};
+use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;
 use crate::model::anthropometry::Build;
 use crate::model::{Model, Side};
@@ -265,15 +265,15 @@ impl MarkerSource {
     }
 
     /// What is known about the person, for the built-in body.
-    fn person(&self, findings: &mut Findings) -> Result<calibration::Person, StudyError> {
+    fn person(&self, findings: &mut Findings) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| standing.as_ref().and_then(of).or_else(|| of(trial));
-        Ok(calibration::Person {
+        Ok(calibration::PersonMeasurements {
             table: *table,
             mass: built_in_mass_kg(self, findings).ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
-            measures: Measures::from_processing(|name| stated(&|file| file.subject.processing(name))),
+            measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
         })
     }
 }

@@ -24,7 +24,7 @@ pub struct Settings {
     pub rate_hz: Option<f64>,
     /// How the ground forces are found.
     pub ground: GroundSettings,
-    /// How forces are predicted. Truths in place of estimates go here ([`PredictSettings::known`]).
+    /// How forces are predicted. Truths in place of estimates go here ([`PredictSettings::prescribed`]).
     pub prediction: PredictSettings,
     /// How markers are fitted.
     pub marker_fit: FitSettings,

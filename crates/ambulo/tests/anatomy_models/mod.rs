@@ -1,4 +1,4 @@
-//! Published models, and what can be done to a model without changing what its parts are.
+//! Published models, and transformations of a model that do not change its anatomy.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
@@ -30,7 +30,7 @@ pub(crate) fn rajagopal() -> Option<Model> {
     Some(osim(&std::fs::read(shared_data::data()?.join(FILES[2])).unwrap()))
 }
 
-/// The demo's model, and those of other people where they are.
+/// The model of the demo, and published models if they are available.
 pub(crate) fn published() -> Vec<Model> {
     let folder = shared_data::data();
     let files = folder.iter().flat_map(|folder| FILES.map(|file| osim(&std::fs::read(folder.join(file)).unwrap())));
@@ -45,7 +45,7 @@ fn rebuilt(model: &Model, gravity: Vec3, bodies: Vec<Body>, coordinates: Vec<Coo
     Model::new(model.name(), gravity, bodies, coordinates, Vec::new()).unwrap()
 }
 
-/// The model with each body changed; `change` gets the body's number.
+/// The model with each body changed; `change` gets the number of the body.
 pub(crate) fn change(model: &Model, mut change: impl FnMut(usize, &mut Body)) -> Model {
     let mut bodies = model.bodies().to_vec();
     bodies.iter_mut().enumerate().for_each(|(i, body)| change(i, body));
@@ -64,7 +64,7 @@ pub(crate) fn renamed(model: &Model, name: impl Fn(usize, &str) -> String) -> Mo
     rebuilt(model, model.gravity(), bodies.collect(), coordinates.collect())
 }
 
-/// The model seen in a mirror that stands in the plane of walking: every place with z turned over, every axis of rotation as a pseudovector.
+/// The model mirrored at the plane of walking: every position with z reversed, every axis of rotation as a pseudovector.
 pub(crate) fn mirrored(model: &Model) -> Model {
     let m = Mat3::from_diagonal(&Vec3::new(1.0, 1.0, -1.0));
     let pose = |p: &Pose| Pose { rotation: m * p.rotation * m, translation: m * p.translation };
@@ -103,12 +103,12 @@ pub(crate) fn reframed(model: &Model, mut pose: impl FnMut() -> Pose) -> Model {
     })
 }
 
-/// An axis whose coordinate counts the other way round.
+/// An axis whose coordinate has the opposite sign.
 pub(crate) fn count_backwards(axis: &mut JointAxis, id: CoordinateId) {
     if let Displacement::Follows(leader, function) = &axis.displacement
         && *leader == id
     {
-        // At zero, where the anatomy is found, f(-q) has the slope -f'(q); its value there is kept.
+        // At zero, where the anatomy is determined, f(-q) has the slope -f'(q) and the same value.
         let [value, slope, _] = function.at(0.0);
         axis.displacement = Displacement::Follows(id, Function::Linear { slope: -slope, intercept: value });
     }

@@ -1,8 +1,8 @@
 //! Models put together in code, body by body.
 
 use ambulo::model::{
-    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Measure,
-    Model,
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
+    JointSpeeds, Model,
 };
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 
@@ -19,7 +19,7 @@ pub(crate) struct Assembly {
 pub(crate) struct Axes {
     pub(crate) rotations: Vec<JointAxis>,
     pub(crate) translations: Vec<JointAxis>,
-    pub(crate) measure: Measure,
+    pub(crate) speeds: JointSpeeds,
 }
 
 /// A joint's frames: F on the parent, M on the child.
@@ -87,7 +87,7 @@ impl Assembly {
     pub(crate) fn ball(&mut self, translations: &[Vec3]) -> Axes {
         let rotations = [Vec3::x(), Vec3::y(), Vec3::z()].map(|d| self.axis(d)).to_vec();
         let translations = translations.iter().map(|d| self.axis(*d)).collect();
-        Axes { rotations, translations, measure: Measure::AngularVelocity }
+        Axes { rotations, translations, speeds: JointSpeeds::AngularVelocity }
     }
 
     /// A free joint.
@@ -104,7 +104,7 @@ impl Assembly {
 impl Axes {
     /// No motion at all.
     pub(crate) fn weld() -> Axes {
-        Axes { rotations: Vec::new(), translations: Vec::new(), measure: Measure::Rates }
+        Axes { rotations: Vec::new(), translations: Vec::new(), speeds: JointSpeeds::Rates }
     }
 }
 
@@ -120,8 +120,8 @@ pub(crate) fn inertia(mass: f64, center: [f64; 3], principal: [f64; 3]) -> Inert
 
 fn joint(name: String, parent: Option<BodyId>, frames: Frames, axes: Axes) -> Joint {
     let Frames { parent_from_joint, child_from_joint } = frames;
-    let Axes { rotations, translations, measure } = axes;
-    Joint { name, parent, parent_from_joint, child_from_joint, rotations, translations, measure }
+    let Axes { rotations, translations, speeds } = axes;
+    Joint { name, parent, parent_from_joint, child_from_joint, rotations, translations, speeds }
 }
 
 fn coordinate(i: usize) -> Coordinate {

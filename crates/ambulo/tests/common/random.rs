@@ -3,7 +3,7 @@
 use super::assembly::{Assembly, Axes, Frames, follow};
 use super::{State, point_inertia};
 use ambulo::dynamics::BodyLoad;
-use ambulo::model::{BodyId, Displacement, Function, JointAxis, Knots, Measure, Model, SimmSpline};
+use ambulo::model::{BodyId, Displacement, Function, JointAxis, JointSpeeds, Knots, Model, SimmSpline};
 use ambulo::numerics::{Smoothing, SplineDegree, SplineFitter};
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3, Wrench};
 
@@ -187,7 +187,7 @@ fn axes(r: &mut Random, assembly: &mut Assembly, kind: Kind, curves: Curves) -> 
     let mut along = |rotations: &[Vec3], translations: &[Vec3]| Axes {
         rotations: rotations.iter().map(|d| assembly.axis(*d)).collect(),
         translations: translations.iter().map(|d| assembly.axis(*d)).collect(),
-        measure: Measure::Rates,
+        speeds: JointSpeeds::Rates,
     };
     match kind {
         Kind::Weld => Axes::weld(),
@@ -200,7 +200,7 @@ fn axes(r: &mut Random, assembly: &mut Assembly, kind: Kind, curves: Curves) -> 
         Kind::Free => assembly.free(),
         Kind::Ellipsoid => {
             let radii = Vec3::new(r.between(0.05, 0.4), r.between(0.05, 0.4), r.between(0.05, 0.4));
-            Axes { measure: Measure::Ellipsoid(radii), ..assembly.ball(&[]) }
+            Axes { speeds: JointSpeeds::Ellipsoid(radii), ..assembly.ball(&[]) }
         }
         Kind::Custom => custom(r, assembly, curves),
     }
@@ -221,7 +221,7 @@ fn custom(r: &mut Random, assembly: &mut Assembly, curves: Curves) -> Axes {
             })
             .collect()
     };
-    Axes { rotations: axes(3), translations: axes(3), measure: Measure::Rates }
+    Axes { rotations: axes(3), translations: axes(3), speeds: JointSpeeds::Rates }
 }
 
 /// A function whose values for |x| <= 1 are of the order of one.

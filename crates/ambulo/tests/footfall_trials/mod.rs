@@ -1,8 +1,8 @@
-//! Recordings with plates, as motions of bodies, and what the plates saw of the feet.
+//! Recordings with force plates as motions of bodies, with the foot events from the plates.
 //!
-//! Plates' events are crossings of 20 N: of the files' own forces where a table has them (the forces of the three OpenSim sets were
-//! low-passed by their authors: from 20 to 140 N they take 20 to 30 ms, those of the C3D files 3 to 5 ms), by the data's README
-//! for the C3D files.
+//! Plate events are crossings of 20 N: of the forces in the files if a table has them (the forces of the three OpenSim sets were
+//! low-pass filtered by their authors: they rise from 20 to 140 N in 20 to 30 ms, those of the C3D files in 3 to 5 ms), otherwise
+//! from the README of the data.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where a file cannot be read")]
@@ -12,9 +12,9 @@ mod gait_files;
 
 use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
-use ambulo::ground::phases::contacts;
+use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
-use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::calibration::{BodyMeasurements, PersonMeasurements};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::SegmentTable;
@@ -34,7 +34,7 @@ use std::sync::OnceLock;
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
-/// A motion and the plates' events.
+/// A motion and the plate events.
 #[derive(Clone)]
 pub(crate) struct Recorded {
     pub(crate) name: &'static str,
@@ -43,9 +43,9 @@ pub(crate) struct Recorded {
     pub(crate) motion: Motion,
     pub(crate) soles: BySide<Option<Sole>>,
     pub(crate) plates: Vec<Event>,
-    /// What plates measured, in the world of the motion.
+    /// Plate forces in the world axes of the motion.
     pub(crate) forces: Vec<ForceRecording>,
-    /// Whether plates saw every step between their first and last event.
+    /// Whether plates measured every step between their first and last event.
     pub(crate) all_seen: bool,
 }
 
@@ -59,7 +59,7 @@ impl Recorded {
     }
 }
 
-/// Everything that there is, made once; nothing without data.
+/// All trials, computed once; empty without data.
 pub(crate) fn everything() -> &'static [Recorded] {
     static ALL: OnceLock<Vec<Recorded>> = OnceLock::new();
     ALL.get_or_init(read)
@@ -99,10 +99,10 @@ fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> R
     )
 }
 
-/// What plates say of a recording.
+/// Plate events of a recording.
 struct Plates<'a> {
     events: Vec<Event>,
-    /// `None` where the recording itself holds the forces.
+    /// `None` if the forces are in the recording.
     forces: Option<&'a TableForces>,
     all_seen: bool,
 }
@@ -147,7 +147,7 @@ fn fitted(
         || body.plate_forces(),
         |table| {
             let mut forces = forces_of(&body.subject.model, table);
-            forces.iter_mut().for_each(|force| force.turn(&body.laboratory.world_from_lab));
+            forces.iter_mut().for_each(|force| force.rotate(&body.laboratory.world_from_lab));
             forces
         },
     );
@@ -173,7 +173,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         let mut out = Vec::new();
         for (side, prefix) in [R, L].into_iter().zip(forces.prefixes) {
             let column = table.column(&format!("{prefix}vy")).unwrap();
-            for contact in contacts(table.times().unwrap(), column) {
+            for contact in contacts_from_force(table.times().unwrap(), column) {
                 let event = |kind, time_s| Event { side, kind, time_s };
                 out.extend(contact.strike_s.map(|t| event(EventKind::Strike, t)));
                 out.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
@@ -198,14 +198,18 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         name: "gait2392 angles",
         subject: "gait2392",
         motion: coordinates_from_table(&small, &table, "ik", &mut Findings::default()).unwrap(),
-        soles: ambulo::analysis::feasibility::Person::of_model(&small).soles,
+        soles: ambulo::analysis::feasibility::PersonMeasurements::of_model(&small).soles,
         model: small.clone(),
         plates: of_angles,
         forces: forces_of(&small, &by_angles),
         all_seen: true,
     };
-    let person =
-        Person { table: SegmentTable::DeLevaMale, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let person = PersonMeasurements {
+        table: SegmentTable::DeLevaMale,
+        mass: 72.84,
+        height: Some(1.80),
+        measurements: BodyMeasurements::default(),
+    };
     let runner = Body::BuiltIn { person: &person, set: None };
     let (markers, still) = (trc(run, "motion_capture_run.trc"), trc(run, "static_run.trc"));
     vec![

@@ -1,17 +1,17 @@
-//! Bodies that each float freely in the world: the smallest models on which plates, events and filters can be tried.
+//! Bodies that float freely in the world: the smallest models for tests of plates, events and filters.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use ambulo::model::{
-    Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Measure, Model,
+    Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds, Model,
 };
 use ambulo::spatial::{Inertia, Mat3, Pose, Vec3};
 
-/// Standard gravity's round cousin, along -y.
+/// Gravity along -y, rounded.
 pub(crate) const DOWN_Y: Vec3 = Vec3::new(0.0, -9.81, 0.0);
 
-/// Coordinates of a body: angles about x, y, z, then places along x, y, z.
+/// Coordinates of a body: angles about x, y, z, then positions along x, y, z.
 pub(crate) const PARTS: [(&str, CoordinateKind); 6] = [
     ("rx", CoordinateKind::Rotation),
     ("ry", CoordinateKind::Rotation),
@@ -21,7 +21,7 @@ pub(crate) const PARTS: [(&str, CoordinateKind); 6] = [
     ("tz", CoordinateKind::Translation),
 ];
 
-/// Bodies of these names and masses [kg], each with six coordinates `<name>_rx` to `<name>_tz` of its own.
+/// Bodies of these names and masses [kg], each with six coordinates `<name>_rx` to `<name>_tz`.
 pub(crate) fn free_bodies(gravity: Vec3, bodies: &[(&str, f64)]) -> Model {
     let ids = coordinate_ids(6 * bodies.len());
     let mut coordinates = Vec::new();
@@ -42,7 +42,7 @@ pub(crate) fn ball(mass: f64) -> Inertia {
     Inertia::new(mass, Vec3::zeros(), Mat3::identity() * (0.01 * mass)).unwrap()
 }
 
-/// A coordinate that the recording decides.
+/// A free coordinate.
 pub(crate) fn free(name: &str, kind: CoordinateKind) -> Coordinate {
     Coordinate { name: name.to_owned(), kind, default_value: 0.0, range: None, clamped: false, drive: Drive::Free }
 }
@@ -61,11 +61,11 @@ pub(crate) fn weld(body: &str) -> Joint {
         child_from_joint: Pose::IDENTITY,
         rotations: Vec::new(),
         translations: Vec::new(),
-        measure: Measure::Rates,
+        speeds: JointSpeeds::Rates,
     }
 }
 
-/// Coordinate ids are given out by models only; these fit any model with so many coordinates.
+/// Coordinate ids, which only models create; they are valid in any model with this number of coordinates.
 pub(crate) fn coordinate_ids(count: usize) -> Vec<CoordinateId> {
     let body = Body { name: "stand".into(), inertia: ball(1.0), joint: weld("stand") };
     let coordinates = (0..count).map(|i| free(&format!("q{i}"), CoordinateKind::Rotation)).collect();

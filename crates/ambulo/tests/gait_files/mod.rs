@@ -1,6 +1,6 @@
-//! Recordings of gait laboratories with what Plug-in-Gait made of them.
+//! Recordings of gait laboratories with Plug-in-Gait's results.
 //!
-//! The files are not part of the repository. They are looked for in `shared/data` beside it, or in `$AMBULO_DATA/data`.
+//! The files are not part of the repository. They are searched in `shared/data` next to it, or in `$AMBULO_DATA/data`.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::print_stdout, reason = "a test that skips says so")]
@@ -10,7 +10,7 @@
 mod shared_data;
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::calibration::{BodyMeasurements, PersonMeasurements};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::{MarkerRecording, markers_from_c3d};
@@ -24,7 +24,7 @@ pub(crate) struct Subject {
     pub(crate) name: &'static str,
     pub(crate) standing: File,
     pub(crate) walk: File,
-    pub(crate) person: Person,
+    pub(crate) person: PersonMeasurements,
 }
 
 /// A C3D file and its markers in world axes.
@@ -41,11 +41,11 @@ pub(crate) fn world_from_lab() -> Mat3 {
 impl File {
     fn read(path: &Path) -> File {
         let (c3d, _) = C3d::read(&std::fs::read(path).unwrap()).unwrap();
-        let markers = markers_from_c3d(&c3d, &mut Findings::default()).unwrap().turned(&world_from_lab());
+        let markers = markers_from_c3d(&c3d, &mut Findings::default()).unwrap().rotated(&world_from_lab());
         File { c3d, markers }
     }
 
-    /// A number of the group PROCESSING, as it stands.
+    /// A number of the group PROCESSING, unchanged.
     pub(crate) fn processing(&self, name: &str) -> Option<f64> {
         self.c3d.parameters.get("PROCESSING", name)?.numbers()?.first().copied()
     }
@@ -56,10 +56,10 @@ impl File {
         point.positions.iter().map(|p| world_from_lab() * Vec3::from(*p) * 1e-3).collect()
     }
 
-    /// Flexion and its like: the first of Plug-in-Gait's three angles [deg].
+    /// The first of Plug-in-Gait's three angles, such as flexion [deg].
     pub(crate) fn angle(&self, name: &str, side: Side) -> Option<Vec<f64>> {
         let name = format!("{}{name}", if side == Side::Right { "R" } else { "L" });
-        // Some files call them LHipAnglesV, V being the model's version.
+        // Some files name them LHipAnglesV, with V the version of the model.
         let point = self.c3d.point(&name).or_else(|| self.c3d.point(&format!("{name}V")))?;
         Some(point.positions.iter().map(|p| p[0]).collect())
     }
@@ -70,8 +70,8 @@ fn subject(name: &'static str, table: SegmentTable, standing: &str, walk: &str) 
     let [standing, walk] = [standing, walk].map(|file| File::read(&folder.join(file)));
     let mass = standing.processing("Bodymass").unwrap();
     let height = standing.processing("Height").map(|mm| 0.001 * mm);
-    let measures = Measures::from_processing(|name| standing.processing(name));
-    Some(Subject { name, standing, walk, person: Person { table, mass, height, measures } })
+    let measurements = BodyMeasurements::from_processing(|name| standing.processing(name));
+    Some(Subject { name, standing, walk, person: PersonMeasurements { table, mass, height, measurements } })
 }
 
 pub(crate) fn woman() -> Option<Subject> {
@@ -92,7 +92,7 @@ pub(crate) fn adult() -> Option<Subject> {
     subject("PiG adult", SegmentTable::DeLevaMale, &standing, &walk)
 }
 
-/// Walks with a turn of some 45 degrees, of the woman and of the child.
+/// Walks with a turn of about 45 degrees, of the woman and of the child.
 pub(crate) fn turning() -> Vec<Subject> {
     let read =
         |subject: Option<Subject>, walk: &str| Some(Subject { walk: File::read(&folder()?.join(walk)), ..subject? });

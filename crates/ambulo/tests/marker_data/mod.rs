@@ -1,4 +1,4 @@
-//! Recordings of markers with models and measured ground forces, from the data beside the repository.
+//! Recordings of markers with models and measured ground forces, from the data next to the repository.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
@@ -26,7 +26,7 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// OpenSim's own fit of the walking trial, degrees.
+    /// OpenSim's fit of the walking trial [deg].
     pub(crate) fn opensim_angles(&self) -> Table {
         table(&self.folder.join("ik_uniform_weights.mot"))
     }

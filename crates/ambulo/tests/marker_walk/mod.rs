@@ -1,4 +1,4 @@
-//! A walk made of rules: feet that stand still and swing, a pelvis that goes at one speed.
+//! A synthetic walk: feet at rest in stance and in swing on given paths, a pelvis with constant speed.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 
@@ -10,12 +10,12 @@ use ambulo::spatial::Vec3;
 pub(crate) const SPEED_M_S: f64 = 1.2;
 /// Duration of a stride [s].
 pub(crate) const STRIDE_S: f64 = 1.1;
-/// Share of it on the ground.
+/// Stance as a share of the stride.
 pub(crate) const STANCE: f64 = 0.62;
 /// Duration of the walk [s].
 pub(crate) const DURATION_S: f64 = 4.0;
 pub(crate) const RATE_HZ: f64 = 100.0;
-/// Heel and toe marker ahead of the foot's reference point [m].
+/// Heel and toe marker in front of the reference point of the foot [m].
 pub(crate) const HEEL: f64 = -0.06;
 pub(crate) const TOE: f64 = 0.14;
 
@@ -40,14 +40,14 @@ pub(crate) fn stances(side: Side) -> Vec<(i32, f64, f64)> {
     (-1..5).map(|k| (k, strike(k), strike(k) + STANCE * STRIDE_S)).collect()
 }
 
-/// Where the foot stands in its stance number `k` [m].
+/// Position of the foot in its stance number `k` [m].
 pub(crate) fn place(side: Side, k: i32) -> Vec3 {
     // Half a stance after the strike the pelvis is above the foot.
     let middle = first_strike(side) + (f64::from(k) + 0.5 * STANCE) * STRIDE_S;
     Vec3::new(SPEED_M_S * middle, 0.0, lateral(side))
 }
 
-/// The foot's reference point at a time [m].
+/// Reference point of the foot at a time [m].
 fn foot(side: Side, t: f64) -> Vec3 {
     let stride = (t - first_strike(side)) / STRIDE_S;
     let (k, phase) = (stride.floor() as i32, stride - stride.floor());

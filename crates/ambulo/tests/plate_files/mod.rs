@@ -1,10 +1,10 @@
-//! C3D records with force plates, made in memory.
+//! C3D files with force plates, created in memory.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Group, Parameter, Parameters, Point, Values};
 
-/// A plate as a file describes it, in mm.
+/// A plate as described in a file, in mm.
 #[derive(Debug, Clone)]
 pub(crate) struct File {
     pub(crate) kind: i16,
@@ -16,20 +16,20 @@ pub(crate) struct File {
     pub(crate) channels: Vec<Vec<f64>>,
     pub(crate) units: Vec<&'static str>,
     pub(crate) zero: [i16; 2],
-    /// Places of markers in every frame [mm].
+    /// Positions of markers in every frame [mm].
     pub(crate) markers_mm: Vec<[f64; 3]>,
 }
 
 pub(crate) const RATE_HZ: f64 = 200.0;
 
-/// Corners of a plate of 400 x 600 mm in the floor of a laboratory whose z points up: the plate's x along the
-/// laboratory's x, its y against the laboratory's y, its z down.
+/// Corners of a plate of 400 x 600 mm in the floor of a laboratory with z up: x of the plate along x of the
+/// laboratory, its y opposite to y of the laboratory, its z down.
 pub(crate) const CORNERS_MM: [[f64; 3]; 4] =
     [[400.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 600.0, 0.0], [400.0, 600.0, 0.0]];
 
 impl File {
     /// Forty samples without load, then forty with about these values, and exactly these in sample 60: the first three
-    /// channels grow by a thousandth from sample to sample, the others shrink, as no person stands still.
+    /// channels grow by a thousandth from sample to sample, the others decrease, because no person stands perfectly still.
     pub(crate) fn step(kind: i16, origin_mm: [f64; 3], values: &[f64]) -> File {
         let channel = |(i, v): (usize, &f64)| {
             let growth = if i < 3 { 1e-3 } else { -1e-3 };

@@ -1,11 +1,11 @@
-//! Where recordings lie that are not part of the repository: `shared/data` beside it, or `$AMBULO_DATA/data`.
+//! Location of recordings that are not part of the repository: `shared/data` next to it, or `$AMBULO_DATA/data`.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::print_stdout, reason = "says when there is no data")]
 
 use std::path::{Path, PathBuf};
 
-/// The folder; `None`, and said so, where there is none.
+/// The folder; `None`, with a printed line, if there is none.
 pub(crate) fn data() -> Option<PathBuf> {
     let folder = match std::env::var_os("AMBULO_DATA") {
         Some(root) => PathBuf::from(root).join("data"),

@@ -1,12 +1,12 @@
-//! A puppet that walks as Newton and Euler ask of what holds it: feet, and a hand if it has one.
+//! A puppet whose motion obeys Newton's and Euler's laws for its supports: the feet, and a hand if it has one.
 //!
-//! The puppet is a trunk that does not turn and two light feet, each free of the others. The trunk stays at a height h, so that level
-//! accelerations decide where the whole force passes (Kajita's inverted pendulum):
+//! The puppet is a trunk that does not rotate and two light feet that move independently. The trunk stays at a height h, so that its
+//! horizontal acceleration determines the line of action of the total force (Kajita's inverted pendulum):
 //!
 //!   ẍ = g/h (x - p)        p = (1 - s) p_feet + s p_hand
 //!
-//! p_feet goes from heel to ball of the foot that stands and in double support to the other one; the hand carries the share s. The path of
-//! the trunk solves this between rest at the beginning and rest at the end.
+//! p_feet goes from heel to ball of the stance foot and in double support to the other one; the hand carries the share s. The path of
+//! the trunk is the solution that is at rest at the beginning and at the end.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where a model cannot be built")]
 
@@ -21,17 +21,17 @@ const GRAVITY: f64 = 9.80665;
 const TRUNK_M: f64 = 1.0;
 const STILL_S: f64 = 1.0;
 const SWING_S: f64 = 0.4;
-/// A foot swings once in this time, right and left in turn [s].
+/// Time from swing to swing of one foot; right and left alternate [s].
 const STRIDE_S: f64 = 1.1;
 const STEPS: usize = 4;
 const STEP_M: f64 = 1.2;
 const LIFT_M: f64 = 0.08;
 const BESIDE_M: f64 = 0.08;
-/// Where the centre of pressure begins and ends on a foot [m].
+/// First and last centre of pressure on a foot [m].
 const ROLL_M: [f64; 2] = [0.0, 0.12];
 const STEP_S: f64 = 0.01;
 
-/// What a hand carries of the weight, and where it is beside and before the trunk's way [m].
+/// Share of the weight on a hand, and its position lateral to and in front of the path of the trunk [m].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hand {
     pub(crate) share: f64,
@@ -41,7 +41,7 @@ pub(crate) struct Hand {
 
 pub(crate) const NO_HAND: Hand = Hand { share: 0.0, forward: 0.0, right: 0.0 };
 
-/// A motion with the body that makes it.
+/// A motion with its body.
 pub(crate) struct Puppet {
     pub(crate) model: Model,
     pub(crate) soles: BySide<Option<Sole>>,
@@ -80,7 +80,7 @@ fn soles(model: &Model) -> BySide<Option<Sole>> {
     })
 }
 
-/// When a foot begins its swing of a number [s].
+/// Start time of a swing of a foot by its number [s].
 fn lifts(side: Side, swing: usize) -> f64 {
     STILL_S + STRIDE_S * (swing as f64 + if side == Side::Left { 0.5 } else { 0.0 })
 }
@@ -89,7 +89,7 @@ fn end_s() -> f64 {
     lifts(Side::Left, STEPS - 1) + SWING_S + STILL_S
 }
 
-/// Where a foot stands after so many swings [m]: the right one ends half a step behind, so that both are side by side.
+/// Position of a foot after a number of swings [m]: the last step of the right foot is half as long, so that both end side by side.
 fn place(side: Side, swings: usize) -> Vec3 {
     let forward = match (side, swings) {
         (Side::Right, 0) | (Side::Left, 0) => 0.0,
@@ -103,7 +103,7 @@ fn swings_begun(side: Side, t: f64) -> usize {
     (0..STEPS).filter(|&k| t >= lifts(side, k)).count()
 }
 
-/// Place, velocity and acceleration of a foot.
+/// Position, velocity and acceleration of a foot.
 fn foot(side: Side, t: f64) -> [Vec3; 3] {
     let begun = swings_begun(side, t);
     if begun == 0 {
@@ -114,7 +114,7 @@ fn foot(side: Side, t: f64) -> [Vec3; 3] {
     let p = u * (1.0 - u);
     let slope = 1.0 - 2.0 * u;
     let (rate, twice) = (1.0 / SWING_S, 1.0 / (SWING_S * SWING_S));
-    // Rest, speed and acceleration are zero at both ends.
+    // Velocity and acceleration are zero at both ends.
     let along = [u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u), 30.0 * p * p * rate, 60.0 * p * slope * twice];
     let lift = [64.0 * p.powi(3), 192.0 * p * p * slope * rate, 384.0 * (p * slope * slope - p * p) * twice];
     [0, 1, 2].map(|k| {
@@ -123,9 +123,9 @@ fn foot(side: Side, t: f64) -> [Vec3; 3] {
     })
 }
 
-/// Where the feet together push [m].
+/// Centre of pressure of both feet together [m].
 fn pushed(t: f64) -> Vec3 {
-    // The other's swings, in order of time: during one this foot rolls from heel to ball.
+    // The swings of the other foot, in order of time: during each, this foot rolls from heel to ball.
     let mut rolls: Vec<(f64, Vec3)> = Vec::new();
     for k in 0..STEPS {
         for side in Side::BOTH {
@@ -153,7 +153,7 @@ fn pushed(t: f64) -> Vec3 {
     }
 }
 
-/// The trunk's path for a path of the whole force: (1 - h/g D²) x = p, by elimination in a band of three; at rest at both ends.
+/// Path of the trunk for a path of the total force: (1 - h/g D²) x = p, by elimination in a band of three; at rest at both ends.
 fn carried(whole: &[Vec3]) -> Vec<Vec3> {
     let off = -TRUNK_M / GRAVITY / (STEP_S * STEP_S);
     let count = whole.len();
@@ -184,7 +184,7 @@ pub(crate) fn walk(hand: Hand) -> Puppet {
         let [a, b, c] = [-1, 0, 1].map(|k| at(frame as isize + k));
         [b, (c - a) / (2.0 * STEP_S), (a - b * 2.0 + c) / (STEP_S * STEP_S)]
     };
-    // Without the rests.
+    // Without the rests at both ends.
     let skipped = (STILL_S / STEP_S) as usize;
     let grid = TimeGrid { start_s: STILL_S, step_s: STEP_S, frames: whole_grid.frames - 2 * skipped };
     moved(grid, |frame| {
@@ -192,7 +192,7 @@ pub(crate) fn walk(hand: Hand) -> Puppet {
     })
 }
 
-/// A puppet whose trunk and feet are wherever a test wants them: places, velocities, accelerations.
+/// A puppet with given positions, velocities and accelerations of trunk and feet.
 pub(crate) fn moved(grid: TimeGrid, of_bodies: impl Fn(usize) -> [[Vec3; 3]; 3]) -> Puppet {
     let model = model();
     let mut columns = vec![[const { Vec::new() }; 3]; model.coordinates().len()];

@@ -5,7 +5,7 @@
 
 use super::cases::{Case, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
-use ambulo::ground::predict::{Calibration, Spread, Weights};
+use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, Weights};
 
 /// Standard deviations on either side that hold 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
@@ -35,7 +35,7 @@ impl Judged {
     /// Straight walks of these subjects, each predicted with its own weights and the deviations of the equations unchanged.
     pub(super) fn new(cases: &[Case], subjects: &[&'static str], weights: &[Weights]) -> Judged {
         let own = |(subject, weights): (&&'static str, &Weights)| {
-            let raw = Weights { calibration: Calibration::RAW, ..*weights };
+            let raw = Weights { calibration: DeviationCalibration::UNSCALED, ..*weights };
             let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
             (*subject, straight.flat_map(|case| case.samples(&raw)).collect())
         };
@@ -53,9 +53,9 @@ impl Judged {
     }
 
     /// Factors and floors from the subjects for which `only` says so.
-    pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> Calibration {
+    pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> DeviationCalibration {
         let spread = |component: usize| fitted(&self.of_component(component, &only));
-        Calibration {
+        DeviationCalibration {
             force: std::array::from_fn(spread),
             center: std::array::from_fn(|i| spread(3 + i)),
             free_moment: spread(5),
@@ -63,14 +63,14 @@ impl Judged {
     }
 
     /// How a band does on a subject; `None` where the subject is not judged on that component.
-    pub(super) fn band(&self, component: usize, subject: &str, calibration: &Calibration) -> Option<Band> {
+    pub(super) fn band(&self, component: usize, subject: &str, calibration: &DeviationCalibration) -> Option<Band> {
         let stances = self.of_component(component, |name| name == subject);
         (!stances.is_empty()).then(|| band(&stances, &spread(calibration, component)))
     }
 }
 
 /// The spread of one of [`super::cases::COMPONENTS`].
-pub(super) fn spread(calibration: &Calibration, component: usize) -> Spread {
+pub(super) fn spread(calibration: &DeviationCalibration, component: usize) -> DeviationScaling {
     match component {
         0..3 => calibration.force[component],
         3 | 4 => calibration.center[component - 3],
@@ -79,11 +79,11 @@ pub(super) fn spread(calibration: &Calibration, component: usize) -> Spread {
 }
 
 /// Where nothing was predicted there is no band.
-fn half_width(sample: &Sample, spread: &Spread) -> f64 {
+fn half_width(sample: &Sample, spread: &DeviationScaling) -> f64 {
     if sample.deviation > 0.0 { BAND_90 * spread.variance(sample.deviation.powi(2), sample.unit).sqrt() } else { 0.0 }
 }
 
-fn band(subjects: &[Vec<&[Sample]>], spread: &Spread) -> Band {
+fn band(subjects: &[Vec<&[Sample]>], spread: &DeviationScaling) -> Band {
     let holds =
         |stance: &&[Sample]| mean(stance.iter().map(|s| f64::from(u8::from(s.error.abs() <= half_width(s, spread)))));
     let width = |stances: &Vec<&[Sample]>| {
@@ -97,15 +97,15 @@ fn band(subjects: &[Vec<&[Sample]>], spread: &Spread) -> Band {
 }
 
 /// The sharpest pair of factor and floor that holds enough.
-fn fitted(subjects: &[Vec<&[Sample]>]) -> Spread {
+fn fitted(subjects: &[Vec<&[Sample]>]) -> DeviationScaling {
     let rmse = mean(
         subjects
             .iter()
             .map(|stances| mean(stances.iter().copied().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt()),
     );
     let pairs = FLOORS.map(|share| {
-        let spread = Spread { factor: factor(subjects, share * rmse), floor: share * rmse };
-        Spread { factor: three_digits(spread.factor), floor: three_digits(spread.floor) }
+        let spread = DeviationScaling { factor: factor(subjects, share * rmse), floor: share * rmse };
+        DeviationScaling { factor: three_digits(spread.factor), floor: three_digits(spread.floor) }
     });
     let rated = pairs.map(|spread| (spread, band(subjects, &spread)));
     let enough = |band: &Band| band.holds >= HELD - 0.01;
@@ -114,7 +114,7 @@ fn fitted(subjects: &[Vec<&[Sample]>]) -> Spread {
         .filter(|(_, band)| enough(band))
         .min_by(|a, b| a.1.half_width_over_rmse.total_cmp(&b.1.half_width_over_rmse));
     let widest = || rated.iter().max_by(|a, b| a.1.holds.total_cmp(&b.1.holds));
-    sharpest.or_else(widest).map_or(Spread::RAW, |(spread, _)| *spread)
+    sharpest.or_else(widest).map_or(DeviationScaling::UNSCALED, |(spread, _)| *spread)
 }
 
 /// The factor that holds enough beside a floor, by halving on a logarithmic scale: the share grows with the factor.
@@ -122,7 +122,7 @@ fn factor(subjects: &[Vec<&[Sample]>], floor: f64) -> f64 {
     let [mut low, mut high] = FACTORS;
     for _ in 0..30 {
         let factor = (low * high).sqrt();
-        if band(subjects, &Spread { factor, floor }).holds < HELD { low = factor } else { high = factor }
+        if band(subjects, &DeviationScaling { factor, floor }).holds < HELD { low = factor } else { high = factor }
     }
     high
 }
@@ -169,6 +169,6 @@ mod tests {
     #[test]
     fn where_nothing_was_predicted_nothing_is_held() {
         let sample = Sample { error: 0.1, deviation: 0.0, unit: 1.0 };
-        assert!(half_width(&sample, &Spread { factor: 5.0, floor: 9.0 }).abs() < 1e-12);
+        assert!(half_width(&sample, &DeviationScaling { factor: 5.0, floor: 9.0 }).abs() < 1e-12);
     }
 }

@@ -4,7 +4,7 @@ use crate::validate::recording::{self, Group};
 use ambulo::analysis::{Analysis, Compared, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::feet;
-use ambulo::ground::predict::{Known, PredictSettings, Prediction, Weights, predict};
+use ambulo::ground::predict::{PredictSettings, Prediction, Prescribed, Weights, predict};
 use ambulo::model::Side;
 use ambulo::motion::Window;
 use ambulo::spatial::Vec3;
@@ -24,7 +24,7 @@ pub(super) struct Case {
     pub(super) group: Group,
     /// By the prediction with the shipped numbers.
     outcome: Outcome,
-    known: Known,
+    prescribed: Prescribed,
     /// By plates.
     measured: Analysis,
     coverage: PlateCoverage,
@@ -62,13 +62,13 @@ pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>,
     for recording in recording::all().into_iter().filter(|recording| recording.group != Group::Running) {
         said(recording.label);
         let case = recording.read(data).and_then(|source| {
-            let outcome = recording.predict(&source, Known::default())?;
+            let outcome = recording.predict(&source, Prescribed::default())?;
             let PredictedGround { prediction, measured, coverage, .. } =
                 outcome.prediction.as_ref().ok_or("nothing was predicted")?;
             Ok(Case {
                 subject: recording.subject,
                 group: recording.group,
-                known: Known { footfalls: Some(prediction.footfalls.clone()), ..Known::default() },
+                prescribed: Prescribed { footfalls: Some(prediction.footfalls.clone()), ..Prescribed::default() },
                 measured: measured.clone().ok_or("no plates")?,
                 coverage: coverage.clone().ok_or("no plates")?,
                 outcome,
@@ -92,7 +92,7 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 
 impl Case {
     fn predict(&self, weights: &Weights) -> Option<Prediction> {
-        let settings = PredictSettings { known: self.known.clone(), weights: *weights };
+        let settings = PredictSettings { prescribed: self.prescribed.clone(), weights: *weights };
         let Outcome { body, person, .. } = &self.outcome;
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }

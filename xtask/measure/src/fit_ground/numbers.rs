@@ -1,6 +1,6 @@
 //! The numbers that are fitted, each with a range in which it is plausible, as places in the unit cube.
 
-use ambulo::ground::predict::{Calibration, Weights};
+use ambulo::ground::predict::{DeviationCalibration, Weights};
 
 /// A fitted number.
 #[derive(Debug, Clone, Copy)]
@@ -65,7 +65,7 @@ impl Number {
 
 /// Weights at a place in the unit cube, with deviations as the equations give them.
 pub(super) fn weights(place: &[f64]) -> Weights {
-    let mut weights = Weights { calibration: Calibration::RAW, ..Weights::default() };
+    let mut weights = Weights { calibration: DeviationCalibration::UNSCALED, ..Weights::default() };
     for (number, place) in NUMBERS.iter().zip(place) {
         number.set(&mut weights, number.at(*place));
     }

@@ -130,7 +130,7 @@ fn spreads(outcome: &Outcome) -> String {
     for (c, component) in COMPONENTS.iter().enumerate() {
         let own = spread(&outcome.weights.calibration, c);
         let folds: Vec<_> = outcome.folds.iter().map(|fold| spread(&fold.weights.calibration, c)).collect();
-        let ends = |of: fn(&ambulo::ground::predict::Spread) -> f64| {
+        let ends = |of: fn(&ambulo::ground::predict::DeviationScaling) -> f64| {
             let (low, high) = folds.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
             format!("{} to {}", digits(low), digits(high))
         };

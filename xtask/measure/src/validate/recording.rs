@@ -1,7 +1,7 @@
 //! The recordings with plates, and how they are read.
 
 use ambulo::findings::Findings;
-use ambulo::ground::predict::{Known, PredictSettings};
+use ambulo::ground::predict::{PredictSettings, Prescribed};
 use ambulo::model::Model;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::coordinates_from_table;
@@ -123,12 +123,12 @@ pub(crate) fn all() -> Vec<Recording> {
 }
 
 impl Recording {
-    /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `known` replaces
+    /// The prediction from its motion and its comparison with the plates, as `ambulo forces --predict` computes them. `prescribed` replaces
     /// estimates by truths.
-    pub(crate) fn predict(&self, source: &Source, known: Known) -> Result<Outcome, String> {
+    pub(crate) fn predict(&self, source: &Source, prescribed: Prescribed) -> Result<Outcome, String> {
         let settings = Settings {
             ground: GroundSettings::Predicted,
-            prediction: PredictSettings { known, ..PredictSettings::default() },
+            prediction: PredictSettings { prescribed, ..PredictSettings::default() },
             ..Settings::default()
         };
         study::run(source, &settings, &mut Findings::default()).map_err(|e| e.to_string())

@@ -4,7 +4,7 @@ use super::recording::{Group, Recording};
 use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfall, Footfalls};
-use ambulo::ground::predict::{Known, PredictSettings, predict};
+use ambulo::ground::predict::{PredictSettings, Prescribed, predict};
 use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{BySide, Side};
 use ambulo::motion::{TimeGrid, Window};
@@ -30,13 +30,13 @@ pub(super) struct Trial {
     /// Time without a loaded foot while plates measured every foot: predicted, measured [s].
     pub(super) flight_s: [f64; 2],
     pub(super) agreement: GroundAgreement,
-    /// The agreement while plates measured every foot, with something known: what, how.
+    /// The agreement while plates measured every foot, with something prescribed: what, how.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
 }
 
 impl Trial {
     pub(super) fn run(recording: &Recording, source: &Source) -> Result<Trial, String> {
-        let outcome = recording.predict(source, Known::default())?;
+        let outcome = recording.predict(source, Prescribed::default())?;
         let PredictedGround { prediction, measured, coverage, agreement, .. } =
             outcome.prediction.as_ref().ok_or("nothing was predicted")?;
         let (measured, seen) = measured.as_ref().zip(coverage.as_ref()).ok_or("no plates")?;
@@ -44,8 +44,8 @@ impl Trial {
         let judged = inside_window(seen);
         let mut budget = Vec::new();
         budget.extend(outcome.agreement_over(&judged).map(|agreement| ("nothing", agreement)));
-        for (name, known) in truths(&outcome, &prediction.footfalls, measured, seen) {
-            let again = recording.predict(source, known)?;
+        for (name, prescribed) in truths(&outcome, &prediction.footfalls, measured, seen) {
+            let again = recording.predict(source, prescribed)?;
             budget.extend(again.agreement_over(&judged).map(|agreement| (name, agreement)));
         }
         Ok(Trial {
@@ -81,25 +81,25 @@ fn truths(
     found: &Footfalls,
     measured: &Analysis,
     seen: &PlateCoverage,
-) -> Vec<(&'static str, Known)> {
+) -> Vec<(&'static str, Prescribed)> {
     let grid = outcome.analysis.trajectory.grid();
     let by_side = feet(&outcome.body, &measured.ground);
     let of = |side: Side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces);
     let footfalls = Some(true_footfalls(found, seen));
     let (Some(right), Some(left)) = (of(Side::Right), of(Side::Left)) else {
-        return vec![("events", Known { footfalls, ..Known::default() })];
+        return vec![("events", Prescribed { footfalls, ..Prescribed::default() })];
     };
     let total = Some(true_total(grid, right, left, seen));
     let right_share = Some(true_share(grid, right, left, seen));
     let centers = Some(BySide { right: right.center_of_pressure.clone(), left: left.center_of_pressure.clone() });
-    let none = Known::default;
+    let none = Prescribed::default;
     vec![
-        ("total wrench", Known { total: total.clone(), ..none() }),
-        ("vertical split", Known { right_share: right_share.clone(), ..none() }),
-        ("centres of pressure", Known { centers: centers.clone(), ..none() }),
-        ("events", Known { footfalls: footfalls.clone(), ..none() }),
-        ("events and split", Known { footfalls: footfalls.clone(), right_share: right_share.clone(), ..none() }),
-        ("everything", Known { footfalls, total, right_share, centers }),
+        ("total wrench", Prescribed { total: total.clone(), ..none() }),
+        ("vertical split", Prescribed { right_share: right_share.clone(), ..none() }),
+        ("centres of pressure", Prescribed { centers: centers.clone(), ..none() }),
+        ("events", Prescribed { footfalls: footfalls.clone(), ..none() }),
+        ("events and split", Prescribed { footfalls: footfalls.clone(), right_share: right_share.clone(), ..none() }),
+        ("everything", Prescribed { footfalls, total, right_share, centers }),
     ]
 }
 

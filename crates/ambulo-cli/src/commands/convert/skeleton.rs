@@ -41,7 +41,7 @@ fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Resu
         Ok(skeleton) => {
             findings.report(Code::BvhAxes, skeleton.statement.clone());
             let paths = joint_paths(bvh, &name, skeleton.metres_per_unit)?;
-            Ok(if args.world { paths.turned(&skeleton.world_from_file) } else { paths })
+            Ok(if args.world { paths.rotated(&skeleton.world_from_file) } else { paths })
         }
         Err(error) if args.world => Err(error).context("--world needs a person's skeleton"),
         Err(error) => {

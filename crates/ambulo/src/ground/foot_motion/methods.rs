@@ -1,19 +1,19 @@
-//! The published methods, each on the signals of one foot.
+//! The published methods, applied to the signals of one foot.
 
 use super::signals::{Foot, axis, rate};
 use super::{EventMethod, SLOWEST_WALK_M_S};
 use crate::motion::{Event, EventKind, MarkerRecording};
 use crate::spatial::Vec3;
 
-/// A peak of a distance or a velocity stands out by this share of the signal's range.
+/// A peak of a distance or a velocity rises above its surroundings by this share of the signal's range.
 const PROMINENT: f64 = 0.3;
-/// O'Connor 2007: a strike happens in the lower part of the foot's range of height (unverified).
+/// O'Connor 2007: a strike occurs in this lowest part of the range of the heel's height (unverified).
 const LOW_PART: f64 = 0.35;
-/// Bruening, Ridge 2014: share of the walking speed below which the heel stands.
-const HEEL_STANDS: f64 = 0.78;
+/// Bruening, Ridge 2014: share of the walking speed below which the heel is on the ground.
+const HEEL_AT_REST: f64 = 0.78;
 /// Bruening, Ridge 2014: share of the walking speed above which the toe has left.
 const TOE_LEFT: f64 = 0.66;
-/// Accelerations are searched this far on both sides of an event by speed [s].
+/// Accelerations are searched this far before and after an event detected by speed [s].
 const NEAR_SPEED_EVENT_S: f64 = 0.08;
 
 /// The events of one foot by one method.
@@ -26,7 +26,7 @@ pub(super) fn events_of(
     walking: f64,
 ) -> Vec<Event> {
     let (Some(heel), Some(toe)) = (&foot.heel, &foot.toe) else { return Vec::new() };
-    // Without a pelvis nobody knows how fast the body goes; the feet may still tell.
+    // Without pelvis markers the walking speed is not a number, and methods that do not need it still apply.
     if walking.abs() < SLOWEST_WALK_M_S {
         return Vec::new();
     }
@@ -69,10 +69,10 @@ fn foot_speed(
         let (x, y) = (rate(&axis(path, 0), markers.rate_hz), rate(&axis(path, 1), markers.rate_hz));
         x.iter().zip(&y).map(|(x, y)| (x - floor).hypot(*y)).collect::<Vec<_>>()
     };
-    (falls_below(&speed(heel), HEEL_STANDS * walking.abs()), rises_above(&speed(toe), TOE_LEFT * walking.abs()))
+    (falls_below(&speed(heel), HEEL_AT_REST * walking.abs()), rises_above(&speed(toe), TOE_LEFT * walking.abs()))
 }
 
-/// The extremes of acceleration next to the events by speed: alone, accelerations have too many extremes.
+/// Extrema of acceleration near the events detected by speed: alone, accelerations have too many extrema.
 fn foot_acceleration(
     markers: &MarkerRecording,
     heel: &[Vec3],
@@ -98,14 +98,14 @@ fn highest_near(signal: &[f64], frame: f64, reach: f64) -> Option<f64> {
     Some(top as f64 + vertex(signal, top))
 }
 
-/// Where between the neighbours the parabola through three samples has its top.
+/// Offset of the vertex of the parabola through three samples [samples].
 fn vertex(signal: &[f64], i: usize) -> f64 {
     let bend = signal[i - 1] - 2.0 * signal[i] + signal[i + 1];
     if bend < 0.0 { 0.5 * (signal[i - 1] - signal[i + 1]) / bend } else { 0.0 }
 }
 
-/// Frames of the maxima that stand out by [`PROMINENT`] of the range on both sides, on the parabola through three
-/// samples; none within a sample of an end.
+/// Frames, with fraction, of the maxima with a prominence of at least [`PROMINENT`] of the range; never the first or last
+/// sample.
 fn peaks(signal: &[f64]) -> Vec<f64> {
     let (low, high) = bounds(signal);
     let needed = PROMINENT * (high - low);
@@ -114,8 +114,8 @@ fn peaks(signal: &[f64]) -> Vec<f64> {
         let [before, here, after] = [signal[i - 1], signal[i], signal[i + 1]];
         let is_top = here > before && here >= after;
         if is_top
-            && stands_out(signal[..i].iter().rev(), here, needed)
-            && stands_out(signal[i + 1..].iter(), here, needed)
+            && is_prominent(signal[..i].iter().rev(), here, needed)
+            && is_prominent(signal[i + 1..].iter(), here, needed)
         {
             found.push(i as f64 + vertex(signal, i));
         }
@@ -124,7 +124,7 @@ fn peaks(signal: &[f64]) -> Vec<f64> {
 }
 
 /// Whether the signal falls by `needed` before it rises above `top` again.
-fn stands_out<'a>(signal: impl Iterator<Item = &'a f64>, top: f64, needed: f64) -> bool {
+fn is_prominent<'a>(signal: impl Iterator<Item = &'a f64>, top: f64, needed: f64) -> bool {
     for &x in signal {
         if x > top {
             return false;

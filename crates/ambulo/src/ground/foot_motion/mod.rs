@@ -1,29 +1,29 @@
-//! Foot strikes and toe-offs from markers alone, by published methods.
+//! Foot strikes and foot offs from markers alone, by published methods.
 //!
 //! | method | strike | off | source |
 //! |---|---|---|---|
 //! | [`EventMethod::PelvisDistance`] | heel furthest ahead of the pelvis | toe furthest behind it | Zeni, Richards, Higginson 2008 |
 //! | [`EventMethod::FootVelocity`] | fastest descent of the foot's middle while it is low | fastest rise | O'Connor, Thorpe, O'Malley, Vaughan 2007 |
 //! | [`EventMethod::FootSpeed`] | heel slower than 0.78 of walking speed | toe faster than 0.66 of it | Ghoussayni 2004, thresholds of Bruening, Ridge 2014 |
-//! | [`EventMethod::FootAcceleration`] | heel's highest upward acceleration | toe's highest forward acceleration | Hreljac, Marshall 2000 |
+//! | [`EventMethod::FootAcceleration`] | highest upward acceleration of the heel | highest forward acceleration of the toe | Hreljac, Marshall 2000 |
 //!
-//! Errors against plates in five walks of four laboratories (tests/laboratory_files.rs): the methods alone 4 to 63 ms,
-//! each with a bias of its own sign (Zeni's strike early, Hreljac's late); their median 1 to 30 ms. In running the offs
+//! Errors relative to force plates in five walks of four laboratories (tests/laboratory_files.rs): single methods 4 to 63 ms,
+//! each with its own bias (strikes early by Zeni, late by Hreljac); their median 1 to 30 ms. In running the offs
 //! are 70 ms late.
 //!
-//! Of Zeni 2008 the abstract and the introduction were read; the others as a review tells them (table 1 of "Automatic
-//! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); the limit of
-//! height for the strike of O'Connor is unverified.
+//! Of Zeni 2008 the abstract and the introduction were read; the others as described in a review (table 1 of "Automatic
+//! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height limit
+//! for the strike is unverified.
 //!
-//! Markers are low-passed first. Speeds count from the floor, which moves on a treadmill: its speed is that of the
-//! markers of the foot while they are low. The instant of an extreme is that of the parabola through three samples.
+//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: its speed is that of the
+//! foot markers while they are low. Times of extrema are those of a parabola through three samples.
 //! Pinned by: tests/foot_motion.rs, tests/laboratory_files.rs
 
 mod agreement;
 mod methods;
 mod signals;
 
-use super::phases::{Contact, contacts_of_events};
+use super::phases::{Contact, contacts_from_events};
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::motion::{Event, Landmarks, MarkerRecording};
@@ -31,13 +31,13 @@ use agreement::agreed;
 use methods::events_of;
 use signals::{Foot, floor_speed, foot, mean_path, mean_rate};
 
-/// Below this speed nobody walks [m/s].
+/// Below this speed the person is standing [m/s].
 const SLOWEST_WALK_M_S: f64 = 0.15;
 
-/// A way to find events in markers.
+/// A method that detects foot strikes and foot offs in marker trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventMethod {
-    /// Heel and toe against the pelvis.
+    /// Distance of heel and toe from the pelvis.
     PelvisDistance,
     /// Vertical velocity of the middle of the foot.
     FootVelocity,
@@ -52,11 +52,11 @@ impl EventMethod {
     pub const ALL: [EventMethod; 4] =
         [EventMethod::PelvisDistance, EventMethod::FootVelocity, EventMethod::FootSpeed, EventMethod::FootAcceleration];
 
-    /// Name for people and tables.
+    /// Name in tables, with its source.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            EventMethod::PelvisDistance => "heel and toe against pelvis (Zeni 2008)",
+            EventMethod::PelvisDistance => "heel and toe relative to pelvis (Zeni 2008)",
             EventMethod::FootVelocity => "vertical velocity of the foot (O'Connor 2007)",
             EventMethod::FootSpeed => "speed of heel and toe (Ghoussayni 2004, Bruening 2014)",
             EventMethod::FootAcceleration => "acceleration of heel and toe (Hreljac 2000)",
@@ -64,20 +64,20 @@ impl EventMethod {
     }
 }
 
-/// What markers tell of the feet.
+/// Events and contacts of both feet from markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootMotion {
-    /// Events by each method that had its markers.
+    /// Events by each method whose markers were recorded.
     pub by_method: Vec<(EventMethod, Vec<Event>)>,
-    /// Events that the methods agree on: the median of what they say; those that only one of several saw are left out.
+    /// The median over the methods; events that only one of several methods detected are left out.
     pub events: Vec<Event>,
-    /// Feet without a marker on heel or toe: their events cannot be detected, and the direction of the foot is not known.
+    /// Feet without a heel or toe marker: their events cannot be detected, and the direction of the foot is not known.
     pub feet_without_markers: Vec<Side>,
-    /// Contacts of right and left foot, from `events`.
+    /// Contacts of the right and the left foot, from `events`.
     pub contacts: [Vec<Contact>; 2],
     /// Speed of the floor along world x [m/s]: negative on a treadmill.
     pub floor_speed_m_s: f64,
-    /// Speed of the pelvis over the floor along world x [m/s]; not a number without pelvis markers.
+    /// Speed of the pelvis relative to the floor along world x [m/s]; not a number without pelvis markers.
     pub walking_speed_m_s: f64,
 }
 
@@ -92,9 +92,9 @@ impl FootMotion {
     }
 }
 
-/// Strikes and offs of both feet. The markers stand in the world's axes: x forward, y up.
+/// Detects strikes and offs of both feet. Markers are in the world's axes: x forward, y up.
 ///
-/// Feet without heel or toe marker are left out, with a note.
+/// Feet without a heel or toe marker are left out, with a note.
 #[must_use]
 pub fn foot_motion(markers: &MarkerRecording, findings: &mut Findings) -> FootMotion {
     let landmarks = Landmarks::find(markers);
@@ -128,9 +128,9 @@ pub fn foot_motion(markers: &MarkerRecording, findings: &mut Findings) -> FootMo
     FootMotion { by_method, events, feet_without_markers, contacts, floor_speed_m_s: floor, walking_speed_m_s: walking }
 }
 
-/// Contacts from events; a foot of somebody who stands is on the ground all the time.
+/// Contacts from events. While the person stands still, the feet are on the ground all the time.
 fn contacts(markers: &MarkerRecording, feet: &[Foot], side: Side, events: &[Event], walking: f64) -> Vec<Contact> {
-    let contacts = contacts_of_events(events, side);
+    let contacts = contacts_from_events(events, side);
     let seen = feet.iter().any(|f| f.side == side && (f.heel.is_some() || f.toe.is_some()));
     let stands = walking.abs() < SLOWEST_WALK_M_S && markers.frames() > 0;
     if contacts.is_empty() && seen && stands {

@@ -1,4 +1,4 @@
-//! What the methods look at: filtered paths, their rates, the speed of the floor.
+//! Signals of the methods: filtered marker paths, their rates, the speed of the floor.
 
 use crate::model::Side;
 use crate::motion::filter::{LowPass, low_pass};
@@ -6,14 +6,14 @@ use crate::motion::{Landmarks, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
-/// Low-pass of the markers.
+/// Low-pass filter of the markers.
 const FILTER: LowPass = LowPass { order: 2, cutoff_hz: 10.0 };
 /// Gaps up to this long are bridged [s].
 const LONGEST_GAP_S: f64 = 0.2;
-/// A marker this close to its lowest places moves with the floor [m].
+/// A marker this close to its lowest positions moves with the floor [m].
 const ON_FLOOR_M: f64 = 0.01;
 
-/// Filtered signals of one foot, not a number where a marker was not seen.
+/// Filtered paths of one foot; not a number in gaps.
 pub(super) struct Foot {
     pub(super) side: Side,
     pub(super) heel: Option<Vec<Vec3>>,
@@ -26,7 +26,7 @@ pub(super) fn foot(markers: &MarkerRecording, landmarks: &Landmarks, side: Side)
     Foot { side, heel: path(of.heel.or(of.ankle)), toe: path(of.toe.or(of.side)) }
 }
 
-/// Filtered mean of some markers, where all of them were seen.
+/// Filtered mean of some markers, where all of them are visible.
 pub(super) fn mean_path(markers: &MarkerRecording, chosen: &[usize]) -> Option<Vec<Vec3>> {
     let useful =
         |m: &&usize| 2 * (0..markers.frames()).filter(|&i| markers.markers[**m].is_seen(i)).count() > markers.frames();
@@ -42,7 +42,7 @@ pub(super) fn mean_path(markers: &MarkerRecording, chosen: &[usize]) -> Option<V
     Some((0..markers.frames()).map(|i| Vec3::new(columns[0][i], columns[1][i], columns[2][i])).collect())
 }
 
-/// Low-passed piece by piece; short gaps are bridged by a straight line, long ones stay.
+/// Low-pass filtered between gaps; short gaps are interpolated linearly, long ones stay.
 fn smoothed(column: &[f64], rate_hz: f64) -> Vec<f64> {
     let bridged = bridged(column, (LONGEST_GAP_S * rate_hz).round() as usize);
     let mut out = vec![f64::NAN; column.len()];
@@ -50,7 +50,7 @@ fn smoothed(column: &[f64], rate_hz: f64) -> Vec<f64> {
     while start < bridged.len() {
         let length = bridged[start..].iter().take_while(|x| x.is_finite()).count();
         let piece = &bridged[start..start + length];
-        // A rate too low for the filter needs none.
+        // Too low a frame rate for the filter: unfiltered.
         let filtered = low_pass(piece, rate_hz, FILTER).unwrap_or_else(|_| piece.to_vec());
         out[start..start + length].copy_from_slice(&filtered);
         start += length.max(1);
@@ -70,7 +70,7 @@ fn bridged(column: &[f64], longest: usize) -> Vec<f64> {
     out
 }
 
-/// Central differences; not a number at the ends and beside gaps.
+/// Central differences; not a number at the ends and next to gaps.
 pub(super) fn rate(column: &[f64], rate_hz: f64) -> Vec<f64> {
     let inside = |i: usize| match (i.checked_sub(1).and_then(|j| column.get(j)), column.get(i + 1)) {
         (Some(before), Some(after)) => (after - before) * 0.5 * rate_hz,
@@ -83,7 +83,7 @@ pub(super) fn axis(path: &[Vec3], axis: usize) -> Vec<f64> {
     path.iter().map(|p| p[axis]).collect()
 }
 
-/// Mean rate along x from the first to the last frame that was seen [m/s].
+/// Mean velocity along x from the first to the last visible frame [m/s].
 pub(super) fn mean_rate(markers: &MarkerRecording, path: &[Vec3]) -> f64 {
     let seen = |i: &usize| path[*i].x.is_finite();
     let (first, last) = ((0..path.len()).find(seen), (0..path.len()).rfind(seen));
@@ -93,7 +93,7 @@ pub(super) fn mean_rate(markers: &MarkerRecording, path: &[Vec3]) -> f64 {
     }
 }
 
-/// Speed along x of what the feet stand on: the median over low places of heels and toes [m/s].
+/// Speed of the floor along x: the median over low positions of heels and toes [m/s].
 pub(super) fn floor_speed(markers: &MarkerRecording, feet: &[Foot]) -> f64 {
     let mut speeds = Vec::new();
     for path in feet.iter().flat_map(|f| [&f.heel, &f.toe]).flatten() {

@@ -1,7 +1,7 @@
-//! How high the floor is under each stance.
+//! Height of the floor under each stance.
 //!
-//! The lowest point of a standing foot lies on the floor, as far as the sole is known: the median of its height over the stance. Stances
-//! whose heights lie together stand on one floor, at the mean of what right and left foot say of it; stairs have several.
+//! The lowest point of a foot in stance lies on the floor, as accurately as the sole is known: its median height over the stance is
+//! used. Stances of similar height share one floor, at the mean of the medians of right and left foot; stairs have several floors.
 
 use super::Footfall;
 use super::signals::{FootPath, Signals};
@@ -9,15 +9,15 @@ use crate::model::Side;
 use crate::numerics::median;
 use std::ops::Range;
 
-/// Heights within this are one floor [m]: soles that are estimated are off by 1 to 3 cm, steps are 15 to 20 cm high.
+/// Heights within this range are one floor [m]: estimated soles have errors of 1 to 3 cm, stairs are 15 to 20 cm high.
 const ONE_FLOOR_M: f64 = 0.04;
 
-/// Height under one stance, as the foot alone tells it [m].
+/// Height of the floor under one stance, from this stance alone [m].
 pub(super) fn height(signals: &Signals, foot: &FootPath, run: &Range<usize>) -> f64 {
     median(run.clone().map(|frame| signals.lowest(foot, frame).1)).unwrap_or(0.0)
 }
 
-/// Gives stances at one height one floor.
+/// Gives stances of similar height the same floor.
 pub(super) fn share_floors(falls: &mut [Footfall]) {
     let mut heights: Vec<f64> = falls.iter().map(|fall| fall.floor_height_m).collect();
     heights.sort_by(f64::total_cmp);
@@ -32,8 +32,8 @@ pub(super) fn share_floors(falls: &mut [Footfall]) {
         let is_on_it = |fall: &&mut Footfall| (lowest..=highest).contains(&fall.floor_height_m);
         let on_it: Vec<&mut Footfall> = falls.iter_mut().filter(is_on_it).collect();
         let of_side = |side: Side| median(on_it.iter().filter(|f| f.side == side).map(|f| f.floor_height_m));
-        let told: Vec<f64> = Side::BOTH.into_iter().filter_map(of_side).collect();
-        let height = told.iter().sum::<f64>() / told.len() as f64;
+        let of_sides: Vec<f64> = Side::BOTH.into_iter().filter_map(of_side).collect();
+        let height = of_sides.iter().sum::<f64>() / of_sides.len() as f64;
         for fall in on_it {
             fall.floor_height_m = height;
         }

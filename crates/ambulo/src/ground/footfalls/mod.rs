@@ -1,22 +1,22 @@
-//! Which foot stands when, from the motion alone: strikes, offs, the height of each floor, the speed of a belt.
+//! Detects stances from the motion alone: foot strikes, foot offs, floor heights, the speed of a treadmill's belt.
 //!
-//! Neither a direction of walking nor a height of the floor is taken for granted, and nothing but feet is looked at. A foot is three points
+//! No walking direction or floor height is assumed; only feet are considered. A foot is represented by three points
 //! of its sole ([`Sole`]); a foot without a sole is left out.
 //!
-//! 1. **Floor's velocity** (`belt`): where the velocities of the lower foot gather while the body is carried; zero below 0.03 √(g L).
-//! 2. **Still** (`still`): the slowest of a foot's points goes, against the floor, slower than 0.4 V (0.03 √(g L) at least) for 0.05 s or
-//!    more, while the body needs more than 0.15 of its weight from the ground. A foot that is held in the air beside one that stands is not
-//!    still: the force from Newton's law passes by it.
-//! 3. **Instants** (`instants`), between frames: the strike is the mean of two, the lowest point's fastest descent and its speed falling below
-//!    V/2; at the off the last point's speed rises above 0.6 √(g L) (V/√(g L))^⅜.
-//! 4. **Floor's height** (`floor`): the median height of the lowest point, stances within 4 cm sharing one floor.
+//! 1. **Floor velocity** (`belt`): centre of the velocities of the lower foot while the body is supported; zero below 0.03 √(g L).
+//! 2. **Stationary feet** (`stationary`): the slowest point of a foot is slower than 0.4 V (at least 0.03 √(g L)) relative to the floor
+//!    for 0.05 s or more, while the vertical ground force exceeds 0.15 of body weight. A foot held still in the air next to the
+//!    stance foot is excluded: the line of action of the force passes far from it.
+//! 3. **Times** (`instants`), between frames: the strike is the mean of two times, the fastest descent of the lowest point and its speed
+//!    falling below V/2; at the off the speed of the last point rises above 0.6 √(g L) (V/√(g L))^⅜.
+//! 4. **Floor height** (`floor`): median height of the lowest point; stances within 4 cm share one floor.
 //!
 //! | symbol | meaning                                                                                   |
 //! |--------|-------------------------------------------------------------------------------------------|
-//! | V      | speed of the mass centre against the floor, level, mean over ± √(L/g) [m/s]               |
+//! | V      | horizontal speed of the mass centre relative to the floor, mean over ± √(L/g) [m/s]       |
 //! | L, g   | hip to ground [m], gravity [m/s²]: √(g L) is 3 m/s, √(L/g) 0.3 s for an adult (Hof 1996)  |
 //!
-//! **Errors** against plates (20 N; tests/footfalls.rs; motion low-passed at 6 Hz; found - plates, mean and mean of magnitudes, ms):
+//! **Errors** relative to force plates (20 N; tests/footfalls.rs; motion filtered at 6 Hz; detected - plates, mean and mean magnitude, ms):
 //!
 //! | recording                  | strikes      | offs         |
 //! |----------------------------|--------------|--------------|
@@ -31,29 +31,29 @@
 //! | HC002D25, child turning    | -15.1, 15.1  | +16.0, 16.0  |
 //! | mean                       | 13.7         | 9.8          |
 //!
-//! Within a recording they scatter by 2 to 8 ms; what is left differs from laboratory to laboratory. Some of it is the plates': the forces
-//! of the three OpenSim recordings were low-passed before they were published (they need 20 to 30 ms from 20 to 140 N, in running 5 to 10,
-//! where untouched plates need 3 to 5); the same filter on untouched forces makes strikes 20 to 28 ms early. At cut-offs of 6 to 12 Hz the
-//! means are 13.7 to 14.3 ms and 9.8 to 10.0 ms; no event is off by more than 30 ms.
+//! Within a recording the errors scatter by 2 to 8 ms; the rest differs between laboratories, partly because of the plates: the forces
+//! of the three OpenSim recordings were low-pass filtered before publication (they rise from 20 to 140 N in 20 to 30 ms, in running 5 to
+//! 10, unfiltered plates in 3 to 5); the same filter on unfiltered forces makes strikes 20 to 28 ms early. At cut-offs of 6 to 12 Hz the
+//! means are 13.7 to 14.3 ms and 9.8 to 10.0 ms; no error exceeds 30 ms.
 //!
-//! V/2 and the fastest descent have no fitted number, but were chosen from some twenty signals by looking at these recordings. Factor and
-//! power of the off ([`OffSpeed`]) are the best of a grid over these six people (each counts once: 10.1 ms); fitted without a person they
-//! leave 2 to 30 ms for that person, 12.5 ms in the mean. An offset fitted to the others makes the error of most people larger, so
+//! V/2 and the fastest descent have no fitted parameter, but were selected from some twenty signals with these recordings. Factor and
+//! power of the off ([`OffSpeed`]) are the best of a grid over these six people (each counts once: 10.1 ms). Leave-one-out errors are 2 to
+//! 30 ms, on average 12.5 ms. An offset fitted to the others increases the error of most people, so
 //! there is none. tests/footfalls.rs repeats both.
 //!
 //! Sources: Ghoussayni, Stevens, Durham, Ewins 2004 and Bruening, Ridge 2014 (thresholds of speed), O'Connor, Thorpe, O'Malley, Vaughan
-//! 2007 (vertical velocity), as a review tells them ([`super::foot_motion`] names it); Hof, "Scaling gait data to body size", Gait & Posture
-//! 1996 (unverified).
+//! 2007 (vertical velocity), as described in a review (cited in [`super::foot_motion`]); Hof, "Scaling gait data to body size", Gait &
+//! Posture 1996 (unverified).
 //!
-//! Cost: 1.2 to 2 microseconds a frame, linear in frames; some 450 bytes a frame while it runs.
-//! Not handled: a foot that slides while it carries is found where it is slow enough; belts of different speed under the two feet.
+//! Cost: 1.2 to 2 microseconds per frame, linear in frames; about 450 bytes per frame while it runs.
+//! Not handled: belts of different speed under the two feet. A foot that slides under load is detected only where it is slow enough.
 //! Pinned by: tests/footfalls.rs, tests/footfalls_synthetic.rs, tests/footfalls_puppet.rs
 
 mod belt;
 mod floor;
 mod instants;
 mod signals;
-mod still;
+mod stationary;
 
 use crate::findings::{Code, Findings};
 use crate::ground::phases::Contact;
@@ -73,13 +73,13 @@ use std::ops::Range;
 pub struct Footfall {
     /// Which foot.
     pub side: Side,
-    /// When it meets the ground [s]; `None` if it stood when the recording began.
+    /// Foot strike [s]; `None` if the foot was on the ground when the recording began.
     pub strike_s: Option<f64>,
-    /// When it leaves the ground [s]; `None` if it still stood when the recording ended.
+    /// Foot off [s]; `None` if the foot was on the ground when the recording ended.
     pub off_s: Option<f64>,
-    /// Height of what it stands on, along the direction against gravity, from the world's origin [m].
+    /// Height of the floor above the world's origin [m].
     pub floor_height_m: f64,
-    /// Velocity of what it stands on [m/s]: that of a treadmill's belt, exactly zero on a floor.
+    /// Velocity of the floor [m/s]: of the belt of a treadmill, exactly zero on a floor at rest.
     pub floor_velocity: Vec3,
 }
 
@@ -106,7 +106,7 @@ impl Footfalls {
         self.falls.iter().filter(move |fall| fall.side == side)
     }
 
-    /// Strikes and offs in order of time; none where the recording cuts a stance.
+    /// Strikes and offs in order of time, without the ends at which the recording cuts a stance.
     #[must_use]
     pub fn events(&self) -> Vec<Event> {
         let mut out = Vec::new();
@@ -120,7 +120,7 @@ impl Footfalls {
     }
 }
 
-/// When the feet stand. `soles` are those of the right and the left foot; a foot without one is left out.
+/// Detects the stances of both feet; a foot without a sole is left out.
 #[must_use]
 pub fn footfalls(
     model: &Model,
@@ -131,25 +131,26 @@ pub fn footfalls(
     footfalls_at(model, trajectory, soles, OffSpeed::default(), findings)
 }
 
-/// As [`footfalls`], with another speed at which feet have left.
+/// As [`footfalls`], with a given threshold of speed for foot off.
 #[must_use]
 pub fn footfalls_at(
     model: &Model,
     trajectory: &Trajectory,
     soles: &BySide<Option<Sole>>,
-    left: OffSpeed,
+    off_speed: OffSpeed,
     findings: &mut Findings,
 ) -> Footfalls {
     let signals = Signals::new(model, trajectory, soles);
     let belt = Belt::new(&signals);
-    let walking = still::walking_speed(&signals, &belt);
-    let mut runs: Vec<_> = signals.feet.iter().map(|foot| still::still(&signals, &belt, &walking, foot)).collect();
-    still::keep_loaded(&signals, &mut runs);
+    let walking = stationary::walking_speed(&signals, &belt);
+    let mut runs: Vec<_> =
+        signals.feet.iter().map(|foot| stationary::stationary(&signals, &belt, &walking, foot)).collect();
+    stationary::keep_loaded(&signals, &mut runs);
     let mut falls = Vec::new();
     for (foot, runs) in signals.feet.iter().zip(&runs) {
-        let search = Search { signals: &signals, belt: &belt, walking: &walking, foot, left };
+        let search = Search { signals: &signals, belt: &belt, walking: &walking, foot, off_speed };
         let mut of_foot: Vec<Footfall> = (0..runs.len()).map(|i| footfall(&search, runs, i)).collect();
-        take_turns(&mut of_foot);
+        put_in_order(&mut of_foot);
         falls.extend(of_foot);
     }
     floor::share_floors(&mut falls);
@@ -160,21 +161,21 @@ pub fn footfalls_at(
             "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the ends of legs with hip, \
              knee and ankle"
         } else {
-            "no stance phase was detected: no foot rests on the ground in this motion"
+            "no stance phase was detected: no foot stays on the ground in this motion"
         };
         findings.report(Code::FootfallsNone, why);
     }
     let speed = belt.overall.norm();
     if speed > 0.0 {
         let message = format!(
-            "the floor moves at {speed:.2} m/s under the feet: speeds of feet are counted from a treadmill's belt"
+            "the floor moves at {speed:.2} m/s under the feet, as on a treadmill: speeds of feet are relative to the belt"
         );
         findings.report(Code::FootfallsBelt, message);
     }
     Footfalls { falls, floor_velocity: belt.overall }
 }
 
-/// The stance that belongs to one of the times at which a foot is still.
+/// The stance of one of the times at which a foot is stationary.
 fn footfall(search: &Search<'_>, runs: &[Range<usize>], number: usize) -> Footfall {
     let run = &runs[number];
     let before = number.checked_sub(1).map(|last| runs[last].end);
@@ -187,9 +188,9 @@ fn footfall(search: &Search<'_>, runs: &[Range<usize>], number: usize) -> Footfa
     }
 }
 
-/// Strikes and offs of a foot take turns: where a foot hardly swings, an off may be found after the strike that follows. Both are then put
-/// between the two.
-fn take_turns(falls: &mut [Footfall]) {
+/// Makes strikes and offs of a foot alternate: where a foot hardly swings, an off may be detected after the next strike. Both are then
+/// moved to the middle between the two.
+fn put_in_order(falls: &mut [Footfall]) {
     for i in 1..falls.len() {
         if let (Some(off), Some(strike)) = (falls[i - 1].off_s, falls[i].strike_s)
             && off > strike

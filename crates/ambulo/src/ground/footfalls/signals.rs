@@ -1,7 +1,7 @@
-//! What footfalls are found from: the points of the soles, the mass centre, and the force that the body needs.
+//! Signals for detecting footfalls: the points of the soles, the mass centre, and the total ground force.
 //!
 //! | code              | symbol | unit  | meaning                                                              |
-//! | `carried`         | f      | -     | u · F / (m g): what the ground carries, share of the weight          |
+//! | `carried`         | f      | -     | u · F / (m g): vertical ground force, share of body weight           |
 //! | `pressure_line`   | a, b   | m, -  | the centre of pressure at the height h is a + h b                    |
 //!
 //! F = Σ mᵢ (aᵢ - g), M = Σ rᵢ × mᵢ (aᵢ - g) + Iᵢ αᵢ + ωᵢ × Iᵢ ωᵢ about the world's origin (Newton, Euler), and from the statics of
@@ -14,35 +14,35 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 
-/// The three points of one sole, frame by frame.
+/// The three points of one sole over time.
 pub(super) struct FootPath {
     pub(super) side: Side,
-    /// Rear, ball and tip [m], one entry a frame.
+    /// Rear, ball and tip [m], one entry per frame.
     pub(super) places: Vec<[Vec3; 3]>,
     /// Their velocities [m/s].
     pub(super) velocities: Vec<[Vec3; 3]>,
 }
 
-/// Everything that the search reads.
+/// All signals of the detection.
 pub(super) struct Signals {
     pub(super) grid: TimeGrid,
     /// Direction against gravity.
     pub(super) up: Vec3,
-    /// √(g L), L from hip to ground: the speed against which walking speeds are counted [m/s].
-    pub(super) pace: f64,
-    /// √(L / g): the time that goes with it [s].
-    pub(super) swing_s: f64,
+    /// √(g L), L from hip to ground: unit of walking speed [m/s].
+    pub(super) leg_speed: f64,
+    /// √(L / g): unit of time [s].
+    pub(super) leg_time_s: f64,
     pub(super) feet: Vec<FootPath>,
     /// Velocity of the mass centre [m/s].
     pub(super) center_velocity: Vec<Vec3>,
-    /// Vertical force that the body needs, share of its weight.
+    /// Vertical ground force that the motion requires, share of body weight.
     pub(super) carried: Vec<f64>,
-    /// Line of the force: a and b.
+    /// Line of action of the force: a and b.
     pub(super) pressure_line: Vec<[Vec3; 2]>,
 }
 
 impl Signals {
-    /// Of the soles that there are.
+    /// Computes the signals; a foot without a sole is left out.
     pub(super) fn new(model: &Model, trajectory: &Trajectory, soles: &BySide<Option<Sole>>) -> Signals {
         let (up, grid) = (upward(model), trajectory.grid());
         let gravity = Some(model.gravity().norm()).filter(|g| *g > f64::MIN_POSITIVE).unwrap_or(STANDARD_GRAVITY);
@@ -50,8 +50,8 @@ impl Signals {
         let mut signals = Signals {
             grid,
             up,
-            pace: (gravity * leg).sqrt(),
-            swing_s: (leg / gravity).sqrt(),
+            leg_speed: (gravity * leg).sqrt(),
+            leg_time_s: (leg / gravity).sqrt(),
             feet: Vec::new(),
             center_velocity: Vec::with_capacity(grid.frames),
             carried: Vec::with_capacity(grid.frames),
@@ -67,7 +67,7 @@ impl Signals {
             for (sole, path) in standing.iter().zip(&mut signals.feet) {
                 path.push(sole, bodies);
             }
-            let whole = Needed::of(model, bodies);
+            let whole = WholeBody::of(model, bodies);
             let vertical = whole.force.dot(&up);
             signals.center_velocity.push(whole.momentum / model.mass());
             signals.carried.push(vertical / weight);
@@ -76,7 +76,7 @@ impl Signals {
         signals
     }
 
-    /// The part of a vector across the direction against gravity.
+    /// The horizontal part of a vector.
     pub(super) fn level(&self, v: Vec3) -> Vec3 {
         v - self.up * v.dot(&self.up)
     }
@@ -93,13 +93,13 @@ impl Signals {
         (point, heights[point])
     }
 
-    /// Where the force meets the level at a height [m]; not finite in flight.
+    /// Point where the line of action meets the horizontal plane at a height [m]; not finite in flight.
     pub(super) fn pressure(&self, frame: usize, height: f64) -> Vec3 {
         let [a, b] = self.pressure_line[frame];
         a + b * height
     }
 
-    /// Frames in a time, at least one.
+    /// Number of frames in a time, at least one.
     pub(super) fn frames_in(&self, time_s: f64) -> usize {
         ((time_s / self.grid.step_s).round() as usize).clamp(1, self.grid.frames.max(1))
     }
@@ -117,16 +117,16 @@ impl FootPath {
     }
 }
 
-/// Momentum of the whole body, and the force and moment about the world's origin that its change needs.
-struct Needed {
+/// Momentum of the whole body, and the ground force and moment about the world's origin that its motion requires.
+struct WholeBody {
     momentum: Vec3,
     force: Vec3,
     moment: Vec3,
 }
 
-impl Needed {
-    fn of(model: &Model, bodies: &[BodyMotion]) -> Needed {
-        let mut whole = Needed { momentum: Vec3::zeros(), force: Vec3::zeros(), moment: Vec3::zeros() };
+impl WholeBody {
+    fn of(model: &Model, bodies: &[BodyMotion]) -> WholeBody {
+        let mut whole = WholeBody { momentum: Vec3::zeros(), force: Vec3::zeros(), moment: Vec3::zeros() };
         for (body, motion) in model.bodies().iter().zip(bodies) {
             let (mass, rotation) = (body.inertia.mass(), motion.pose.rotation);
             let force = (motion.acceleration.linear - model.gravity()) * mass;

@@ -1,4 +1,4 @@
-//! Loads of the plates by foot, before there is a model.
+//! Loads of the force plates by foot, without a model.
 
 use super::FeetOnPlates;
 use crate::ground::BodyForces;
@@ -7,12 +7,12 @@ use crate::motion::{ForceRecording, PlateRecording};
 use crate::spatial::Vec3;
 
 impl FeetOnPlates {
-    /// The load on the right and the left foot, on the samples of the first plate; centres of pressure at `height_m` [m].
+    /// Loads on the right and the left foot at the samples of the first plate; centres of pressure at `height_m` [m].
     /// Empty without plates.
     #[must_use]
     pub fn loads_by_foot(&self, plates: &[PlateRecording], height_m: f64) -> Vec<(Side, BodyForces)> {
         let Some(first) = plates.first() else { return Vec::new() };
-        // The bodies are only told apart; no model is there yet.
+        // Placeholders that only separate the feet: there is no model.
         let bodies = BySide { right: BodyId(0), left: BodyId(1) };
         let recordings = self.recordings(plates, bodies);
         let load = |(side, &body): (Side, &BodyId)| {
@@ -24,7 +24,7 @@ impl FeetOnPlates {
     }
 }
 
-/// Force and its moment about the world's origin.
+/// Sums forces and moments about the world's origin.
 fn sum(recordings: &[&ForceRecording], samples: usize) -> (Vec<Vec3>, Vec<Vec3>) {
     let (mut force, mut moment) = (vec![Vec3::zeros(); samples], vec![Vec3::zeros(); samples]);
     for recording in recordings {

@@ -1,26 +1,26 @@
-//! One contact: whose foot, and how much of its load the plate saw.
+//! Assigns one contact to a foot and decides how much of the foot's load the plate measured.
 
 use super::feet::Feet;
 use super::{ContactQuality, PlateContact};
-use crate::ground::phases::{Contact, contacts};
+use crate::ground::phases::{Contact, contacts_from_force};
 use crate::model::Side;
 use crate::motion::PlateRecording;
 use crate::numerics::median;
 
-/// A foot further than this from the centre of pressure does not carry it [m].
+/// Largest distance of a foot from its centre of pressure [m].
 const FARTHEST_M: f64 = 0.2;
-/// Force and motion tell of one strike or off if they differ by less than this [s]: methods by motion err by up to 0.06.
+/// Force and motion show the same strike or off if they differ by less than this [s]: errors of events from motion reach 0.06.
 const SAME_EVENT_S: f64 = 0.1;
-/// Shorter than this, a second foot on a plate is an error of its events [s].
+/// A second foot on a plate for less than this is an error of its events [s].
 const SECOND_FOOT_S: f64 = 0.08;
-/// A marker further than this beyond an edge stands beside the plate [m]: heel markers stand behind the heel.
+/// A marker further than this beyond an edge is off the plate [m]; heel markers are behind the heel.
 const OVER_EDGE_M: f64 = 0.02;
 
 /// The times during which a plate is loaded.
 pub(super) fn loaded_spans(plate: &PlateRecording) -> Vec<[f64; 2]> {
     let vertical: Vec<f64> = (0..plate.times.len()).map(|i| plate.vertical(i)).collect();
     let (Some(&first), Some(&last)) = (plate.times.first(), plate.times.last()) else { return Vec::new() };
-    contacts(&plate.times, &vertical).iter().map(|c: &Contact| c.span(first, last)).collect()
+    contacts_from_force(&plate.times, &vertical).iter().map(|c: &Contact| c.span(first, last)).collect()
 }
 
 fn samples(plate: &PlateRecording, span: [f64; 2]) -> impl Iterator<Item = usize> + '_ {
@@ -33,26 +33,26 @@ pub(super) fn peak(plate: &PlateRecording, span: [f64; 2]) -> f64 {
     samples(plate, span).map(|i| plate.vertical(i)).fold(0.0, f64::max)
 }
 
-/// Judges one contact by its own plate.
-pub(super) fn judge(
+/// Assigns a contact to a foot and rates it by its own plate. `assigned` is the foot given by the user.
+pub(super) fn classified(
     feet: &Feet<'_>,
     index: usize,
     plate: &PlateRecording,
     span: [f64; 2],
-    told: Option<Side>,
+    assigned: Option<Side>,
 ) -> PlateContact {
     let distances = Side::BOTH.map(|side| (side, mean_distance(feet, plate, span, side)));
     let nearest = distances.iter().filter(|(_, d)| *d <= FARTHEST_M).min_by(|a, b| a.1.total_cmp(&b.1));
     let by_stance = || {
-        // A foot that was not seen, if it alone stood on the ground meanwhile.
-        let unseen = distances.iter().filter(|(side, d)| d.is_nan() && feet.stance_of(*side, span).is_some());
-        let standing: Vec<Side> = unseen.map(|(side, _)| *side).collect();
-        if let [only] = standing[..] { Some(only) } else { None }
+        // A foot without visible markers, if it is the only such foot on the ground.
+        let hidden = distances.iter().filter(|(side, d)| d.is_nan() && feet.stance_of(*side, span).is_some());
+        let on_ground: Vec<Side> = hidden.map(|(side, _)| *side).collect();
+        if let [only] = on_ground[..] { Some(only) } else { None }
     };
-    let side = told.or(nearest.map(|n| n.0)).or_else(by_stance);
+    let side = assigned.or(nearest.map(|n| n.0)).or_else(by_stance);
     let together = both_feet(feet, plate, span);
     let (quality, reason) = match side {
-        _ if told.is_none() && together.is_some() => (ContactQuality::TwoFeet, together.unwrap_or_default()),
+        _ if assigned.is_none() && together.is_some() => (ContactQuality::TwoFeet, together.unwrap_or_default()),
         None => (ContactQuality::Unassigned, unassigned_reason(&distances)),
         Some(side) => quality(feet, plate, span, side),
     };
@@ -85,7 +85,7 @@ fn mean_distance(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: 
 
 fn unassigned_reason(distances: &[(Side, f64); 2]) -> String {
     match distances {
-        [(_, r), (_, l)] if r.is_nan() && l.is_nan() => "no marker of a foot was seen".to_owned(),
+        [(_, r), (_, l)] if r.is_nan() && l.is_nan() => "no foot marker was visible".to_owned(),
         [(_, r), (_, l)] => {
             format!("no foot is near its centre of pressure (right {:.0} mm, left {:.0} mm)", 1000.0 * r, 1000.0 * l)
         }
@@ -97,7 +97,7 @@ fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) 
         if span[0] - stance[0] > SAME_EVENT_S {
             return (
                 ContactQuality::Partial,
-                format!("the foot met the floor {:.2} s before the force", span[0] - stance[0]),
+                format!("the foot was on the floor {:.2} s before the force began", span[0] - stance[0]),
             );
         }
         if stance[1] - span[1] > SAME_EVENT_S {
@@ -113,14 +113,14 @@ fn quality(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) 
     }
 }
 
-/// What to say if both feet stood on this plate during the span.
+/// Explanation if both feet were on this plate during the span.
 fn both_feet(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2]) -> Option<String> {
     let [right, left] = Side::BOTH.map(|side| time_on_plate(feet, plate, span, side));
     (right.min(left) >= SECOND_FOOT_S)
-        .then(|| format!("the right foot stood on it for {right:.2} s, the left foot for {left:.2} s"))
+        .then(|| format!("the right foot was on it for {right:.2} s, the left foot for {left:.2} s"))
 }
 
-/// How long the foot stood on this plate during the span [s].
+/// How long the foot was on this plate during the span [s].
 fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
     let on_plate = |t: f64| {
         let line = feet.line(side, t);
@@ -130,7 +130,7 @@ fn time_on_plate(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: 
     frames as f64 / feet.markers.rate_hz
 }
 
-/// Whether heel or toe stood beside the plate in the middle of the contact, when the foot is flat.
+/// Explanation if heel or toe was off the plate in the middle of the contact, when the foot is flat.
 fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> Option<String> {
     let length = span[1] - span[0];
     let middle = [span[0] + 0.3 * length, span[0] + 0.6 * length];
@@ -139,14 +139,14 @@ fn over_edge(feet: &Feet<'_>, plate: &PlateRecording, span: [f64; 2], side: Side
         let depths = times().filter_map(|&t| feet.line(side, t)).map(|l| plate.depth_inside(l[k]));
         let depth = median(depths).unwrap_or(0.0);
         if depth < -OVER_EDGE_M {
-            return Some(format!("the {part} stood {:.0} mm beyond the edge", -1000.0 * depth));
+            return Some(format!("the {part} was {:.0} mm beyond the edge", -1000.0 * depth));
         }
     }
     None
 }
 
-/// A partial contact becomes shared if together with other plates it covers the whole stance of its foot.
-pub(super) fn completed(feet: &Feet<'_>, all: &[PlateContact], index: usize) -> PlateContact {
+/// Turns a partial contact into a shared one if together with other plates it covers the whole stance of its foot.
+pub(super) fn with_other_plates(feet: &Feet<'_>, all: &[PlateContact], index: usize) -> PlateContact {
     let contact = &all[index];
     let Some(side) = contact.side.filter(|_| contact.quality == ContactQuality::Partial) else {
         return contact.clone();
@@ -168,7 +168,7 @@ pub(super) fn completed(feet: &Feet<'_>, all: &[PlateContact], index: usize) -> 
     let plates: Vec<String> = partners.iter().map(|c| (c.plate + 1).to_string()).collect();
     PlateContact {
         quality: ContactQuality::Shared,
-        reason: format!("the foot stood on plate {} as well", plates.join(" and ")),
+        reason: format!("the foot was on plate {} as well", plates.join(" and ")),
         ..contact.clone()
     }
 }

@@ -1,16 +1,16 @@
-//! The best list of events: by force where a plate saw them, by motion elsewhere.
+//! Combines the events from force plates with those from motion.
 
 use super::{ContactQuality, FeetOnPlates, PlateContact};
 use crate::ground::foot_motion::FootMotion;
 use crate::model::Side;
 use crate::motion::{Event, EventKind};
 
-/// Force and motion tell of one event if they differ by less than this [s].
+/// Force and motion show the same event if they differ by less than this [s].
 const SAME_EVENT_S: f64 = 0.15;
 
 impl FeetOnPlates {
-    /// Strikes and offs that plates saw, in order of time: the ends of clean contacts, and of shared ones the first and
-    /// the last. A load that the recording cuts has no event at the cut.
+    /// Strikes and offs that plates measured, in order of time: the ends of clean contacts, and the first and last end of
+    /// shared ones. There is no event where the recording cuts a contact.
     #[must_use]
     pub fn force_events(&self, recorded_s: [f64; 2]) -> Vec<Event> {
         let mut out = Vec::new();
@@ -24,22 +24,22 @@ impl FeetOnPlates {
         sorted(out)
     }
 
-    /// Events by force where there are any, by motion elsewhere.
+    /// Events from force where they were measured, from motion elsewhere.
     #[must_use]
     pub fn events(&self, motion: &FootMotion, recorded_s: [f64; 2]) -> Vec<Event> {
         let mut out = self.force_events(recorded_s);
         let stances = Side::BOTH.map(|side| self.measured_stances(side));
-        let is_told = |e: &Event| {
+        let is_measured = |e: &Event| {
             let near = |f: &Event| f.side == e.side && f.kind == e.kind && (f.time_s - e.time_s).abs() < SAME_EVENT_S;
             let during = stances[usize::from(e.side == Side::Left)].iter().any(|s| s[0] < e.time_s && e.time_s < s[1]);
             out.iter().any(near) || during
         };
-        let others: Vec<Event> = motion.events.iter().filter(|e| !is_told(e)).copied().collect();
+        let others: Vec<Event> = motion.events.iter().filter(|e| !is_measured(e)).copied().collect();
         out.extend(others);
         sorted(out)
     }
 
-    /// Times during which plates saw all of a foot's load [s]; plates under one foot count as one.
+    /// Times during which plates measured all of a foot's load [s]; several plates under one foot count as one.
     #[must_use]
     pub fn measured_stances(&self, side: Side) -> Vec<[f64; 2]> {
         let whole = |c: &&PlateContact| {

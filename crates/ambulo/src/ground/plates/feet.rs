@@ -1,4 +1,4 @@
-//! Where the feet are, by their markers, and when they stand.
+//! Positions of the feet from their markers, and their stances.
 
 use super::super::foot_motion::FootMotion;
 use crate::model::Side;
@@ -8,7 +8,7 @@ use crate::spatial::Vec3;
 /// The foot reaches this share of the distance from heel to toe marker beyond the toe marker.
 const BEYOND_TOE: f64 = 0.2;
 
-/// Markers, which of them are whose, and what their motion tells.
+/// Markers, the feet that they belong to, and the events that were detected from them.
 pub(super) struct Feet<'a> {
     pub(super) markers: &'a MarkerRecording,
     pub(super) landmarks: Landmarks,
@@ -16,7 +16,7 @@ pub(super) struct Feet<'a> {
 }
 
 impl Feet<'_> {
-    /// A marker's place at an instant, on a straight line between frames.
+    /// Position of a marker at a time, interpolated linearly between frames.
     pub(super) fn place(&self, marker: Option<usize>, time_s: f64) -> Option<Vec3> {
         let path = &self.markers.markers[marker?].positions;
         let times = &self.markers.times;
@@ -28,7 +28,7 @@ impl Feet<'_> {
         (place.iter().all(|x| x.is_finite()) && share <= 1.0).then_some(place)
     }
 
-    /// Heel and toe, or what stands for them.
+    /// Heel and toe markers, or their substitutes (ankle, side of the foot).
     pub(super) fn line(&self, side: Side, time_s: f64) -> Option<[Vec3; 2]> {
         let foot = self.landmarks.foot(side);
         let heel = self.place(foot.heel.or(foot.ankle), time_s)?;
@@ -50,7 +50,7 @@ impl Feet<'_> {
         self.stances(side).iter().any(|s| s[0] <= time_s && time_s <= s[1])
     }
 
-    /// When the foot stands on the ground by its own motion [s].
+    /// Stances of the foot, detected from its motion [s].
     pub(super) fn stances(&self, side: Side) -> Vec<[f64; 2]> {
         let (Some(&first), Some(&last)) = (self.markers.times.first(), self.markers.times.last()) else {
             return Vec::new();
@@ -58,7 +58,7 @@ impl Feet<'_> {
         self.motion.contacts_of(side).iter().map(|c| c.span(first, last)).collect()
     }
 
-    /// The stance that a contact belongs to: the one that overlaps it most.
+    /// The stance that overlaps a contact most.
     pub(super) fn stance_of(&self, side: Side, span: [f64; 2]) -> Option<[f64; 2]> {
         let overlap = |s: &[f64; 2]| s[1].min(span[1]) - s[0].max(span[0]);
         let stances = self.stances(side).into_iter().filter(|s| overlap(s) > 0.0);

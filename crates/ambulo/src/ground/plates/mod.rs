@@ -1,14 +1,14 @@
-//! Which foot stands on which plate, when, and whether the plate saw all of it.
+//! Assigns force plates to feet, and finds out whether a plate measured all of a foot's load.
 //!
 //! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
-//! toe is nearest to the centre of pressure, on average over the load and no further than 0.2 m (the limit that
-//! Visual3D's documentation names). It is
-//! - of **two feet** if the other foot stood on the same plate as well,
-//! - **partial** if the foot stood on the floor clearly before or after the force, or over the edge of the plate,
-//! - **shared** if it is partial alone and complete with another plate under the same foot,
+//! toe is nearest to the centre of pressure, averaged over the load, within 0.2 m (the limit in the documentation of
+//! Visual3D). It is
+//! - of **two feet** if the other foot was on the same plate as well,
+//! - **partial** if the foot was on the floor clearly before or after the force, or over the edge of the plate,
+//! - **shared** if it is partial alone and complete together with another plate under the same foot,
 //! - **clean** otherwise.
 //!
-//! The **instrumented windows** are the times during which no foot stands on the floor unmeasured.
+//! The **instrumented windows** are the times during which every foot on the ground is on a plate.
 //! Pinned by: tests/feet_on_plates.rs, tests/laboratory_files.rs
 
 mod by_foot;
@@ -23,29 +23,29 @@ use crate::model::{BodyId, BySide, Side};
 use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
 use crate::spatial::Vec3;
 
-/// Contacts whose peak is below this share of the largest of all plates are vibration.
+/// Contacts whose peak is below this share of the largest peak of all plates are vibration.
 const VIBRATION: f64 = 0.05;
 
-/// How much of a foot's load a plate saw.
+/// How much of a foot's load a plate measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ContactQuality {
     /// All of it, and nothing else.
     Clean,
-    /// Part of it; another plate saw the rest.
+    /// Part of it; another plate measured the rest.
     Shared,
-    /// Part of it, in time or in place.
+    /// Part of it: the rest was earlier, later or off the plate.
     Partial,
     /// The load of both feet.
     #[serde(rename = "two feet")]
     TwoFeet,
-    /// Nobody knows whose load.
+    /// The load of an unknown foot.
     Unassigned,
 }
 
 impl ContactQuality {
-    /// One word for tables.
+    /// The name in tables.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ impl ContactQuality {
 pub struct PlateContact {
     /// Index of the plate.
     pub plate: usize,
-    /// Whose foot.
+    /// The foot; `None` if unknown.
     pub side: Option<Side>,
     /// First loaded instant [s].
     pub start_s: f64,
@@ -71,49 +71,49 @@ pub struct PlateContact {
     pub end_s: f64,
     /// Largest vertical force [N].
     pub peak_n: f64,
-    /// Mean distance of the centre of pressure from the foot's line [m]; not a number where the foot was not seen.
+    /// Mean distance of the centre of pressure from the line from heel to toe [m]; not a number without visible markers.
     pub distance_m: f64,
-    /// How much of the foot's load the plate saw.
+    /// How much of the foot's load the plate measured.
     pub quality: ContactQuality,
     /// Why it is not clean; empty if it is.
     pub reason: String,
 }
 
-/// All contacts of a trial.
+/// All contacts of a trial with the force plates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeetOnPlates {
     /// Contacts, by plate and time.
     pub contacts: Vec<PlateContact>,
-    /// Times during which every foot on the ground stood on a plate that saw all of it [s], the longest first.
+    /// Instrumented windows: times when the whole load of both feet was measured [s], the longest first.
     pub windows: Vec<[f64; 2]>,
 }
 
-/// Finds whose foot each contact belongs to. Markers and plates stand in the world's axes. `told` names the foot of a
-/// plate (by index) where a person has decided.
+/// Assigns each contact to a foot. Markers and plates are in the world's axes. `assigned` has the plates (by index) of
+/// which the user stated the foot.
 #[must_use]
 pub fn feet_on_plates(
     markers: &MarkerRecording,
     plates: &[PlateRecording],
     motion: &FootMotion,
-    told: &[(usize, Side)],
+    assigned: &[(usize, Side)],
     findings: &mut Findings,
 ) -> FeetOnPlates {
     let feet = feet::Feet { markers, landmarks: Landmarks::find(markers), motion };
     let highest = plates.iter().map(PlateRecording::peak_n).fold(0.0, f64::max);
     let mut found: Vec<PlateContact> = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
-        let told = told.iter().find(|(index, _)| *index == i).map(|(_, side)| *side);
+        let assigned = assigned.iter().find(|(index, _)| *index == i).map(|(_, side)| *side);
         let spans =
             contact::loaded_spans(plate).into_iter().filter(|s| contact::peak(plate, *s) >= VIBRATION * highest);
-        found.extend(spans.map(|span| contact::judge(&feet, i, plate, span, told)));
+        found.extend(spans.map(|span| contact::classified(&feet, i, plate, span, assigned)));
     }
     for i in 0..found.len() {
-        found[i] = contact::completed(&feet, &found, i);
+        found[i] = contact::with_other_plates(&feet, &found, i);
     }
     let windows = windows::windows(&feet, &found);
     report(plates, &found, findings);
     if windows.is_empty() && !found.is_empty() {
-        findings.report(Code::PlatesNoWindow, "at no time did every foot on the ground stand cleanly on a plate: totals and the forces on the pelvis cannot be judged");
+        findings.report(Code::PlatesNoWindow, "there is no time at which the whole load of both feet was measured: the total force and the residual force at the pelvis cannot be checked");
     }
     FeetOnPlates { contacts: found, windows }
 }
@@ -134,8 +134,10 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
                     "{name}, {times}: two feet were on one plate: {reason}; this load was assigned to neither foot"
                 ),
             ),
-            (ContactQuality::Unassigned, _) => findings
-                .report(Code::PlatesUnassigned, format!("{name}, {times}: its load was assigned to no foot: {reason}")),
+            (ContactQuality::Unassigned, _) => findings.report(
+                Code::PlatesUnassigned,
+                format!("{name}, {times}: its load was not assigned to a foot: {reason}"),
+            ),
             (ContactQuality::Shared, Some(side)) => {
                 findings
                     .report(Code::PlatesShared, format!("{name}, {times}, {side}: {reason}; both forces were added"));
@@ -146,8 +148,8 @@ fn report(plates: &[PlateRecording], found: &[PlateContact], findings: &mut Find
 }
 
 impl FeetOnPlates {
-    /// What each foot felt, one recording for each plate and foot, for [`super::measured`], which adds what acts on one
-    /// body. `feet` are the bodies that the ground acts on ([`Anatomy::feet`](crate::model::Anatomy::feet)). Loads of two feet and of nobody are left out.
+    /// Loads on the feet, one recording per plate and foot, for [`super::measured`], which adds those on one body. `feet` are
+    /// the bodies that the ground acts on ([`Anatomy::feet`](crate::model::Anatomy::feet)). Loads of two feet and of an unknown foot are left out.
     #[must_use]
     pub fn recordings(&self, plates: &[PlateRecording], feet: BySide<BodyId>) -> Vec<ForceRecording> {
         let mut out = Vec::new();
@@ -165,8 +167,8 @@ impl FeetOnPlates {
     }
 }
 
-/// The contact next to an instant: what a plate shows between two contacts belongs to the nearer one. `contacts` follow
-/// each other.
+/// The contact nearest to a time: the signal between two contacts belongs to the nearer one. `contacts` are in order
+/// of time.
 fn nearest<'a>(contacts: &[&'a PlateContact], t: f64) -> Option<&'a PlateContact> {
     let next = contacts.partition_point(|c| c.end_s < t);
     let apart = |c: &PlateContact| (c.start_s - t).max(t - c.end_s).max(0.0);

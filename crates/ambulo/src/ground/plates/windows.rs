@@ -1,12 +1,12 @@
-//! The times during which no foot stands on the floor unmeasured.
+//! Instrumented windows: the times when all loaded feet are on plates.
 
 use super::feet::Feet;
 use super::{ContactQuality, PlateContact};
 use crate::model::Side;
 
-/// Gaps in the load of all plates up to this long are flight [s].
+/// Gaps of up to this length in the load of all plates are flight [s].
 const FLIGHT_S: f64 = 0.3;
-/// Shorter windows are not worth naming [s].
+/// Shorter windows are dropped [s].
 const SHORTEST_WINDOW_S: f64 = 0.05;
 
 /// The instrumented windows, the longest first.

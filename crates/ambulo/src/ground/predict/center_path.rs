@@ -1,39 +1,45 @@
-//! Where the centre of pressure of a standing foot goes, before any force is known.
+//! The expected path of the centre of pressure under a foot, from the motion alone.
 //!
 //!   p = rear + (front - rear) s(θ)       s(θ) = σ((θ - θ₀) / θ₁), scaled to 0 at θ = -20° and to 1 at 22°
 //!
 //! θ is the forward lean of the shank, σ the logistic function; the front lies between ball and tip. That the centre of pressure
-//! follows the shank, much the same at every speed, is the roll-over shape of Hansen, Childress, Knox 2004 (unverified); against
-//! plates the shank's lean told the path better than time, the foot's pitch or the mass centre, subjects left out one by one
-//! (docs/GROUND_FORCES.md). Without a shank the path goes evenly with time.
+//! follows the shank, in much the same way at every speed, is the roll-over shape of Hansen, Childress, Knox 2004 (unverified).
+//! Compared with force plates, leave-one-out, the shank's lean predicted the path better than time, the pitch of the foot or the mass
+//! centre (docs/GROUND_FORCES.md). Without a shank the path is linear in time.
 //!
 //! | code   | symbol | unit | meaning                            |
 //! | `lean` | θ      | rad  | of ankle to knee, forward positive |
 
 use super::geometry::FootPlace;
-use super::stances::{Measure, Stance};
+use super::stances::{BodyScale, Stance};
 use super::weights::Weights;
 use crate::model::Side;
 use crate::spatial::Vec3;
 
-/// Leans between which the path goes from end to end [rad].
+/// Lean at the beginning and at the end of the path [rad].
 const LEANS: [f64; 2] = [-0.349, 0.384];
 
-/// The centre of pressure, on the ground.
-pub(super) fn center_path(place: &FootPlace, stance: &Stance, time: f64, measure: &Measure, weights: &Weights) -> Vec3 {
-    let up = measure.up;
+/// Expected centre of pressure, on the ground.
+pub(super) fn center_path(
+    place: &FootPlace,
+    stance: &Stance,
+    time: f64,
+    body_scale: &BodyScale,
+    weights: &Weights,
+) -> Vec3 {
+    let up = body_scale.up;
     let level = |v: Vec3| v - up * v.dot(&up);
     let [rear, ball, tip] = place.sole;
     let along = level(tip - rear).try_normalize(f64::MIN_POSITIVE).unwrap_or(stance.forward);
     let outwards = along.cross(&up) * if stance.side == Side::Right { 1.0 } else { -1.0 };
     let [behind, front] = weights.center_ends;
-    let back = rear - along * (behind * measure.height_m);
+    let back = rear - along * (behind * body_scale.height_m);
     let front = ball + (tip - ball) * front;
     let share = match place.shank {
         Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), weights.center_lean),
-        None => stance.own_phase(time),
+        None => stance.elapsed_share(time),
     };
-    let path = back + (front - back) * share + outwards * (weights.center_outwards * measure.height_m);
+    let path = back + (front - back) * share + outwards * (weights.center_outwards * body_scale.height_m);
     level(path) + up * stance.height_m
 }
 

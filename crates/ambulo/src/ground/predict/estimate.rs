@@ -1,46 +1,47 @@
-//! The loads of both feet, estimated over the whole trial at once.
+//! Maximum a posteriori estimate of the loads of both feet, over the whole trial at once.
 //!
-//! Unknown are the curves of [`super::unknowns`]: three forces and three moments of every stance, near what is expected of it. What is
-//! seen is what the whole body's motion asks of the ground. Markers on skin show it up to some frequency only, so both sides are compared
-//! behind a low-pass G of Gaussian shape ([`super::taps`]); what is sharper, as a heel strike, comes from what is expected:
+//! The unknowns are the curves of [`super::unknowns`]: three forces and three moments of every stance, with the prior of
+//! [`super::expected`]. The evidence is the total wrench that the motion of the whole body requires. Skin markers show it only up to
+//! some frequency, so both sides are compared after a Gaussian low-pass filter G ([`super::gaussian_filter`]); sharper features, such
+//! as the impact of a heel strike, come from the prior:
 //!
 //!   G ∗ Σ_feet F_i               = G ∗ F_total                            + noise
 //!   G ∗ Σ_feet (r_i × F_i + T_i) = G ∗ M_total about the mass centre      + noise
 //!
-//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]). Both are linear in the unknowns; with Gaussian noise and expectations the likeliest curves solve a
-//! band of linear equations ([`super::system`]), whose inverse tells how far they may be off. In single support the forces decide; in
-//! double support the lever rule between the feet, what is expected of people who walk at this speed, and the smoothness of a stance
-//! share the decision by their noise.
+//! r_i leads from the mass centre to the expected centre of pressure of foot i ([`super::center_path`]). Both are linear in the
+//! unknowns; with Gaussian noise and priors the estimate solves a banded linear system ([`super::normal_equations`]), whose inverse is
+//! its covariance. In single support the force balance determines the forces; in double support the lever rule between the feet, the
+//! normative curves at this walking speed and the smoothness of the curves are weighted by their deviations.
 //!
-//! Cost: the equations are linear in frames; which stances are near an instant is looked up among all of them, which is felt from some
-//! thousand steps on. Memory: 370 bytes a frame held, 2.3 kB while it is made (docs/STREAMING.md).
-//! Not handled: hands and objects. What would pull is put right afterwards ([`super::unilateral`]).
+//! Cost: the equations are linear in frames; the stances near each frame are searched among all of them, which is noticeable from
+//! some thousand steps on. Memory: 370 bytes per frame of the result, 2.3 kB during the computation (docs/STREAMING.md).
+//! Not handled: contact of hands and objects. Negative vertical forces are corrected afterwards ([`super::unilateral`]).
 
 use super::PredictError;
 use super::expected::Expectation;
+use super::gaussian_filter::GaussianFilter;
 use super::loads::{FootLoads, loads};
-use super::samples::{Evidence, Samples};
+use super::normal_equations::NormalEquations;
+use super::samples::{EstimateInputs, StanceSamples};
 use super::stance_curves::StanceCurves;
-use super::system::System;
-use super::taps::Taps;
 use super::unknowns::Unknowns;
 use crate::model::BySide;
 
-/// Loads of right and left foot.
+/// Loads of the right and the left foot.
 ///
 /// # Errors
-/// Those of the equations.
-pub(super) fn estimate(evidence: &Evidence<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
-    let Evidence { grid, stances, measure, weights, .. } = *evidence;
+/// Equations that are too large or have no solution.
+pub(super) fn estimate(inputs: &EstimateInputs<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
+    let EstimateInputs { grid, stances, body_scale, weights, .. } = *inputs;
     let expectations: Vec<Expectation<'_>> =
-        stances.iter().map(|stance| Expectation::new(stance, stances, curves, weights, measure)).collect();
-    let unknowns = Unknowns::new(stances, measure, weights);
-    let taps = Taps::new(weights.bandwidth_hz, grid);
-    let samples: Vec<Samples> = expectations
+        stances.iter().map(|stance| Expectation::new(stance, stances, curves, weights, body_scale)).collect();
+    let unknowns = Unknowns::new(stances, body_scale, weights);
+    let filter = GaussianFilter::new(weights.bandwidth_hz, grid);
+    let samples: Vec<StanceSamples> = expectations
         .iter()
         .zip(&unknowns.curves)
-        .map(|(expectation, curves)| Samples::new(evidence, expectation, curves, taps.stride))
+        .map(|(expectation, curves)| StanceSamples::new(inputs, expectation, curves, filter.stride))
         .collect();
-    let solution = System { evidence, unknowns: &unknowns, samples: &samples, taps: &taps }.solve()?;
-    Ok(BySide::from_fn(|side| loads(side, evidence, &expectations, &unknowns, &solution)))
+    let solution = NormalEquations { inputs, unknowns: &unknowns, samples: &samples, filter: &filter }.solve()?;
+    Ok(BySide::from_fn(|side| loads(side, inputs, &expectations, &unknowns, &solution)))
 }

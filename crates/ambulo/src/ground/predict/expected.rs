@@ -1,27 +1,27 @@
-//! What a foot probably carries, before the motion's forces are looked at: mean and deviation of each component over a stance.
+//! Prior of a stance: mean and standard deviation of each component of a foot's load, before the forces of the motion are used.
 //!
-//! * Walking: upward and forward force of [`StanceCurves`].
-//! * Running: upward force a half sine, F = (π/2) m g T / t_c sin(π u) with T from strike to strike of either foot and t_c the contact:
-//!   the impulse of a step carries the body for a step (Morin, Dalleau, Kyröläinen, Jeannin, Belli 2005; unverified).
-//! * Standing: the weight, shared evenly by the feet that stand.
+//! * Walking: vertical and fore-aft force of [`StanceCurves`].
+//! * Running: the vertical force is a half sine, F = (π/2) m g T / t_c sin(π u) with T from strike to strike of either foot and t_c the
+//!   contact time: the impulse of a step supports the body for a step (Morin, Dalleau, Kyröläinen, Jeannin, Belli 2005; unverified).
+//! * Standing: the body weight, shared equally by the feet on the ground.
 //!
-//! The force leans towards the mass centre: sideways, and forward where no curve is known, F_h = k F_v × lever / height. A walker's foot
-//! that strikes pushes outwards for a moment before: so it did in all 16 stances of six straight trials (0.008 to 0.058 body weights).
-//! Moments are those that a centre of pressure beside its path makes, and the free moment; their mean is zero.
+//! The force leans towards the mass centre: sideways, and forward where there is no curve, F_h = k F_v × lever / height. In walking
+//! a foot pushes outwards briefly after its strike, as in all 16 stances of six straight trials (0.008 to 0.058 body weights).
+//! Moments are the free moment and those of a centre of pressure away from its expected path; their mean is zero.
 
-use super::stance_curves::{AtSpeed, Expected, StanceCurves};
-use super::stances::{Gait, Measure, Stance};
+use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};
+use super::stances::{BodyScale, GaitType, Stance};
 use super::weights::Weights;
 use crate::model::Side;
 use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Parts of the load of a foot, in the axes of its stance.
+/// Components of the load of a foot, in the axes of its stance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Component {
     /// Force forward, up, to the right.
     Force(usize),
-    /// Moment about the path of the centre of pressure: about forward, up, right.
+    /// Moment about the expected centre of pressure: about forward, up, right.
     Moment(usize),
 }
 
@@ -36,25 +36,25 @@ impl Component {
     ];
 }
 
-/// Least deviations of forces [body weights] and moments [body weights × m].
+/// Smallest deviations of forces [body weights] and moments [body weights × m].
 const LEAST_SPREAD: [f64; 2] = [0.004, 0.000_2];
-/// Deviation of the upward force of a run and of somebody who stands, share of the mean and of the weight.
+/// Deviation of the vertical force in running (share of the peak) and in standing (share of body weight).
 const RUN_SPREAD: f64 = 0.25;
 const STAND_SPREAD: f64 = 0.3;
-/// Deviation of forces along the ground that lean towards the mass centre [body weights].
+/// Deviation of the fore-aft force in running and standing [body weights].
 const LEAN_SPREAD: f64 = 0.12;
-/// Upward force at which sideways deviations are whole [body weights].
+/// Vertical force from which on the lateral deviation has its full size [body weights].
 const WHOLE_LOAD: f64 = 0.6;
 
-/// What is expected of one stance.
+/// Prior of one stance.
 pub(super) struct Expectation<'a> {
     pub(super) stance: &'a Stance,
     curves: AtSpeed<'a>,
     weights: &'a Weights,
-    measure: &'a Measure,
-    /// From this strike to the next of either foot [s].
+    body_scale: &'a BodyScale,
+    /// Time from this strike to the next one of either foot [s].
     step_s: f64,
-    /// Other stances, which share the weight of somebody who stands.
+    /// Overlapping stances of the other foot.
     others: Vec<[f64; 2]>,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Expectation<'a> {
         all: &[Stance],
         curves: &'a StanceCurves,
         weights: &'a Weights,
-        measure: &'a Measure,
+        body_scale: &'a BodyScale,
     ) -> Expectation<'a> {
         let next = all.iter().map(|s| s.start_s - stance.start_s).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
         let before = all.iter().map(|s| stance.start_s - s.start_s).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
@@ -72,56 +72,58 @@ impl<'a> Expectation<'a> {
         let meets = |s: &&Stance| s.side != stance.side && s.start_s < stance.end_s && s.end_s > stance.start_s;
         let others = all.iter().filter(meets).map(|s| [s.start_s, s.end_s]).collect();
         let step_s = if step_s.is_finite() { step_s } else { 1.5 * stance.duration_s() };
-        Expectation { stance, curves: stance.curves(curves), weights, measure, step_s, others }
+        Expectation { stance, curves: stance.curves(curves), weights, body_scale, step_s, others }
     }
 
-    /// Upward force [body weights].
-    pub(super) fn vertical(&self, time: f64) -> Expected {
-        let own = self.stance.own_phase(time);
+    /// Vertical force [body weights].
+    pub(super) fn vertical(&self, time: f64) -> MeanAndDeviation {
+        let own = self.stance.elapsed_share(time);
         match self.stance.gait {
-            Gait::Walk => {
+            GaitType::Walk => {
                 let found = self.curves.vertical(own);
-                Expected { mean: found.mean, deviation: found.deviation * self.weights.spread[1] }
+                MeanAndDeviation { mean: found.mean, deviation: found.deviation * self.weights.spread[1] }
             }
-            Gait::Run => {
+            GaitType::Run => {
                 let peak = FRAC_PI_2 * (self.step_s / self.stance.duration_s()).clamp(0.5, 4.0);
                 let mean = peak * (PI * own).sin();
-                Expected { mean, deviation: RUN_SPREAD * peak * rise(own, 0.1) }
+                MeanAndDeviation { mean, deviation: RUN_SPREAD * peak * rise(own, 0.1) }
             }
-            Gait::Stand => {
+            GaitType::Stand => {
                 let shared = self.others.iter().any(|o| (o[0]..=o[1]).contains(&time));
                 let mean = if shared { 0.5 } else { 1.0 };
-                Expected { mean, deviation: STAND_SPREAD }
+                MeanAndDeviation { mean, deviation: STAND_SPREAD }
             }
         }
     }
 
-    /// Means and deviations of all components [N or N.m], in the order of [`Component::ALL`]. `lever` leads from the expected centre of
-    /// pressure to the mass centre [m].
-    pub(super) fn all(&self, time: f64, lever: Vec3) -> [Expected; 6] {
-        let Measure { up, weight_n, height_m, .. } = *self.measure;
+    /// Means and deviations of all components [N or N.m], in the order of [`Component::ALL`]. `lever` leads from the expected centre
+    /// of pressure to the mass centre [m].
+    pub(super) fn all(&self, time: f64, lever: Vec3) -> [MeanAndDeviation; 6] {
+        let BodyScale { up, weight_n, height_m, .. } = *self.body_scale;
         let (stance, weights) = (self.stance, self.weights);
         let vertical = self.vertical(time);
-        let own = stance.own_phase(time);
+        let own = stance.elapsed_share(time);
         let loaded = (vertical.mean / WHOLE_LOAD).clamp(0.0, 1.0);
         let height = lever.dot(&up).max(0.1 * height_m);
         let lean = |axis: Vec3| weights.sideways_lever * vertical.mean * lever.dot(&axis) / height;
         let forward = match stance.gait {
-            Gait::Walk => {
+            GaitType::Walk => {
                 let found = self.curves.fore_aft(stance.phase(time));
-                Expected { deviation: found.deviation * weights.spread[0], ..found }
+                MeanAndDeviation { deviation: found.deviation * weights.spread[0], ..found }
             }
-            Gait::Run | Gait::Stand => Expected {
+            GaitType::Run | GaitType::Stand => MeanAndDeviation {
                 mean: lean(stance.forward),
                 deviation: LEAN_SPREAD * vertical.mean.max(0.2) * rise(own, 0.1),
             },
         };
         let outwards = if stance.side == Side::Right { 1.0 } else { -1.0 };
-        let push = if stance.gait == Gait::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
-        let right =
-            Expected { mean: lean(stance.right) + outwards * push, deviation: weights.sideways_spread * loaded };
-        let about_zero = |deviation: f64| Expected { mean: 0.0, deviation: deviation * self.measure.size() };
-        // Along the foot the centre of pressure turns the load about the right, across it about forward.
+        let push = if stance.gait == GaitType::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
+        let right = MeanAndDeviation {
+            mean: lean(stance.right) + outwards * push,
+            deviation: weights.sideways_spread * loaded,
+        };
+        let about_zero = |deviation: f64| MeanAndDeviation { mean: 0.0, deviation: deviation * self.body_scale.size() };
+        // A centre of pressure displaced along the foot makes a moment about the right axis, across the foot about the forward axis.
         let [along, across] = weights.center_spread.map(|spread| spread * vertical.mean.max(0.0));
         let all = [
             forward,
@@ -131,22 +133,22 @@ impl<'a> Expectation<'a> {
             about_zero(weights.free_moment_spread * loaded),
             about_zero(along),
         ];
-        // A curve that cannot deviate at all cannot follow what an end of the stance found early or late asks for.
-        std::array::from_fn(|c| Expected {
+        // Without a smallest deviation a curve could not adapt to a strike or off that was detected early or late.
+        std::array::from_fn(|c| MeanAndDeviation {
             mean: all[c].mean * weight_n,
             deviation: all[c].deviation.max(LEAST_SPREAD[c / 3]) * weight_n,
         })
     }
 }
 
-/// From 0 at the strike to 1 at a twentieth of the stance and away again.
+/// A pulse: 0 at the strike, 1 at a twentieth of the stance, then decaying.
 fn push_after_strike(phase: f64) -> f64 {
     const HIGHEST_AT: f64 = 0.05;
     let x = phase / HIGHEST_AT;
     x * (0.5 * (1.0 - x * x)).exp()
 }
 
-/// From 0 at both ends of the stance to 1 after a share of it.
+/// A ramp from (almost) 0 at both ends of the stance to 1 after a share of it.
 fn rise(phase: f64, share: f64) -> f64 {
     (phase.min(1.0 - phase) / share).clamp(0.05, 1.0)
 }

@@ -1,23 +1,23 @@
-//! Where the mass centre and the soles are, and how the shanks lean, in every frame.
+//! Positions of the mass centre, the soles and the shanks in every frame.
 
 use crate::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use crate::model::anatomy::{Leg, Sole, SolePoint};
 use crate::model::{BodyId, BySide, Model};
 use crate::spatial::Vec3;
 
-/// One foot at one instant.
+/// Sole and shank of one foot in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FootPlace {
     /// Rear, ball and tip of the sole [m].
     pub(super) sole: [Vec3; 3],
-    /// From ankle to knee, unit length; `None` where the model has no such joints.
+    /// Unit vector from ankle to knee; `None` where the model has no such joints.
     pub(super) shank: Option<Vec3>,
 }
 
-/// What the forces act on, one entry a frame.
+/// Mass centre and feet, one entry per frame.
 #[derive(Debug, Clone)]
 pub(super) struct Geometry {
-    /// Place [m] and velocity [m/s] of the mass centre.
+    /// Position [m] and velocity [m/s] of the mass centre.
     pub(super) center: Vec<Vec3>,
     pub(super) velocity: Vec<Vec3>,
     /// Each foot, one entry per frame.
@@ -56,7 +56,7 @@ impl Geometry {
     }
 }
 
-/// From ankle to knee, unit length.
+/// Unit vector from ankle to knee.
 fn shank(model: &Model, bodies: &[BodyMotion], leg: &Leg) -> Vec3 {
     let center = |body: BodyId| {
         let joint = &model.bodies()[body.index()].joint;

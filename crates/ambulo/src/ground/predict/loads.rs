@@ -1,41 +1,41 @@
-//! The estimate read out: forces, centres of pressure and free moments of a foot in every frame, with standard deviations.
+//! Forces, centres of pressure and free moments of a foot in every frame from the estimate, with standard deviations.
 
 use super::FootDeviation;
 use super::expected::Expectation;
-use super::samples::{Evidence, Part, frames_of, sample};
-use super::stances::Gait;
-use super::system::Solution;
+use super::normal_equations::Solution;
+use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
+use super::stances::GaitType;
 use super::unknowns::{Curve, Unknowns};
 use crate::model::Side;
 use crate::spatial::Vec3;
 
-/// Below this vertical force the centre of pressure is not moved any further by a moment [body weights].
+/// Smallest vertical force by which a moment is divided to get the centre of pressure [body weights].
 const LEAST_LOAD: f64 = 0.05;
 
-/// Deviations were calibrated on walks; the one run at hand is off by about three times as much (docs/measured/VALIDATION.md).
+/// Deviations were calibrated on walks; errors of the one available run are about three times larger (docs/measured/VALIDATION.md).
 const RUN_DEVIATION: f64 = 3.0;
 
-/// Loads of one foot, one entry a frame.
+/// Loads of one foot, one entry per frame.
 #[derive(Debug, Clone)]
 pub(super) struct FootLoads {
     pub(super) force: Vec<Vec3>,
     pub(super) center: Vec<Vec3>,
     /// About the vertical through the centre of pressure [N.m].
     pub(super) free_moment: Vec<f64>,
-    /// Of the ground, along the upward direction [m].
+    /// Height of the ground [m].
     pub(super) height: Vec<f64>,
     pub(super) deviation: FootDeviation,
 }
 
-/// Loads of one foot in every frame; zero while it does not stand.
+/// Loads of one foot in every frame; zero in swing.
 pub(super) fn loads(
     side: Side,
-    evidence: &Evidence<'_>,
+    inputs: &EstimateInputs<'_>,
     expectations: &[Expectation<'_>],
     unknowns: &Unknowns,
     solution: &Solution,
 ) -> FootLoads {
-    let frames = evidence.grid.frames;
+    let frames = inputs.grid.frames;
     let zeros = || vec![Vec3::zeros(); frames];
     let mut out = FootLoads {
         force: zeros(),
@@ -46,40 +46,41 @@ pub(super) fn loads(
     };
     for (expectation, curves) in expectations.iter().zip(&unknowns.curves).filter(|(e, _)| e.stance.side == side) {
         let stance = expectation.stance;
-        for frame in frames_of(evidence, stance) {
-            let at = sample(evidence, expectation, curves, frame);
+        for frame in frames_of(inputs, stance) {
+            let at = sample(inputs, expectation, curves, frame);
             let estimates: [Estimate; 6] = std::array::from_fn(|c| Estimate::of(&at.parts[c], &curves[c], solution));
             let [forward, up, right, about_forward, about_up, about_right] = estimates;
-            let axes = [stance.forward, evidence.measure.up, stance.right];
-            let vertical = up.value.max(LEAST_LOAD * evidence.measure.weight_n);
+            let axes = [stance.forward, inputs.body_scale.up, stance.right];
+            let vertical = up.value.max(LEAST_LOAD * inputs.body_scale.weight_n);
             out.force[frame] = axes[0] * forward.value + axes[1] * up.value + axes[2] * right.value;
-            out.center[frame] = match evidence.known.center_at(side, frame) {
+            out.center[frame] = match inputs.prescribed.center_at(side, frame) {
                 Some(center) => center,
-                // δ × F = T for a centre of pressure δ away from its path.
+                // δ × F = T for a centre of pressure at distance δ from its expected path.
                 None => {
                     let moved = (axes[0] * about_right.value - axes[2] * about_forward.value) / vertical;
-                    let sole = &evidence.geometry.feet[side][frame].sole;
-                    nearest_on_sole(sole, evidence.half_widths[side], at.center + moved, axes[1])
+                    let sole = &inputs.geometry.feet[side][frame].sole;
+                    nearest_on_sole(sole, inputs.half_widths[side], at.center + moved, axes[1])
                 }
             };
             out.free_moment[frame] = about_up.value;
             out.height[frame] = stance.height_m;
             let deviation = &mut out.deviation;
-            let unsure = if stance.gait == Gait::Run { RUN_DEVIATION } else { 1.0 };
-            let weight = evidence.measure.weight_n;
-            let calibration = &evidence.weights.calibration;
+            let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
+            let weight = inputs.body_scale.weight_n;
+            let calibration = &inputs.weights.calibration;
             let spread = |axis: usize, of: &Estimate| calibration.force[axis].variance(of.variance, weight);
-            deviation.force[frame] = turned(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * unsure;
+            deviation.force[frame] =
+                rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
             let [along, across] = [(0, &about_right), (1, &about_forward)]
                 .map(|(axis, of)| calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0));
-            deviation.center[frame] = turned(axes, [along, 0.0, across]) * unsure;
+            deviation.center[frame] = rotated(axes, [along, 0.0, across]) * run_factor;
             deviation.free_moment[frame] = calibration.free_moment.variance(about_up.variance, weight).sqrt();
         }
     }
     out
 }
 
-/// The place nearest to `place` on a sole whose points are at `points`, seen along `up`; its height stays.
+/// The point of a sole nearest to `place`, in the horizontal plane; the height of `place` is kept.
 fn nearest_on_sole(points: &[Vec3; 3], half_width: f64, place: Vec3, up: Vec3) -> Vec3 {
     let level = |v: Vec3| v - up * v.dot(&up);
     let target = level(place);
@@ -93,14 +94,14 @@ fn nearest_on_sole(points: &[Vec3; 3], half_width: f64, place: Vec3, up: Vec3) -
     nearest + away * (half_width / away.norm().max(half_width)) + up * place.dot(&up)
 }
 
-/// A component with its variance.
+/// Value and variance of a component.
 struct Estimate {
     value: f64,
     variance: f64,
 }
 
 impl Estimate {
-    fn of(part: &Part, curve: &Curve, solution: &Solution) -> Estimate {
+    fn of(part: &ComponentSample, curve: &Curve, solution: &Solution) -> Estimate {
         let (k, splines) = part.active;
         let numbers = &curve.numbers[k..k + 4];
         let (mut z, mut variance) = (0.0, 0.0);
@@ -118,8 +119,8 @@ impl Estimate {
     }
 }
 
-/// Standard deviations along the world's axes of something with these variances along others.
-fn turned(axes: [Vec3; 3], variances: [f64; 3]) -> Vec3 {
+/// Standard deviations along the world's axes from variances along other axes.
+fn rotated(axes: [Vec3; 3], variances: [f64; 3]) -> Vec3 {
     let along = |world: usize| (0..3).map(|i| axes[i][world].powi(2) * variances[i]).sum::<f64>();
     Vec3::new(along(0), along(1), along(2)).map(f64::sqrt)
 }

@@ -1,23 +1,23 @@
-//! What the ground does to the feet, from the motion alone.
+//! Predicts the ground reaction forces on both feet from the motion alone.
 //!
-//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the feet's own motion says when
-//! each stands ([`super::footfalls`]); what people's feet carry who walk at this speed says what to expect of a stance. The likeliest curves
-//! under all of this are the answer, with their deviations ([`estimate`]); docs/GROUND_FORCES.md tells the method, its accuracy and its
-//! weak points. While both feet stand six equations face twelve unknowns: the rule that decides is named in every result.
+//! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the motion of the feet gives
+//! the stances ([`super::footfalls`]); normative curves at the same walking speed give a prior for each stance. The result is the
+//! maximum a posteriori estimate with its standard deviations ([`estimate`]); docs/GROUND_FORCES.md describes the method, its accuracy
+//! and its limits. In double support twelve unknowns have six equations: every result names the rule that divides the forces.
 //! Pinned by: tests/ground_predict.rs
 
-mod calibration;
 mod center_path;
+mod deviation_calibration;
 mod estimate;
 mod expected;
+mod gaussian_filter;
 mod geometry;
-mod known;
 mod loads;
+mod normal_equations;
+mod prescribed;
 mod samples;
 mod stance_curves;
 mod stances;
-mod system;
-mod taps;
 mod total;
 mod unilateral;
 mod unknowns;
@@ -31,39 +31,39 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
-pub use calibration::{Calibration, Spread};
+pub use deviation_calibration::{DeviationCalibration, DeviationScaling};
 use estimate::estimate;
 use geometry::Geometry;
-pub use known::Known;
-use samples::Evidence;
+pub use prescribed::Prescribed;
+use samples::EstimateInputs;
 use stance_curves::StanceCurves;
-use stances::{Measure, stances};
+use stances::{BodyScale, stances};
 use std::ops::Range;
 pub use total::total_wrench;
-use unilateral::keep_on_the_ground;
+use unilateral::enforce_unilateral_contact;
 pub use weights::Weights;
 
-/// Less gravity holds nobody on the ground [m/s²].
+/// Smallest accepted gravity [m/s²].
 const LEAST_GRAVITY: f64 = 0.1;
-/// The name of the rule that divides double support.
-const RULE: &str = "likeliest curves of all stances: lever rule, curves of people by speed, smoothness";
+/// How forces are divided between the feet in double support.
+const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness)";
 
-/// Forces under the feet that no plate measured.
+/// Predicted ground reaction forces with standard deviations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// What the ground does: one entry a foot, right and left.
+    /// Ground reaction forces on the right and the left foot.
     pub ground: GroundForces,
-    /// How far it may be off: right and left.
+    /// Standard deviations for the right and the left foot.
     pub deviations: Vec<FootDeviation>,
-    /// When the feet stand.
+    /// Stances of the feet.
     pub footfalls: Footfalls,
-    /// Of the ground on the body, by Newton's law alone: force [N] and moment about the world's origin [N.m], one entry a frame.
+    /// Total ground force [N] and moment about the world's origin [N.m] that the motion requires, one entry per frame.
     pub total: Vec<Wrench>,
-    /// How double support was divided, in words.
+    /// How forces were divided between the feet in double support, in words.
     pub rule: &'static str,
 }
 
-/// Standard deviations of what was predicted for a foot, one entry a frame; zero while it does not stand.
+/// Standard deviations of the prediction for one foot, one entry per frame; zero in swing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootDeviation {
     /// Which foot.
@@ -77,14 +77,14 @@ pub struct FootDeviation {
 }
 
 impl Prediction {
-    /// What the ground does to a foot, and how far it may be off.
+    /// Ground reaction force on a foot and its standard deviation.
     #[must_use]
     pub fn foot(&self, side: Side) -> (&BodyForces, &FootDeviation) {
         let index = usize::from(side == Side::Left);
         (&self.ground.bodies[index], &self.deviations[index])
     }
 
-    /// Some of its frames, those of `grid`; stances that reach beyond are cut there.
+    /// A range of the frames, whose time grid is `grid`; stances are cut at its ends.
     #[must_use]
     pub(crate) fn within(&self, frames: Range<usize>, grid: TimeGrid) -> Prediction {
         let deviation = |of: &FootDeviation| FootDeviation {
@@ -114,23 +114,21 @@ impl Prediction {
     }
 }
 
-/// How forces are predicted.
+/// Settings of [`predict`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PredictSettings {
-    /// What is known from elsewhere and need not be found.
-    pub known: Known,
-    /// How much each piece of evidence counts.
+    /// Quantities that are given and not estimated.
+    pub prescribed: Prescribed,
+    /// Standard deviations of prior and evidence.
     pub weights: Weights,
 }
 
-/// Why no forces can be predicted.
+/// Why forces cannot be predicted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PredictError {
     /// A model without feet.
-    #[error(
-        "the model `{model}` has no two legs with hip, knee, ankle and foot; expected feet for the ground to act on"
-    )]
+    #[error("the model `{model}` has no two legs with hip, knee, ankle and foot; expected both legs")]
     NoFeet {
         /// Its name.
         model: String,
@@ -143,7 +141,7 @@ pub enum PredictError {
         /// Which foot.
         side: Side,
     },
-    /// A model that weighs nothing.
+    /// A model without mass.
     #[error(
         "the model `{model}` has a mass of {mass} kg; expected bodies with masses. hint: from motion alone every force scales with the mass"
     )]
@@ -153,7 +151,7 @@ pub enum PredictError {
         /// Its mass [kg].
         mass: f64,
     },
-    /// A model that nothing presses to the ground.
+    /// A model without gravity.
     #[error("the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1")]
     NoGravity {
         /// Its name.
@@ -161,51 +159,51 @@ pub enum PredictError {
         /// Its gravity [m/s²].
         gravity: f64,
     },
-    /// The crate's own curves.
-    #[error("the curves of stances cannot be read: {message}")]
+    /// Built-in curves that cannot be read.
+    #[error("the built-in normative curves cannot be read: {message}")]
     Curves {
         /// Why.
         message: String,
     },
-    /// More than memory should hold.
+    /// Equations that need too much memory.
     #[error(
-        "the equations of the forces would take {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a shorter range; feet that strike many times per second are a sign of noise"
+        "the estimate of the ground forces would need {found_mb:.0} MB; expected {most_mb:.0} MB at most. hint: use a shorter range; many foot strikes per second are a sign of noise"
     )]
     TooLarge {
-        /// What they would take.
+        /// Memory that they need [MB].
         found_mb: f64,
-        /// What they may take.
+        /// Memory limit [MB].
         most_mb: f64,
     },
-    /// Stances that are known and cannot be.
+    /// Prescribed stances that overlap or end before they begin.
     #[error(
-        "a known stance of the {side} foot at {time_s} s ends before it begins, or before the one before it has ended; expected stances in order of time"
+        "a prescribed stance of the {side} foot at {time_s} s ends before it begins or overlaps the previous one; expected stances in order of time"
     )]
     Footfalls {
         /// Which foot.
         side: Side,
-        /// When it strikes, or leaves [s].
+        /// Its foot strike or foot off [s].
         time_s: f64,
     },
-    /// The motion's numbers.
-    #[error("the equations of the forces have no solution; expected finite numbers in the motion")]
+    /// Equations without a solution.
+    #[error("the estimate of the ground forces has no solution; expected finite numbers in the motion")]
     NoSolution,
-    /// What is known has another number of frames than the motion.
-    #[error("the known {what} has {found} frames; expected {expected}, as many as the motion")]
+    /// A prescribed series of another length than the motion.
+    #[error("the prescribed {what} has {found} frames; expected {expected}, as many as the motion")]
     Shape {
-        /// What is known.
+        /// The series.
         what: &'static str,
-        /// How many frames it has.
+        /// Its number of frames.
         found: usize,
-        /// How many it should have.
+        /// Number of frames of the motion.
         expected: usize,
     },
 }
 
-/// Predicts the forces under both feet, on the bodies that carry the rear ends of the soles.
+/// Predicts the ground reaction forces on both feet. They act on the bodies with the rear points of the soles.
 ///
 /// # Errors
-/// A model without feet or soles, known numbers of another length than the motion: see [`PredictError`].
+/// A model without feet or soles, prescribed series of another length than the motion: see [`PredictError`].
 pub fn predict(
     model: &Model,
     trajectory: &Trajectory,
@@ -219,12 +217,12 @@ pub fn predict(
     }
     let sole = |side: Side| soles[side].ok_or_else(|| PredictError::NoSole { model: name(), side });
     let soles = BySide { right: sole(Side::Right)?, left: sole(Side::Left)? };
-    settings.known.check(trajectory.grid().frames)?;
-    let footfalls = match &settings.known.footfalls {
-        Some(known) => known.clone(),
+    settings.prescribed.check(trajectory.grid().frames)?;
+    let footfalls = match &settings.prescribed.footfalls {
+        Some(prescribed) => prescribed.clone(),
         None => footfalls(model, trajectory, &soles.map(Some), findings),
     };
-    let total = settings.known.total(total_wrench(model, trajectory));
+    let total = settings.prescribed.total(total_wrench(model, trajectory));
     let up = upward(model);
     let stature = model.stature();
     let gravity = model.gravity().norm();
@@ -234,7 +232,7 @@ pub fn predict(
     if gravity < LEAST_GRAVITY {
         return Err(PredictError::NoGravity { model: name(), gravity });
     }
-    let measure = Measure {
+    let body_scale = BodyScale {
         up,
         weight_n: model.mass() * gravity,
         leg_time_s: (stature.leg_length_m / gravity).sqrt(),
@@ -243,19 +241,19 @@ pub fn predict(
     };
     let curves = StanceCurves::built_in().map_err(|e| PredictError::Curves { message: e.to_string() })?;
     let geometry = Geometry::new(model, trajectory, &soles);
-    let stances = stances(&footfalls, trajectory.grid(), &geometry, &measure, curves);
-    let evidence = Evidence {
+    let stances = stances(&footfalls, trajectory.grid(), &geometry, &body_scale, curves);
+    let inputs = EstimateInputs {
         grid: trajectory.grid(),
         geometry: &geometry,
         half_widths: soles.map(|sole| sole.half_width),
         stances: &stances,
         total: &total,
-        measure: &measure,
+        body_scale: &body_scale,
         weights: &settings.weights,
-        known: &settings.known,
+        prescribed: &settings.prescribed,
     };
-    let mut feet = estimate(&evidence, curves)?;
-    keep_on_the_ground(&mut feet, up, &settings.known);
+    let mut feet = estimate(&inputs, curves)?;
+    enforce_unilateral_contact(&mut feet, up, &settings.prescribed);
     let deviations = feet.values().map(|foot| foot.deviation.clone()).collect();
     let ground = feet.iter().map(|(side, foot)| {
         let body = soles[side].points[0].body;

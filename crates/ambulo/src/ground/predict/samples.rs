@@ -1,37 +1,37 @@
-//! What is expected of every stance, and how its unknowns act, on the instants that the estimate looks at.
+//! Prior and splines of every stance, sampled at the frames that the estimate uses.
 
 use super::center_path::center_path;
 use super::expected::{Component, Expectation};
 use super::geometry::Geometry;
-use super::known::Known;
-use super::stances::{Measure, Stance};
-use super::unknowns::{Active, Curve};
+use super::prescribed::Prescribed;
+use super::stances::{BodyScale, Stance};
+use super::unknowns::{ActiveSplines, Curve};
 use super::weights::Weights;
 use crate::model::BySide;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
-/// What the estimate is made from: the motion of feet and mass centre, the stances and the total wrench.
-pub(super) struct Evidence<'a> {
+/// Inputs of the estimate: the motion of feet and mass centre, the stances and the total wrench.
+pub(super) struct EstimateInputs<'a> {
     pub(super) grid: TimeGrid,
     pub(super) geometry: &'a Geometry,
-    /// Half the breadth of right and left sole [m].
+    /// Half the width of the right and the left sole [m].
     pub(super) half_widths: BySide<f64>,
     pub(super) stances: &'a [Stance],
     /// About the world's origin.
     pub(super) total: &'a [Wrench],
-    pub(super) measure: &'a Measure,
+    pub(super) body_scale: &'a BodyScale,
     pub(super) weights: &'a Weights,
-    pub(super) known: &'a Known,
+    pub(super) prescribed: &'a Prescribed,
 }
 
-impl Evidence<'_> {
-    /// The centre of pressure that is expected at a frame [m].
+impl EstimateInputs<'_> {
+    /// Expected centre of pressure in a frame [m].
     pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
         let place = &self.geometry.feet[stance.side][frame];
-        let path = || center_path(place, stance, self.grid.time(frame), self.measure, self.weights);
-        self.known.center_at(stance.side, frame).unwrap_or_else(path)
+        let path = || center_path(place, stance, self.grid.time(frame), self.body_scale, self.weights);
+        self.prescribed.center_at(stance.side, frame).unwrap_or_else(path)
     }
 
     /// The total wrench about the mass centre.
@@ -40,62 +40,62 @@ impl Evidence<'_> {
     }
 }
 
-/// One component at one instant.
+/// One component of a load in one frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    /// What is expected [N or N.m], and its deviation.
+pub(super) struct ComponentSample {
+    /// Prior mean and standard deviation [N or N.m].
     pub(super) mean: f64,
     pub(super) deviation: f64,
-    /// The unknowns that act.
-    pub(super) active: Active,
-    /// The load on the body about its mass centre when the component is one.
+    /// The unknowns with influence.
+    pub(super) active: ActiveSplines,
+    /// The wrench about the mass centre for a component of 1.
     pub(super) unit: Wrench,
 }
 
-/// A stance at one instant.
+/// All components of a stance in one frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sample {
-    pub(super) parts: [Part; 6],
-    /// The expected load about the mass centre.
+pub(super) struct StanceSample {
+    pub(super) parts: [ComponentSample; 6],
+    /// Prior mean of the wrench about the mass centre.
     pub(super) expected: Wrench,
-    /// The expected centre of pressure [m].
+    /// Expected centre of pressure [m].
     pub(super) center: Vec3,
 }
 
-/// A stance on every `stride`th frame.
+/// A stance sampled at every `stride`th frame.
 #[derive(Debug, Clone)]
-pub(super) struct Samples {
+pub(super) struct StanceSamples {
     stride: usize,
-    /// Frame of the first sample over the stride.
+    /// Frame of the first sample divided by the stride.
     first: usize,
-    list: Vec<Sample>,
+    list: Vec<StanceSample>,
 }
 
-impl Samples {
-    /// Of a stance.
+impl StanceSamples {
+    /// Samples a stance.
     pub(super) fn new(
-        evidence: &Evidence<'_>,
+        inputs: &EstimateInputs<'_>,
         expectation: &Expectation<'_>,
         curves: &[Curve; 6],
         stride: usize,
-    ) -> Samples {
+    ) -> StanceSamples {
         let stance = expectation.stance;
-        let frames = frames_of(evidence, stance);
+        let frames = frames_of(inputs, stance);
         let first = frames.start.div_ceil(stride);
         let frames = (first * stride..frames.end).step_by(stride);
-        let list = frames.map(|frame| sample(evidence, expectation, curves, frame)).collect();
-        Samples { stride, first, list }
+        let list = frames.map(|frame| sample(inputs, expectation, curves, frame)).collect();
+        StanceSamples { stride, first, list }
     }
 
-    /// At a frame that is a multiple of the stride.
-    pub(super) fn at(&self, frame: usize) -> Option<&Sample> {
+    /// The sample at a frame that is a multiple of the stride.
+    pub(super) fn at(&self, frame: usize) -> Option<&StanceSample> {
         self.list.get((frame / self.stride).checked_sub(self.first)?)
     }
 }
 
 /// Frames of a stance.
-pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize> {
-    let grid = evidence.grid;
+pub(super) fn frames_of(inputs: &EstimateInputs<'_>, stance: &Stance) -> Range<usize> {
+    let grid = inputs.grid;
     let last = grid.frames as f64;
     let place = |time: f64| (time - grid.start_s) / grid.step_s;
     let first = place(stance.start_s).ceil().clamp(0.0, last) as usize;
@@ -103,19 +103,19 @@ pub(super) fn frames_of(evidence: &Evidence<'_>, stance: &Stance) -> Range<usize
     first..end.max(first)
 }
 
-/// A stance at any of its frames.
+/// A stance in any of its frames.
 pub(super) fn sample(
-    evidence: &Evidence<'_>,
+    inputs: &EstimateInputs<'_>,
     expectation: &Expectation<'_>,
     curves: &[Curve; 6],
     frame: usize,
-) -> Sample {
+) -> StanceSample {
     let stance = expectation.stance;
-    let time = evidence.grid.time(frame);
-    let center = evidence.expected_center(stance, frame);
-    let lever = evidence.geometry.center[frame] - center;
+    let time = inputs.grid.time(frame);
+    let center = inputs.expected_center(stance, frame);
+    let lever = inputs.geometry.center[frame] - center;
     let arm = -lever;
-    let axes = [stance.forward, evidence.measure.up, stance.right];
+    let axes = [stance.forward, inputs.body_scale.up, stance.right];
     let means = expectation.all(time, lever);
     let mut expected = Wrench::ZERO;
     let parts = std::array::from_fn(|c| {
@@ -125,7 +125,7 @@ pub(super) fn sample(
         };
         expected.force += unit.force * means[c].mean;
         expected.moment += unit.moment * means[c].mean;
-        Part { mean: means[c].mean, deviation: means[c].deviation, active: curves[c].active(time), unit }
+        ComponentSample { mean: means[c].mean, deviation: means[c].deviation, active: curves[c].active(time), unit }
     });
-    Sample { parts, expected, center }
+    StanceSample { parts, expected, center }
 }

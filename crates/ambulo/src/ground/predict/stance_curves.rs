@@ -1,8 +1,8 @@
-//! What people's feet carry over a stance, by walking speed: what a prediction starts from.
+//! Normative curves of the ground force over a stance, by walking speed: the prior of a prediction.
 //!
-//! Walking: mean and deviation of Schwartz, Rozumalski, Trost 2008 at five speeds, between strike and foot off; the file's header
-//! tells source, licence and form (`cargo xtask fit-ground` writes it). Between the speeds values are read on straight lines, outside
-//! of them at the nearest.
+//! Mean and standard deviation of Schwartz, Rozumalski, Trost 2008 at five speeds, between foot strike and foot off; the header of
+//! the data file has source, licence and form (`cargo xtask fit-ground` writes it). Values are interpolated linearly between the
+//! speeds; beyond them the nearest speed is used.
 
 use crate::toml_reader::{Source, Table, TomlError, Value};
 use std::sync::LazyLock;
@@ -14,7 +14,7 @@ const SAMPLES: usize = 26;
 
 /// Mean and standard deviation [body weights].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Expected {
+pub(super) struct MeanAndDeviation {
     pub(super) mean: f64,
     pub(super) deviation: f64,
 }
@@ -25,23 +25,23 @@ struct Curve {
     deviation: [f64; SAMPLES],
 }
 
-/// Shares of a stance at which the other foot leaves and meets the ground.
+/// Times of the other foot's off and strike, as shares of a stance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Landmarks {
+pub(super) struct OtherFootEvents {
     pub(super) other_off: f64,
     pub(super) other_strike: f64,
 }
 
-/// The curves of the crate.
+/// The built-in normative curves.
 #[derive(Debug, Clone)]
 pub(super) struct StanceCurves {
     speeds: [f64; SPEEDS],
-    landmarks: [Landmarks; SPEEDS],
+    other_foot_events: [OtherFootEvents; SPEEDS],
     vertical: [Curve; SPEEDS],
     fore_aft: [Curve; SPEEDS],
 }
 
-/// A speed between two of the table's: index of the lower one, and the share of the way to the upper one.
+/// The curves at a speed: index of the next lower speed of the table, and the share of the next higher one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AtSpeed<'c> {
     curves: &'c StanceCurves,
@@ -50,10 +50,10 @@ pub(super) struct AtSpeed<'c> {
 }
 
 impl StanceCurves {
-    /// The curves of the crate.
+    /// The built-in curves.
     ///
     /// # Errors
-    /// None; a test reads the file.
+    /// None: a test reads the file.
     pub(super) fn built_in() -> Result<&'static StanceCurves, &'static TomlError> {
         static CURVES_READ: LazyLock<Result<StanceCurves, TomlError>> =
             LazyLock::new(|| StanceCurves::from_toml(CURVES));
@@ -65,15 +65,15 @@ impl StanceCurves {
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
         root.only(&[&["speeds", "foot_off", "other_off", "other_strike", "vertical", "fore_aft"]])?;
-        let list = |key: &str| root.need(key, "one number a speed")?.numbers::<SPEEDS>("five numbers");
+        let list = |key: &str| root.need(key, "one number per speed")?.numbers::<SPEEDS>("five numbers");
         let (off, other_off, other_strike) = (list("foot_off")?, list("other_off")?, list("other_strike")?);
-        let landmarks = std::array::from_fn(|i| Landmarks {
+        let other_foot_events = std::array::from_fn(|i| OtherFootEvents {
             other_off: other_off[i] / off[i],
             other_strike: other_strike[i] / off[i],
         });
         Ok(StanceCurves {
             speeds: list("speeds")?,
-            landmarks,
+            other_foot_events,
             vertical: curves(&root, "vertical")?,
             fore_aft: curves(&root, "fore_aft")?,
         })
@@ -89,28 +89,28 @@ impl StanceCurves {
 }
 
 impl AtSpeed<'_> {
-    pub(super) fn landmarks(&self) -> Landmarks {
-        let [low, high] = [self.curves.landmarks[self.index], self.curves.landmarks[self.index + 1]];
-        Landmarks {
+    pub(super) fn other_foot_events(&self) -> OtherFootEvents {
+        let [low, high] = [self.curves.other_foot_events[self.index], self.curves.other_foot_events[self.index + 1]];
+        OtherFootEvents {
             other_off: mix(low.other_off, high.other_off, self.share),
             other_strike: mix(low.other_strike, high.other_strike, self.share),
         }
     }
 
-    /// Upward force at a share of the stance.
-    pub(super) fn vertical(&self, phase: f64) -> Expected {
+    /// Vertical force at a share of the stance.
+    pub(super) fn vertical(&self, phase: f64) -> MeanAndDeviation {
         self.expected(&self.curves.vertical, phase)
     }
 
-    /// Forward force at a share of the stance.
-    pub(super) fn fore_aft(&self, phase: f64) -> Expected {
+    /// Fore-aft force at a share of the stance.
+    pub(super) fn fore_aft(&self, phase: f64) -> MeanAndDeviation {
         self.expected(&self.curves.fore_aft, phase)
     }
 
-    fn expected(&self, curves: &[Curve; SPEEDS], phase: f64) -> Expected {
+    fn expected(&self, curves: &[Curve; SPEEDS], phase: f64) -> MeanAndDeviation {
         let [low, high] = [&curves[self.index], &curves[self.index + 1]];
         let read = |of: fn(&Curve) -> &[f64; SAMPLES]| mix(sample(of(low), phase), sample(of(high), phase), self.share);
-        Expected { mean: read(|c| &c.mean), deviation: read(|c| &c.deviation) }
+        MeanAndDeviation { mean: read(|c| &c.mean), deviation: read(|c| &c.deviation) }
     }
 }
 
@@ -142,18 +142,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_is_read_and_its_curves_are_those_of_walking() {
+    fn the_built_in_curves_are_those_of_walking() {
         let curves = StanceCurves::built_in().unwrap();
         let free = curves.at_speed(0.429);
         let peak = (0..=100).map(|i| free.vertical(f64::from(i) / 100.0).mean).fold(0.0, f64::max);
         assert!((1.05..1.2).contains(&peak), "{peak}");
         assert!(free.vertical(0.0).mean.abs() < 1e-12 && free.vertical(1.0).mean.abs() < 1e-12);
         assert!(free.fore_aft(0.2).mean < -0.1 && free.fore_aft(0.85).mean > 0.1);
-        assert!((free.landmarks().other_off - 0.10 / 0.59).abs() < 1e-9);
+        assert!((free.other_foot_events().other_off - 0.10 / 0.59).abs() < 1e-9);
     }
 
     #[test]
-    fn outside_of_the_speeds_the_nearest_is_taken() {
+    fn beyond_the_speeds_the_nearest_one_is_used() {
         let curves = StanceCurves::built_in().unwrap();
         for (outside, nearest) in [(0.0, 0.172), (2.0, 0.694)] {
             let (a, b) = (curves.at_speed(outside).vertical(0.3), curves.at_speed(nearest).vertical(0.3));

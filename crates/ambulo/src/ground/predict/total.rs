@@ -2,15 +2,14 @@
 //!
 //!   F = Σ m (a - g)        M₀ = Σ (I α + ω × I ω + c × m (a - g))
 //!
-//! This is what the joints to ground carry in inverse dynamics without loads, taken about the world's origin: whatever holds the body
-//! up must come from there.
+//! Computed as the reaction of the joints to ground in inverse dynamics without loads, expressed about the world's origin.
 
 use crate::dynamics::{JointReaction, Workspace, inverse};
 use crate::kinematics::Trajectory;
 use crate::model::Model;
 use crate::spatial::Wrench;
 
-/// Force [N] and moment about the world's origin [N.m] that the motion asks of the ground, one entry a frame.
+/// Total ground force [N] and moment about the world's origin [N.m] that the motion requires, one entry per frame.
 #[must_use]
 pub fn total_wrench(model: &Model, trajectory: &Trajectory) -> Vec<Wrench> {
     let forces = inverse(&mut Workspace::new(model), trajectory, &[]);

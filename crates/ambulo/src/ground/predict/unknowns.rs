@@ -1,13 +1,12 @@
-//! The unknown curves: how far each component of each stance departs from what is expected of it.
+//! The unknown curves: deviation of each component of each stance from its prior.
 //!
-//!   f(t) = μ(t) + s(t) Σ_k z_k B((t - t_k) / h) / β       z_k of unit deviation, independent
+//!   f(t) = μ(t) + s(t) Σ_k z_k B((t - t_k) / h) / β       z_k independent, mean 0, standard deviation 1
 //!
-//! with μ and s of [`super::expected`], B the cubic B-spline, h the least time in which the curve may deviate, and β² = Σ B² on average,
-//! so that f has the deviation s. All z are numbered by the time of their knot, so that what is far apart in time is far apart in number
-//! and the equations form a band.
+//! with μ and s of [`super::expected`], B the cubic B-spline, h the shortest time in which the curve may deviate, and β² = Σ B² on
+//! average, so that f has the standard deviation s. The z are numbered in order of time of their knots, so that the equations form a band.
 
 use super::expected::Component;
-use super::stances::{Measure, Stance};
+use super::stances::{BodyScale, Stance};
 use super::weights::Weights;
 
 /// β: root of the mean over one interval of Σ B², 151/315.
@@ -18,16 +17,16 @@ const UNIT: f64 = 0.692_358_7;
 pub(super) struct Curve {
     start_s: f64,
     spacing_s: f64,
-    /// Numbers of its unknowns in the whole system.
+    /// Indices of its unknowns in the whole system.
     pub(super) numbers: Vec<usize>,
 }
 
-/// Four splines that are not zero at an instant: the first one's index, and their values divided by β.
-pub(super) type Active = (usize, [f64; 4]);
+/// The four splines that are not zero at a time: index of the first one, and their values divided by β.
+pub(super) type ActiveSplines = (usize, [f64; 4]);
 
 impl Curve {
-    /// What counts at an instant inside the stance.
-    pub(super) fn active(&self, time: f64) -> Active {
+    /// The splines with influence at a time inside the stance.
+    pub(super) fn active(&self, time: f64) -> ActiveSplines {
         let intervals = self.numbers.len() - 3;
         let place = ((time - self.start_s) / self.spacing_s).clamp(0.0, intervals as f64);
         let first = (place as usize).min(intervals - 1);
@@ -44,7 +43,7 @@ impl Curve {
 }
 
 impl Curve {
-    /// Lowest and highest number that act between two instants.
+    /// Lowest and highest index of the unknowns with influence between two times.
     pub(super) fn range(&self, from_s: f64, to_s: f64) -> [usize; 2] {
         [self.numbers[self.active(from_s).0], self.numbers[self.active(to_s).0 + 3]]
     }
@@ -53,20 +52,20 @@ impl Curve {
 /// Curves of all components of all stances.
 #[derive(Debug, Clone)]
 pub(super) struct Unknowns {
-    /// One entry a stance, in the order of [`Component::ALL`].
+    /// One entry per stance, in the order of [`Component::ALL`].
     pub(super) curves: Vec<[Curve; 6]>,
     pub(super) count: usize,
 }
 
 impl Unknowns {
-    pub(super) fn new(stances: &[Stance], measure: &Measure, weights: &Weights) -> Unknowns {
+    pub(super) fn new(stances: &[Stance], body_scale: &BodyScale, weights: &Weights) -> Unknowns {
         let curve = |stance: &Stance, component: Component| {
             let detail = match component {
                 Component::Force(axis) => weights.detail[axis],
                 Component::Moment(_) => weights.detail[2],
             };
             let duration = stance.duration_s();
-            let intervals = (duration / (detail * measure.leg_time_s)).round().max(3.0) as usize;
+            let intervals = (duration / (detail * body_scale.leg_time_s)).round().max(3.0) as usize;
             Curve { start_s: stance.start_s, spacing_s: duration / intervals as f64, numbers: vec![0; intervals + 3] }
         };
         let mut curves: Vec<[Curve; 6]> =
@@ -85,7 +84,7 @@ impl Unknowns {
         Unknowns { curves, count: knots.len() }
     }
 
-    /// Most numbers between splines of one curve that act together.
+    /// Largest difference of indices between overlapping splines of one curve.
     pub(super) fn widest(&self) -> usize {
         let together = self.curves.iter().flatten().flat_map(|curve| curve.numbers.windows(4));
         together.map(|four| four[3] - four[0]).max().unwrap_or(0)
@@ -110,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_of_the_stance_the_nearest_splines_are_given() {
+    fn outside_the_stance_the_nearest_splines_are_used() {
         let curve = Curve { start_s: 0.0, spacing_s: 0.1, numbers: (0..6).collect() };
         assert_eq!(curve.active(-1.0).0, 0);
         assert_eq!(curve.active(9.0).0, 2);

@@ -1,40 +1,40 @@
-//! How much each piece of evidence counts: standard deviations and lengths, all of them dimensionless or in seconds.
+//! Parameters of the estimate: standard deviations and lengths, dimensionless or in seconds.
 
-use super::calibration::{Calibration, Spread};
+use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
 
-/// The numbers of the estimator that no law gives, fitted on the recordings with plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
-/// them, how they fare on subjects who were left out, and what changes when one is changed.
+/// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
+/// their leave-one-out errors and sensitivities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights {
-    /// Low-pass below which motion and forces are compared [Hz]: what lies above is skin, markers and noise. Both sides go through it,
-    /// so that the motion's own cut-off hardly matters.
+    /// Cut-off frequency of the low-pass filter through which motion and forces are compared [Hz]: above it are skin motion and noise.
+    /// Both sides are filtered, so that the cut-off frequency of the motion has little effect.
     pub bandwidth_hz: f64,
     /// Noise of the total force from motion: forward, up, sideways [body weights].
     pub force_noise: [f64; 3],
     /// Noise of the moment about the mass centre: about forward, up, sideways [body weights × m].
     pub moment_noise: [f64; 3],
-    /// Deviations of the feet's curves, as a multiple of those between people: forward, up.
+    /// Standard deviations of the prior, as a multiple of those between people: forward, up.
     pub spread: [f64; 2],
-    /// Deviation of the sideways force [body weights].
+    /// Standard deviation of the lateral force [body weights].
     pub sideways_spread: f64,
-    /// Sideways force over vertical force, as a share of the lever to the mass centre over its height.
+    /// Lateral force / vertical force, divided by lateral distance / height of the mass centre.
     pub sideways_lever: f64,
-    /// Outward push of a foot just after its strike, at its height [body weights].
+    /// Peak of the outward force just after foot strike [body weights].
     pub strike_push: f64,
-    /// Least time in which the curves deviate, in leg times √(L/g): forward, up, sideways.
+    /// Shortest time in which the curves deviate, in √(L/g): forward, up, sideways.
     pub detail: [f64; 3],
-    /// How far the centre of pressure may be off its path: along and across the foot [m at a stature of 1.75 m].
+    /// Standard deviation of the centre of pressure from its expected path: along and across the foot [m at a stature of 1.75 m].
     pub center_spread: [f64; 2],
-    /// Free moment of a foot [body weights × m].
+    /// Standard deviation of the free moment of a foot [body weights × m].
     pub free_moment_spread: f64,
-    /// Lean of the shank at which the centre of pressure is half-way from heel to ball, and the lean over which it goes [rad].
+    /// Lean of the shank at which the centre of pressure is half-way from heel to ball, and width of the transition [rad].
     pub center_lean: [f64; 2],
     /// Where the centre of pressure begins behind the rear of the sole, and where it ends from ball (0) to tip (1) [stature, 1].
     pub center_ends: [f64; 2],
-    /// How far the centre of pressure lies outwards of the middle of the foot [stature].
+    /// Lateral distance of the centre of pressure from the middle of the foot [stature].
     pub center_outwards: f64,
-    /// How far predictions are off in truth, against what the equations say.
-    pub calibration: Calibration,
+    /// Calibration of the standard deviations with measured errors.
+    pub calibration: DeviationCalibration,
 }
 
 impl Default for Weights {
@@ -53,14 +53,17 @@ impl Default for Weights {
             center_lean: [0.0933, 0.115],
             center_ends: [0.0154, 0.418],
             center_outwards: 0.00297,
-            calibration: Calibration {
+            calibration: DeviationCalibration {
                 force: [
-                    Spread { factor: 0.787, floor: 0.0195 },
-                    Spread { factor: 1.57, floor: 0.034 },
-                    Spread { factor: 1.07, floor: 0.00402 },
+                    DeviationScaling { factor: 0.787, floor: 0.0195 },
+                    DeviationScaling { factor: 1.57, floor: 0.034 },
+                    DeviationScaling { factor: 1.07, floor: 0.00402 },
                 ],
-                center: [Spread { factor: 1.92, floor: 0.00566 }, Spread { factor: 0.89, floor: 0.00414 }],
-                free_moment: Spread { factor: 1.21, floor: 0.00117 },
+                center: [
+                    DeviationScaling { factor: 1.92, floor: 0.00566 },
+                    DeviationScaling { factor: 0.89, floor: 0.00414 },
+                ],
+                free_moment: DeviationScaling { factor: 1.21, floor: 0.00117 },
             },
         }
     }

@@ -1,15 +1,15 @@
-//! What a stream refuses.
+//! Why a stream cannot be started or continued.
 
 use crate::ground::predict::PredictError;
 use crate::kinematics::TrajectoryError;
 use crate::motion::MotionError;
 
-/// Why a stream cannot be made or goes no further.
+/// Why a stream cannot be started or continued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StreamError {
-    /// A rate at which nothing can be streamed.
-    #[error("{found_hz} frames a second; expected {lowest_hz} to {highest_hz} Hz")]
+    /// A frame rate out of range.
+    #[error("a frame rate of {found_hz} Hz; expected {lowest_hz} to {highest_hz} Hz")]
     Rate {
         /// The rate [Hz].
         found_hz: f64,
@@ -18,7 +18,7 @@ pub enum StreamError {
         /// Highest rate [Hz].
         highest_hz: f64,
     },
-    /// A delay that is no time or does not fit the window.
+    /// A delay out of range.
     #[error(
         "a delay of {found_s} s; expected 0 to {longest_s} s, half of the window. hint: a longer window allows a longer delay"
     )]
@@ -28,9 +28,9 @@ pub enum StreamError {
         /// Longest delay [s].
         longest_s: f64,
     },
-    /// A window in which no step can be seen, or that asks for too much memory.
+    /// A window that is shorter than a stride or needs too much memory.
     #[error(
-        "a window of {found_s} s; expected {shortest_s} to {longest_s} s: a stride at least, two or more for good results"
+        "a window of {found_s} s; expected {shortest_s} to {longest_s} s: at least one stride, two or more for good results"
     )]
     Window {
         /// The window [s].
@@ -41,36 +41,36 @@ pub enum StreamError {
         longest_s: f64,
     },
     /// A frame with another number of coordinates than the model.
-    #[error("frame {frame} has {found} coordinates; expected {expected}, one for each of the model `{model}`")]
+    #[error("frame {frame} has {found} coordinates; expected {expected}, those of the model `{model}`")]
     Length {
-        /// Which frame, from 0.
+        /// Number of the frame, from 0.
         frame: usize,
-        /// How many it has.
+        /// Its number of coordinates.
         found: usize,
-        /// How many the model has.
+        /// Number of coordinates of the model.
         expected: usize,
         /// The model's name.
         model: String,
     },
     /// An infinite coordinate.
     #[error(
-        "`{coordinate}` is {found} in frame {frame}; expected a finite number. hint: a coordinate that was not seen is not-a-number"
+        "`{coordinate}` is {found} in frame {frame}; expected a finite number. hint: a missing coordinate is passed as not-a-number"
     )]
     Infinite {
         /// The coordinate.
         coordinate: String,
-        /// Which frame, from 0.
+        /// Number of the frame, from 0.
         frame: usize,
         /// Its value.
         found: f64,
     },
-    /// The frames of the window cannot be smoothed.
+    /// Smoothing failed.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// Nor made a trajectory.
+    /// The trajectory is not possible.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// Nor told the forces.
+    /// The prediction failed.
     #[error(transparent)]
     Prediction(#[from] PredictError),
 }

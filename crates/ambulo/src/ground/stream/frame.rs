@@ -1,4 +1,4 @@
-//! What a stream gives out: both feet and all joints at one instant.
+//! Results of a stream: the forces on both feet and in all joints in one frame.
 
 use crate::dynamics::{BodyLoad, Workspace, inverse_frame};
 use crate::ground::predict::Prediction;
@@ -7,37 +7,37 @@ use crate::kinematics::{Posture, Trajectory};
 use crate::model::{Model, Side};
 use crate::spatial::{Vec3, Wrench};
 
-/// Forces at one instant.
+/// Forces in one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreamFrame {
-    /// Which frame, from 0.
+    /// Number of the frame, from 0.
     pub frame: usize,
-    /// Its time after the first frame [s].
+    /// Time since the first frame [s].
     pub time_s: f64,
     /// Right and left foot.
     pub feet: [FootLoad; 2],
-    /// Generalised forces, one a coordinate of the model, under these loads [N.m or N].
+    /// Generalised forces under these loads, one per coordinate of the model [N.m or N].
     pub generalized: Vec<f64>,
 }
 
-/// What the ground does to one foot.
+/// Ground reaction force on one foot, with standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FootLoad {
     /// Which foot.
     pub side: Side,
-    /// Force [N]; zero while the foot is in the air.
+    /// Force [N]; zero in swing.
     pub force: Vec3,
     /// Moment about the world's origin [N.m].
     pub moment: Vec3,
     /// Centre of pressure [m]; `None` below [`crate::ground::CENTER_OF_PRESSURE_LOAD_N`].
     pub center_of_pressure: Option<Vec3>,
-    /// Moment about the vertical through it [N.m]; zero without one.
+    /// Free moment [N.m]; zero without a centre of pressure.
     pub free_moment: f64,
-    /// How far all this may be off.
+    /// Standard deviations.
     pub deviation: LoadDeviation,
 }
 
-/// Standard deviations of what a foot carries; zero while it is in the air.
+/// Standard deviations of a foot's load; zero in swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadDeviation {
     /// Of the force [N].
@@ -49,14 +49,14 @@ pub struct LoadDeviation {
 }
 
 impl FootLoad {
-    /// Whether the foot carries enough for a centre of pressure.
+    /// Whether the foot is loaded enough for a centre of pressure.
     #[must_use]
     pub fn loaded(&self) -> bool {
         self.center_of_pressure.is_some()
     }
 }
 
-/// Reads one frame of a window; `number` and `time_s` are those of the stream.
+/// The forces in one frame of a window; `number` and `time_s` are those of the stream.
 pub(super) fn read(
     model: &Model,
     workspace: &mut Workspace,

@@ -1,26 +1,26 @@
-//! Forces under the feet while the motion still comes in: one frame in, the forces of a frame a little earlier out.
+//! Predicts forces while the motion is being recorded: takes one frame, returns the forces in a slightly earlier frame.
 //!
-//! The last few seconds are kept. With every frame they are smoothed, and the forces are predicted by the same code as those of a whole
-//! recording ([`crate::motion::smooth`], [`predict`]); what it says of the frame at the delay is
-//! given out. That frame has only the delay after it: the smoothing ends there, and a stance that lasts longer is as long as the
-//! stances before it. docs/STREAMING.md tells what this costs against a whole recording.
+//! The last few seconds are kept. At every frame they are smoothed, and the forces are predicted by the same code as those of a whole
+//! recording ([`crate::motion::smooth`], [`predict`]); the frame at the delay is returned. Only the frames of the delay follow it:
+//! the smoothing ends there, and the duration of a stance that has not ended is estimated from earlier stances. docs/STREAMING.md
+//! compares the errors with those of a whole recording.
 //!
-//! A coordinate that was not seen is not-a-number. While the newest frame has one nothing can be given out, and the frames that were due
-//! then are never given. A gap of at most 0.2 s is then bridged as in a recording; after a longer one the stream begins anew.
-//! The first seconds are less certain: nothing is known of earlier stances, and as always, what is not known is not given a small deviation.
+//! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those frames are
+//! never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the stream starts again.
+//! The first seconds are less accurate, because earlier stances are not known; their standard deviations are larger accordingly.
 //!
-//! Memory: the frames of the window, allocated once, and scratch that is given back after each push. Cost of a push: a smoothing and a
-//! prediction of the window.
+//! Memory: the frames of the window, allocated once, and scratch memory that is freed after each push. Cost of a push: one smoothing
+//! and one prediction of the window.
 //! Pinned by: tests/ground_stream.rs
 
 mod continuation;
 mod error;
 mod frame;
-mod recent;
-mod rhythm;
+mod frame_buffer;
+mod step_timing;
 
 use super::footfalls::footfalls;
-use super::predict::{Known, PredictSettings, Prediction, Weights, predict};
+use super::predict::{PredictSettings, Prediction, Prescribed, Weights, predict};
 use crate::dynamics::Workspace;
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
@@ -32,35 +32,35 @@ use crate::motion::{SmoothSettings, Smoother, Window, smooth};
 use continuation::continued;
 pub use error::StreamError;
 pub use frame::{FootLoad, LoadDeviation, StreamFrame};
-use recent::Recent;
-use rhythm::Rhythm;
+use frame_buffer::FrameBuffer;
+use step_timing::StepTiming;
 
-/// Rates that motion is recorded at [Hz].
+/// Lowest and highest frame rate [Hz].
 const RATES_HZ: [f64; 2] = [20.0, 2000.0];
-/// A stride at the least; a minute, in which somebody may have turned round, at the most [s].
+/// Shortest and longest window [s]: one stride; a minute.
 const WINDOWS_S: [f64; 2] = [1.0, 60.0];
-/// A delay is rounded down to whole frames, unless it is this near to one more [frames].
+/// A delay is rounded down to whole frames, unless it is this close to the next one [frames].
 const NEAR_A_FRAME: f64 = 1e-6;
-/// A quintic spline needs this many frames.
+/// Number of frames that a quintic spline needs.
 const FEWEST_FRAMES: usize = 6;
 
-/// How a stream runs.
+/// Settings of a [`Stream`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StreamSettings {
-    /// Frames a second that will be pushed [Hz].
+    /// Frame rate of the motion [Hz].
     pub rate_hz: f64,
-    /// How long after a frame its forces are given out, at most [s].
+    /// Longest time from a frame to its forces [s].
     pub delay_s: f64,
-    /// How much of the motion is kept [s].
+    /// Duration of the motion that is kept [s].
     pub window_s: f64,
     /// How the motion is smoothed.
     pub smoother: Smoother,
-    /// How much each piece of evidence counts.
+    /// Parameters of the prediction.
     pub weights: Weights,
 }
 
 impl StreamSettings {
-    /// At this rate, with a delay of 70 ms, a window of 2.5 s, and the low-pass at 6 Hz that recordings have.
+    /// Defaults at a frame rate: a delay of 70 ms, a window of 2.5 s, and the low-pass filter of recordings, 6 Hz.
     #[must_use]
     pub fn at_rate(rate_hz: f64) -> StreamSettings {
         StreamSettings {
@@ -73,28 +73,28 @@ impl StreamSettings {
     }
 }
 
-/// Motion in, forces out, frame by frame.
+/// Predicts forces frame by frame from a motion that is still being recorded.
 #[derive(Debug, Clone)]
 pub struct Stream {
     model: Model,
     soles: BySide<Option<Sole>>,
     smoother: Smoother,
     weights: Weights,
-    recent: Recent,
-    rhythm: Rhythm,
-    /// Frames between what comes in and what goes out.
+    buffer: FrameBuffer,
+    step_timing: StepTiming,
+    /// Delay of the results [frames].
     delay: usize,
-    /// Number of the next frame that may be given out.
+    /// Number of the next frame that may be returned.
     due: usize,
     workspace: Workspace,
     findings: Findings,
 }
 
 impl Stream {
-    /// A stream for a model; `soles` are those of the right and the left foot.
+    /// Starts a stream for a model.
     ///
     /// # Errors
-    /// A rate, delay or window that no stream can have. A model without feet is refused with the first forces.
+    /// A rate, delay or window out of range. A model without feet is rejected at the first prediction.
     pub fn new(model: Model, soles: BySide<Option<Sole>>, settings: &StreamSettings) -> Result<Stream, StreamError> {
         let StreamSettings { rate_hz, delay_s, window_s, smoother, weights } = *settings;
         let ([lowest_hz, highest_hz], [shortest_s, longest_s]) = (RATES_HZ, WINDOWS_S);
@@ -107,100 +107,100 @@ impl Stream {
         if !(0.0..=0.5 * window_s).contains(&delay_s) {
             return Err(StreamError::Delay { found_s: delay_s, longest_s: 0.5 * window_s });
         }
-        let most = (window_s * rate_hz).round() as usize + 1;
+        let capacity = (window_s * rate_hz).round() as usize + 1;
         Ok(Stream {
-            recent: Recent::new(&model, rate_hz, most),
+            buffer: FrameBuffer::new(&model, rate_hz, capacity),
             workspace: Workspace::new(&model),
             model,
             soles,
             smoother,
             weights,
-            rhythm: Rhythm::default(),
+            step_timing: StepTiming::default(),
             delay: (delay_s * rate_hz + NEAR_A_FRAME) as usize,
             due: 0,
             findings: Findings::default(),
         })
     }
 
-    /// Takes in the next frame, one value a coordinate of the model [rad or m], not-a-number where it was not seen. Gives out the frame
-    /// at the delay; `None` at the beginning and in gaps.
+    /// Adds the next frame, one value per coordinate of the model [rad or m], not-a-number where it is missing. Returns the forces in
+    /// the frame at the delay; `None` at the beginning and in gaps.
     ///
     /// # Errors
     /// A frame of another length, an infinite value (neither counts as a frame); a model without feet.
     pub fn push(&mut self, q: &[f64]) -> Result<Option<StreamFrame>, StreamError> {
-        self.recent.push(&self.model, q)?;
-        // From the last complete frame to the next one there is at least one step more than frames are missing.
-        if self.recent.missing() > 0 && self.recent.time(self.recent.missing() + 1) > LONGEST_GAP_S {
-            self.recent.clear();
-            self.due = self.recent.next;
+        self.buffer.push(&self.model, q)?;
+        // The gap, from one complete frame to the next, is at least one step longer than the number of missing frames.
+        if self.buffer.missing() > 0 && self.buffer.time(self.buffer.missing() + 1) > LONGEST_GAP_S {
+            self.buffer.clear();
+            self.due = self.buffer.next;
             return Ok(None);
         }
-        let newest = self.recent.next - 1;
+        let newest = self.buffer.next - 1;
         let Some(frame) = newest.checked_sub(self.delay).filter(|frame| *frame >= self.due) else { return Ok(None) };
-        if self.recent.missing() > 0 {
+        if self.buffer.missing() > 0 {
             return Ok(None);
         }
-        let Some(seen) = self.look()? else { return Ok(None) };
+        let Some(window) = self.predict_window()? else { return Ok(None) };
         self.due = frame + 1;
-        Ok(self.read(&seen, frame))
+        Ok(self.read(&window, frame))
     }
 
-    /// Gives out the frames inside the delay. They know less of what follows them than others.
+    /// Returns the remaining frames, those of the delay. They are less accurate because less motion follows them.
     ///
     /// # Errors
     /// As [`Stream::push`].
     pub fn finish(mut self) -> Result<Vec<StreamFrame>, StreamError> {
-        if self.recent.missing() > 0 {
+        if self.buffer.missing() > 0 {
             return Ok(Vec::new());
         }
-        let Some(seen) = self.look()? else { return Ok(Vec::new()) };
-        let first = self.due.max(self.recent.next.saturating_sub(self.delay));
-        Ok((first..self.recent.next).filter_map(|frame| self.read(&seen, frame)).collect())
+        let Some(window) = self.predict_window()? else { return Ok(Vec::new()) };
+        let first = self.due.max(self.buffer.next.saturating_sub(self.delay));
+        Ok((first..self.buffer.next).filter_map(|frame| self.read(&window, frame)).collect())
     }
 
-    /// Frames between what comes in and what goes out.
+    /// Delay of the results [frames].
     #[must_use]
     pub fn delay_frames(&self) -> usize {
         self.delay
     }
 
-    /// What was odd in the window that was looked at last.
+    /// Findings of the latest window.
     #[must_use]
     pub fn findings(&self) -> &Findings {
         &self.findings
     }
 
-    /// Bytes that the kept frames take: as many after the first push as after the last.
+    /// Memory of the kept frames [bytes]: constant from the first push to the last.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.recent.bytes()
+        self.buffer.bytes()
     }
 
-    /// The forces in the window; `None` while it holds too few frames.
-    fn look(&mut self) -> Result<Option<(Trajectory, Prediction)>, StreamError> {
-        self.recent.forget_leading_gap();
-        if self.recent.len() < FEWEST_FRAMES {
+    /// Predicts the forces in the window; `None` while it has too few frames.
+    fn predict_window(&mut self) -> Result<Option<(Trajectory, Prediction)>, StreamError> {
+        self.buffer.forget_leading_gap();
+        if self.buffer.len() < FEWEST_FRAMES {
             return Ok(None);
         }
         let mut findings = Findings::default();
-        let seen = Window { from_s: None, to_s: self.recent.motion().times.last().copied() };
-        let settings = SmoothSettings { smoother: self.smoother, window: seen, rate_hz: None };
-        let motion = continued(self.recent.motion(), self.recent.time(1));
+        let all = Window { from_s: None, to_s: self.buffer.motion().times.last().copied() };
+        let settings = SmoothSettings { smoother: self.smoother, window: all, rate_hz: None };
+        let motion = continued(self.buffer.motion(), self.buffer.time(1));
         let smoothed = smooth(&self.model, &motion, settings, &mut findings)?;
         let trajectory = Trajectory::complete(&self.model, &smoothed, &mut findings)?;
         let mut footfalls = footfalls(&self.model, &trajectory, &self.soles, &mut findings);
-        self.rhythm.learn(&footfalls);
-        self.rhythm.foretell(&mut footfalls, trajectory.grid());
-        let known = Known { footfalls: Some(footfalls), ..Known::default() };
-        let settings = PredictSettings { known, weights: self.weights };
+        self.step_timing.update(&footfalls);
+        self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
+        let prescribed = Prescribed { footfalls: Some(footfalls), ..Prescribed::default() };
+        let settings = PredictSettings { prescribed, weights: self.weights };
         let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
         self.findings = findings;
         Ok(Some((trajectory, prediction)))
     }
 
-    /// One frame of what was seen, by its number in the stream; `None` if the window does not hold it.
-    fn read(&mut self, seen: &(Trajectory, Prediction), number: usize) -> Option<StreamFrame> {
-        let row = number.checked_sub(self.recent.next - self.recent.len())?;
-        Some(frame::read(&self.model, &mut self.workspace, seen, row, (number, self.recent.time(number))))
+    /// The forces in one frame, by its number in the stream; `None` if it is outside the window.
+    fn read(&mut self, window: &(Trajectory, Prediction), number: usize) -> Option<StreamFrame> {
+        let row = number.checked_sub(self.buffer.next - self.buffer.len())?;
+        Some(frame::read(&self.model, &mut self.workspace, window, row, (number, self.buffer.time(number))))
     }
 }

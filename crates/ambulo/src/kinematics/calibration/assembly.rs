@@ -1,12 +1,12 @@
-//! From the parts of a body to the body.
+//! Assembles the calibrated body from its parts.
 
-use super::axes::{about_x, inside, median_point};
+use super::axes::{about_x, in_frame, median_point};
 use super::feet::Feet;
+use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::Legs;
 use super::pelvis::Pelvis;
 use super::person::index;
-use super::report::{CalibrationReport, MarkerPlace, SegmentScale};
-use super::sight::Sight;
+use super::report::{CalibrationReport, MarkerPlacement, SegmentScale};
 use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
 use crate::model::anthropometry::{Dimensions, Human};
@@ -16,15 +16,15 @@ use crate::model::{Marker, Side};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 
-/// Markers of the trunk beside the head's that make the head's superfluous.
+/// Number of markers on the trunk that makes those of the head unnecessary.
 const ENOUGH_ON_TRUNK: usize = 3;
 
-/// Markers of less weight than this do not show how the trunk moves.
-const FIRM: f64 = 0.05;
-/// Weight of shoulders that must.
+/// Smallest weight of a marker that determines the motion of the trunk.
+const RELIABLE: f64 = 0.05;
+/// Weight of shoulder markers if they must determine it.
 const SHOULDER_WEIGHT: f64 = 0.1;
 
-/// What was found of the body.
+/// The calibrated parts of the body.
 pub(super) struct Parts<'a> {
     pub(super) pelvis: &'a Pelvis,
     pub(super) legs: &'a Legs,
@@ -33,7 +33,7 @@ pub(super) struct Parts<'a> {
 }
 
 pub(super) fn assemble(
-    sight: &Sight<'_>,
+    trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     generic: &Human,
     parts: &Parts<'_>,
@@ -41,8 +41,8 @@ pub(super) fn assemble(
 ) -> Result<Calibrated, CalibrationError> {
     let (mut markers, mut weights, mut places) = (Vec::new(), BTreeMap::new(), Vec::new());
     let mut unused = Vec::new();
-    for (named, number) in chosen(sight, parts, &mut unused) {
-        match placed(sight, frames, generic, parts, named, number) {
+    for (named, number) in chosen(trajectories, parts, &mut unused) {
+        match placed(trajectories, frames, generic, parts, named, number) {
             Some((marker, place)) => {
                 markers.push(marker);
                 weights.insert(named.name.clone(), named.definition.weight);
@@ -51,10 +51,10 @@ pub(super) fn assemble(
             None => unused.push(named.name.as_str()),
         }
     }
-    lean_on_shoulders(sight, &mut weights);
+    use_shoulders_if_needed(trajectories, &mut weights);
     if !unused.is_empty() {
         assumptions.push(format!(
-            "{} markers are not used (head beside trunk, or a segment that was not found): {}",
+            "{} markers are not used (head with enough markers on the trunk, or a segment without a pose): {}",
             unused.len(),
             unused.join(", ")
         ));
@@ -63,7 +63,7 @@ pub(super) fn assemble(
     let scales = scales(generic, parts, &shape);
     let human = reshaped(generic, &shape)?;
     let report = CalibrationReport {
-        sets: sight.sets.to_vec(),
+        sets: trajectories.sets.to_vec(),
         height_m: generic.dimensions.height,
         hip_width_m: parts.pelvis.hip_width,
         segments: scales,
@@ -74,12 +74,12 @@ pub(super) fn assemble(
     Ok(Calibrated { human, weights, report })
 }
 
-/// Shoulders show how a trunk moves if too little else does.
-fn lean_on_shoulders(sight: &Sight<'_>, weights: &mut BTreeMap<String, f64>) {
-    let trunk = || sight.markers.iter().map(|(m, _)| m).filter(|m| m.definition.segment == Segment::Torso);
+/// Raises the weight of shoulder markers if the trunk has too few others.
+fn use_shoulders_if_needed(trajectories: &LandmarkTrajectories<'_>, weights: &mut BTreeMap<String, f64>) {
+    let trunk = || trajectories.markers.iter().map(|(m, _)| m).filter(|m| m.definition.segment == Segment::Torso);
     let is_shoulder = |l: Option<Landmark>| matches!(l, Some(Landmark::Acromion | Landmark::ShoulderCentre));
-    let firm = trunk().filter(|m| m.definition.weight >= FIRM && weights.contains_key(&m.name)).count();
-    if firm >= ENOUGH_ON_TRUNK {
+    let reliable = trunk().filter(|m| m.definition.weight >= RELIABLE && weights.contains_key(&m.name)).count();
+    if reliable >= ENOUGH_ON_TRUNK {
         return;
     }
     for marker in trunk().filter(|m| is_shoulder(m.definition.landmark)) {
@@ -89,13 +89,17 @@ fn lean_on_shoulders(sight: &Sight<'_>, weights: &mut BTreeMap<String, f64>) {
     }
 }
 
-/// The markers that are used: those of the head only where the trunk has few others.
-fn chosen<'a>(sight: &Sight<'a>, parts: &Parts<'_>, unused: &mut Vec<&'a str>) -> Vec<(&'a NamedMarker, usize)> {
+/// The markers that are used: those of the head only if the trunk has few others.
+fn chosen<'a>(
+    trajectories: &LandmarkTrajectories<'a>,
+    parts: &Parts<'_>,
+    unused: &mut Vec<&'a str>,
+) -> Vec<(&'a NamedMarker, usize)> {
     let is_trunk = |m: &NamedMarker| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark);
-    let on_trunk = sight.markers.iter().filter(|(m, _)| is_trunk(m)).count();
+    let on_trunk = trajectories.markers.iter().filter(|(m, _)| is_trunk(m)).count();
     let drops_head = on_trunk >= ENOUGH_ON_TRUNK && parts.trunk.poses.iter().any(Option::is_some);
     let mut list = Vec::new();
-    for &(marker, number) in &sight.markers {
+    for &(marker, number) in &trajectories.markers {
         if drops_head && is_head(marker.definition.landmark) {
             unused.push(marker.name.as_str());
         } else {
@@ -105,7 +109,7 @@ fn chosen<'a>(sight: &Sight<'a>, parts: &Parts<'_>, unused: &mut Vec<&'a str>) -
     list
 }
 
-/// Pose of the segment that carries a marker, in a measured frame.
+/// Pose of the segment of a marker in a selected frame.
 fn pose(parts: &Parts<'_>, segment: Segment, side: Option<Side>, ball: Vec3, measured: usize) -> Option<Pose> {
     let leg = || parts.legs[index(side?)].as_ref()?.frames[measured];
     let arm = || parts.trunk.arms[index(side?)].as_ref()?.frames[measured];
@@ -122,20 +126,20 @@ fn pose(parts: &Parts<'_>, segment: Segment, side: Option<Side>, ball: Vec3, mea
     }
 }
 
-/// A marker where it stands, and how well.
+/// A marker at its median position on its segment, and its error.
 fn placed(
-    sight: &Sight<'_>,
+    trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     generic: &Human,
     parts: &Parts<'_>,
     named: &NamedMarker,
     number: usize,
-) -> Option<(Marker, MarkerPlace)> {
+) -> Option<(Marker, MarkerPlacement)> {
     let (segment, side) = (named.definition.segment, named.definition.side);
     let body = segment.body(&generic.model, side)?;
     let ball = side.map_or(Vec3::zeros(), |side| ball(&generic.dimensions, parts.feet, side));
     let seen = |(measured, &frame): (usize, &usize)| {
-        Some(inside(&pose(parts, segment, side, ball, measured)?, sight.place(number, frame)?))
+        Some(in_frame(&pose(parts, segment, side, ball, measured)?, trajectories.place(number, frame)?))
     };
     let points: Vec<Vec3> = frames.iter().enumerate().filter_map(seen).collect();
     let mut location = median_point(&points)?;
@@ -144,14 +148,14 @@ fn placed(
         location.y -= parts.trunk.lift;
     }
     let body_name = generic.model.bodies()[body.index()].name.clone();
-    let place = MarkerPlace { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
+    let place = MarkerPlacement { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
     Some((Marker { name: named.name.clone(), body: Some(body), location }, place))
 }
 
-/// The ball of a foot, from its ankle [m].
+/// Position of the ball of a foot relative to its ankle [m].
 fn ball(d: &Dimensions, feet: &Feet, side: Side) -> Vec3 {
     let foot = &feet[index(side)];
-    foot.print.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
+    foot.placement.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
 }
 
 fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: &mut Vec<String>) -> SubjectShape {
@@ -195,22 +199,22 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
     let mut locked = Vec::new();
     if parts.pelvis.is_line {
         assumptions.push(
-            "the pelvis is known by its hip centres alone, which do not show its tilt; trunk and pelvis move as one"
+            "only the hip centres of the pelvis are known, which do not determine its tilt; trunk and pelvis move as one"
                 .to_owned(),
         );
         locked = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"].map(str::to_owned).to_vec();
     }
-    let feet = [parts.feet[0].print, parts.feet[1].print];
+    let feet = [parts.feet[0].placement, parts.feet[1].placement];
     SubjectShape { segments, markers, feet, dimensions: dimensions(d, parts), locked }
 }
 
-/// Lengths of the subject, both sides' mean.
+/// Lengths of the person, mean of both sides.
 fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
     let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(0) + of(1));
     let foot = mean(&|i| parts.feet[i].factor);
     let thigh = mean(&|i| parts.legs[i].as_ref().map_or(generic.thigh, |leg| leg.thigh));
     let shank = mean(&|i| parts.legs[i].as_ref().map_or(generic.shank, |leg| leg.shank));
-    let ankle_height = mean(&|i| parts.feet[i].print.ankle_height);
+    let ankle_height = mean(&|i| parts.feet[i].placement.ankle_height);
     let arm = |i: usize| parts.trunk.arms[i].as_ref();
     let [right, left] = parts.trunk.shoulders;
     Dimensions {

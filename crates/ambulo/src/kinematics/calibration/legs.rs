@@ -1,42 +1,42 @@
-//! Thighs and shanks: joint centres, lengths, axes.
+//! Thighs and shanks: joint centres, lengths and axes.
 
 use super::CalibrationError;
-use super::axes::{angles_zxy, beside, direction, from_y_z};
+use super::axes::{angles_zxy, direction, from_y_z, perpendicular};
+use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::person::{Person, of};
-use super::sight::Sight;
+use super::person::{PersonMeasurements, of};
 use crate::model::Side;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
 use crate::model::marker_set::Landmark;
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
-/// Breadths as shares of stature, where nobody measured: those of the adult of BTKData's Plug-in-Gait sample (102 and 70 mm at
+/// Default widths as shares of stature: those of the adult in the Plug-in-Gait sample of BTKData (102 and 70 mm at
 /// 1.76 m); a child of 1.45 m has 0.057 and 0.043.
 const KNEE_BREADTH: f64 = 0.058;
 const ANKLE_BREADTH: f64 = 0.040;
-/// Lengths that thighs and shanks of walkers have [m].
+/// Plausible lengths of thighs and shanks [m].
 const LENGTHS: [f64; 2] = [0.08, 0.75];
-/// A knee flexed more than this [rad] shows in which plane it bends.
+/// A knee flexed more than this [rad] shows its plane of flexion.
 const BENT: f64 = 0.35;
-/// Varus is measured where the knee is flexed less than this [rad]: further on, an error of the axis shows as varus.
+/// Varus is measured where the knee is flexed less than this [rad]: at larger angles an error of the axis appears as varus.
 const NEARLY_STRAIGHT: f64 = 0.5;
-/// Frames in which a leg must be seen, at least.
+/// Smallest number of frames in which a leg is visible.
 const LEAST_FRAMES: usize = 3;
 
-/// Both legs, right first; `None` where the recording has none.
+/// Both legs, right first; `None` without markers.
 pub(super) type Legs = [Option<Leg>; 2];
 
-/// A leg down to the ankle.
+/// Thigh and shank of one leg.
 #[derive(Debug)]
 pub(super) struct Leg {
-    /// One a measured frame.
+    /// One entry per selected frame.
     pub(super) frames: Vec<Option<LegFrame>>,
     /// Hip to knee [m].
     pub(super) thigh: f64,
     /// Knee to ankle [m].
     pub(super) shank: f64,
-    /// Angle about x by which the shank deviates from the plane of the knee's hinge [rad].
+    /// Angle about x between the shank and the plane of the knee's hinge [rad].
     pub(super) varus: f64,
 }
 
@@ -52,21 +52,21 @@ pub(super) struct LegFrame {
     pub(super) ankle_axis: Vec3,
 }
 
-/// How the centre of a knee or an ankle is found.
+/// How the centre of a knee or an ankle is determined.
 #[derive(Debug, Clone, Copy)]
 enum Method {
-    /// It was recorded.
+    /// It is recorded.
     Centre(Landmark),
     /// Midway between the lateral and the medial marker.
     Middle(Landmark, Landmark),
-    /// Half the breadth [m] inside the lateral marker, in the plane of a wand.
+    /// Half the width [m] inside the lateral marker, in the plane of a wand.
     Wand(Landmark, Landmark, f64),
-    /// Half the breadth [m] inside the lateral marker, in the plane of an axis that is given.
+    /// Half the width [m] inside the lateral marker, in the plane of a given axis.
     Plane(Landmark, f64),
 }
 
-/// What stands where on a joint of the leg.
-struct Spot {
+/// Landmarks of a joint of the leg.
+struct JointLandmarks {
     name: &'static str,
     centre: Landmark,
     lateral: Landmark,
@@ -74,14 +74,14 @@ struct Spot {
     wand: Landmark,
 }
 
-const KNEE: Spot = Spot {
+const KNEE: JointLandmarks = JointLandmarks {
     name: "knee",
     centre: Landmark::KneeCentre,
     lateral: Landmark::LateralEpicondyle,
     medial: Landmark::MedialEpicondyle,
     wand: Landmark::ThighWand,
 };
-const ANKLE: Spot = Spot {
+const ANKLE: JointLandmarks = JointLandmarks {
     name: "ankle",
     centre: Landmark::AnkleCentre,
     lateral: Landmark::LateralMalleolus,
@@ -90,21 +90,23 @@ const ANKLE: Spot = Spot {
 };
 
 pub(super) fn find(
-    sight: &Sight<'_>,
+    trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     pelvis: &Pelvis,
-    person: &Person,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Result<Legs, CalibrationError> {
     let mut legs = [None, None];
     for (slot, side) in legs.iter_mut().zip(Side::BOTH) {
-        let breadths = breadths(sight, frames, pelvis, person, side);
-        let finder = Finder { sight, frames, side };
+        let breadths = breadths(trajectories, frames, pelvis, person, side);
+        let finder = Finder { trajectories, frames, side };
         let (Some(knee), Some(ankle)) = (
-            finder.method(&KNEE, breadths[0], person.measures.radius(), assumptions),
-            finder.method(&ANKLE, breadths[1], person.measures.radius(), assumptions),
+            finder.method(&KNEE, breadths[0], person.measurements.radius(), assumptions),
+            finder.method(&ANKLE, breadths[1], person.measurements.radius(), assumptions),
         ) else {
-            assumptions.push(format!("the {side} leg has no markers of knee and ankle; it keeps the table's lengths"));
+            assumptions.push(format!(
+                "the {side} leg has no markers at knee and ankle; its lengths are from the segment table"
+            ));
             continue;
         };
         *slot = Some(leg(&finder, pelvis, knee, ankle)?);
@@ -114,26 +116,37 @@ pub(super) fn find(
             part: "legs".to_owned(),
             needed: "on one side at least lateral_epicondyle or knee_centre, and lateral_malleolus or ankle_centre,"
                 .to_owned(),
-            found: sight.words(),
+            found: trajectories.words(),
         });
     }
     Ok(legs)
 }
 
-/// Breadths of knee and ankle [m] with whether they were measured.
-fn breadths(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, person: &Person, side: Side) -> [(f64, bool); 2] {
-    let measured = [of(&person.measures.knee_width, side), of(&person.measures.ankle_width, side)];
-    let stature = person.height.or_else(|| rough_stature(sight, frames, pelvis, side)).unwrap_or(f64::NAN);
+/// Widths of knee and ankle [m], and whether they were measured.
+fn breadths(
+    trajectories: &LandmarkTrajectories<'_>,
+    frames: &[usize],
+    pelvis: &Pelvis,
+    person: &PersonMeasurements,
+    side: Side,
+) -> [(f64, bool); 2] {
+    let measured = [of(&person.measurements.knee_width, side), of(&person.measurements.ankle_width, side)];
+    let stature = person.height.or_else(|| rough_stature(trajectories, frames, pelvis, side)).unwrap_or(f64::NAN);
     let usual = [KNEE_BREADTH * stature, ANKLE_BREADTH * stature];
     [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
 }
 
 /// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it.
-fn rough_stature(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, side: Side) -> Option<f64> {
+fn rough_stature(
+    trajectories: &LandmarkTrajectories<'_>,
+    frames: &[usize],
+    pelvis: &Pelvis,
+    side: Side,
+) -> Option<f64> {
     const LEG_SHARE: f64 = 0.49;
     let length = |measured: usize, frame: usize| {
-        let knee = sight.of(Landmark::LateralEpicondyle, side, frame)?;
-        let ankle = sight.of(Landmark::LateralMalleolus, side, frame)?;
+        let knee = trajectories.of(Landmark::LateralEpicondyle, side, frame)?;
+        let ankle = trajectories.of(Landmark::LateralMalleolus, side, frame)?;
         Some(((pelvis.hip(measured, side)? - knee).norm() + (knee - ankle).norm()) / LEG_SHARE)
     };
     median(frames.iter().enumerate().filter_map(|(measured, &frame)| length(measured, frame)))
@@ -141,55 +154,59 @@ fn rough_stature(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, side: Sid
 
 /// Finds one leg's joints.
 struct Finder<'a> {
-    sight: &'a Sight<'a>,
+    trajectories: &'a LandmarkTrajectories<'a>,
     frames: &'a [usize],
     side: Side,
 }
 
 impl Finder<'_> {
-    /// The best way that the markers seen allow; what it takes for granted is noted.
+    /// The best method that the visible markers allow; its assumptions are added to the list.
     fn method(
         &self,
-        spot: &Spot,
+        joint: &JointLandmarks,
         (breadth, is_measured): (f64, bool),
         radius: f64,
         assumptions: &mut Vec<String>,
     ) -> Option<Method> {
-        if self.together(&[spot.centre]) {
-            return Some(Method::Centre(spot.centre));
+        if self.together(&[joint.centre]) {
+            return Some(Method::Centre(joint.centre));
         }
-        if self.together(&[spot.lateral, spot.medial]) {
-            return Some(Method::Middle(spot.lateral, spot.medial));
+        if self.together(&[joint.lateral, joint.medial]) {
+            return Some(Method::Middle(joint.lateral, joint.medial));
         }
-        if !self.together(&[spot.lateral]) {
+        if !self.together(&[joint.lateral]) {
             return None;
         }
-        let (side, name) = (self.side, spot.name);
+        let (side, name) = (self.side, joint.name);
         if !is_measured {
             assumptions.push(format!(
-                "the {side} {name} is taken as {:.0} mm wide, a share of stature: no medial marker and no measured width",
+                "the {side} {name} is assumed {:.0} mm wide, a share of stature: it has no medial marker and no measured width",
                 1e3 * breadth
             ));
         }
         let half = 0.5 * breadth + radius;
-        if self.together(&[spot.lateral, spot.wand]) {
-            return Some(Method::Wand(spot.lateral, spot.wand, half));
+        if self.together(&[joint.lateral, joint.wand]) {
+            return Some(Method::Wand(joint.lateral, joint.wand, half));
         }
-        let plane = if spot.name == KNEE.name { "across the pelvis" } else { "along the knee axis" };
-        assumptions.push(format!("the {side} {name} axis is taken {plane}: no medial marker and no wand"));
-        Some(Method::Plane(spot.lateral, half))
+        let plane = if joint.name == KNEE.name {
+            "perpendicular to the sagittal plane of the pelvis"
+        } else {
+            "parallel to the knee axis"
+        };
+        assumptions.push(format!("the {side} {name} axis is assumed {plane}: there is no medial marker and no wand"));
+        Some(Method::Plane(joint.lateral, half))
     }
 
-    /// Whether landmarks were seen together often enough.
+    /// Whether landmarks are visible together in enough frames.
     fn together(&self, landmarks: &[Landmark]) -> bool {
-        let is_seen = |&&frame: &&usize| landmarks.iter().all(|&l| self.sight.of(l, self.side, frame).is_some());
+        let is_seen = |&&frame: &&usize| landmarks.iter().all(|&l| self.trajectories.of(l, self.side, frame).is_some());
         let needed = LEAST_FRAMES.min(self.frames.len()).max(1);
         self.frames.iter().filter(is_seen).count() >= needed
     }
 
-    /// Centre and axis (to the right) of a joint below `upper`, `given` being the axis when nothing better is known.
+    /// Centre and axis (to the right) of a joint below `upper`; `given` is the axis if no better one is known.
     fn joint(&self, method: Method, upper: Vec3, given: Vec3, frame: usize) -> Option<(Vec3, Vec3)> {
-        let at = |landmark: Landmark| self.sight.of(landmark, self.side, frame);
+        let at = |landmark: Landmark| self.trajectories.of(landmark, self.side, frame);
         let out = if self.side == Side::Right { 1.0 } else { -1.0 };
         match method {
             Method::Centre(centre) => Some((at(centre)?, given)),
@@ -227,12 +244,12 @@ impl Finder<'_> {
     }
 }
 
-/// The centre of a hinge half a breadth beside a lateral marker: at right angles to the line to the upper joint, in the plane of upper
-/// joint, marker and wand, on the other side of the line from joint to marker than the wand (Plug-in-Gait's chord).
+/// Centre of a hinge at half the width from a lateral marker: perpendicular to the line to the upper joint, in the plane of upper
+/// joint, marker and wand, on the side of the line from joint to marker opposite to the wand (the chord of Plug-in-Gait).
 fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
     let length = (upper - lateral).norm();
     let along = direction(upper - lateral)?;
-    let aside = -beside(wand - lateral, along)?;
+    let aside = -perpendicular(wand - lateral, along)?;
     let cosine = half / length;
     if !(0.0..1.0).contains(&cosine) {
         return None;
@@ -240,7 +257,7 @@ fn chord(upper: Vec3, lateral: Vec3, wand: Vec3, half: f64) -> Option<Vec3> {
     Some(lateral + (along * cosine + aside * (1.0 - cosine * cosine).sqrt()) * half)
 }
 
-/// The normal of the plane in which a knee bends, to the right, if it is bent.
+/// Normal of the plane of flexion of a knee, to the right; `None` if it is nearly straight.
 fn bending_axis(hip: Vec3, knee: Vec3, ankle: Vec3) -> Option<Vec3> {
     let (thigh, shank) = (direction(knee - hip)?, direction(ankle - knee)?);
     let normal = shank.cross(&thigh);
@@ -273,18 +290,17 @@ fn length(part: String, lengths: impl Iterator<Item = f64>) -> Result<f64, Calib
     if (least_m..=most_m).contains(&found_m) {
         return Ok(found_m);
     }
-    let hint = "is the unit right, and are left and right markers not exchanged?";
+    let hint = "check the unit of length, and whether left and right markers are swapped";
     Err(CalibrationError::Length { part, found_m, least_m, most_m, hint })
 }
 
-/// Stature [m] by thighs and shanks, which are the table's share of it.
+/// Stature [m] from thighs and shanks by their shares in the segment table.
 pub(super) fn stature(legs: &Legs, table: SegmentTable, assumptions: &mut Vec<String>) -> Result<f64, BuildError> {
     let (mass, height) = (70.0, 1.75);
     let d = Build { table, mass, height, toe_joint: true }.human()?.dimensions;
     let lengths = legs.iter().flatten().map(|leg| leg.thigh + leg.shank);
     let found = height * median(lengths).unwrap_or(f64::NAN) / (d.thigh + d.shank);
-    assumptions
-        .push(format!("the stature is taken as {found:.2} m, from thighs and shanks as shares of it: none was given"));
+    assumptions.push(format!("the stature is not given; it is estimated as {found:.2} m from thighs and shanks"));
     Ok(found)
 }
 
@@ -293,7 +309,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_chord_stands_at_right_angles_to_the_thigh_half_a_breadth_away() {
+    fn the_chord_is_half_a_width_long_and_perpendicular_to_the_thigh() {
         let (hip, lateral, wand) = (Vec3::new(0.0, 0.4, 0.0), Vec3::new(0.0, 0.0, 0.06), Vec3::new(0.02, 0.2, 0.13));
         let centre = chord(hip, lateral, wand, 0.055).unwrap_or_default();
         assert!(((centre - lateral).norm() - 0.055).abs() < 1e-15);

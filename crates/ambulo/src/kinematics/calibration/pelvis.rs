@@ -1,55 +1,55 @@
-//! The pelvis, and the hip centres in it.
+//! Frame of the pelvis and hip centres.
 
 use super::CalibrationError;
 use super::axes::{about_z, direction, from_z_x, from_z_y};
-use super::sight::Sight;
+use super::landmark_trajectories::LandmarkTrajectories;
 use crate::model::Side;
 use crate::model::full_body::STANDING_TILT;
 use crate::model::marker_set::Landmark;
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
-/// Frames in which the pelvis must be seen, at least.
+/// Smallest number of frames in which the pelvis is visible.
 const LEAST_FRAMES: usize = 3;
-/// Distances of hip centres that walkers have [m].
+/// Plausible distances between the hip centres [m].
 const HIP_WIDTHS: [f64; 2] = [0.05, 0.35];
 
-/// The pelvis in the frames that are measured.
+/// The pelvis in the selected frames.
 #[derive(Debug)]
 pub(super) struct Pelvis {
-    /// Pose of the body frame, one a measured frame: origin midway between the hips, upright in standing.
+    /// Pose of the body frame, one per selected frame: origin midway between the hips, upright in standing.
     pub(super) poses: Vec<Option<Pose>>,
-    /// Distance of the hip centres [m].
+    /// Distance between the hip centres [m].
     pub(super) hip_width: f64,
     /// Whether only the hip centres are known, so that the tilt is not.
     pub(super) is_line: bool,
 }
 
 impl Pelvis {
-    /// A hip centre in a measured frame [m].
+    /// A hip centre in a selected frame [m].
     pub(super) fn hip(&self, measured: usize, side: Side) -> Option<Vec3> {
         let out = if side == Side::Right { 0.5 } else { -0.5 };
         Some(self.poses.get(measured)?.as_ref()?.place(Vec3::z() * (out * self.hip_width)))
     }
 
-    /// To the right, in a measured frame.
+    /// Direction to the right in a selected frame.
     pub(super) fn right(&self, measured: usize) -> Option<Vec3> {
         Some(self.poses.get(measured)?.as_ref()?.rotation.column(2).into())
     }
 }
 
-pub(super) fn find(sight: &Sight<'_>, frames: &[usize]) -> Result<Pelvis, CalibrationError> {
-    let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| sight.has(landmark, Some(side)));
-    let has_back = both(Landmark::Psis) || sight.has(Landmark::Sacrum, None);
+pub(super) fn find(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Result<Pelvis, CalibrationError> {
+    let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| trajectories.has(landmark, Some(side)));
+    let has_back = both(Landmark::Psis) || trajectories.has(Landmark::Sacrum, None);
     let pelvis = if both(Landmark::Asis) && has_back {
-        from_spines(sight, frames)
+        from_spines(trajectories, frames)
     } else if both(Landmark::HipCentre) {
-        from_hips(sight, frames)
+        from_hips(trajectories, frames)
     } else {
         return Err(CalibrationError::Markers {
             part: "pelvis".to_owned(),
             needed: "asis r, asis l and (psis r, psis l or sacrum), or hip_centre r and l,".to_owned(),
-            found: sight.words(),
+            found: trajectories.words(),
         });
     };
     let seen = pelvis.poses.iter().flatten().count();
@@ -64,31 +64,32 @@ pub(super) fn find(sight: &Sight<'_>, frames: &[usize]) -> Result<Pelvis, Calibr
             found_m: pelvis.hip_width,
             least_m,
             most_m,
-            hint: "is the unit right, and are left and right markers not exchanged?",
+            hint: "check the unit of length, and whether left and right markers are swapped",
         });
     }
     Ok(pelvis)
 }
 
-/// Midway between the iliac spines in front, behind, and to the right, in a frame.
-fn spines(sight: &Sight<'_>, frame: usize) -> Option<(Vec3, Vec3, Vec3)> {
-    let (right, left) = (sight.of(Landmark::Asis, Side::Right, frame)?, sight.of(Landmark::Asis, Side::Left, frame)?);
+/// In a frame: the points midway between the anterior and the posterior iliac spines, and the vector from the left to the right anterior one.
+fn spines(trajectories: &LandmarkTrajectories<'_>, frame: usize) -> Option<(Vec3, Vec3, Vec3)> {
+    let (right, left) =
+        (trajectories.of(Landmark::Asis, Side::Right, frame)?, trajectories.of(Landmark::Asis, Side::Left, frame)?);
     let posterior = || {
-        let pair = Side::BOTH.map(|side| sight.of(Landmark::Psis, side, frame));
+        let pair = Side::BOTH.map(|side| trajectories.of(Landmark::Psis, side, frame));
         Some((pair[0]? + pair[1]?) * 0.5)
     };
-    let back = posterior().or_else(|| sight.at(Landmark::Sacrum, None, frame))?;
+    let back = posterior().or_else(|| trajectories.at(Landmark::Sacrum, None, frame))?;
     Some(((right + left) * 0.5, back, right - left))
 }
 
-/// Hip centres by Harrington 2007: from midway between the front spines, in axes through the spines, by width PW and depth PD of the
-/// pelvis between the markers [m].
+/// Hip centre by Harrington 2007 from width and depth of the pelvis between the markers [m], relative to the point midway between
+/// the anterior spines, in axes through the spines.
 fn regression(width: f64, depth: f64) -> Vec3 {
     Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
 }
 
-fn from_spines(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
-    let seen: Vec<_> = frames.iter().map(|&frame| spines(sight, frame)).collect();
+fn from_spines(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
+    let seen: Vec<_> = frames.iter().map(|&frame| spines(trajectories, frame)).collect();
     let known = || seen.iter().flatten();
     let width = median(known().map(|(_, _, across)| across.norm())).unwrap_or(f64::NAN);
     let depth = median(known().map(|(front, back, _)| (front - back).norm())).unwrap_or(f64::NAN);
@@ -102,10 +103,13 @@ fn from_spines(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
     Pelvis { poses, hip_width: 2.0 * hip.z, is_line: false }
 }
 
-/// Key points: the line between the hips alone, upright.
-fn from_hips(sight: &Sight<'_>, frames: &[usize]) -> Pelvis {
+/// From hip centres of video: only the line between the hips is known, the pelvis is assumed upright.
+fn from_hips(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
     let hips = |frame: usize| {
-        Some((sight.of(Landmark::HipCentre, Side::Right, frame)?, sight.of(Landmark::HipCentre, Side::Left, frame)?))
+        Some((
+            trajectories.of(Landmark::HipCentre, Side::Right, frame)?,
+            trajectories.of(Landmark::HipCentre, Side::Left, frame)?,
+        ))
     };
     let seen: Vec<_> = frames.iter().map(|&frame| hips(frame)).collect();
     let hip_width = median(seen.iter().flatten().map(|(right, left)| (right - left).norm())).unwrap_or(f64::NAN);

@@ -1,47 +1,47 @@
-//! What is known of a person besides the markers.
+//! Data of a person other than markers.
 
 use crate::model::Side;
 use crate::model::anthropometry::SegmentTable;
 
-/// A person: whose body is built.
+/// Data for calibrating a body: segment table, mass, stature and body measurements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Person {
-    /// Whose segments: masses by this table.
+pub struct PersonMeasurements {
+    /// Table of segment masses.
     pub table: SegmentTable,
     /// Body mass [kg].
     pub mass: f64,
-    /// Stature [m]; estimated from the legs if it is not known.
+    /// Stature [m]; `None` estimates it from the legs.
     pub height: Option<f64>,
-    /// What was measured on the body.
-    pub measures: Measures,
+    /// Widths measured on the body.
+    pub measurements: BodyMeasurements,
 }
 
-/// Measures of a body [m], right before left; `None` where nobody measured.
+/// Measurements of a body [m], right before left; `None` if not measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Measures {
+pub struct BodyMeasurements {
     /// Radius of the markers.
     pub marker_radius: Option<f64>,
-    /// Breadth of the knee between its epicondyles.
+    /// Width of the knee between its epicondyles.
     pub knee_width: [Option<f64>; 2],
-    /// Breadth of the ankle between its malleoli.
+    /// Width of the ankle between its malleoli.
     pub ankle_width: [Option<f64>; 2],
-    /// Breadth of the elbow between its epicondyles.
+    /// Width of the elbow between its epicondyles.
     pub elbow_width: [Option<f64>; 2],
-    /// Acromion marker to the height of the shoulder centre, downwards, without the marker's radius.
+    /// Vertical distance from the acromion marker down to the shoulder centre, without the radius of the marker.
     pub shoulder_offset: [Option<f64>; 2],
 }
 
-/// Radius of a marker when nothing is said [m]: 14 mm across is the usual size.
+/// Default radius of a marker [m]: the usual diameter is 14 mm.
 pub(super) const MARKER_RADIUS: f64 = 0.007;
 
-impl Measures {
-    /// From parameters with the names and units that Vicon's programs write into the group PROCESSING: `MarkerDiameter`,
-    /// `RKneeWidth`, `LAnkleWidth`, ... in mm. Zeros mean that nothing was measured.
+impl BodyMeasurements {
+    /// Reads parameters with the names and units that Vicon's programs write into the group PROCESSING: `MarkerDiameter`,
+    /// `RKneeWidth`, `LAnkleWidth`, ... in mm. Zero means not measured.
     #[must_use]
-    pub fn from_processing(parameter_mm: impl Fn(&str) -> Option<f64>) -> Measures {
+    pub fn from_processing(parameter_mm: impl Fn(&str) -> Option<f64>) -> BodyMeasurements {
         let metres = |name: &str| parameter_mm(name).filter(|v| *v > 0.0 && v.is_finite()).map(|v| 0.001 * v);
         let both = |stem: &str| ["R", "L"].map(|side| metres(&format!("{side}{stem}")));
-        Measures {
+        BodyMeasurements {
             marker_radius: metres("MarkerDiameter").map(|d| 0.5 * d),
             knee_width: both("KneeWidth"),
             ankle_width: both("AnkleWidth"),
@@ -50,18 +50,18 @@ impl Measures {
         }
     }
 
-    /// Radius of the markers, the usual one if nothing is known [m].
+    /// Radius of the markers, or the default [m].
     pub(super) fn radius(&self) -> f64 {
         self.marker_radius.unwrap_or(MARKER_RADIUS)
     }
 }
 
-/// One of a pair.
+/// The value of one side.
 pub(super) fn of<T: Copy>(pair: &[T; 2], side: Side) -> T {
     pair[index(side)]
 }
 
-/// Right before left.
+/// Index of a side in a pair: right before left.
 pub(super) fn index(side: Side) -> usize {
     usize::from(side == Side::Left)
 }

@@ -1,17 +1,18 @@
-//! Places of markers put right by the body's own joints.
+//! Refines the marker positions of a body that was calibrated on a walk, using its joints.
 //!
-//! A body that was measured on a walk has its markers where each frame's own axes put them, in the middle. Its joints know better:
-//! a knee that only flexes shows which way its axis lies against the markers. So the body is fitted to some of the frames, and every
-//! marker goes a part of the way to where it was seen on the fitted body; both again a few times. This is the least-squares problem
+//! Calibration places each marker at its median position in segment axes that are constructed frame by frame. The joints add
+//! information: a knee that only flexes shows the direction of its axis relative to the markers. The body is fitted to some of the
+//! frames, and every marker is moved towards its mean position on the fitted body; both steps are repeated. This solves
 //!
 //!   min Σ_frames Σ_markers w |m - p(q_frame, place)|² + κ Σ_markers w |place - place₀|²
 //!
-//! solved for postures and places in turn, κ being a number of frames: places that the walk does not determine stay at the first ones.
+//! alternately for postures and marker positions. κ is a number of frames: positions that the walk does not determine stay near the
+//! initial ones.
 //!
 //! Source: alternating least squares, as in Reinbolt et al. 2005 and Charlton et al. 2004 (unverified).
 
 use super::Calibrated;
-use super::axes::inside;
+use super::axes::in_frame;
 use crate::findings::Findings;
 use crate::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use crate::kinematics::{Posture, body_motion};
@@ -20,14 +21,14 @@ use crate::model::{Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 
-/// Frames that are fitted, at most.
+/// Largest number of frames that are fitted.
 const FRAMES: usize = 30;
-/// Rounds of postures and places.
+/// Number of iterations.
 const ROUNDS: usize = 8;
-/// Frames that the first place of a marker is worth.
+/// κ: weight of the initial position of a marker [frames].
 const PRIOR: f64 = 6.0;
 
-/// Moves the markers of a body to where the walk shows them on it.
+/// Moves the markers of a body to their positions in the walk.
 pub(super) fn refine(body: &mut Calibrated, recording: &MarkerRecording) -> Result<(), BuildError> {
     let sample = sample(recording);
     let first: Vec<Vec3> = body.human.model.markers().iter().map(|m| m.location).collect();
@@ -59,7 +60,7 @@ fn fitted(body: &Calibrated, sample: &MarkerRecording) -> Option<MarkerFit> {
     fit_markers(&body.human.model, sample, &settings, &mut Findings::default()).ok()
 }
 
-/// Some frames spread over a recording.
+/// Selects frames spread over a recording.
 fn sample(recording: &MarkerRecording) -> MarkerRecording {
     let step = recording.frames().div_ceil(FRAMES).max(1);
     let path = |path: &MarkerPath| MarkerPath {
@@ -74,7 +75,7 @@ fn sample(recording: &MarkerRecording) -> MarkerRecording {
     }
 }
 
-/// Where the markers were seen on the fitted body, in the mean with their first places.
+/// Mean of the marker positions on the fitted body and the initial positions.
 fn places(body: &Calibrated, sample: &MarkerRecording, fit: &MarkerFit, first: &[Vec3]) -> Vec<Vec3> {
     let model = &body.human.model;
     let mut sums: Vec<(Vec3, f64)> = first.iter().map(|place| (place * PRIOR, PRIOR)).collect();
@@ -90,7 +91,7 @@ fn places(body: &Calibrated, sample: &MarkerRecording, fit: &MarkerFit, first: &
         for ((marker, path), sum) in model.markers().iter().zip(&paths).zip(&mut sums) {
             let seen = path.map(|path| path.positions[frame]).filter(|p| p.iter().all(|x| x.is_finite()));
             if let (Some(id), Some(seen)) = (marker.body, seen) {
-                sum.0 += inside(&motion[id.index()].pose, seen);
+                sum.0 += in_frame(&motion[id.index()].pose, seen);
                 sum.1 += 1.0;
             }
         }

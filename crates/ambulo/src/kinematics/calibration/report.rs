@@ -1,45 +1,45 @@
-//! What came of a calibration.
+//! Report of a calibration.
 
-/// What came of a calibration.
+/// Results and assumptions of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationReport {
-    /// Marker sets that the names belong to.
+    /// RecognisedMarkers marker sets.
     pub sets: Vec<String>,
     /// Stature of the body [m].
     pub height_m: f64,
-    /// Distance of the hip centres [m].
+    /// Distance between the hip centres [m].
     pub hip_width_m: f64,
-    /// Sizes of the bodies, in the model's order.
+    /// Scale factors of the bodies, in the order of the model.
     pub segments: Vec<SegmentScale>,
-    /// The markers of the model, in its order.
-    pub markers: Vec<MarkerPlace>,
-    /// What was taken for granted, in sentences.
+    /// Errors of the markers, in the order of the model.
+    pub markers: Vec<MarkerPlacement>,
+    /// Assumptions made for missing data, in sentences.
     pub assumptions: Vec<String>,
-    /// Frames that were measured.
+    /// Number of frames used.
     pub frames: usize,
 }
 
-/// The size of a body.
+/// Scale factor of one body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentScale {
     /// Name of the body.
     pub body: String,
-    /// Length over the table's length for the stature.
+    /// Length divided by that of the segment table at this stature.
     pub factor: f64,
-    /// Whether markers say so, or the table.
+    /// Whether it was measured by markers; otherwise it is from the table.
     pub is_measured: bool,
 }
 
-/// How well a marker stands on its body.
+/// Body and error of one marker.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MarkerPlace {
+pub struct MarkerPlacement {
     /// Name of the marker.
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Distance between where it was seen and where it stands on the body: root mean square over the frames measured [m]. Standing,
-    /// each body by itself; walking, on the body with its joints.
+    /// Distance between its recorded position and its position on the body: root mean square over the frames [m]. In a standing trial
+    /// each body is fitted by itself; in a walk the bodies are connected by joints.
     pub rms_m: f64,
-    /// Frames in which marker and body were seen.
+    /// Number of frames in which marker and body are visible.
     pub frames: usize,
 }

@@ -1,28 +1,28 @@
-//! Trunk and arms.
+//! Trunk and arms: poses, sizes, shoulders and elbows.
 
-use super::axes::{about_z, direction, fitted, from_y_x, from_y_z, inside, median_point};
+use super::axes::{about_z, direction, fit_pose, from_y_x, from_y_z, in_frame, median_point};
+use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::person::{Person, of};
-use super::sight::Sight;
+use super::person::{PersonMeasurements, of};
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::marker_set::{Landmark, Segment};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
-/// Breadth of the elbow as a share of stature where nobody measured: 67 mm at 1.45 m in biomechzoo's HC002D.
+/// Default width of the elbow as a share of stature: 67 mm at 1.45 m in biomechzoo's HC002D.
 const ELBOW_BREADTH: f64 = 0.046;
-/// An elbow flexed less than this [rad] does not show in which plane it bends.
+/// An elbow flexed less than this [rad] does not show its plane of flexion.
 const BENT: f64 = 0.17;
 /// Upper arms further from the trunk than this are raised [rad].
 const RAISED: f64 = 0.6;
-/// Sizes against the table's that walkers have.
+/// Plausible scale factors.
 const FACTORS: [f64; 2] = [0.6, 1.6];
-/// Landmarks of the head, which turns on the trunk.
+/// Landmarks of the head, which moves relative to the trunk.
 const HEAD: [Landmark; 5] = [Landmark::FrontHead, Landmark::BackHead, Landmark::Ear, Landmark::Nose, Landmark::Vertex];
-/// Landmarks of the trunk that must be there.
+/// Smallest number of landmarks of the trunk.
 const LEAST_LANDMARKS: usize = 2;
-/// Frames in which a part must be seen, at least.
+/// Smallest number of frames in which a part is visible.
 const LEAST_FRAMES: usize = 3;
 
 /// Whether a landmark is on the head.
@@ -30,25 +30,25 @@ pub(super) fn is_head(landmark: Option<Landmark>) -> bool {
     landmark.is_some_and(|l| HEAD.contains(&l))
 }
 
-/// Trunk and arms in the measured frames.
+/// Trunk and arms in the selected frames.
 #[derive(Debug)]
 pub(super) struct Trunk {
-    /// Pose of the body frame, origin at the lumbar joint, one a measured frame.
+    /// Pose of the body frame, origin at the lumbar joint, one per selected frame.
     pub(super) poses: Vec<Option<Pose>>,
-    /// Size against the table's.
+    /// Scale factor relative to the segment table.
     pub(super) factor: f64,
     /// Shoulder centres in the body frame [m], right first.
     pub(super) shoulders: [Vec3; 2],
-    /// How much higher they stood in the frames measured, arms raised [m].
+    /// How much higher they are in the selected frames because of raised arms [m].
     pub(super) lift: f64,
-    /// Right first; `None` where the recording has none.
+    /// Right first; `None` without markers.
     pub(super) arms: [Option<Arm>; 2],
 }
 
-/// An arm down to the wrist.
+/// Upper arm and forearm of one side.
 #[derive(Debug)]
 pub(super) struct Arm {
-    /// Upper arm (origin at the shoulder) and forearm (origin at the elbow), one a measured frame.
+    /// Poses of upper arm (origin at the shoulder) and forearm (origin at the elbow), one per selected frame.
     pub(super) frames: Vec<Option<[Pose; 2]>>,
     /// Shoulder to elbow [m].
     pub(super) upper: f64,
@@ -57,18 +57,18 @@ pub(super) struct Arm {
 }
 
 pub(super) fn find(
-    sight: &Sight<'_>,
+    trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
     pelvis: &Pelvis,
     dimensions: &Dimensions,
-    person: &Person,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Trunk {
-    let finder = Finder { sight, frames, dimensions, person };
+    let finder = Finder { trajectories, frames, dimensions, person };
     let fitted = finder.fit(pelvis);
     if fitted.iter().flatten().count() < LEAST_FRAMES.min(frames.len()) {
         assumptions.push(
-            "trunk and arms have too few markers; they keep the table's size and are not measured: upright, arms hanging"
+            "trunk and arms have too few markers; their size is from the segment table, the trunk is assumed upright with hanging arms"
                 .to_owned(),
         );
         return finder.unmeasured();
@@ -76,7 +76,7 @@ pub(super) fn find(
     let mut trunk = finder.trunk(fitted);
     if trunk.lift > 0.0 {
         assumptions.push(format!(
-            "the arms are raised, which lifts the shoulders; for hanging arms their centres are taken {:.0} mm lower, by neck and table",
+            "the arms are raised, which lifts the shoulders; for hanging arms the shoulder centres are lowered by {:.0} mm, estimated from neck markers and segment table",
             1e3 * trunk.lift
         ));
     }
@@ -85,7 +85,7 @@ pub(super) fn find(
         *slot = finder.arm(&trunk.poses, raised, side);
         if slot.is_none() {
             assumptions.push(format!(
-                "the {side} arm has too few markers; it keeps the table's size and is not measured: hanging"
+                "the {side} arm has too few markers; its size is from the segment table, and it is assumed to hang"
             ));
         }
     }
@@ -93,14 +93,14 @@ pub(super) fn find(
 }
 
 struct Finder<'a> {
-    sight: &'a Sight<'a>,
+    trajectories: &'a LandmarkTrajectories<'a>,
     frames: &'a [usize],
     dimensions: &'a Dimensions,
-    person: &'a Person,
+    person: &'a PersonMeasurements,
 }
 
 impl Finder<'_> {
-    /// Lumbar joint to the height of the shoulders on the table's body [m].
+    /// Length from the lumbar joint to the height of the shoulders in the segment table [m].
     fn length(&self) -> f64 {
         Segment::Torso.length(self.dimensions)
     }
@@ -117,10 +117,10 @@ impl Finder<'_> {
         Trunk { poses, factor: 1.0, shoulders: [shoulder(1.0), shoulder(-1.0)], lift: 0.0, arms: [None, None] }
     }
 
-    /// The landmarks' usual places fitted to those seen and to the lumbar joint.
+    /// Fits the usual positions of the landmarks to the visible ones and to the lumbar joint.
     fn fit(&self, pelvis: &Pelvis) -> Vec<Option<Pose>> {
         let landmarks: Vec<(Landmark, Option<Side>, Vec3)> = self
-            .sight
+            .trajectories
             .markers
             .iter()
             .filter(|(m, _)| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark))
@@ -129,24 +129,24 @@ impl Finder<'_> {
         let pose = |(measured, &frame): (usize, &usize)| {
             let (mut places, mut points) = (vec![Vec3::zeros()], vec![pelvis.poses[measured]?.place(self.lumbar())]);
             for (landmark, side, place) in &landmarks {
-                if let Some(point) = self.sight.at(*landmark, *side, frame) {
+                if let Some(point) = self.trajectories.at(*landmark, *side, frame) {
                     places.push(*place);
                     points.push(point);
                 }
             }
-            if places.len() > LEAST_LANDMARKS { fitted(&places, &points) } else { None }
+            if places.len() > LEAST_LANDMARKS { fit_pose(&places, &points) } else { None }
         };
         let first: Vec<Option<Pose>> = self.frames.iter().enumerate().map(pose).collect();
-        // The lumbar joint is where the pelvis has it.
+        // Shift the origin to the lumbar joint of the pelvis.
         let joints = first
             .iter()
             .zip(&pelvis.poses)
-            .filter_map(|(torso, pelvis)| Some(inside(torso.as_ref()?, pelvis.as_ref()?.place(self.lumbar()))));
+            .filter_map(|(torso, pelvis)| Some(in_frame(torso.as_ref()?, pelvis.as_ref()?.place(self.lumbar()))));
         let origin = median_point(&joints.collect::<Vec<_>>()).unwrap_or_default();
         first.into_iter().map(|pose| pose.map(|pose| pose * Pose::at(origin))).collect()
     }
 
-    /// The trunk with y from the lumbar joint to midway between the shoulders.
+    /// The trunk, with y from the lumbar joint to the point midway between the shoulders.
     fn trunk(&self, poses: Vec<Option<Pose>>) -> Trunk {
         let shoulders = Side::BOTH.map(|side| self.shoulder(&poses, side));
         let [Some(right), Some(left)] = shoulders else {
@@ -162,12 +162,12 @@ impl Finder<'_> {
         Trunk { poses, factor, shoulders, lift, arms: [None, None] }
     }
 
-    /// Whether the upper arms stand off the trunk.
+    /// Whether the upper arms are raised from the trunk.
     fn are_arms_raised(&self, poses: &[Option<Pose>]) -> bool {
         let cosine = |side: Side| {
             move |(pose, &frame): (&Option<Pose>, &usize)| {
-                let arm = self.sight.of(Landmark::LateralElbow, side, frame)?
-                    - self.sight.of(Landmark::Acromion, side, frame)?;
+                let arm = self.trajectories.of(Landmark::LateralElbow, side, frame)?
+                    - self.trajectories.of(Landmark::Acromion, side, frame)?;
                 Some(-direction(arm)?.dot(&pose.as_ref()?.rotation.column(1)))
             }
         };
@@ -175,13 +175,12 @@ impl Finder<'_> {
         median(all).is_some_and(|cosine| cosine < RAISED.cos())
     }
 
-    /// How much higher the shoulders stand at `height` than neck and table say they do with hanging arms [m].
+    /// Height of the shoulders above that expected for hanging arms from neck markers and segment table [m].
     fn lift(&self, poses: &[Option<Pose>], height: f64) -> f64 {
         let neck = [Landmark::C7, Landmark::Jugular].map(|landmark| {
-            let heights = poses
-                .iter()
-                .zip(self.frames)
-                .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.at(landmark, None, frame)?).y));
+            let heights = poses.iter().zip(self.frames).filter_map(|(pose, &frame)| {
+                Some(in_frame(pose.as_ref()?, self.trajectories.at(landmark, None, frame)?).y)
+            });
             median(heights).map(|found| found / landmark.place().y)
         });
         let shoulders =
@@ -189,17 +188,17 @@ impl Finder<'_> {
         (height - shoulders).max(0.0)
     }
 
-    /// Where a shoulder centre stands in the trunk [m].
+    /// Position of a shoulder centre in the trunk [m].
     fn shoulder(&self, poses: &[Option<Pose>], side: Side) -> Option<Vec3> {
         let middle = |landmark: Landmark| {
-            let points = poses
-                .iter()
-                .zip(self.frames)
-                .filter_map(|(pose, &frame)| Some(inside(pose.as_ref()?, self.sight.of(landmark, side, frame)?)));
+            let points = poses.iter().zip(self.frames).filter_map(|(pose, &frame)| {
+                Some(in_frame(pose.as_ref()?, self.trajectories.of(landmark, side, frame)?))
+            });
             median_point(&points.collect::<Vec<_>>())
         };
         let usual = (Landmark::Acromion.place() - Landmark::ShoulderCentre.place()).y * self.length();
-        let measured = of(&self.person.measures.shoulder_offset, side).map(|v| v + self.person.measures.radius());
+        let measured =
+            of(&self.person.measurements.shoulder_offset, side).map(|v| v + self.person.measurements.radius());
         let below = Vec3::y() * measured.unwrap_or(usual);
         middle(Landmark::ShoulderCentre).or_else(|| Some(middle(Landmark::Acromion)? - below))
     }
@@ -224,9 +223,9 @@ impl Finder<'_> {
         (is_usual(upper, d.upper_arm) && is_usual(lower, d.forearm)).then_some(Arm { frames, upper, lower })
     }
 
-    /// The wrist's centre, or the one marker that it has [m].
+    /// Centre of the wrist, or its only marker [m].
     fn wrist(&self, side: Side, frame: usize) -> Option<Vec3> {
-        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let at = |landmark: Landmark| self.trajectories.of(landmark, side, frame);
         match (at(Landmark::RadialStyloid), at(Landmark::UlnarStyloid)) {
             (Some(radial), Some(ulnar)) => Some((radial + ulnar) * 0.5),
             (radial, ulnar) => at(Landmark::WristCentre).or(radial).or(ulnar),
@@ -234,7 +233,7 @@ impl Finder<'_> {
     }
 
     fn arm_frame(&self, trunk: &Pose, shoulder: Vec3, side: Side, frame: usize) -> Option<[Pose; 2]> {
-        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        let at = |landmark: Landmark| self.trajectories.of(landmark, side, frame);
         let out = if side == Side::Right { 1.0 } else { -1.0 };
         let (shoulder, wrist) = (trunk.place(shoulder), self.wrist(side, frame)?);
         let across: Vec3 = trunk.rotation.column(2).into();
@@ -253,7 +252,7 @@ impl Finder<'_> {
     }
 
     /// Elbow centre and axis (to the right) from the lateral marker alone. The axis is the normal of the plane of shoulder, centre and
-    /// wrist where the elbow is bent; else that of a forearm halfway between pronation and supination.
+    /// wrist if the elbow is flexed; otherwise that of a forearm halfway between pronation and supination.
     fn elbow(
         &self,
         shoulder: Vec3,
@@ -264,28 +263,28 @@ impl Finder<'_> {
         frame: usize,
     ) -> (Vec3, Vec3) {
         const ROUNDS: usize = 4;
-        /// A normal further than 60° from the forearm's axis is a straight arm's.
-        const AGREEING: f64 = 0.5;
-        let at = |landmark: Landmark| self.sight.of(landmark, side, frame);
+        /// A normal more than 60° from the axis of the forearm means that the arm is nearly straight.
+        const LEAST_COSINE: f64 = 0.5;
+        let at = |landmark: Landmark| self.trajectories.of(landmark, side, frame);
         let thumb = at(Landmark::RadialStyloid).zip(at(Landmark::UlnarStyloid)).map(|(radial, ulnar)| radial - ulnar);
         let usual = thumb.and_then(|thumb| direction(thumb.cross(&(lateral - wrist)))).unwrap_or(across);
         let reach = self.half_elbow(side) * if side == Side::Right { 1.0 } else { -1.0 };
         let mut axis = usual;
         for _ in 0..ROUNDS {
             let normal = bending_axis(shoulder, lateral - axis * reach, wrist);
-            axis = normal.filter(|n| n.dot(&usual) > AGREEING).unwrap_or(usual);
+            axis = normal.filter(|n| n.dot(&usual) > LEAST_COSINE).unwrap_or(usual);
         }
         (lateral - axis * reach, axis)
     }
 
-    /// Lateral marker to elbow centre [m].
+    /// Distance from the lateral marker to the elbow centre [m].
     fn half_elbow(&self, side: Side) -> f64 {
-        let width = of(&self.person.measures.elbow_width, side).unwrap_or(ELBOW_BREADTH * self.dimensions.height);
-        0.5 * width + self.person.measures.radius()
+        let width = of(&self.person.measurements.elbow_width, side).unwrap_or(ELBOW_BREADTH * self.dimensions.height);
+        0.5 * width + self.person.measurements.radius()
     }
 }
 
-/// The normal of the plane in which an elbow bends, to the right, if it is bent.
+/// Normal of the plane of flexion of an elbow, to the right; `None` if it is nearly straight.
 fn bending_axis(shoulder: Vec3, elbow: Vec3, wrist: Vec3) -> Option<Vec3> {
     let (upper, lower) = (direction(elbow - shoulder)?, direction(wrist - elbow)?);
     let normal = upper.cross(&lower);

@@ -1,4 +1,4 @@
-//! What is taken of parts that no marker shows.
+//! Default posture of a trunk without markers.
 
 use super::axes::{about_x, about_y, about_z, angles_zxy, from_y_x};
 use crate::findings::{Code, Findings};
@@ -6,15 +6,15 @@ use crate::model::{Body, CoordinateId, Displacement, Drive, Model, Movement};
 use crate::motion::Motion;
 use crate::spatial::{Mat3, Vec3};
 
-/// Coordinates that turn about z, x and y, with the signs of these turns.
+/// Coordinates that rotate about z, x and y, with the signs of these rotations.
 const LUMBAR: [(Movement, f64); 3] =
     [(Movement::TrunkLean, -1.0), (Movement::TrunkObliquity, -1.0), (Movement::TrunkRotation, 1.0)];
 const PELVIS: [(Movement, f64); 3] =
     [(Movement::PelvicTilt, -1.0), (Movement::PelvicObliquity, -1.0), (Movement::PelvicRotation, 1.0)];
 
-/// Fills the coordinates of a trunk that no marker showed: upright above the pelvis, looking where the pelvis looks. A trunk that was
-/// seen, or that the model holds fast, stays as it is. Other joints without a column, such as those of arms, are left to their
-/// default values: hanging.
+/// Sets a trunk without markers upright above the pelvis, facing the same way. A trunk with markers, or one that is
+/// locked in the model, is not changed. Other joints without a column, such as those of the arms, keep their
+/// default values (hanging arms).
 pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     let Some(lumbar) = ids(model, LUMBAR) else { return };
     let Some(pelvis) = ids(model, PELVIS) else { return };
@@ -32,7 +32,7 @@ pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut F
     }
     findings.report(
         Code::CalibrationTrunkUpright,
-        "no marker shows the trunk: it is taken as upright above the pelvis, its mass moving with the pelvis",
+        "the trunk has no markers: it is assumed upright above the pelvis, its mass moving with the pelvis",
     );
 }
 
@@ -44,7 +44,7 @@ fn ids(model: &Model, movements: [(Movement, f64); 3]) -> Option<[CoordinateId; 
     Some([a?, b?, c?])
 }
 
-/// Whether the trunk turns about z, x, y in axes of the pelvis, as the built-in body's does.
+/// Whether the trunk rotates about z, x, y in the axes of the pelvis, as in the built-in body.
 fn has_plain_trunk(model: &Model, lumbar: [CoordinateId; 3]) -> bool {
     let carries = |body: &&Body| body.joint.coordinates() == lumbar;
     model.bodies().iter().find(carries).is_some_and(|body| {
@@ -58,7 +58,7 @@ fn has_plain_trunk(model: &Model, lumbar: [CoordinateId; 3]) -> bool {
     })
 }
 
-/// Lumbar angles [rad] that set the trunk upright on a pelvis of these angles.
+/// Lumbar angles [rad] at which the trunk is upright on a pelvis with these angles.
 fn upright([tilt, list, rotation]: [f64; 3]) -> [f64; 3] {
     let pelvis = about_z(tilt) * about_x(list) * about_y(rotation);
     let forward: Vec3 = pelvis.column(0).into();

@@ -100,8 +100,8 @@ impl MarkerRows {
 mod tests {
     use super::*;
     use crate::model::{
-        Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
-        Measure,
+        Body, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds,
+        Marker,
     };
     use crate::motion::MarkerPath;
     use crate::spatial::{Inertia, Mat3, Pose};
@@ -112,7 +112,7 @@ mod tests {
         let axis = |direction: Vec3, displacement| JointAxis { direction: direction.normalize(), displacement };
         let xyz = |c: usize| vec![axis(Vec3::x(), line(c)), axis(Vec3::y(), line(c + 1)), axis(Vec3::z(), line(c + 2))];
         let slide = Function::Polynomial(vec![0.02, -0.05, 0.01]);
-        let joint = |i: usize, rotations, translations, measure| Joint {
+        let joint = |i: usize, rotations, translations, speeds| Joint {
             name: format!("j{i}"),
             parent: i.checked_sub(1).map(crate::model::BodyId),
             parent_from_joint: Pose::at(Vec3::new(0.1, -0.3, 0.05)),
@@ -122,18 +122,18 @@ mod tests {
             },
             rotations,
             translations,
-            measure,
+            speeds,
         };
         let joints = [
-            joint(0, xyz(0), xyz(3), Measure::AngularVelocity),
+            joint(0, xyz(0), xyz(3), JointSpeeds::AngularVelocity),
             joint(
                 1,
                 vec![axis(Vec3::new(0.2, 0.1, 1.0), line(6))],
                 vec![axis(Vec3::x(), Displacement::Follows(CoordinateId(6), slide))],
-                Measure::Rates,
+                JointSpeeds::Rates,
             ),
-            joint(2, xyz(7), Vec::new(), Measure::Ellipsoid(Vec3::new(0.1, 0.2, 0.15))),
-            joint(3, vec![axis(Vec3::y(), line(10))], Vec::new(), Measure::Rates),
+            joint(2, xyz(7), Vec::new(), JointSpeeds::Ellipsoid(Vec3::new(0.1, 0.2, 0.15))),
+            joint(3, vec![axis(Vec3::y(), line(10))], Vec::new(), JointSpeeds::Rates),
         ];
         let inertia = Inertia::new(1.0, Vec3::zeros(), Mat3::identity()).unwrap();
         let bodies = joints.into_iter().enumerate().map(|(i, joint)| Body { name: format!("b{i}"), inertia, joint });

@@ -16,7 +16,7 @@
 //! Pinned by: tests/marker_fit.rs (derivatives against finite differences, random models of all joint kinds)
 
 use crate::kinematics::plan::Source;
-use crate::model::{BodyId, Drive, Function, Joint, JointAxis, Measure, Model};
+use crate::model::{BodyId, Drive, Function, Joint, JointAxis, JointSpeeds, Model};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 #[derive(Debug, Clone)]
@@ -170,8 +170,8 @@ impl MarkerTree {
             joint_from_child: joint.child_from_joint.inverse(),
             rotations,
             translations,
-            ellipsoid: match joint.measure {
-                Measure::Ellipsoid(radii) => Some(radii),
+            ellipsoid: match joint.speeds {
+                JointSpeeds::Ellipsoid(radii) => Some(radii),
                 _ => None,
             },
             first_column,

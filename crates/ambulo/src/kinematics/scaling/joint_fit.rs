@@ -1,25 +1,26 @@
-//! Sizes of the bodies and the standing posture, fitted together.
+//! Fits the sizes of all bodies and the standing posture together.
 //!
 //! min  Σ |m - p(q, s)|² / σ²  +  Σ_b ρ(ln s_b - ln s_parent(b))  +  Σ (ln s_right - ln s_left)² / σ_side²
-//!      +  Σ (ln s_b - ln s_neighbour(b))² / σ_untold²  +  Σ (q - q₀)² / σ_q²
+//!      +  Σ (ln s_b - ln s_neighbour(b))² / σ_tied²  +  Σ (q - q₀)² / σ_q²
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
-//! | `x` | q, coordinates that move a marker; u = ln s, one a body | rad, m; 1 |
-//! | `MARKER` | σ, a marker's distance from its place on a model of the right size | m |
-//! | `PROPORTION` | scale of ρ, a body's size against its parent's | 1 |
+//! | `x` | q, coordinates that move a marker; u = ln s, one per body | rad, m; 1 |
+//! | `MARKER` | σ, distance of a marker from its position on a model of the right size | m |
+//! | `PROPORTION` | scale of ρ, size of a body relative to its parent | 1 |
 //! | `SIDE` | σ_side | 1 |
+//! | `TIED` | σ_tied | 1 |
 //! | `POSTURE` | σ_q | rad |
 //!
-//! A body without markers does not tell its size, nor does one with fewer than three at the end of a limb; it takes that of a
-//! neighbour: of its only child with markers (the talus is part of the foot), of its parent otherwise.
+//! The size of a body without markers cannot be determined, nor that of a body with fewer than three at the end of a limb; it is tied
+//! to a neighbour: to its only child with markers (the talus is part of the foot), otherwise to its parent.
 //!
-//! One factor a body: its markers tell its length well and its width badly. ρ is Cauchy's, σ² ln(1 + (d/σ)²): most bodies share
-//! the proportions of the model, but where markers say otherwise they are believed. Offsets of markers from their places are part
-//! of the model: a posture has three numbers a marker, so an offset of its own with a normal distribution of σ is the same as a
-//! distance of σ; they are what is left, and the markers are moved by them in the end.
+//! One factor per body: its markers determine its length well and its width badly. ρ is Cauchy's, σ² ln(1 + (d/σ)²): most bodies share
+//! the proportions of the model, but clear evidence of markers may change them. Offsets of markers from their positions are part
+//! of the noise: a marker has three coordinates, so a normally distributed offset with σ is equivalent to a
+//! distance of σ. The remaining distances are these offsets, and the markers are moved by them at the end.
 //!
-//! Cost: two models a body and step, some 50 ms in all.
+//! Cost: two models per body and step, about 50 ms in total.
 //! Not handled: several standing postures; factors that differ along the axes of one body (use measurements).
 //! Pinned by: tests/scaling.rs
 
@@ -33,51 +34,51 @@ use crate::motion::MarkerRecording;
 use crate::numerics::{NormalEquations, Residuals, minimise};
 use crate::spatial::Vec3;
 
-/// A marker stands this far from its place on a model of the right size [m]: palpation and skin.
+/// Standard deviation of a marker from its position on a model of the right size [m]: palpation and skin.
 const MARKER: f64 = 0.01;
-/// Bodies differ from their parents by this in the logarithm of their size.
+/// Standard deviation of the logarithm of size between a body and its parent.
 const PROPORTION: f64 = 0.15;
-/// Bodies that do not tell their size differ from their neighbour by this in the logarithm.
-const UNTOLD: f64 = 0.01;
+/// The same between a body whose size is not determined and its neighbour.
+const TIED: f64 = 0.01;
 const ENOUGH: usize = 3;
-/// Left and right differ by this in the logarithm of their size: leg lengths differ by 1 % in most people.
+/// The same between left and right: leg lengths differ by 1 % in most people.
 const SIDE: f64 = 0.01;
-/// The whole differs from the model by this in the logarithm of its size.
+/// The same between the whole body and the model.
 const WHOLE: f64 = 0.5;
-/// Joints stand this far from the model's default posture [rad], or translations [m].
+/// Standard deviation of the joints from the default posture [rad, or m].
 const POSTURE: f64 = 1.0;
 const STEPS: usize = 100;
-/// Step of the differences by the logarithm of a size: the error of second order is 1e-10.
+/// Step of the numerical derivative by the logarithm of a size: the second-order error is 1e-10.
 const DIFFERENCE: f64 = 1e-5;
 
-/// What is known of the person.
+/// Settings of [`fit_size`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SizeSettings {
-    /// Mass [kg]; `None` keeps the model's.
+    /// Body mass [kg]; `None` keeps that of the model.
     pub mass: Option<f64>,
 }
 
-/// A model of a person's size.
+/// A model scaled to a person.
 #[derive(Debug, Clone)]
 pub struct SizedModel {
-    /// The model, its markers where the person has them.
+    /// The model, with the markers at their positions on the person.
     pub model: Model,
-    /// How each body was scaled along its axes, in the model's order.
+    /// Scale factors of each body along its axes, in the order of the model.
     pub factors: Vec<Vec3>,
-    /// The standing posture, one value a coordinate [rad or m].
+    /// The standing posture, one value per coordinate [rad or m].
     pub posture: Vec<f64>,
-    /// Root mean square distance of the markers from those of the model as it was [m].
+    /// Root mean square distance of the markers from those of the unscaled model [m].
     pub rms_before_m: f64,
     /// The same for the scaled model, before its markers were moved [m].
     pub rms_m: f64,
-    /// How far markers were moved on their bodies.
+    /// Distances by which markers were moved on their bodies.
     pub moved: Vec<MovedMarker>,
 }
 
-/// Sizes of all bodies from a standing trial in world axes; the model's markers are then put where the person has them.
+/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person.
 ///
 /// # Errors
-/// Markers that cannot be fitted, a mass that is none.
+/// Markers that cannot be fitted, a mass that is not positive.
 pub fn fit_size(
     model: &Model,
     standing: &MarkerRecording,
@@ -89,17 +90,17 @@ pub fn fit_size(
     let start = fit_markers(model, &standing, &fit_settings, findings)?;
     let mut problem = Problem::new(model, &standing, &start.motion.columns)?;
     let mut z = problem.start.clone();
-    // Square first, so that a body with few markers finds no size of its own before the others have theirs; then from the posture
-    // that a model of about the right size finds by itself, for that of a wrong one may have folded an arm.
+    // Quadratic first, so that a body with few markers is not given a size of its own before the others have theirs; then from the
+    // posture of a model of about the right size, because that of a wrong size may have folded an arm.
     minimise(&mut problem, &mut z, STEPS);
     let about = model.scaled(&problem.factors(&z), None)?;
     let again = fit_markers(&about, &standing, &fit_settings, &mut Findings::default())?;
-    let mut other = problem.started(&again.motion.columns);
+    let mut other = problem.start_at(&again.motion.columns);
     other[problem.unknowns..].copy_from_slice(&z[problem.unknowns..]);
     if minimise(&mut problem, &mut other, STEPS).to < problem.cost(&z) {
         z = other;
     }
-    problem.is_tolerant = true;
+    problem.is_robust = true;
     minimise(&mut problem, &mut z, STEPS);
     let factors = problem.factors(&z);
     let scaled = model.scaled(&factors, settings.mass)?;
@@ -114,18 +115,18 @@ pub fn fit_size(
 struct Problem<'a> {
     model: &'a Model,
     standing: &'a MarkerRecording,
-    /// Number of posture's unknowns; sizes follow them.
+    /// Number of unknowns of the posture; those of the sizes follow.
     unknowns: usize,
     /// The coordinate of each.
     coordinates: Vec<usize>,
     start: Vec<f64>,
-    /// Whether bodies that differ much from their parents are believed.
-    is_tolerant: bool,
-    /// Unknowns that the default posture draws, with its value.
-    drawn: Vec<(usize, f64)>,
+    /// Whether ρ is Cauchy's; otherwise it is quadratic.
+    is_robust: bool,
+    /// Unknowns with a prior, and its mean (the default posture).
+    posture_prior: Vec<(usize, f64)>,
     /// A body and its parent.
     proportions: Vec<(usize, usize)>,
-    /// A body that does not tell its size and its neighbour.
+    /// A body whose size is not determined, and its neighbour.
     ties: Vec<(usize, usize)>,
     sides: Vec<(usize, usize)>,
 }
@@ -146,7 +147,7 @@ impl<'a> Problem<'a> {
             .flat_map(|b| b.joint.coordinates())
             .map(|id| id.index())
             .collect();
-        let drawn = (0..unknowns)
+        let posture_prior = (0..unknowns)
             .filter(|&u| !root_moves.contains(&rows.coordinate(u)))
             .map(|u| (u, model.coordinates()[rows.coordinate(u)].default_value))
             .collect();
@@ -165,18 +166,18 @@ impl<'a> Problem<'a> {
             unknowns,
             coordinates,
             start,
-            is_tolerant: false,
-            drawn,
+            is_robust: false,
+            posture_prior,
             proportions,
             ties,
             sides,
         };
-        problem.start = problem.started(columns);
+        problem.start = problem.start_at(columns);
         Ok(problem)
     }
 
-    /// The model's own size in the posture of the first frame.
-    fn started(&self, columns: &[Option<Vec<f64>>]) -> Vec<f64> {
+    /// Initial values: the size of the model, the posture of the first frame.
+    fn start_at(&self, columns: &[Option<Vec<f64>>]) -> Vec<f64> {
         let value = |c: &usize| columns[*c].as_ref().map(|c| c[0]).filter(|v| v.is_finite()).unwrap_or(0.0);
         self.coordinates.iter().map(value).chain(self.model.bodies().iter().map(|_| 0.0)).collect()
     }
@@ -185,7 +186,7 @@ impl<'a> Problem<'a> {
         z[self.unknowns..].iter().map(|u| Vec3::repeat(u.exp())).collect()
     }
 
-    /// Markers of the model with these sizes, in this posture.
+    /// Residuals of the markers for these sizes and this posture.
     fn rows(&self, z: &[f64]) -> Result<MarkerRows, ScalingError> {
         let scaled = self.model.scaled(&self.factors(z), None)?;
         let mut rows = MarkerRows::new(&scaled, self.standing)?;
@@ -193,12 +194,12 @@ impl<'a> Problem<'a> {
         Ok(rows)
     }
 
-    /// Residuals and slopes that do not come from markers.
+    /// Residuals and derivatives of the priors.
     fn each_prior(&self, z: &[f64], mut visit: impl FnMut(f64, &[usize], &[f64])) {
-        for &(u, value) in &self.drawn {
+        for &(u, value) in &self.posture_prior {
             visit((z[u] - value) / POSTURE, &[u], &[1.0 / POSTURE]);
         }
-        for (list, scale) in [(&self.sides, SIDE), (&self.ties, UNTOLD)] {
+        for (list, scale) in [(&self.sides, SIDE), (&self.ties, TIED)] {
             for &(a, b) in list {
                 visit((z[a] - z[b]) / scale, &[a, b], &[1.0 / scale, -1.0 / scale]);
             }
@@ -209,20 +210,20 @@ impl<'a> Problem<'a> {
         }
         for &(a, b) in &self.proportions {
             let d = (z[a] - z[b]) / PROPORTION;
-            let (r, slope) = if self.is_tolerant { cauchy(d) } else { (d, 1.0) };
+            let (r, slope) = if self.is_robust { cauchy(d) } else { (d, 1.0) };
             let slope = slope / PROPORTION;
             visit(r, &[a, b], &[slope, -slope]);
         }
     }
 }
 
-/// The residual r with r² = ln(1 + d²), and its slope d / ((1 + d²) r).
+/// The residual r with r² = ln(1 + d²), and its derivative d / ((1 + d²) r).
 fn cauchy(d: f64) -> (f64, f64) {
     let r = (d * d).ln_1p().sqrt().copysign(d);
     (r, if r.abs() < 1e-6 { 1.0 } else { d / ((1.0 + d * d) * r) })
 }
 
-/// Of bodies that do not tell their size: whose they take.
+/// For bodies whose size is not determined: the neighbour that they are tied to.
 fn neighbours(model: &Model, standing: &MarkerRecording) -> Vec<Option<BodyId>> {
     let markers = |id: BodyId| {
         model.markers().iter().filter(|m| m.body == Some(id) && standing.marker(&m.name).is_some()).count()
@@ -245,7 +246,7 @@ fn neighbours(model: &Model, standing: &MarkerRecording) -> Vec<Option<BodyId>> 
     model.body_ids().map(neighbour).collect()
 }
 
-/// Bodies that stand on both sides under one name.
+/// Pairs of right and left bodies with the same name.
 fn pairs_of_sides(model: &Model) -> Vec<(usize, usize)> {
     let right = format!("_{}", Side::Right.letter());
     let left = format!("_{}", Side::Left.letter());
@@ -303,7 +304,7 @@ impl Residuals for Problem<'_> {
 }
 
 impl Problem<'_> {
-    /// How every marker moves with the logarithm of each body's size.
+    /// Derivative of every marker by the logarithm of the size of each body.
     fn by_size(&self, z: &[f64]) -> Vec<Vec<Vec3>> {
         let side = |body: usize, step: f64| {
             let mut other = z.to_vec();

@@ -1,7 +1,7 @@
-//! Factors from distances between markers.
+//! Scale factors from distances between markers.
 //!
-//! A measurement is a list of pairs of markers and the axes of bodies that its factor scales. The factor is the mean over the
-//! pairs of the distance as recorded over that on the model in its default posture. Bodies that no measurement names keep
+//! A measurement is a list of pairs of markers and the axes of the bodies that its factor scales. The factor is the recorded distance
+//! divided by the distance on the model in its default posture, averaged over the pairs. Bodies without a measurement keep
 //! their size.
 //!
 //! Source: OpenSim 4, ModelScaler.cpp (`computeMeasurementScaleFactor`) (unverified; pinned by its numbers).
@@ -15,14 +15,14 @@ use crate::model::Model;
 use crate::motion::MarkerRecording;
 use crate::spatial::Vec3;
 
-/// What a distance between markers says of the size of bodies.
+/// Scales axes of bodies by distances between pairs of markers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measurement {
+pub struct DistanceMeasurement {
     /// Name, for messages.
     pub name: String,
     /// Pairs of markers.
     pub pairs: Vec<[String; 2]>,
-    /// What is scaled.
+    /// The bodies that are scaled.
     pub bodies: Vec<MeasuredBody>,
 }
 
@@ -31,18 +31,18 @@ pub struct Measurement {
 pub struct MeasuredBody {
     /// Name of the body.
     pub body: String,
-    /// Along x, y, z of its frame.
+    /// Whether x, y and z of its frame are scaled.
     pub axes: [bool; 3],
 }
 
-/// Factors of all bodies, in the model's order.
+/// Scale factors of all bodies, in the order of the model.
 ///
 /// # Errors
-/// Bodies that are not there, measurements without a pair of common markers.
+/// Unknown bodies, measurements without a pair of common markers.
 pub fn measured_factors(
     model: &Model,
     standing: &MarkerRecording,
-    measurements: &[Measurement],
+    measurements: &[DistanceMeasurement],
     findings: &mut Findings,
 ) -> Result<Vec<Vec3>, ScalingError> {
     let standing = at_rest(standing, findings);
@@ -70,11 +70,11 @@ pub fn measured_factors(
     Ok(factors)
 }
 
-/// Two markers are in one place if they are nearer than this [m].
+/// Two markers closer than this are at one place [m].
 const ONE_PLACE: f64 = 1e-6;
 
 fn factor(
-    measurement: &Measurement,
+    measurement: &DistanceMeasurement,
     on_model: impl Fn(&str) -> Option<Vec3>,
     recorded: impl Fn(&str) -> Option<Vec3>,
     model: &Model,
@@ -86,7 +86,10 @@ fn factor(
         let (Some(model_a), Some(model_b), Some(real_a), Some(real_b)) =
             (on_model(a), on_model(b), recorded(a), recorded(b))
         else {
-            let message = format!("measurement `{}`: the pair {pair} is not in both model and trial", measurement.name);
+            let message = format!(
+                "measurement `{}`: the pair {pair} is not in both the model and the trial; it was left out",
+                measurement.name
+            );
             findings.report(Code::ScalingPair, message);
             continue;
         };
@@ -106,15 +109,15 @@ fn factor(
     Ok(ratios.iter().sum::<f64>() / ratios.len() as f64)
 }
 
-/// The model scaled by measurements, with the person's mass [kg] and markers where the person has them in the fitted standing
-/// posture.
+/// Scales a model by measurements, to the body mass [kg], with the markers at their positions on the person in the fitted
+/// standing posture.
 ///
 /// # Errors
 /// As [`measured_factors`], and markers that cannot be fitted.
 pub fn size_by_measurements(
     model: &Model,
     standing: &MarkerRecording,
-    measurements: &[Measurement],
+    measurements: &[DistanceMeasurement],
     mass: Option<f64>,
     findings: &mut Findings,
 ) -> Result<SizedModel, ScalingError> {

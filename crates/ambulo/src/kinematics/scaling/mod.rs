@@ -1,9 +1,9 @@
-//! A model brought to the size of a person who stands still.
+//! Scales a model to a person from a standing trial.
 //!
-//! Two ways to the factors of its bodies: [`measured_factors`] from distances between markers, as they are over as they are on
-//! the model (OpenSim's way, with the same lists of pairs), and [`fit_size`], which fits sizes and posture together and needs no
-//! list. Both scale the model with its mass distribution kept ([`Model::scaled`](crate::model::Model::scaled)), give it the
-//! person's mass and put its markers where the person's are.
+//! Two methods determine the scale factors of the bodies: [`measured_factors`] uses distances between markers, recorded and on the
+//! model (the method and the lists of OpenSim), and [`fit_size`] fits sizes and posture together, without a
+//! list. Both keep the mass distribution of the model ([`Model::scaled`](crate::model::Model::scaled)), scale it to the
+//! body mass and move its markers to their positions on the person.
 //!
 //! Pinned by: tests/scaling.rs
 
@@ -12,19 +12,21 @@ mod measurement;
 mod standing;
 
 pub use joint_fit::{SizeSettings, SizedModel, fit_size};
-pub use measurement::{MeasuredBody, Measurement, measured_factors, size_by_measurements};
+pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors, size_by_measurements};
 
 pub use standing::MovedMarker;
 
 use super::marker_fit::FitError;
 use crate::model::{ModelError, ScaleError};
 
-/// Why a model cannot be brought to a person's size.
+/// Why a model cannot be scaled to a person.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScalingError {
-    /// A measurement without one pair of markers that both the model and the recording have.
-    #[error("measurement `{measurement}` has no pair of markers in common; it asks for {pairs}; common are {common}")]
+    /// A measurement without a pair of markers that is in both the model and the recording.
+    #[error(
+        "measurement `{measurement}` has no pair of markers that is in both the model and the trial: its pairs are {pairs}; expected pairs of {common}"
+    )]
     NoPair {
         /// The measurement.
         measurement: String,
@@ -34,7 +36,9 @@ pub enum ScalingError {
         common: String,
     },
     /// A measurement that names a body which the model does not have.
-    #[error("measurement `{measurement}` scales the body `{body}`; expected one of {known}")]
+    #[error(
+        "measurement `{measurement}` scales the body `{body}`, which the model does not have; expected one of {known}"
+    )]
     UnknownBody {
         /// The measurement.
         measurement: String,
@@ -43,8 +47,8 @@ pub enum ScalingError {
         /// The model's bodies.
         known: String,
     },
-    /// Two markers of the model that are in one place.
-    #[error("measurement `{measurement}`: the markers {pair} are {distance_m} m apart; expected two places")]
+    /// Two markers of the model at one place.
+    #[error("measurement `{measurement}`: the markers {pair} are {distance_m} m apart; expected two different places")]
     NoDistance {
         /// The measurement.
         measurement: String,
@@ -56,10 +60,10 @@ pub enum ScalingError {
     /// The markers cannot be fitted.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The factors found make no model.
+    /// The model cannot be scaled by these factors.
     #[error(transparent)]
     Scale(#[from] ScaleError),
-    /// The parts no longer fit.
+    /// The scaled model is not valid.
     #[error(transparent)]
     Model(#[from] ModelError),
 }

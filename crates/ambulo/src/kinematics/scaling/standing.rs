@@ -1,4 +1,4 @@
-//! A standing trial as one instant, and markers put where a person has them.
+//! Reduces a standing trial to one posture, and moves markers of a model to their recorded positions.
 
 use super::ScalingError;
 use crate::findings::{Code, Findings};
@@ -9,33 +9,33 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
-/// A marker that strays from its middle by more than this [m], root mean square, is not standing still.
-const STILL: f64 = 0.01;
-/// Markers named in a message at most.
+/// Largest root mean square deviation of a marker from its median in quiet standing [m].
+const AT_REST: f64 = 0.01;
+/// Largest number of markers named in a message.
 const MOST_NAMED: usize = 6;
 
-/// Every marker at its middle: along each axis the median of the frames in which it was seen.
+/// Median position of every marker, axis by axis, over the frames in which it is visible.
 pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
     let mut moving = Vec::new();
     let mut markers = Vec::new();
     for path in &recording.markers {
         let seen: Vec<&Vec3> = path.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())).collect();
         let middle = Vec3::from_fn(|k, _| median(seen.iter().map(|p| p[k])).unwrap_or(f64::NAN));
-        let stray = seen.iter().map(|p| (*p - middle).norm_squared()).sum::<f64>() / seen.len() as f64;
-        if stray > STILL * STILL {
-            moving.push(format!("{} ({:.0} mm)", path.name, 1000.0 * stray.sqrt()));
+        let variance = seen.iter().map(|p| (*p - middle).norm_squared()).sum::<f64>() / seen.len() as f64;
+        if variance > AT_REST * AT_REST {
+            moving.push(format!("{} ({:.0} mm)", path.name, 1000.0 * variance.sqrt()));
         }
         markers.push(MarkerPath { name: path.name.clone(), positions: vec![middle] });
     }
     if !moving.is_empty() {
         let (count, all) = (moving.len(), recording.markers.len());
-        let judged = if 2 * count > all { "; this is no standing trial" } else { "" };
+        let conclusion = if 2 * count > all { "; the person did not stand still" } else { "" };
         let more = if count > MOST_NAMED { format!(" and {} more", count - MOST_NAMED) } else { String::new() };
         moving.truncate(MOST_NAMED);
         let message = format!(
-            "in `{}` {count} of {all} markers move by more than {:.0} mm rms ({}{more}); their middle was taken{judged}",
+            "in `{}` {count} of {all} markers move by more than {:.0} mm rms ({}{more}); their median position was used{conclusion}",
             recording.name,
-            1000.0 * STILL,
+            1000.0 * AT_REST,
             moving.join(", ")
         );
         findings.report(Code::ScalingMoving, message);
@@ -44,7 +44,7 @@ pub(super) fn at_rest(recording: &MarkerRecording, findings: &mut Findings) -> M
     MarkerRecording { name: recording.name.clone(), rate_hz: recording.rate_hz, times, markers }
 }
 
-/// Values of all coordinates: those given, defaults elsewhere, followers as their coupler has them.
+/// Values of all coordinates: given ones, otherwise defaults; coupled and prescribed ones from their functions.
 pub(super) fn complete(model: &Model, given: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let own =
         |(i, c): (usize, &crate::model::Coordinate)| given(i).filter(|v| v.is_finite()).unwrap_or(c.default_value);
@@ -65,16 +65,16 @@ pub(super) fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
     body_motion(model, Posture { q, qd: &zeros, qdd: &zeros }).into_iter().map(|b| b.pose).collect()
 }
 
-/// A marker and how far it was moved on its body.
+/// A marker that was moved on its body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovedMarker {
     /// Name of the marker.
     pub name: String,
-    /// How far [m].
+    /// Distance [m].
     pub distance_m: f64,
 }
 
-/// The model with every marker that was seen at the place it has on its body in this posture.
+/// Moves every visible marker to its recorded position on its body in this posture.
 pub(super) fn with_markers_placed(
     model: &Model,
     standing: &MarkerRecording,

@@ -1,17 +1,17 @@
-//! Finds which way is forward and which leg is the right one.
+//! Determines the forward direction and the side of each leg.
 //!
-//! Feet point forward from the ankle. Seen from behind, the hip on the right belongs to the right leg. Names decide only where the
-//! geometry does not: feet without length, or hips in one place, as in models that move in a plane.
+//! Feet point forward from the ankle. Seen from behind, the hip on the right belongs to the right leg. Names are used only if the
+//! geometry is not sufficient: feet without length, or hips at one position, as in planar models.
 
-use super::legs::{Chain, Legs, Lower, Tree, level};
+use super::legs::{LegChain, Legs, LowerBody, Tree, level};
 use crate::model::{BodyId, BySide, Side};
 use crate::spatial::{Mat3, Vec3};
 
-/// Distances below this share of the leg's length do not tell a direction.
+/// Distances below this share of the leg length do not define a direction.
 const CLEAR: f64 = 0.02;
-/// A body this share of the leg's length away from the middle may be on a side.
+/// Smallest distance of a body of one side from the midline, as a share of the leg length.
 const BESIDE: f64 = 0.04;
-/// Its counterpart is at most this share of the leg's length from its mirror image.
+/// Largest distance of its counterpart from its mirror image, as a share of the leg length.
 const MIRRORED: f64 = 0.15;
 
 /// Legs by side, and the axes of the body: columns forward, up and right in the world.
@@ -21,11 +21,11 @@ pub(super) struct Oriented {
 }
 
 impl Tree<'_> {
-    fn side_by_name(&self, leg: &Chain) -> Option<Side> {
+    fn side_by_name(&self, leg: &LegChain) -> Option<Side> {
         leg.bodies[1..].iter().find_map(|body| Side::of_name(&self.bodies[body.index()].name))
     }
 
-    pub(super) fn oriented(&self, lower: Lower) -> Option<Oriented> {
+    pub(super) fn oriented(&self, lower: LowerBody) -> Option<Oriented> {
         let feet: Vec3 = lower.legs.iter().map(|leg| self.ahead(leg)).sum();
         let clear = CLEAR * lower.legs[0].length;
         let mut legs = lower.legs.into_iter();
@@ -42,14 +42,14 @@ impl Tree<'_> {
     }
 
     /// Axes, and the side of the first leg.
-    fn of_two(&self, first: &Chain, second: &Chain, feet: Vec3, clear: f64) -> Option<(Mat3, Side)> {
+    fn of_two(&self, first: &LegChain, second: &LegChain, feet: Vec3, clear: f64) -> Option<(Mat3, Side)> {
         let across = level(self.hip(first) - self.hip(second), self.up);
         let named = self.side_by_name(first).or_else(|| self.side_by_name(second).map(Side::other));
         if across.norm() <= clear {
             let axes = self.axes(if feet.norm() > clear { feet } else { Vec3::x() })?;
             return Some((axes, named?));
         }
-        // Forward if the first leg is the right one: up x right.
+        // Forward if the first leg is the right one: up × right.
         let ahead = self.up.cross(&across.normalize());
         let first_side = match (feet.dot(&ahead), named) {
             (agreement, _) if agreement.abs() > clear => right_if(agreement > 0.0),
@@ -59,8 +59,8 @@ impl Tree<'_> {
         Some((self.axes(if first_side == Side::Right { ahead } else { -ahead })?, first_side))
     }
 
-    /// The side of the only leg is where its hip lies beside the pelvis.
-    fn of_one(&self, leg: &Chain, pelvis: BodyId, feet: Vec3, clear: f64) -> Option<(Mat3, Side)> {
+    /// The side of the only leg is the side of the pelvis on which its hip lies.
+    fn of_one(&self, leg: &LegChain, pelvis: BodyId, feet: Vec3, clear: f64) -> Option<(Mat3, Side)> {
         if feet.norm() <= clear {
             return None;
         }
@@ -76,8 +76,8 @@ impl Tree<'_> {
         Some(Mat3::from_columns(&[forward, self.up, forward.cross(&self.up)]))
     }
 
-    /// Side of every body: of a leg's bodies the leg's, of others where they lie if there is a counterpart on the other side, else
-    /// the side in their name.
+    /// Side of every body: for bodies of a leg that of the leg; for others by their position, if there is a counterpart on the other
+    /// side; otherwise the side in their name.
     pub(super) fn sides(&self, pelvis: BodyId, oriented: &Oriented) -> Vec<Option<Side>> {
         let mut sides: Vec<Option<Side>> = vec![None; self.bodies.len()];
         let hips: Vec<Vec3> = oriented.legs.values().flatten().map(|leg| self.hip(leg)).collect();

@@ -1,38 +1,38 @@
-//! Finds the pelvis and the legs in the tree of bodies, from where the joints lie in the neutral posture.
+//! Finds the pelvis and the legs in the tree of bodies from the positions of the joints in the neutral posture.
 //!
-//! A leg is a chain of three groups of joints: hip, knee and ankle, each below the one before. Joints that lie close together are
+//! A leg is a chain of three groups of joints: hip, knee and ankle, each below the previous one. Joints that are close together are
 //! one group: a hip of three hinges, or ankle and subtalar joint. The lowest body of the model is at the end of one leg. The other
-//! leg ends in the lowest body that is reached only by going up to the height of the hips. The pelvis is the body between the two
+//! leg ends in the lowest body whose path from there rises to the height of the hips. The pelvis is the body between the two
 //! highest joints of that path.
 
 use super::BodyId;
-use crate::model::posture::PostureOf;
+use crate::model::posture::ModelPosture;
 use crate::model::{Body, BySide};
 use crate::spatial::Vec3;
 
-/// Joints nearer to each other than this share of the leg's length are one group: 0.075 from ankle to subtalar joint in Gait2392,
+/// Joints closer to each other than this share of the leg length are one group: 0.075 from ankle to subtalar joint in Gait2392,
 /// 0.16 from ankle to the ball of the foot in the built-in figure.
 const GROUP: f64 = 0.11;
-/// The hips are at least this share of the model's height above the feet.
+/// Smallest height of the hips above the feet, as a share of the height of the model.
 const LEAST_HIP_HEIGHT: f64 = 0.25;
-/// The lower ends of two legs differ in height by less than this share of the hips' height.
+/// Largest height difference of the lower ends of two legs, as a share of the height of the hips.
 const LEVEL: f64 = 0.25;
-/// Thigh and shank are each at least this share of the leg's length.
+/// Smallest length of thigh and shank, as a share of the leg length.
 const LEAST_SEGMENT: f64 = 0.25;
-/// Joints at most this share of the hips' height below the highest are as high as it.
+/// Joints less than this share of the height of the hips below the highest one count as equally high.
 const AS_HIGH: f64 = 0.05;
 
-/// A model in its neutral posture, as a graph of bodies.
+/// The tree of bodies of a model in its neutral posture.
 pub(super) struct Tree<'a> {
     pub(super) bodies: &'a [Body],
-    pub(super) posture: &'a PostureOf<'a>,
+    pub(super) posture: &'a ModelPosture<'a>,
     pub(super) up: Vec3,
 }
 
 /// A chain of bodies from the pelvis to the toes, with the groups of its joints.
 #[derive(Debug, Clone)]
-pub(super) struct Chain {
-    /// From the pelvis on. Joint i joins bodies i and i + 1.
+pub(super) struct LegChain {
+    /// From the pelvis on. Joint i is between bodies i and i + 1.
     pub(super) bodies: Vec<BodyId>,
     /// First joint of hip, knee and ankle, and the first one beyond the ankle.
     pub(super) groups: [usize; 4],
@@ -40,10 +40,10 @@ pub(super) struct Chain {
     pub(super) length: f64,
 }
 
-/// The pelvis and one or two legs, sides still unknown.
-pub(super) struct Lower {
+/// The pelvis and one or two legs, without sides.
+pub(super) struct LowerBody {
     pub(super) pelvis: BodyId,
-    pub(super) legs: Vec<Chain>,
+    pub(super) legs: Vec<LegChain>,
 }
 
 impl Tree<'_> {
@@ -55,7 +55,7 @@ impl Tree<'_> {
         self.bodies[body.index()].joint.parent
     }
 
-    /// The body whose joint to its parent joins two neighbours.
+    /// The body whose joint to its parent is the one between two neighbours.
     pub(super) fn joint_between(&self, a: BodyId, b: BodyId) -> BodyId {
         if self.parent(a) == Some(b) { a } else { b }
     }
@@ -75,12 +75,12 @@ impl Tree<'_> {
         bodies.by_ref().map(|body| self.low(body)).fold(f64::INFINITY, f64::min)
     }
 
-    /// From a body up to the root of its tree.
+    /// A body and its ancestors up to the root.
     fn ancestry(&self, body: BodyId) -> Vec<BodyId> {
         std::iter::successors(Some(body), |body| self.parent(*body)).collect()
     }
 
-    /// The bodies from one to another, both included; `None` if only ground joins them.
+    /// The bodies from one to another, both included; `None` if they are connected only through ground.
     pub(super) fn path(&self, from: BodyId, to: BodyId) -> Option<Vec<BodyId>> {
         let (up, down) = (self.ancestry(from), self.ancestry(to));
         let meets = up.iter().position(|body| down.contains(body))?;
@@ -99,8 +99,8 @@ impl Tree<'_> {
         children.chain(self.parent(body))
     }
 
-    /// The chain of a leg from its hip on: `bodies` begins with the pelvis. `None` if its joints do not lie as those of a leg.
-    fn chain(&self, mut bodies: Vec<BodyId>) -> Option<Chain> {
+    /// The chain of a leg from the hip on; `bodies` begins with the pelvis. `None` if its joints are not those of a leg.
+    fn chain(&self, mut bodies: Vec<BodyId>) -> Option<LegChain> {
         let joints: Vec<BodyId> = bodies.windows(2).map(|pair| self.joint_between(pair[0], pair[1])).collect();
         let centers: Vec<Vec3> = joints.iter().map(|joint| self.posture.joint_center(*joint)).collect();
         let height = |i: usize| centers[i].dot(&self.up);
@@ -120,18 +120,18 @@ impl Tree<'_> {
         if bodies.len() == end + 1 {
             bodies.extend(self.toes(bodies[end - 1], bodies[end], centers[ankle], GROUP * length));
         }
-        Some(Chain { bodies, groups: [hip, knee, ankle, end], length })
+        Some(LegChain { bodies, groups: [hip, knee, ankle, end], length })
     }
 
-    /// The lowest neighbour of a foot whose joint is not part of the ankle.
+    /// The toes: the lowest neighbour of a foot whose joint is not part of the ankle.
     fn toes(&self, before: BodyId, foot: BodyId, ankle: Vec3, apart: f64) -> Option<BodyId> {
         let joint = |body: BodyId| self.posture.joint_center(self.joint_between(foot, body));
         let is_toes = |body: &BodyId| *body != before && (joint(*body) - ankle).norm() > apart;
         self.neighbours(foot).filter(is_toes).min_by(|a, b| self.low(*a).total_cmp(&self.low(*b)))
     }
 
-    /// Pelvis and legs; `None` if the bodies are not those of somebody on one or two legs.
-    pub(super) fn lower(&self) -> Option<Lower> {
+    /// Finds pelvis and legs; `None` if the model does not stand on one or two legs.
+    pub(super) fn lower(&self) -> Option<LowerBody> {
         let first = self.ids().min_by(|a, b| self.low(*a).total_cmp(&self.low(*b)))?;
         let lower = self.two_legs(first).or_else(|| self.one_leg(first))?;
         let of_legs: Vec<BodyId> = lower.legs.iter().flat_map(|leg| self.beyond(lower.pelvis, leg.bodies[1])).collect();
@@ -140,7 +140,7 @@ impl Tree<'_> {
         (others > floor + LEVEL * length).then_some(lower)
     }
 
-    fn two_legs(&self, first: BodyId) -> Option<Lower> {
+    fn two_legs(&self, first: BodyId) -> Option<LowerBody> {
         let top = self.ids().map(|body| self.joint_height(body)).fold(f64::NEG_INFINITY, f64::max);
         let floor = self.low(first);
         let is_other_foot = |path: &Vec<BodyId>| {
@@ -154,11 +154,11 @@ impl Tree<'_> {
         let path = paths.min_by(|a, b| low_end(a).total_cmp(&low_end(b)))?;
         let at = self.pelvis_on(&path, floor)?;
         let legs = [path[..=at].iter().rev().copied().collect(), path[at..].to_vec()];
-        let legs: Vec<Chain> = legs.into_iter().map(|bodies| self.chain(bodies)).collect::<Option<_>>()?;
-        Some(Lower { pelvis: path[at], legs })
+        let legs: Vec<LegChain> = legs.into_iter().map(|bodies| self.chain(bodies)).collect::<Option<_>>()?;
+        Some(LowerBody { pelvis: path[at], legs })
     }
 
-    /// Place on a path from foot to foot of the body between the highest joints; of several, the one between the joints that are
+    /// Index of the pelvis on a path from foot to foot: the body between the highest joints; of several, the one between the joints
     /// furthest apart.
     fn pelvis_on(&self, path: &[BodyId], floor: f64) -> Option<usize> {
         let joints: Vec<BodyId> = path.windows(2).map(|pair| self.joint_between(pair[0], pair[1])).collect();
@@ -175,34 +175,34 @@ impl Tree<'_> {
         })
     }
 
-    /// The leg above a foot that has no fellow.
-    fn one_leg(&self, foot: BodyId) -> Option<Lower> {
+    /// The only leg, from its foot.
+    fn one_leg(&self, foot: BodyId) -> Option<LowerBody> {
         let mut path = self.ancestry(foot);
         path.reverse();
         (0..path.len()).find_map(|at| {
             let leg = self.chain(path[at..].to_vec())?;
-            Some(Lower { pelvis: path[at], legs: vec![leg] })
+            Some(LowerBody { pelvis: path[at], legs: vec![leg] })
         })
     }
 
-    /// From the ankle to the front of the foot along the ground [m]: to the joint of the toes, else to the foot's mass centre.
-    pub(super) fn ahead(&self, leg: &Chain) -> Vec3 {
+    /// Horizontal vector from the ankle to the front of the foot [m]: to the toe joint, otherwise to the mass centre of the foot.
+    pub(super) fn ahead(&self, leg: &LegChain) -> Vec3 {
         let [_, _, ankle, end] = leg.groups;
         let joint = |i: usize| self.posture.joint_center(self.joint_between(leg.bodies[i], leg.bodies[i + 1]));
         let front = if end + 1 < leg.bodies.len() { joint(end) } else { self.posture.mass_center(leg.bodies[end]) };
         level(front - joint(ankle), self.up)
     }
 
-    /// Centre of a leg's hip [m].
-    pub(super) fn hip(&self, leg: &Chain) -> Vec3 {
+    /// Hip centre of a leg [m].
+    pub(super) fn hip(&self, leg: &LegChain) -> Vec3 {
         self.posture.joint_center(self.joint_between(leg.bodies[0], leg.bodies[1]))
     }
 }
 
-/// The part of a vector at right angles to the upward direction.
+/// The horizontal part of a vector.
 pub(super) fn level(v: Vec3, up: Vec3) -> Vec3 {
     v - up * v.dot(&up)
 }
 
-/// Legs by side; two legs are one of each.
-pub(super) type Legs = BySide<Option<Chain>>;
+/// Legs by side.
+pub(super) type Legs = BySide<Option<LegChain>>;

@@ -1,10 +1,10 @@
 //! The anatomy of a model: sides, pelvis, legs, soles, stature, and the clinical meaning and sign of every coordinate.
 //!
-//! It is found once, when the model is made, from the places and axes of its joints in the neutral posture (every coordinate zero
-//! where its range allows that): the legs hang below the hips, the feet point forward, the right hip is on the right, and a knee
-//! flexes when the shank turns backward. Names decide only where the geometry does not, so models in any language and with any
-//! naming scheme are understood. Models without legs (a pendulum, an arm) have no pelvis, no legs and no movements; their sides
-//! are those in their names.
+//! It is determined once, when the model is created, from the positions and axes of its joints in the neutral posture (every
+//! coordinate zero, if its range allows it): the legs are below the hips, the feet point forward, the right hip is on the right, and a
+//! knee flexes when the shank rotates backward. Names are used only if the geometry is not sufficient, so models in any language and
+//! with any naming scheme are supported. Models without legs (a pendulum, an arm) have no pelvis, no legs and no movements; their
+//! sides are those in their names.
 //!
 //! Pinned by: tests/anatomy.rs
 
@@ -18,11 +18,11 @@ pub use movement::{Meaning, Movement};
 pub use pelvic_frame::{PelvicFrame, PelvicFrameError};
 pub use sole::{Sole, SolePoint, Stature};
 
-use super::posture::PostureOf;
+use super::posture::ModelPosture;
 use super::{BodyId, BySide, Coordinate, CoordinateId, Model, Side};
 use crate::spatial::{Mat3, Pose, Vec3};
 use axes::Oriented;
-use legs::{Chain, Tree};
+use legs::{LegChain, Tree};
 use movement::Meanings;
 use sole::foot_axes;
 
@@ -35,7 +35,7 @@ pub struct Leg {
     pub shank: BodyId,
     /// The foot below ankle and subtalar joint (calcaneus), on which the ground acts.
     pub foot: BodyId,
-    /// The toes, where they are a body of their own.
+    /// The toes, if they are a separate body.
     pub toes: Option<BodyId>,
     /// The body whose joint to its parent is the hip.
     pub hip: BodyId,
@@ -51,7 +51,7 @@ pub struct Leg {
     thigh_and_shank_m: f64,
 }
 
-/// What the parts of a model are, anatomically. See the [module](self).
+/// Anatomical meaning of the parts of a model. See the [module](self).
 #[derive(Debug, Clone, Default)]
 pub struct Anatomy {
     pelvis: Option<BodyId>,
@@ -60,12 +60,12 @@ pub struct Anatomy {
     body_sides: Vec<Option<Side>>,
     coordinate_sides: Vec<Option<Side>>,
     meanings: Vec<Option<Meaning>>,
-    neutral: Option<Neutral>,
+    neutral: Option<NeutralPosture>,
 }
 
-/// The posture in which the anatomy was found.
+/// The posture in which the anatomy was determined.
 #[derive(Debug, Clone)]
-pub(crate) struct Neutral {
+pub(crate) struct NeutralPosture {
     /// Forward, up and right in the world, as columns.
     pub(crate) axes: Mat3,
     /// `world_from_body` of every body.
@@ -73,17 +73,17 @@ pub(crate) struct Neutral {
 }
 
 impl Anatomy {
-    /// Of a model whose anatomy is not yet set.
+    /// Determines the anatomy of a model.
     pub(super) fn find(model: &Model) -> Anatomy {
         let defaults: Vec<f64> = model.coordinates.iter().map(|c| c.default_value).collect();
         let neutral = model.coordinates.iter().map(neutral_value).collect();
         [neutral, defaults]
             .into_iter()
-            .find_map(|q| Anatomy::in_posture(model, &PostureOf::new(model, q)))
+            .find_map(|q| Anatomy::in_posture(model, &ModelPosture::new(model, q)))
             .unwrap_or_else(|| Anatomy::by_names(model))
     }
 
-    fn in_posture(model: &Model, posture: &PostureOf<'_>) -> Option<Anatomy> {
+    fn in_posture(model: &Model, posture: &ModelPosture<'_>) -> Option<Anatomy> {
         let up = (-model.gravity).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec3::y);
         let tree = Tree { bodies: &model.bodies, posture, up };
         let lower = tree.lower()?;
@@ -100,11 +100,11 @@ impl Anatomy {
             coordinate_sides: coordinate_sides(model, &body_sides),
             body_sides,
             meanings,
-            neutral: Some(Neutral { axes: nearest_axes(&oriented.axes), poses: posture.poses.clone() }),
+            neutral: Some(NeutralPosture { axes: nearest_axes(&oriented.axes), poses: posture.poses.clone() }),
         })
     }
 
-    /// Of a model in which no legs are found.
+    /// Anatomy of a model without legs, from names.
     fn by_names(model: &Model) -> Anatomy {
         let body_sides: Vec<Option<Side>> = model.bodies.iter().map(|body| Side::of_name(&body.name)).collect();
         Anatomy {
@@ -115,19 +115,19 @@ impl Anatomy {
         }
     }
 
-    /// The pelvis: the body between the hips. In figures whose trunk is undivided it is the whole trunk.
+    /// The pelvis: the body between the hips. In figures with an undivided trunk it is the whole trunk.
     #[must_use]
     pub fn pelvis(&self) -> Option<BodyId> {
         self.pelvis
     }
 
-    /// The trunk above the pelvis: of the bodies that belong to no side, the heaviest.
+    /// The trunk above the pelvis: the heaviest body that belongs to no side.
     #[must_use]
     pub fn trunk(&self) -> Option<BodyId> {
         self.trunk
     }
 
-    /// The legs; `None` on a side where there is none.
+    /// The legs; `None` for a missing leg.
     #[must_use]
     pub fn legs(&self) -> &BySide<Option<Leg>> {
         &self.legs
@@ -157,8 +157,8 @@ impl Anatomy {
         self.meanings.get(id.index()).copied().flatten()
     }
 
-    /// The coordinate that measures a movement of a side (`None` for pelvis and trunk), with its sign: +1 if the coordinate grows
-    /// during the movement, else -1.
+    /// The coordinate that measures a movement of a side (`None` for pelvis and trunk), with its sign: +1 if the coordinate increases
+    /// during the movement, otherwise -1.
     #[must_use]
     pub fn coordinate(&self, movement: Movement, side: Option<Side>) -> Option<(CoordinateId, f64)> {
         let is_it = |meaning: &Meaning| meaning.movement == movement && meaning.side == side;
@@ -166,15 +166,15 @@ impl Anatomy {
         Some((CoordinateId(index), self.meanings[index]?.sign))
     }
 
-    /// The soles of a person of a stature [m]: feet of usual proportions under the ankles. Built figures know their own
+    /// Estimated soles of a person of a stature [m]: feet of usual proportions under the ankles. Built-in figures have their own
     /// ([`Human::sole`](super::anthropometry::Human::sole)).
     #[must_use]
     pub fn soles(&self, height_m: f64) -> BySide<Option<Sole>> {
         self.legs.map(|leg| leg.map(|leg| Sole::estimated(&leg, height_m)))
     }
 
-    /// The posture in which the anatomy was found; `None` for a model without legs.
-    pub(crate) fn neutral(&self) -> Option<&Neutral> {
+    /// The posture in which the anatomy was determined; `None` for a model without legs.
+    pub(crate) fn neutral(&self) -> Option<&NeutralPosture> {
         self.neutral.as_ref()
     }
 
@@ -185,14 +185,14 @@ impl Anatomy {
 }
 
 impl Model {
-    /// Stature and leg length, estimated from thigh and shank; from the mass in a model without legs.
+    /// Stature and leg length, estimated from thigh and shank, or from the mass of a model without legs.
     #[must_use]
     pub fn stature(&self) -> Stature {
         Stature::estimated(self.anatomy.thigh_and_shank_m(), self.mass())
     }
 }
 
-/// The axes of the world where those of the body are near to them, else the axes themselves: hips are rarely drawn exactly level.
+/// Rounds the axes of the body to those of the world if they are close: hips of models are rarely exactly level.
 fn nearest_axes(axes: &Mat3) -> Mat3 {
     /// Cosine of 25 degrees.
     const NEAR: f64 = 0.9;
@@ -200,15 +200,15 @@ fn nearest_axes(axes: &Mat3) -> Mat3 {
     if (nearest.abs().sum() - 3.0).abs() < 0.5 { nearest } else { *axes }
 }
 
-/// Zero where the range has it, else the default.
+/// Zero if it is in the range, otherwise the default value.
 fn neutral_value(coordinate: &Coordinate) -> f64 {
-    /// Ranges drawn to zero may miss it by rounding [rad or m].
+    /// Ranges that end at zero may miss it by rounding [rad or m].
     const SLACK: f64 = 1e-6;
     let has_zero = coordinate.range.is_none_or(|[low, high]| low <= SLACK && high >= -SLACK);
     if has_zero { 0.0 } else { coordinate.default_value }
 }
 
-/// The side of a joint is the body's that it carries, else the one in the coordinate's name.
+/// Side of each coordinate: that of the body that it moves, otherwise the one in its name.
 fn coordinate_sides(model: &Model, body_sides: &[Option<Side>]) -> Vec<Option<Side>> {
     let mut sides: Vec<Option<Side>> = model.coordinates.iter().map(|c| Side::of_name(&c.name)).collect();
     for (body, side) in model.bodies.iter().zip(body_sides).filter(|(_, side)| side.is_some()) {
@@ -219,7 +219,7 @@ fn coordinate_sides(model: &Model, body_sides: &[Option<Side>]) -> Vec<Option<Si
     sides
 }
 
-/// The heaviest body of no side beside the pelvis.
+/// The heaviest body without side, other than the pelvis.
 fn trunk(tree: &Tree<'_>, pelvis: BodyId, oriented: &Oriented, sides: &[Option<Side>]) -> Option<BodyId> {
     let in_leg = |body: &BodyId| oriented.legs.values().flatten().any(|leg| leg.bodies.contains(body));
     let bodies = (0..tree.bodies.len()).map(BodyId);
@@ -229,7 +229,7 @@ fn trunk(tree: &Tree<'_>, pelvis: BodyId, oriented: &Oriented, sides: &[Option<S
     joined.max_by(|a, b| mass(a).total_cmp(&mass(b)))
 }
 
-fn leg(tree: &Tree<'_>, chain: &Chain, axes: &Mat3) -> Leg {
+fn leg(tree: &Tree<'_>, chain: &LegChain, axes: &Mat3) -> Leg {
     let [hip, knee, ankle, end] = chain.groups;
     let joint = |group: usize, next: usize| {
         let joints = chain.bodies[group..=next].windows(2).map(|pair| tree.joint_between(pair[0], pair[1]));

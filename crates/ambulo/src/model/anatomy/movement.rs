@@ -1,7 +1,7 @@
 //! The anatomical movement that each coordinate measures, and its sign.
 //!
-//! A coordinate turns one body relative to another about an axis ω (per unit of its rate, in the neutral posture). Seen in the axes of
-//! the body (forward, up, right), the largest part of ω tells the plane, and its sign tells the direction:
+//! A coordinate rotates one body relative to another about an axis ω (per unit rate, in the neutral posture). In the axes of
+//! the body (forward, up, right), the largest component of ω determines the plane, and its sign the direction:
 //!
 //! | joint (far body relative to near body) | about forward (frontal) | about up (transverse) | about right (sagittal) |
 //! |---|---|---|---|
@@ -12,20 +12,20 @@
 //! | right ankle | inversion | internal rotation | dorsiflexion |
 //! | right toes | - | - | extension |
 //!
-//! On the left, the movements of the frontal and the transverse plane turn the other way round.
+//! On the left, the signs of the frontal and the transverse plane are reversed.
 
 use super::axes::Oriented;
 use super::legs::Tree;
-use crate::model::posture::PostureOf;
+use crate::model::posture::ModelPosture;
 use crate::model::{BodyId, Coordinate, CoordinateId, Drive, Side};
 use crate::spatial::Vec3;
 
-/// An axis belongs to a plane if this share of it is along the plane's normal.
+/// Smallest share of an axis along the normal of its plane.
 const LEAST_SHARE: f64 = 0.5;
 /// The same for toes, whose axis is oblique.
 const LEAST_SHARE_OF_TOES: f64 = 0.3;
 
-/// A movement that clinicians name. Each is positive in the direction of its description.
+/// A clinical movement, positive in the direction of its description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Movement {
     /// Anterior tilt of the pelvis.
@@ -68,14 +68,14 @@ pub enum Movement {
     TrunkRotation,
 }
 
-/// What a coordinate measures.
+/// The movement that a coordinate measures, and its sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meaning {
     /// The movement.
     pub movement: Movement,
     /// The side of a leg's coordinate; `None` for pelvis and trunk.
     pub side: Option<Side>,
-    /// +1 if the coordinate grows during the movement, -1 if it falls.
+    /// +1 if the coordinate increases during the movement, -1 if it decreases.
     pub sign: f64,
 }
 
@@ -103,19 +103,19 @@ const TOES: Planes = [None, None, Some((Movement::ToeExtension, 1.0))];
 const PELVIS_SHIFTS: Planes =
     [Some((Movement::PelvisForward, 1.0)), Some((Movement::PelvisUp, 1.0)), Some((Movement::PelvisRight, 1.0))];
 
-/// The same planes on the left.
+/// The movements on the left side.
 fn mirrored([frontal, transverse, sagittal]: Planes) -> Planes {
     let turned = |entry: Option<(Movement, f64)>| entry.map(|(movement, sign)| (movement, -sign));
     [turned(frontal), turned(transverse), sagittal]
 }
 
-/// A coordinate and the axis about or along which it moves the far body, forward, up and right.
+/// A coordinate and the axis of its motion: forward, up and right.
 struct Axis {
     id: CoordinateId,
     direction: Vec3,
 }
 
-/// Meanings of all coordinates under construction.
+/// Determines the meanings of all coordinates.
 pub(super) struct Meanings<'a> {
     tree: &'a Tree<'a>,
     coordinates: &'a [Coordinate],
@@ -149,7 +149,7 @@ impl<'a> Meanings<'a> {
         meanings.found
     }
 
-    /// Rotations and shifts of the pelvis in the world, if the pelvis is the root of the tree.
+    /// Rotations and translations of the pelvis in the world, if the pelvis is the root of the tree.
     fn root(&mut self, pelvis: BodyId) {
         if self.tree.bodies[pelvis.index()].joint.parent.is_none() {
             let [turns, shifts] = self.slopes(pelvis, 1.0);
@@ -158,7 +158,7 @@ impl<'a> Meanings<'a> {
         }
     }
 
-    /// The trunk's movements, where one coordinate alone makes each: a spine of several free joints has none.
+    /// Movements of the trunk, if each has a single coordinate: a spine of several free joints has none.
     fn trunk(&mut self, path: Option<Vec<BodyId>>) {
         let mut axes = self.turns(&path.unwrap_or_default());
         let planes: Vec<usize> = axes.iter().map(|axis| axis.direction.iamax()).collect();
@@ -167,7 +167,7 @@ impl<'a> Meanings<'a> {
         self.assign(axes, TRUNK, None, LEAST_SHARE);
     }
 
-    /// Axes of the coordinates that turn a chain's later bodies relative to its earlier ones.
+    /// Axes of the coordinates that rotate the distal bodies of a chain relative to the proximal ones.
     fn turns(&self, chain: &[BodyId]) -> Vec<Axis> {
         let joints = chain.windows(2).flat_map(|pair| {
             let joint = self.tree.joint_between(pair[0], pair[1]);
@@ -177,14 +177,14 @@ impl<'a> Meanings<'a> {
         joints.collect()
     }
 
-    /// Axes of rotations and of shifts of one joint.
+    /// Axes of rotations and of translations of one joint.
     fn slopes(&self, body: BodyId, sign: f64) -> [Vec<Axis>; 2] {
         let mut axes = [Vec::new(), Vec::new()];
         for id in self.tree.bodies[body.index()].joint.coordinates() {
             if matches!(self.coordinates[id.index()].drive, Drive::Coupled(..)) {
                 continue;
             }
-            let slopes: [Vec3; 2] = PostureOf::slopes(self.tree.posture, body, id);
+            let slopes: [Vec3; 2] = ModelPosture::slopes(self.tree.posture, body, id);
             let turn = self.local(slopes[0] * sign);
             let kind = usize::from(turn.is_none());
             if let Some(direction) = turn.or_else(|| self.local(slopes[1] * sign)) {
@@ -198,13 +198,13 @@ impl<'a> Meanings<'a> {
         (self.oriented.axes.transpose() * v).try_normalize(1e-6)
     }
 
-    /// Gives each axis the plane that it is nearest to, the nearest pair first.
+    /// Assigns each axis to the nearest plane, the closest pair first.
     fn assign(&mut self, mut axes: Vec<Axis>, mut planes: Planes, side: Option<Side>, least: f64) {
         loop {
             let free = planes.iter().enumerate().filter(|(_, plane)| plane.is_some()).map(|(k, _)| k);
             let pairs =
                 free.flat_map(|k| axes.iter().enumerate().map(move |(i, axis)| (i, k, axis.direction[k].abs())));
-            // The first of equals.
+            // The first of equal pairs.
             let best = pairs.reduce(|best, pair| if pair.2 > best.2 { pair } else { best });
             let Some((i, k, _)) = best.filter(|(_, _, share)| *share >= least) else { return };
             let axis = axes.remove(i);

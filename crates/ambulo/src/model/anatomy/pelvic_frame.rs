@@ -1,21 +1,21 @@
 //! The clinical axes of the pelvis: those through its iliac spines.
 //!
-//! A model's pelvis is upright in its neutral posture, however its author drew it. Clinics measure pelvic tilt as the angle between
-//! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip angles relative to
-//! axes along that line. Both differ by a rotation that is constant in a body, found here from the markers on the spines:
+//! The neutral posture of a model has an arbitrary pelvic tilt. Clinically, pelvic tilt is the angle between
+//! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip angles are relative
+//! to axes along that line. Both differ by a rotation that is constant for a body, determined here from the markers on the spines:
 //!
 //!   right   = from the left to the right anterior spine
-//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones, at right angles to `right`
+//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones, perpendicular to `right`
 //!   up      = right × forward
 //!
-//! Source: Kadaba 1990, Davis 1991, as Plug-in-Gait has it (unverified); compared with its angles in tests/clinical_angles.rs.
+//! Source: Kadaba 1990, Davis 1991, as in Plug-in-Gait (unverified); compared with its angles in tests/clinical_angles.rs.
 
 use crate::model::full_body::STANDING_TILT;
-use crate::model::marker_set::{Landmark, MarkerSet, Recognised};
+use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::{Mat3, Vec3};
 
-/// Spines nearer to each other than this have no direction [m].
+/// Smallest distance between spines that defines a direction [m].
 const LEAST_DISTANCE: f64 = 0.02;
 
 /// The clinical axes of a pelvis.
@@ -39,16 +39,18 @@ pub enum PelvicFrameError {
     },
     /// A pelvis without markers on the iliac spines.
     #[error(
-        "the pelvis of the model `{model}` has no marker on the {missing}; expected markers on both anterior iliac spines (ASIS) and on both posterior ones (PSIS) or the sacrum, so the angles of pelvis and hips are the model's own"
+        "the pelvis of the model `{model}` has no marker on the {missing}; expected markers on both anterior iliac spines (ASIS) and on both posterior ones (PSIS) or the sacrum. The angles of pelvis and hips are therefore those of the coordinates of the model"
     )]
     NoLandmarks {
         /// Its name.
         model: String,
-        /// What was not found.
+        /// The missing landmarks.
         missing: &'static str,
     },
-    /// Markers on the spines that are in one place.
-    #[error("the markers on the iliac spines of the model `{model}` lie on a line or in one place")]
+    /// Markers on the spines that are on a line or at one position.
+    #[error(
+        "the markers on the iliac spines of the model `{model}` are on a line or at one position; expected a triangle"
+    )]
     Degenerate {
         /// Its name.
         model: String,
@@ -56,7 +58,7 @@ pub enum PelvicFrameError {
 }
 
 impl PelvicFrame {
-    /// From the model's markers, whose names the built-in marker sets know.
+    /// Determines the frame from the markers of a model, recognised by the built-in marker sets.
     ///
     /// # Errors
     /// A model without a pelvis, or one without markers on the iliac spines.
@@ -68,15 +70,15 @@ impl PelvicFrame {
         })
     }
 
-    /// From the model's markers, whose meaning is given.
+    /// Determines the frame from recognised markers of a model.
     ///
     /// # Errors
     /// A model without a pelvis, or one without markers on the iliac spines.
-    pub fn of_markers(model: &Model, recognised: &Recognised) -> Result<PelvicFrame, PelvicFrameError> {
+    pub fn of_markers(model: &Model, recognised: &RecognisedMarkers) -> Result<PelvicFrame, PelvicFrameError> {
         PelvicFrame::find(model, |landmark, side| recognised.on(landmark, side).map(str::to_owned))
     }
 
-    /// Of a built-in figure, which stands with the usual anterior tilt of [`STANDING_TILT`] while its coordinates are zero.
+    /// The frame of a built-in figure, which has the anterior tilt [`STANDING_TILT`] when its coordinates are zero.
     ///
     /// # Errors
     /// A model without a pelvis.
@@ -85,7 +87,7 @@ impl PelvicFrame {
         let pelvis = model.anatomy().pelvis().ok_or_else(missing)?;
         let neutral = model.anatomy().neutral().ok_or_else(missing)?;
         let (sin, cos) = STANDING_TILT.sin_cos();
-        // Turned forward about the axis to the right.
+        // Rotated forward about the axis to the right.
         let tilted = Mat3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
         Ok(PelvicFrame { pelvis, axes: neutral.poses[pelvis.index()].rotation.transpose() * neutral.axes * tilted })
     }
@@ -112,7 +114,7 @@ impl PelvicFrame {
     }
 }
 
-/// Axes with the third exactly along `right`, the first as near to `forward` as that leaves.
+/// Axes with the third along `right` and the first as near as possible to `forward`.
 fn axes(right: Vec3, forward: Vec3) -> Option<Mat3> {
     let right = right.try_normalize(LEAST_DISTANCE)?;
     let forward = (forward - right * forward.dot(&right)).try_normalize(LEAST_DISTANCE)?;

@@ -1,4 +1,4 @@
-//! The sole of a foot, and the stature of a person, from a built figure or from usual proportions.
+//! Soles of the feet, and stature, from a built-in figure or from usual proportions.
 
 use super::Leg;
 use crate::model::anthropometry::ContactSphere;
@@ -6,25 +6,25 @@ use crate::model::anthropometry::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, FOOT_WI
 use crate::model::{BodyId, Side};
 use crate::spatial::{Mat3, Pose, Vec3};
 
-/// Thigh and shank of a model, joint centre to joint centre, over stature: Gait2392 and Rajagopal's model as scaled to people of known
-/// stature have 0.488 and 0.470, Drillis and Contini 0.491.
+/// Length of thigh and shank of a model, joint centre to joint centre, divided by stature: Gait2392 and Rajagopal's model, scaled to
+/// people of known stature, have 0.488 and 0.470, Drillis and Contini 0.491.
 const THIGH_AND_SHANK: f64 = 0.48;
-/// Mass [kg] and stature [m] of a man: where a model has no legs, stature goes with the cube root of mass.
+/// Mass [kg] and stature [m] of a man: for a model without legs, stature scales with the cube root of mass.
 const REFERENCE: (f64, f64) = (72.6, 1.80);
-/// Axes of a foot's frame count as forward and up if they are within this of them (cosine of 25°).
+/// Axes of the frame of a foot closer than this to forward and up are used instead (cosine of 25°).
 const ALONG_AXIS: f64 = 0.9;
 
-/// How tall a person is.
+/// Stature and leg length of a person.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stature {
-    /// From head to heel [m].
+    /// Stature [m].
     pub height_m: f64,
-    /// Hip to ground, standing [m].
+    /// Leg length: hip to ground in standing [m].
     pub leg_length_m: f64,
 }
 
 impl Stature {
-    /// From the mean length of thigh and shank together [m] where a model has legs, else from its mass [kg].
+    /// Estimates the stature from the mean length of thigh and shank together [m], or without legs from the mass [kg].
     pub(super) fn estimated(thigh_and_shank_m: Option<f64>, mass_kg: f64) -> Stature {
         let (height_m, leg) = match thigh_and_shank_m {
             Some(leg) => (leg / THIGH_AND_SHANK, leg),
@@ -37,27 +37,27 @@ impl Stature {
     }
 }
 
-/// The sole of one foot: three points along its middle. Places within `half_width` of the line through them, seen from above, are on
+/// The sole of one foot: three points along its middle. Points within `half_width` of the line through them, seen from above, are on
 /// the sole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sole {
     /// Rear, ball and tip, half a width inside the ends of the foot.
     pub points: [SolePoint; 3],
-    /// Half the breadth of the foot [m].
+    /// Half the width of the foot [m].
     pub half_width: f64,
 }
 
-/// A point under a foot.
+/// A point of a sole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolePoint {
     /// The body that it is fixed to.
     pub body: BodyId,
-    /// Place in that body's frame [m].
+    /// Position in the frame of that body [m].
     pub place: Vec3,
 }
 
 impl Sole {
-    /// From heel, ball and toe spheres; the ends of the sole are those of the outermost spheres.
+    /// Computes the sole from heel, ball and toe spheres; its ends are those of the outermost spheres.
     #[must_use]
     pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
         let of_side = || spheres.iter().filter(|s| s.side == side);
@@ -71,7 +71,7 @@ impl Sole {
         Some(Sole { points, half_width })
     }
 
-    /// A foot of usual proportions under the ankle of a person of a stature [m].
+    /// Estimates the sole of a foot of usual proportions under the ankle, for a stature [m].
     pub(super) fn estimated(leg: &Leg, height_m: f64) -> Sole {
         let (length, half_width) = (FOOT_LENGTH * height_m, 0.5 * FOOT_WIDTH * height_m);
         let [ahead, up] = leg.foot_axes;
@@ -84,7 +84,7 @@ impl Sole {
     }
 }
 
-/// Forward and up in the frame of a foot: the frame's own axes where they are near to these directions, else the directions.
+/// Forward and up in the frame of a foot, rounded to the axes of the frame if they are close.
 pub(super) fn foot_axes(axes: &Mat3, world_from_foot: &Pose) -> [Vec3; 2] {
     let in_foot = world_from_foot.rotation.transpose() * axes;
     let directions = [0, 1].map(|k| -> Vec3 { in_foot.column(k).into() });

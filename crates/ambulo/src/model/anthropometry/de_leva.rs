@@ -2,13 +2,13 @@
 //!
 //! De Leva, "Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters", J Biomech 29:1223-1230, 1996, table 4.
 //! Masses, mass centres and radii as transcribed in BMClab/BMC (`data/BSPmale_ZdeLeva.txt`, `BSPfemale_ZdeLeva.txt`), mean
-//! lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a number. The trunk is
+//! lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a value. The trunk is
 //! measured from suprasternale, the head from vertex to mid-gonion; the neck between them closes the stature and has no
 //! mass of its own (it is in the head's and the upper trunk's).
 //! The foot's longitudinal axis runs from heel to toe; its sagittal axis, that of a pointed foot, is then the vertical.
 
 use super::dimensions::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
-use super::proportions::{Lengths, Lump, Proportions, Row};
+use super::proportions::{Lengths, Proportions, RigidPart, Row};
 
 /// The rows of one sex. Radii: sagittal, longitudinal, transverse.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub(super) struct Sample {
     thigh: MeanRow,
     shank: MeanRow,
     foot: MeanRow,
-    /// Mid-shoulder to mid-hip [m].
+    /// Midpoint of the shoulders to midpoint of the hips [m].
     shoulder_to_hip: f64,
     /// Wrist to the tip of the middle finger [m].
     hand_to_fingertip: f64,
@@ -51,7 +51,7 @@ pub(super) const MALE: Sample = Sample {
     hand_to_fingertip: 0.1879,
 };
 
-/// The hand's sagittal radius is 53.1 in the transcriptions read, 63.1 in a vendor's copy; no part in planar motion.
+/// The hand's sagittal radius is 53.1 in the transcriptions read, 63.1 in a vendor's copy; it has no effect on planar motion.
 pub(super) const FEMALE: Sample = Sample {
     stature: 1.735,
     head: MeanRow(6.68, 0.2002, 58.94, [33.0, 31.8, 35.9]),
@@ -116,10 +116,10 @@ pub(super) fn proportions(sample: &Sample) -> Proportions {
     }
 }
 
-/// The foot lies: its longitudinal axis is x. Its mass centre is taken half as high as the ankle.
-fn foot(row: &Row) -> Lump {
+/// The foot is horizontal: its longitudinal axis is x. Its mass centre is assumed at half the height of the ankle.
+fn foot(row: &Row) -> RigidPart {
     let [sagittal, longitudinal, transverse] = row.radii.map(|r| r * row.length);
-    Lump {
+    RigidPart {
         mass: row.mass,
         center: [(row.center - HEEL_TO_ANKLE) * row.length, -0.5 * ANKLE_HEIGHT],
         radii: [longitudinal, sagittal, transverse],

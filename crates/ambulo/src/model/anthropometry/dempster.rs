@@ -5,9 +5,9 @@
 //! Contini 1966 as in Winter, figure 4.1 (unverified).
 
 use super::dimensions::{ANKLE_HEIGHT, BALL_RADIUS, FOOT_LENGTH, HEEL_TO_ANKLE, HEEL_TO_BALL};
-use super::proportions::{Lengths, Lump, Proportions, Row};
+use super::proportions::{Lengths, Proportions, RigidPart, Row};
 
-/// Shares of stature. Shoulder and mid-hip stand at 0.818 and 0.530.
+/// Shares of stature. Shoulder and mid-hip are at 0.818 and 0.530.
 const LENGTHS: Lengths = Lengths {
     thigh: 0.245,
     shank: 0.246,
@@ -21,7 +21,7 @@ const LENGTHS: Lengths = Lengths {
     hand: 0.108,
 };
 
-// Longitudinal over transverse radius of gyration: the table has one radius only; ratios of de Leva 1996, men.
+// Longitudinal / transverse radius of gyration: the table has one radius only; ratios of de Leva 1996, men.
 const THIGH_SLIMNESS: f64 = 14.9 / 32.9;
 const SHANK_SLIMNESS: f64 = 10.2 / 24.6;
 const FOOT_SLIMNESS: f64 = 12.4 / 24.5;
@@ -33,8 +33,8 @@ const HEAD_SLIMNESS: f64 = 31.2 / 37.6;
 const TRUNK_RADII: [f64; 3] = [0.384, 0.197, 0.358];
 /// Wrist to knuckle as a share of wrist to fingertip: de Leva 1996, men, 86.2 of 187.9 mm.
 const KNUCKLE: f64 = 86.2 / 187.9;
-/// Ear canal, where the mass of head and neck sits, and the joint of C7 and T1, from which its length counts: shares of
-/// stature (unverified; adults' tragion stands 7.4 % of stature below the vertex).
+/// Ear canal, the mass centre of head and neck, and the joint of C7 and T1, from which their length is measured: shares of
+/// stature (unverified; the tragion of adults is 7.4 % of stature below the vertex).
 const EAR_CANAL: f64 = 0.926;
 const C7: f64 = 0.850;
 
@@ -56,15 +56,19 @@ pub(super) fn proportions() -> Proportions {
         pelvis: Vec::new(),
         torso: vec![
             trunk.below(LENGTHS.shoulder),
-            Lump { mass: 0.081, center: [0.0, EAR_CANAL - LENGTHS.leg()], radii: [head, head * HEAD_SLIMNESS, head] },
+            RigidPart {
+                mass: 0.081,
+                center: [0.0, EAR_CANAL - LENGTHS.leg()],
+                radii: [head, head * HEAD_SLIMNESS, head],
+            },
         ],
     }
 }
 
 /// Lateral malleolus to head of the second metatarsal, which slopes down.
-fn foot() -> Lump {
+fn foot() -> RigidPart {
     let along = (HEEL_TO_BALL - HEEL_TO_ANKLE) * LENGTHS.foot;
     let down = LENGTHS.ankle_height - BALL_RADIUS;
     let radius = 0.475 * along.hypot(down);
-    Lump { mass: 0.0145, center: [0.5 * along, -0.5 * down], radii: [radius * FOOT_SLIMNESS, radius, radius] }
+    RigidPart { mass: 0.0145, center: [0.5 * along, -0.5 * down], radii: [radius * FOOT_SLIMNESS, radius, radius] }
 }

@@ -1,16 +1,16 @@
-//! Lengths of one figure.
+//! Lengths of a figure.
 
 use super::proportions::Lengths;
 
-/// Distance of the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read there).
+/// Distance between the hip centres, share of stature: Dumas, Cheze, Verriest 2007 as in the public model HeiMan (read there).
 const HIP_WIDTH: f64 = 0.093;
-/// Distance of the shoulder centres, the same source.
+/// Distance between the shoulder centres, the same source.
 const SHOULDER_WIDTH: f64 = 0.2401;
 
-/// Heel to ankle, share of the foot's length: the ankle of Gait2392 (1.80 m) lies 49 mm before the origin of its calcaneus,
-/// about 20 mm of soft tissue lie behind that, of 274 mm.
+/// Heel to ankle, share of the foot length: the ankle of Gait2392 (1.80 m) is 49 mm in front of the origin of its calcaneus,
+/// with about 20 mm of soft tissue behind it, of 274 mm.
 pub(crate) const HEEL_TO_ANKLE: f64 = 0.25;
-/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot's length: men 201 of 271 mm, women 182 of 246
+/// Heel to the ball of the foot (first metatarsophalangeal joint), share of the foot length: men 201 of 271 mm, women 182 of 246
 /// mm in the US Army survey of 2012 (unverified).
 pub(crate) const HEEL_TO_BALL: f64 = 0.74;
 // Shares of stature: Drillis and Contini 1966 as in Winter, figure 4.1 (unverified).
@@ -39,7 +39,7 @@ pub struct Dimensions {
     pub ankle_height: f64,
     /// Heel to tip of the toes.
     pub foot_length: f64,
-    /// Breadth of the foot; no part in planar motion.
+    /// Width of the foot; no effect on planar motion.
     pub foot_width: f64,
     /// Rear of the heel to the ankle, along the foot.
     pub heel_to_ankle: f64,
@@ -47,17 +47,17 @@ pub struct Dimensions {
     pub ankle_to_ball: f64,
     /// Ball of the foot to the tip of the toes.
     pub ball_to_toe: f64,
-    /// Radius of the heel's contact sphere.
+    /// Radius of the contact sphere of the heel.
     pub heel_radius: f64,
-    /// Radius of the ball's contact sphere; the toe joint stands at its centre.
+    /// Radius of the contact sphere of the ball; the toe joint is at its centre.
     pub ball_radius: f64,
-    /// Radius of the toes' contact sphere.
+    /// Radius of the contact sphere of the toes.
     pub toe_radius: f64,
-    /// Distance of the hip centres.
+    /// Distance between the hip centres.
     pub hip_width: f64,
-    /// Distance of the shoulder centres.
+    /// Distance between the shoulder centres.
     pub shoulder_width: f64,
-    /// Lumbar joint above mid-hip, where the trunk is split.
+    /// Lumbar joint above mid-hip; `None` for an undivided trunk.
     pub lumbar_height: Option<f64>,
     /// Shoulder centres above mid-hip.
     pub shoulder_height: f64,

@@ -1,10 +1,10 @@
 //! Uniform cylinders of the 1997 paper.
 //!
 //! Faure, Debunne, Cani, Multon 1997, "Dynamic analysis of human walking", table 1 and section 4.1: "uniform density and a
-//! cylindrical shape". The paper gives no density and no stature; both stand below.
+//! cylindrical shape". The paper has no density and no stature; both are assumed below.
 
 use super::dimensions::{ANKLE_HEIGHT, FOOT_LENGTH, HEEL_TO_ANKLE};
-use super::proportions::{Lengths, Lump, Proportions};
+use super::proportions::{Lengths, Proportions, RigidPart};
 use std::f64::consts::PI;
 
 /// Mass [% of body mass], length [% of stature].
@@ -18,13 +18,13 @@ const UPPER_LEG: Entry = (7.92, 24.5);
 const LOWER_LEG: Entry = (4.70, 24.6);
 const FOOT: Entry = (1.72, 8.9);
 
-/// What the printed masses sum to [%]: 99.97.
+/// Sum of the printed masses [%]: 99.97.
 const PRINTED_SUM: f64 = HEAD.0 + TRUNK.0 + 2.0 * (UPPER_ARM.0 + LOWER_ARM.0 + UPPER_LEG.0 + LOWER_LEG.0 + FOOT.0);
-/// The paper's body mass [kg] (section 4.2).
+/// Body mass in the paper [kg] (section 4.2).
 const REFERENCE_MASS: f64 = 80.0;
-/// Ours [m]: the paper has none.
+/// Assumed stature [m]: the paper has none.
 const REFERENCE_STATURE: f64 = 1.80;
-/// Ours [kg/m³]: soft tissue is denser than water, the trunk with its lungs lighter; 1000 instead makes the cylinders 2.5 % thicker
+/// Assumed density [kg/m³]: soft tissue is denser than water, the trunk with its lungs less dense; 1000 makes the cylinders 2.5 % thicker
 /// and a thigh's inertia about the hip 0.1 % larger.
 const DENSITY: f64 = 1050.0;
 
@@ -45,15 +45,15 @@ fn gyration(entry: Entry) -> [f64; 2] {
 }
 
 /// An upright cylinder that ends at `top`.
-fn below(top: f64, entry: Entry) -> Lump {
+fn below(top: f64, entry: Entry) -> RigidPart {
     let [along, across] = gyration(entry);
-    Lump { mass: entry.0 / PRINTED_SUM, center: [0.0, top - entry.1 / 200.0], radii: [across, along, across] }
+    RigidPart { mass: entry.0 / PRINTED_SUM, center: [0.0, top - entry.1 / 200.0], radii: [across, along, across] }
 }
 
-/// A lying cylinder in the middle of the foot's length, half as high as the ankle.
-fn foot() -> Lump {
+/// A horizontal cylinder in the middle of the foot, at half the height of the ankle.
+fn foot() -> RigidPart {
     let [along, across] = gyration(FOOT);
-    Lump {
+    RigidPart {
         mass: FOOT.0 / PRINTED_SUM,
         center: [(0.5 - HEEL_TO_ANKLE) * FOOT_LENGTH, -0.5 * ANKLE_HEIGHT],
         radii: [along, across, across],
@@ -80,7 +80,7 @@ pub(super) fn proportions() -> Proportions {
         foot: foot(),
         upper_arm: below(0.0, UPPER_ARM),
         forearm: below(0.0, LOWER_ARM),
-        hand: Lump { mass: 0.0, center: [0.0, 0.0], radii: [0.0; 3] },
+        hand: RigidPart { mass: 0.0, center: [0.0, 0.0], radii: [0.0; 3] },
         pelvis: Vec::new(),
         torso: vec![below(lengths.shoulder, TRUNK), below(1.0 - lengths.leg(), HEAD)],
     }

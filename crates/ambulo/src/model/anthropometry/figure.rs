@@ -1,20 +1,20 @@
-//! From shares of mass and stature to a model.
+//! Builds the model of a figure from shares of mass and stature.
 
 use super::dimensions::Dimensions;
 use super::foot;
-use super::proportions::{Lump, Proportions};
+use super::proportions::{Proportions, RigidPart};
 use super::ranges::{self, Range};
 use super::{Build, BuildError};
 use crate::model::{
-    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis, Marker,
-    Measure, Model, Side,
+    Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
+    JointSpeeds, Marker, Model, Side,
 };
 use crate::spatial::{Inertia, InertiaError, Mat3, Pose, STANDARD_GRAVITY, Vec3};
 
 /// A model under construction.
-struct Making<'a> {
+struct FigureBuilder<'a> {
     build: &'a Build,
-    /// Body mass over what the table's shares sum to [kg].
+    /// Body mass divided by the sum of the shares in the table [kg].
     mass: f64,
     dimensions: &'a Dimensions,
     bodies: Vec<Body>,
@@ -23,7 +23,7 @@ struct Making<'a> {
 }
 
 pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Model, BuildError> {
-    let mut making = Making {
+    let mut builder = FigureBuilder {
         build,
         mass: build.mass / p.mass(),
         dimensions: d,
@@ -31,27 +31,27 @@ pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Mo
         coordinates: Vec::new(),
         markers: Vec::new(),
     };
-    let (root, torso) = making.trunk(p)?;
+    let (root, torso) = builder.trunk(p)?;
     for side in Side::BOTH {
-        making.leg(root, side, p)?;
+        builder.leg(root, side, p)?;
     }
     for side in Side::BOTH {
-        making.arm(torso, side, p)?;
+        builder.arm(torso, side, p)?;
     }
-    let Making { bodies, coordinates, markers, .. } = making;
+    let FigureBuilder { bodies, coordinates, markers, .. } = builder;
     let rounded = |x: f64| (1e3 * x).round() / 1e3;
     let name = format!("{} {} kg {} m", build.table, rounded(build.mass), rounded(build.height));
     Ok(Model::new(name, Vec3::new(0.0, -STANDARD_GRAVITY, 0.0), bodies, coordinates, markers)?)
 }
 
-impl Making<'_> {
-    /// The root and the body that carries the shoulders, which may be the same.
+impl FigureBuilder<'_> {
+    /// The root and the body with the shoulders, which may be the same.
     fn trunk(&mut self, p: &Proportions) -> Result<(BodyId, BodyId), BuildError> {
         let d = *self.dimensions;
-        let upper = self.lumps(&p.torso, Vec3::zeros())?;
+        let upper = self.rigid_parts(&p.torso, Vec3::zeros())?;
         let (root, torso, lumbar) = if let Some(height) = d.lumbar_height {
             let lumbar = Vec3::new(0.0, height, 0.0);
-            let lower = self.lumps(&p.pelvis, Vec3::zeros())?;
+            let lower = self.rigid_parts(&p.pelvis, Vec3::zeros())?;
             let root = self.root("pelvis", lower);
             let upper = upper.seen_from(&Pose::at(-lumbar));
             let torso = self.hinge("torso", upper, root, lumbar, "lumbar_extension", ranges::LUMBAR_EXTENSION);
@@ -73,7 +73,7 @@ impl Making<'_> {
         let (hip, knee, ankle) =
             (outward(side, 0.5 * d.hip_width), Vec3::new(0.0, -d.thigh, 0.0), Vec3::new(0.0, -d.shank, 0.0));
         let [thigh, shank, whole_foot] =
-            [&p.thigh, &p.shank, &p.foot].map(|lump| self.lumps(std::slice::from_ref(lump), Vec3::zeros()));
+            [&p.thigh, &p.shank, &p.foot].map(|part| self.rigid_parts(std::slice::from_ref(part), Vec3::zeros()));
         let femur = self.hinge(&at("femur"), thigh?, root, hip, &at("hip_flexion"), ranges::HIP_FLEXION);
         let tibia = self.hinge(&at("tibia"), shank?, femur, knee, &at("knee_angle"), ranges::KNEE);
         let whole_foot = whole_foot?;
@@ -102,8 +102,8 @@ impl Making<'_> {
         let up = d.shoulder_height - d.lumbar_height.unwrap_or(0.0);
         let shoulder = outward(side, 0.5 * d.shoulder_width) + Vec3::new(0.0, up, 0.0);
         let (elbow, wrist) = (Vec3::new(0.0, -d.upper_arm, 0.0), Vec3::new(0.0, -d.forearm, 0.0));
-        let upper = self.lumps(&[p.upper_arm], Vec3::zeros())?;
-        let lower = self.lumps(&[p.forearm], Vec3::zeros())?.joined(&self.lumps(&[p.hand], wrist)?);
+        let upper = self.rigid_parts(&[p.upper_arm], Vec3::zeros())?;
+        let lower = self.rigid_parts(&[p.forearm], Vec3::zeros())?.joined(&self.rigid_parts(&[p.hand], wrist)?);
         let humerus = self.hinge(&at("humerus"), upper, torso, shoulder, &at("arm_flex"), ranges::SHOULDER_FLEXION);
         let forearm = self.hinge(&at("forearm"), lower, humerus, elbow, &at("elbow_flex"), ranges::ELBOW_FLEXION);
         self.marker(&at("shoulder"), torso, shoulder);
@@ -112,14 +112,14 @@ impl Making<'_> {
         Ok(())
     }
 
-    /// Rigid parts together, `origin` being where their own origin stands in the body [m].
-    fn lumps(&self, lumps: &[Lump], origin: Vec3) -> Result<Inertia, InertiaError> {
+    /// Inertia of several rigid parts; `origin` is their origin in the body [m].
+    fn rigid_parts(&self, rigid_parts: &[RigidPart], origin: Vec3) -> Result<Inertia, InertiaError> {
         let height = self.build.height;
         let mut whole = Inertia::new(0.0, origin, Mat3::zeros())?;
-        for lump in lumps {
-            let mass = lump.mass * self.mass;
-            let moments = lump.radii.map(|r| mass * (r * height).powi(2));
-            let center = origin + Vec3::new(lump.center[0], lump.center[1], 0.0) * height;
+        for part in rigid_parts {
+            let mass = part.mass * self.mass;
+            let moments = part.radii.map(|r| mass * (r * height).powi(2));
+            let center = origin + Vec3::new(part.center[0], part.center[1], 0.0) * height;
             whole = whole.joined(&Inertia::new(mass, center, Mat3::from_diagonal(&Vec3::from(moments)))?);
         }
         Ok(whole)
@@ -136,12 +136,12 @@ impl Making<'_> {
             child_from_joint: Pose::IDENTITY,
             rotations: vec![axis(Vec3::z(), tilt)],
             translations: vec![axis(Vec3::x(), forward), axis(Vec3::y(), up)],
-            measure: Measure::Rates,
+            speeds: JointSpeeds::Rates,
         };
         self.body(name, inertia, joint)
     }
 
-    /// A body that turns about z at `place` of its parent [m].
+    /// A body with a hinge about z at `place` in its parent [m].
     fn hinge(
         &mut self,
         name: &str,
@@ -160,7 +160,7 @@ impl Making<'_> {
             child_from_joint: Pose::IDENTITY,
             rotations: vec![axis(Vec3::z(), id)],
             translations: Vec::new(),
-            measure: Measure::Rates,
+            speeds: JointSpeeds::Rates,
         };
         self.body(name, inertia, joint)
     }
@@ -193,7 +193,7 @@ impl Making<'_> {
     }
 }
 
-/// A distance [m] towards a side.
+/// A distance [m] towards the given side.
 fn outward(side: Side, distance: f64) -> Vec3 {
     match side {
         Side::Right => Vec3::z() * distance,

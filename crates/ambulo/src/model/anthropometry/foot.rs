@@ -1,32 +1,32 @@
-//! Soles and toes.
+//! Contact spheres and toes of the feet.
 
 use super::dimensions::Dimensions;
 use crate::model::{BodyId, Model, Side};
 use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 
-/// Mass of the toes, share of the foot's: `toes_r` over `calcn_r` and `toes_r` of Gait2392, 0.2166 of 1.4666 kg.
+/// Mass of the toes, share of the foot mass: `toes_r` over `calcn_r` and `toes_r` of Gait2392, 0.2166 of 1.4666 kg.
 const TOES_MASS: f64 = 0.148;
 
 /// A sphere under a foot: heel, ball of the foot or toes.
 ///
-/// In upright standing all of them touch the ground. They stand in the middle of the foot; the heel's begins at the heel, the
-/// toes' ends at the tip. Radii go with stature, as published foot models have them at 1.80 m (OpenSim Moco `2D_gait.osim`: heel
+/// In upright standing all of them touch the ground. They are in the middle of the foot; that of the heel begins at the heel, that of
+/// the toes ends at the tip. Radii scale with stature from those of published foot models at 1.80 m (OpenSim Moco `2D_gait.osim`: heel
 /// 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSphere {
-    /// `heel_r`, `ball_r`, `toe_r` and their like on the left.
+    /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`.
     pub name: String,
-    /// Whose foot.
+    /// The foot.
     pub side: Side,
-    /// The body that carries it.
+    /// The body that it is fixed to.
     pub body: BodyId,
-    /// Centre in the body's frame [m].
+    /// Centre in the frame of the body [m].
     pub center: Vec3,
     /// Radius [m].
     pub radius: f64,
 }
 
-/// The ball of the foot, where the toes turn, from the ankle [m].
+/// The ball of the foot, the axis of the toes, relative to the ankle [m].
 pub(super) fn ball(d: &Dimensions) -> Vec3 {
     Vec3::new(d.ankle_to_ball, d.ball_radius - d.ankle_height, 0.0)
 }
@@ -54,11 +54,11 @@ pub(super) fn soles(model: &Model, d: &Dimensions, toe_joint: bool) -> Vec<Conta
     spheres
 }
 
-/// A foot (about the ankle) taken apart into rear foot (about the ankle) and toes (about the ball), so that both together are the
-/// foot while the toes lie flat: a toe joint that is held changes nothing.
+/// Splits a foot (about the ankle) into rear foot (about the ankle) and toes (about the ball), which together are equivalent to the
+/// foot while the toes are flat: a locked toe joint changes nothing.
 ///
-/// The toes are a lying cylinder from the ball to the tip, as thick as their contact sphere. With D the distance of the two mass
-/// centres and m m'/M their reduced mass, I_rear = I_foot - I_toes - (m m'/M) (|D|² 1 - D Dᵀ).
+/// The toes are a horizontal cylinder from the ball to the tip, as thick as their contact sphere. With D the distance between the two
+/// mass centres and m m'/M their reduced mass, I_rear = I_foot - I_toes - (m m'/M) (|D|² 1 - D Dᵀ).
 pub(super) fn split(foot: &Inertia, d: &Dimensions) -> Result<(Inertia, Inertia), InertiaError> {
     let toes = TOES_MASS * foot.mass();
     let rear = foot.mass() - toes;

@@ -1,7 +1,7 @@
 //! Human figures of any mass and height, from published tables of body segments.
 //!
-//! A figure is planar in its motion and laid out in space: hinges about z, hips and shoulders at their width. All
-//! coordinates zero is upright standing; `pelvis_ty` stands at the leg's length, so the soles touch the ground y = 0.
+//! A figure moves in a plane but has three-dimensional segments: hinges about z, hips and shoulders at their width. All
+//! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground y = 0.
 //! Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and the axes of the
 //! world in that posture. Signs are those of docs/CONVENTIONS.md.
 //!
@@ -12,14 +12,14 @@
 //! | `femur_s`         | hip                 | `hip_flexion_s`                         |
 //! | `tibia_s`         | knee                | `knee_angle_s` (+ extension)            |
 //! | `calcn_s`         | ankle               | `ankle_angle_s` (+ dorsiflexion)        |
-//! | `toes_s`          | ball, if asked for  | `mtp_angle_s` (+ extension)             |
+//! | `toes_s`          | ball, if requested  | `mtp_angle_s` (+ extension)             |
 //! | `humerus_s`       | shoulder            | `arm_flex_s`                            |
 //! | `forearm_s` (+ hand) | elbow            | `elbow_flex_s`                          |
 //!
 //! Only de Leva's tables split the trunk (at the omphalion); with the others the root is `torso`, without lumbar joint,
 //! and keeps the names `pelvis_...` of its coordinates.
 //!
-//! # What the tables leave open, and how it is completed
+//! # Values that are not in the tables
 //!
 //! Lengths in % of stature H, masses in % of body mass.
 //!
@@ -28,19 +28,19 @@
 //! | masses | Table 1; they sum to 99.97 and are renormalised to 100 | sum to 100.00 (male) and 99.99 (female, renormalised) | sum to 100.0 |
 //! | thigh, shank | 24.5, 24.6 (Table 1) | mean lengths, joint centre to joint centre, / mean stature | 24.5, 24.6 (Drillis and Contini) |
 //! | ankle height | 3.9 (Drillis and Contini) | 3.9 (the same) | 3.9 |
-//! | neck | 8.3: what is left of the stature above a trunk of 28.7; its mass is in the head's (Dempster's head and neck: 8.1) | what is left: 4.3 (male), 7.5 (female) | head and neck 18.2 |
-//! | foot length | 15.2 (Drillis and Contini); Table 1's 8.9 is neither this nor a height and is kept as the length of the foot's cylinder, in the middle of the foot | mean length / mean stature | 15.2 |
-//! | heel to ankle | 25 % of the foot: the ankle of Gait2392 lies 49 mm before the rear of the calcaneus (1.80 m), soft tissue adds about 20 mm | the same | the same |
+//! | neck | 8.3: the rest of the stature above a trunk of 28.7; its mass is included in the head (Dempster's head and neck: 8.1) | the rest: 4.3 (male), 7.5 (female) | head and neck 18.2 |
+//! | foot length | 15.2 (Drillis and Contini); Table 1's 8.9 is neither this nor a height and is kept as the length of the cylinder of the foot, in its middle | mean length / mean stature | 15.2 |
+//! | heel to ankle | 25 % of the foot: the ankle of Gait2392 is 49 mm in front of the rear of the calcaneus (1.80 m), soft tissue adds about 20 mm | the same | the same |
 //! | heel to ball | 74 % of the foot (ball of foot length / foot length, US Army survey; unverified) | the same | the same |
-//! | distance of hip centres, of shoulder centres | 9.3, 24.0 (Dumas 2007 as in HeiMan's `segment_lengths`); no part in planar dynamics | the same | the same |
+//! | distance between hip centres, between shoulder centres | 9.3, 24.0 (Dumas 2007 as in HeiMan's `segment_lengths`); no effect on planar dynamics | the same | the same |
 //! | shoulder height | top of the trunk | mid-hip to mid-shoulder | top of the trunk |
-//! | hand | its mass is in the lower arm's 2.20 | own row, rigid with the forearm | own row, rigid with the forearm |
+//! | hand | its mass is included in the lower arm (2.20) | own row, rigid with the forearm | own row, rigid with the forearm |
 //! | head | cylinder 10.0 long below the vertex | vertex to mid-gonion below the vertex | mass at the ear canal, 92.6 high |
-//! | inertia | uniform cylinders of 1050 kg/m³ at the paper's 80 kg and a stature of 1.80 m (both the stature and the density are ours) | radii of gyration as printed | one printed radius, used about x and z; about the long axis the ratio of de Leva's male table; trunk: de Leva's ratio to hip-shoulder length |
+//! | inertia | uniform cylinders of 1050 kg/m³ at the paper's 80 kg and a stature of 1.80 m (both stature and density are assumed) | radii of gyration as printed | one printed radius, used about x and z; about the long axis the ratio of de Leva's male table; trunk: de Leva's ratio to hip-shoulder length |
 //!
-//! **Scaling.** Lengths and radii of spheres and cylinders go with the stature, masses with the mass; so inertias go
-//! with mass times stature squared exactly, and at equal stature every force goes with the mass. The figure's density
-//! is then mass / stature³ times a constant.
+//! **Scaling.** Lengths and radii of spheres and cylinders are proportional to stature, masses to body mass; inertias are
+//! therefore proportional to mass times stature squared, and at equal stature every force is proportional to mass. The density of
+//! the figure is mass / stature³ times a constant.
 //!
 //! Sources: Faure, Debunne, Cani, Multon 1997, table 1. De Leva 1996, J Biomech 29:1223, table 4: radii and masses as
 //! transcribed in BMClab/BMC, lengths as in R. Gurchiek's `deleva.m`, both read. Dempster as in Winter, table 4.1, read in
@@ -64,85 +64,85 @@ use super::anatomy::Sole;
 use super::{Model, ModelError, Side};
 use crate::spatial::InertiaError;
 
-/// Body masses that a figure may have [kg]: from an infant's to the heaviest who walk.
+/// Range of body masses [kg]: from infants to the heaviest people who walk.
 const MASS_RANGE: [f64; 2] = [2.0, 300.0];
-/// Statures that a figure may have [m].
+/// Range of statures [m].
 const HEIGHT_RANGE: [f64; 2] = [0.4, 2.5];
-/// Mass over stature cubed [kg/m³]: adults have 9 to 40, newborns 20 to 30; beyond this no walker is built so.
+/// Range of mass / stature³ [kg/m³]: adults have 9 to 40, newborns 20 to 30.
 const PONDERAL_RANGE: [f64; 2] = [5.0, 90.0];
 
-/// What figure is asked for.
+/// Segment table, mass and stature of a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Build {
-    /// Whose segments.
+    /// Table of body segments.
     pub table: SegmentTable,
     /// Body mass [kg].
     pub mass: f64,
     /// Stature [m].
     pub height: f64,
-    /// Whether the toes turn about the ball of the foot.
+    /// Whether the toes have a joint at the ball of the foot.
     pub toe_joint: bool,
 }
 
-/// Why no figure can be built.
+/// Why a figure cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// A mass that no walker has.
+    /// An implausible mass.
     #[error("the body mass is {found} kg; expected {min} to {max} kg")]
     Mass {
-        /// What was asked for [kg].
+        /// Requested mass [kg].
         found: f64,
-        /// Least [kg].
+        /// Smallest mass [kg].
         min: f64,
-        /// Most [kg].
+        /// Largest mass [kg].
         max: f64,
     },
-    /// A stature that no walker has.
+    /// An implausible stature.
     #[error("the height is {found} m; expected {min} to {max} m. hint: metres, not centimetres")]
     Height {
-        /// What was asked for [m].
+        /// Requested stature [m].
         found: f64,
-        /// Least [m].
+        /// Smallest stature [m].
         min: f64,
-        /// Most [m].
+        /// Largest stature [m].
         max: f64,
     },
-    /// A mass that does not go with the stature.
+    /// A mass that is implausible at this stature.
     #[error("{mass} kg at {height} m; expected {min:.1} to {max:.1} kg at this height")]
     Thickness {
-        /// What was asked for [kg].
+        /// Requested mass [kg].
         mass: f64,
-        /// What was asked for [m].
+        /// Requested stature [m].
         height: f64,
-        /// Least [kg].
+        /// Smallest mass [kg].
         min: f64,
-        /// Most [kg].
+        /// Largest mass [kg].
         max: f64,
     },
-    /// A segment that no body can have.
-    #[error("a segment of the figure is no body")]
+    /// A segment with an impossible inertia.
+    #[error("a segment of the figure has an impossible inertia")]
     Segment(#[from] InertiaError),
-    /// Parts that make no model.
-    #[error("the figure is no model")]
+    /// Parts that do not fit together.
+    #[error("the parts of the figure do not fit together")]
     Model(#[from] ModelError),
 }
 
-/// A figure with soles.
+/// A built-in figure: its model, soles and lengths.
 #[derive(Debug, Clone)]
 pub struct Human {
     /// Bodies, joints, coordinates with anatomical ranges, and markers at the joints.
     pub model: Model,
-    /// Where the feet touch: heel, ball, toe, right foot first.
+    /// Contact spheres: heel, ball, toe, right foot first.
     pub soles: Vec<ContactSphere>,
     /// Lengths [m].
     pub dimensions: Dimensions,
-    /// What was asked for.
+    /// Its settings.
     pub build: Build,
 }
 
 impl Human {
-    /// The sole of a foot, by its spheres.
+    /// The sole of a foot, from its contact spheres.
     #[must_use]
     pub fn sole(&self, side: Side) -> Option<Sole> {
         Sole::of_spheres(&self.soles, side, 0.5 * self.dimensions.foot_width)
@@ -153,7 +153,7 @@ impl Build {
     /// Builds the figure.
     ///
     /// # Errors
-    /// A mass or a height outside of what walkers have, each alone or together.
+    /// An implausible mass, stature or combination of both.
     pub fn human(&self) -> Result<Human, BuildError> {
         self.check()?;
         let proportions = self.table.proportions();
@@ -184,7 +184,7 @@ impl Build {
     }
 }
 
-/// False for a number that is none.
+/// False for not-a-number.
 fn within(value: f64, [min, max]: [f64; 2]) -> bool {
     (min..=max).contains(&value)
 }

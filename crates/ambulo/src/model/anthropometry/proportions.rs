@@ -1,10 +1,10 @@
-//! A body as shares: of its mass and of its stature.
+//! Proportions of a body: segment masses as shares of body mass, lengths as shares of stature.
 
-/// A rigid part: mass as a share of body mass, place and radii of gyration as shares of stature.
+/// A rigid part: mass as a share of body mass, position and radii of gyration as shares of stature.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lump {
+pub(super) struct RigidPart {
     pub(super) mass: f64,
-    /// Mass centre, forward and up from the origin of the frame that the field names.
+    /// Mass centre: forward and up, relative to the proximal joint (trunk: mid-hip).
     pub(super) center: [f64; 2],
     /// Radii of gyration about the mass centre: about x, y, z.
     pub(super) radii: [f64; 3],
@@ -31,7 +31,7 @@ pub(super) struct Lengths {
     pub(super) shank: f64,
     pub(super) ankle_height: f64,
     pub(super) foot: f64,
-    /// Lumbar joint above mid-hip, where the trunk is split.
+    /// Lumbar joint above mid-hip; `None` for an undivided trunk.
     pub(super) lumbar: Option<f64>,
     /// Shoulder centres above mid-hip.
     pub(super) shoulder: f64,
@@ -43,23 +43,23 @@ pub(super) struct Lengths {
     pub(super) hand: f64,
 }
 
-/// All that a table says.
+/// The proportions of a segment table.
 #[derive(Debug, Clone)]
 pub(super) struct Proportions {
     pub(super) lengths: Lengths,
-    /// From the hip, knee, ankle.
-    pub(super) thigh: Lump,
-    pub(super) shank: Lump,
-    pub(super) foot: Lump,
-    /// From the shoulder, elbow, wrist.
-    pub(super) upper_arm: Lump,
-    pub(super) forearm: Lump,
-    /// No mass where the forearm's row has it.
-    pub(super) hand: Lump,
-    /// Below the lumbar joint, from mid-hip; empty if the trunk is not split.
-    pub(super) pelvis: Vec<Lump>,
-    /// Trunk and head, from mid-hip.
-    pub(super) torso: Vec<Lump>,
+    /// Relative to hip, knee and ankle.
+    pub(super) thigh: RigidPart,
+    pub(super) shank: RigidPart,
+    pub(super) foot: RigidPart,
+    /// Relative to shoulder, elbow and wrist.
+    pub(super) upper_arm: RigidPart,
+    pub(super) forearm: RigidPart,
+    /// Without mass if it is included in the forearm.
+    pub(super) hand: RigidPart,
+    /// Below the lumbar joint, relative to mid-hip; empty for an undivided trunk.
+    pub(super) pelvis: Vec<RigidPart>,
+    /// Trunk and head, relative to mid-hip.
+    pub(super) torso: Vec<RigidPart>,
 }
 
 impl Lengths {
@@ -70,18 +70,18 @@ impl Lengths {
 }
 
 impl Row {
-    /// The part hanging from its first end point, or standing on it below `top`, where that point is the upper one.
-    pub(super) fn below(&self, top: f64) -> Lump {
+    /// The segment with its upper end point at `top`.
+    pub(super) fn below(&self, top: f64) -> RigidPart {
         let Row { mass, length, center, radii } = *self;
-        Lump { mass, center: [0.0, top - center * length], radii: radii.map(|r| r * length) }
+        RigidPart { mass, center: [0.0, top - center * length], radii: radii.map(|r| r * length) }
     }
 }
 
 impl Proportions {
-    /// All shares of mass together: one but for the rounding of printed numbers.
+    /// Sum of all shares of mass: one, up to the rounding of printed numbers.
     pub(super) fn mass(&self) -> f64 {
         let limb = [self.thigh, self.shank, self.foot, self.upper_arm, self.forearm, self.hand];
         let trunk = self.pelvis.iter().chain(&self.torso);
-        2.0 * limb.iter().map(|lump| lump.mass).sum::<f64>() + trunk.map(|lump| lump.mass).sum::<f64>()
+        2.0 * limb.iter().map(|part| part.mass).sum::<f64>() + trunk.map(|part| part.mass).sum::<f64>()
     }
 }

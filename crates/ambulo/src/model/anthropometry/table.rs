@@ -18,11 +18,11 @@ pub enum SegmentTable {
     DempsterWinter,
 }
 
-/// A name that no table has.
+/// An unknown name of a table.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no figure is named `{found}`; expected faure-1997, de-leva-male, de-leva-female or dempster-winter")]
 pub struct UnknownTable {
-    /// What was asked for.
+    /// The requested name.
     pub found: String,
 }
 
@@ -42,7 +42,7 @@ impl SegmentTable {
         }
     }
 
-    /// Whether the trunk is one piece, without a pelvis of its own.
+    /// Whether the trunk is one segment, without a separate pelvis.
     #[must_use]
     pub fn is_undivided(self) -> bool {
         self.proportions().lengths.lumbar.is_none()

@@ -1,18 +1,18 @@
-//! Marker sets from TOML: what is read is checked, and refused with line and key.
+//! Reads marker sets from TOML files. Errors state line and key.
 //!
 //! ```toml
 //! name = "my-laboratory"
-//! title = "what people call it"
+//! title = "Marker set of my laboratory"
 //!
 //! [[pair]]                        # one on each side
 //! right = ["RKNE", "R.Knee.Lat"]  # a name, or a list of names
 //! left = ["LKNE", "L.Knee.Lat"]
 //! landmark = "lateral_epicondyle"
 //!
-//! [[single]]                      # in the middle, or on one side alone
+//! [[single]]                      # in the middle, or on one side only
 //! names = "RBAK"
 //! segment = "torso"               # a technical marker: a segment instead of a landmark
-//! place = [-0.3, 0.7, 0.3]        # shares of the segment's length; on the right for pairs
+//! place = [-0.3, 0.7, 0.3]        # shares of the segment length; right side for pairs
 //! weight = 0.5
 //! ```
 
@@ -27,10 +27,10 @@ const DOCUMENT: &str = "docs/MARKERS.md";
 const LARGEST_WEIGHT: f64 = 1000.0;
 
 impl MarkerSet {
-    /// A set from a TOML file.
+    /// Reads a set from a TOML file.
     ///
     /// # Errors
-    /// Whatever is not as docs/MARKERS.md has it, with line and key.
+    /// Anything that does not follow docs/MARKERS.md, with line and key.
     pub fn from_toml(text: &str) -> Result<MarkerSet, TomlError> {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
@@ -81,7 +81,7 @@ impl Reading {
             return Err(table.missing("side", "the side of the limb, \"right\" or \"left\""));
         }
         let place = match (common.place, side) {
-            // A place of its own stands as it is written; a landmark's is mirrored.
+            // An explicit position is used as written; that of a landmark is mirrored.
             (Some(p), Some(Side::Left)) if table.get("place").is_none() => Some(Vec3::new(p.x, p.y, -p.z)),
             (place, _) => place,
         };
@@ -89,7 +89,7 @@ impl Reading {
         Ok(())
     }
 
-    /// The names under a key: a text or a list of texts, none of them used before.
+    /// The names under a key: a text or a list of texts, without repetitions in the set.
     fn names(&mut self, table: &Table<'_>, key: &str, meaning: &str) -> Result<Vec<String>, TomlError> {
         let value = table.need(key, meaning)?;
         let values: Vec<Value<'_>> = match value.text() {
@@ -100,7 +100,7 @@ impl Reading {
         for value in &values {
             let name = value.filled_text()?;
             if !self.names.insert(name.to_lowercase()) {
-                return Err(value.wrong("a name that no other marker of the set has (large and small letters are one)"));
+                return Err(value.wrong("a name that no other marker of the set has (case is ignored)"));
             }
             names.push(name);
         }
@@ -111,7 +111,7 @@ impl Reading {
     }
 }
 
-/// What both kinds of tables say, without names and side.
+/// The keys of both kinds of tables, without names and side.
 fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
     let landmarks: Vec<(&str, Landmark)> = Landmark::all().map(|l| (l.word(), l)).collect();
     let landmark = table.get("landmark").map(|value| value.choice(&landmarks)).transpose()?;
@@ -119,12 +119,11 @@ fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
         (Some(landmark), None) => landmark.segment(),
         (None, Some(value)) => value.choice(&Segment::WORDS)?,
         (Some(_), Some(value)) => {
-            let message =
-                "found both `landmark` and `segment`; expected one of them: a landmark stands on its own segment";
+            let message = "found both `landmark` and `segment`; expected one of them: a landmark defines its segment";
             return Err(value.place().error(message));
         }
         (None, None) => {
-            return Err(table.missing("landmark", "what it stands on (or `segment` for a technical marker)"));
+            return Err(table.missing("landmark", "the landmark of the marker (or `segment` for a technical marker)"));
         }
     };
     let own = table.get("place").map(|value| value.vector()).transpose()?;

@@ -1,9 +1,9 @@
-//! Places of the body that markers stand on.
+//! Anatomical landmarks of markers.
 
 use super::Segment;
 use crate::spatial::Vec3;
 
-/// What a marker stands on, or a joint centre that a program computed.
+/// An anatomical landmark, or a joint centre computed by a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each landmark is described in the table below, which docs/MARKERS.md repeats")]
 pub enum Landmark {
@@ -59,7 +59,7 @@ pub enum Landmark {
     Knuckle,
 }
 
-/// A row of the table: the word in files, the segment, the place on the right side in shares of the segment's length, and what it is.
+/// A row of the table: the word in files, the segment, the position on the right side as shares of the segment length, and the meaning.
 pub(super) struct Row {
     pub(super) landmark: Landmark,
     pub(super) word: &'static str,
@@ -72,10 +72,10 @@ const fn row(landmark: Landmark, word: &'static str, segment: Segment, place: [f
     Row { landmark, word, segment, place, meaning }
 }
 
-/// Places of markers on a body of mean build, standing. The pelvis follows from Harrington's regression for a pelvis 238 mm wide and
-/// 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths and the heights of cervicale and acromion; breadths of knee, ankle and elbow from mean
-/// breadths between the condyles and malleoli with a marker's radius; the rest is where the markers of subject01 of OpenSim's
-/// Gait2392 and of the Rajagopal example stand, rounded. Where a marker is seen, its own place replaces this one.
+/// Marker positions on an average body in standing. The pelvis follows from Harrington's regression for a pelvis 238 mm wide and
+/// 155 mm deep, tilted forwards by 11.7°; trunk and head from de Leva's lengths and the heights of cervicale and acromion; knee, ankle
+/// and elbow from mean widths between the condyles and malleoli plus the radius of a marker; the others are rounded positions of the
+/// markers of subject01 of OpenSim's Gait2392 and of the Rajagopal example. Recorded positions replace these.
 pub(super) const TABLE: [Row; 50] = {
     use Landmark as L;
     use Segment as S;
@@ -84,7 +84,13 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::Psis, "psis", S::Pelvis, [-0.58, 0.62, 0.27], "posterior superior iliac spine"),
         row(L::Sacrum, "sacrum", S::Pelvis, [-0.58, 0.62, 0.0], "midway between the posterior superior iliac spines"),
         row(L::IliacCrest, "iliac_crest", S::Pelvis, [0.0, 0.95, 0.85], "highest point of the iliac crest"),
-        row(L::HipCentre, "hip_centre", S::Pelvis, [0.0, 0.0, 0.5], "centre of the hip joint, as a program found it"),
+        row(
+            L::HipCentre,
+            "hip_centre",
+            S::Pelvis,
+            [0.0, 0.0, 0.5],
+            "centre of the hip joint, as computed by a program",
+        ),
         row(L::MidHip, "mid_hip", S::Pelvis, [0.0, 0.0, 0.0], "midway between the hip centres"),
         row(L::GreaterTrochanter, "greater_trochanter", S::Femur, [-0.03, 0.0, 0.2], "greater trochanter"),
         row(
@@ -102,7 +108,7 @@ pub(super) const TABLE: [Row; 50] = {
             "lateral epicondyle of the femur, on the knee axis",
         ),
         row(L::MedialEpicondyle, "medial_epicondyle", S::Femur, [0.0, -1.0, -0.14], "medial epicondyle of the femur"),
-        row(L::KneeCentre, "knee_centre", S::Femur, [0.0, -1.0, 0.0], "centre of the knee, as a program found it"),
+        row(L::KneeCentre, "knee_centre", S::Femur, [0.0, -1.0, 0.0], "centre of the knee, as computed by a program"),
         row(
             L::ShankWand,
             "shank_wand",
@@ -114,7 +120,13 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::TibialTuberosity, "tibial_tuberosity", S::Tibia, [0.11, -0.11, 0.0], "tuberosity of the tibia"),
         row(L::LateralMalleolus, "lateral_malleolus", S::Tibia, [-0.02, -1.0, 0.1], "lateral malleolus"),
         row(L::MedialMalleolus, "medial_malleolus", S::Tibia, [0.02, -0.97, -0.09], "medial malleolus"),
-        row(L::AnkleCentre, "ankle_centre", S::Tibia, [0.0, -1.0, 0.0], "centre of the ankle, as a program found it"),
+        row(
+            L::AnkleCentre,
+            "ankle_centre",
+            S::Tibia,
+            [0.0, -1.0, 0.0],
+            "centre of the ankle, as computed by a program",
+        ),
         row(L::Heel, "heel", S::Foot, [-0.28, -0.15, 0.0], "rear of the heel, as high as the toe marker"),
         row(L::SecondToe, "second_toe", S::Foot, [0.47, -0.12, 0.0], "head of the second metatarsal, from above"),
         row(L::FirstMetatarsal, "first_metatarsal", S::Foot, [0.48, -0.16, -0.16], "head of the first metatarsal"),
@@ -139,7 +151,7 @@ pub(super) const TABLE: [Row; 50] = {
             "shoulder_centre",
             S::Torso,
             [0.0, 1.0, 0.55],
-            "centre of the shoulder, as a program found it",
+            "centre of the shoulder, as computed by a program",
         ),
         row(L::Neck, "neck", S::Torso, [0.0, 1.2, 0.0], "midway between the shoulders, at the neck"),
         row(L::FrontHead, "front_head", S::Torso, [0.3, 1.75, 0.22], "side of the forehead"),
@@ -149,22 +161,34 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::Vertex, "vertex", S::Torso, [0.0, 1.95, 0.0], "top of the head"),
         row(L::LateralElbow, "lateral_elbow", S::Humerus, [0.0, -1.0, 0.15], "lateral epicondyle of the humerus"),
         row(L::MedialElbow, "medial_elbow", S::Humerus, [0.0, -1.0, -0.15], "medial epicondyle of the humerus"),
-        row(L::ElbowCentre, "elbow_centre", S::Humerus, [0.0, -1.0, 0.0], "centre of the elbow, as a program found it"),
+        row(
+            L::ElbowCentre,
+            "elbow_centre",
+            S::Humerus,
+            [0.0, -1.0, 0.0],
+            "centre of the elbow, as computed by a program",
+        ),
         row(L::RadialStyloid, "radial_styloid", S::Forearm, [0.13, -1.0, 0.0], "wrist, on the thumb's side"),
         row(L::UlnarStyloid, "ulnar_styloid", S::Forearm, [-0.13, -1.0, 0.0], "wrist, on the little finger's side"),
-        row(L::WristCentre, "wrist_centre", S::Forearm, [0.0, -1.0, 0.0], "centre of the wrist, as a program found it"),
+        row(
+            L::WristCentre,
+            "wrist_centre",
+            S::Forearm,
+            [0.0, -1.0, 0.0],
+            "centre of the wrist, as computed by a program",
+        ),
         row(L::Knuckle, "knuckle", S::Forearm, [0.0, -1.3, 0.07], "head of the third metacarpal, back of the hand"),
     ]
 };
 
-/// Weight of markers that move by several centimetres on the body that carries them in the model.
+/// Weight of markers that move by several centimetres on their segment.
 pub(super) const LOOSE_WEIGHT: f64 = 0.02;
-/// Weight of markers that only show how a segment turns, and of a trunk that bends where the model does not: their skin moves by
-/// one or two centimetres on the bone, three times as far as over the landmarks that joints are found by.
+/// Weight of markers that only show the orientation of a segment, and of those on a trunk that bends: their skin moves by
+/// one or two centimetres relative to the bone, three times as far as at the landmarks that define joint centres.
 pub(super) const FOLLOWING_WEIGHT: f64 = 0.1;
 
 impl Landmark {
-    /// All landmarks, from the pelvis down and then up.
+    /// All landmarks, from the pelvis down to the toes and then from the trunk up.
     pub fn all() -> impl Iterator<Item = Landmark> {
         TABLE.iter().map(|row| row.landmark)
     }
@@ -179,21 +203,21 @@ impl Landmark {
         self.row().word
     }
 
-    /// What it is.
+    /// Anatomical description.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// The segment that carries it.
+    /// The segment that it is fixed to.
     #[must_use]
     pub fn segment(self) -> Segment {
         self.row().segment
     }
 
-    /// How much a marker on it counts where markers are fitted: 1 where joints are found by it; less on wands and on the skin along
-    /// thigh and shank, and on a trunk that bends; little on arms and shoulders, whose girdle moves on the trunk, and on the head,
-    /// which turns on it. So joint centres follow the landmarks that define them, as in Plug-in-Gait, and the rest fills in.
+    /// Default weight of a marker on it in a fit: 1 if it defines a joint centre; less on wands, on the skin along
+    /// thigh and shank, and on a trunk that bends; little on arms and shoulders, which move relative to the trunk, and on the head.
+    /// Joint centres therefore follow the landmarks that define them, as in Plug-in-Gait.
     #[must_use]
     pub fn weight(self) -> f64 {
         use Landmark as L;
@@ -208,7 +232,7 @@ impl Landmark {
         }
     }
 
-    /// Where a marker on it stands on a body of mean build, on the right side, in shares of the segment's length.
+    /// Position of a marker on it on an average body, on the right side, as shares of the segment length.
     #[must_use]
     pub fn place(self) -> Vec3 {
         Vec3::from(self.row().place)
@@ -220,7 +244,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_stands_in_the_order_of_the_landmarks() {
+    fn the_table_is_in_the_order_of_the_landmarks() {
         for (i, row) in TABLE.iter().enumerate() {
             assert_eq!(row.landmark as usize, i, "{}", row.word);
         }

@@ -1,7 +1,7 @@
-//! Sets of markers: what their names mean (docs/MARKERS.md).
+//! Marker sets: the meaning of marker names (docs/MARKERS.md).
 //!
-//! A set says for each marker which names it goes by, which landmark it stands on or that it is technical, and on which segment.
-//! [`MarkerSet::recognise`] finds the sets that a recording's names belong to.
+//! For each marker a set has its names, its landmark (none for technical markers) and its segment.
+//! [`MarkerSet::recognise`] finds the sets to which the names of a recording belong.
 
 mod file;
 mod landmark;
@@ -9,7 +9,7 @@ mod recognised;
 mod segment;
 
 pub use landmark::Landmark;
-pub use recognised::{NamedMarker, Recognised, RecognitionError, UnknownMarkers};
+pub use recognised::{NamedMarker, RecognisedMarkers, RecognitionError, UnknownMarkers};
 pub use segment::Segment;
 
 use super::anthropometry::Human;
@@ -17,49 +17,49 @@ use super::{Marker, Side};
 use crate::spatial::Vec3;
 use crate::toml_reader::TomlError;
 
-/// A set of markers.
+/// A marker set: names and positions of markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerSet {
     /// Name, such as `plug-in-gait`.
     pub name: String,
-    /// What it is, for people.
+    /// Title for display.
     pub title: String,
     /// The markers.
     pub markers: Vec<MarkerDefinition>,
 }
 
-/// What a marker is.
+/// Names, landmark, segment and weight of a marker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerDefinition {
-    /// The names that it goes by; the first is the set's own.
+    /// Its names; the first one is used in models.
     pub names: Vec<String>,
-    /// Whose side; `None` in the middle.
+    /// Its side; `None` in the middle.
     pub side: Option<Side>,
-    /// The segment that carries it.
+    /// The segment that it is fixed to.
     pub segment: Segment,
-    /// What it stands on; `None` for a technical marker, which only says how its segment moves.
+    /// Its landmark; `None` for a technical marker, which only shows the motion of its segment.
     pub landmark: Option<Landmark>,
-    /// Where it stands on a body of mean build, in shares of the segment's length ([`Segment::length`]).
+    /// Position on an average body, as shares of the segment length ([`Segment::length`]).
     pub place: Option<Vec3>,
-    /// How much it counts where markers are fitted.
+    /// Weight in a marker fit.
     pub weight: f64,
 }
 
 /// A set that is not built in.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("no marker set is named `{found}`; expected one of {known}, or a TOML file as docs/MARKERS.md has it")]
+#[error("no marker set is named `{found}`; expected one of {known}, or a TOML file as described in docs/MARKERS.md")]
 pub struct UnknownSet {
-    /// What was asked for.
+    /// The requested name.
     pub found: String,
     /// The built-in sets.
     pub known: String,
 }
 
-/// Why there is no such set.
+/// Why a set cannot be loaded.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarkerSetError {
-    /// A built-in file that was not read; a test rules this out.
+    /// A built-in file cannot be read; a test rules this out.
     #[error("marker set `{name}`")]
     BuiltIn {
         /// The set.
@@ -109,12 +109,12 @@ impl MarkerSet {
     /// All built-in sets.
     ///
     /// # Errors
-    /// None that tests let through.
+    /// None: a test reads the files.
     pub fn built_in() -> Result<Vec<MarkerSet>, MarkerSetError> {
         MarkerSet::NAMES.into_iter().map(MarkerSet::named).collect()
     }
 
-    /// The markers of this set on a body, where they stand on a body of mean build. Technical markers without a place are left out.
+    /// The markers of this set on a body, at their positions on an average body. Technical markers without a position are left out.
     #[must_use]
     pub fn on(&self, human: &Human) -> Vec<Marker> {
         let place = |definition: &MarkerDefinition| {

@@ -1,32 +1,32 @@
-//! Which markers a recording has.
+//! Recognises the markers of a recording by their names.
 
 use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
 use std::collections::BTreeSet;
 
-/// Sets beyond the first must explain at least this many more names: fewer are chance.
+/// Smallest number of further names that an additional set must explain; fewer may be coincidence.
 const LEAST_GAIN: usize = 2;
-/// A set that explains fewer names than this is not recognised.
+/// Smallest number of names that the first set must explain.
 const LEAST_COVER: usize = 4;
 
-/// A marker of a recording whose meaning is known.
+/// A recognised marker of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedMarker {
     /// Its name in the recording.
     pub name: String,
-    /// What it is.
+    /// Its meaning.
     pub definition: MarkerDefinition,
 }
 
-/// What the names of a recording mean.
+/// The recognised markers of a recording.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Recognised {
-    /// The sets that they belong to, the one that explains most first.
+pub struct RecognisedMarkers {
+    /// The sets that they belong to, the one that explains most names first.
     pub sets: Vec<String>,
-    /// The markers whose meaning is known, in the order of the recording.
+    /// The recognised markers, in the order of the recording.
     pub markers: Vec<NamedMarker>,
-    /// Names that no set has.
+    /// Names that are not in any set.
     pub unknown: Vec<String>,
 }
 
@@ -36,11 +36,11 @@ pub struct Recognised {
     "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small TOML file described there; markers of an OpenSim model need that model"
 )]
 pub struct UnknownMarkers {
-    /// How many markers there are.
+    /// Number of markers.
     pub count: usize,
     /// The first names.
     pub found: String,
-    /// How many names the best set explains.
+    /// Number of names that the best set explains.
     pub cover: usize,
     /// The best set.
     pub best: String,
@@ -55,23 +55,23 @@ pub enum RecognitionError {
     /// No set explains the names.
     #[error(transparent)]
     Unknown(#[from] UnknownMarkers),
-    /// A built-in set that was not read.
+    /// A built-in set cannot be read.
     #[error(transparent)]
     Set(#[from] MarkerSetError),
 }
 
-/// A name without the subject's prefix, in small letters.
+/// A name without the prefix of the subject, in lower case.
 fn plain(name: &str) -> String {
     name.rsplit(':').next().unwrap_or(name).trim().to_lowercase()
 }
 
 impl MarkerSet {
-    /// The built-in sets that explain most of a recording's names.
+    /// Recognises markers with the built-in sets that explain most of their names.
     ///
     /// # Errors
     /// Names that no set explains.
-    pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<Recognised, RecognitionError> {
-        Ok(Recognised::among(&MarkerSet::built_in()?, names)?)
+    pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<RecognisedMarkers, RecognitionError> {
+        Ok(RecognisedMarkers::among(&MarkerSet::built_in()?, names)?)
     }
 
     fn definition(&self, name: &str) -> Option<&MarkerDefinition> {
@@ -80,16 +80,16 @@ impl MarkerSet {
     }
 }
 
-impl Recognised {
-    /// The sets among these that explain most of a recording's names: first the one that explains most, then any that explain
-    /// at least two of the rest.
+impl RecognisedMarkers {
+    /// Recognises markers with some of these sets: first the one that explains most names, then any that explain
+    /// at least two of the others.
     ///
     /// # Errors
     /// Names that no set explains.
     pub fn among<'n>(
         sets: &[MarkerSet],
         names: impl IntoIterator<Item = &'n str>,
-    ) -> Result<Recognised, UnknownMarkers> {
+    ) -> Result<RecognisedMarkers, UnknownMarkers> {
         let names: Vec<&str> = names.into_iter().collect();
         let mut found: Vec<Option<&MarkerDefinition>> = vec![None; names.len()];
         let mut used: Vec<&MarkerSet> = Vec::new();
@@ -97,7 +97,7 @@ impl Recognised {
             let gain = |set: &MarkerSet| {
                 names.iter().zip(&found).filter(|(n, f)| f.is_none() && set.definition(n).is_some()).count()
             };
-            // The first of several sets that explain equally many.
+            // The first of several sets that explain the same number.
             let best = sets.iter().rev().max_by_key(|set| gain(set));
             let Some((set, cover)) = best.map(|set| (set, gain(set))) else { break };
             if used.is_empty() && cover < LEAST_COVER {
@@ -121,10 +121,10 @@ impl Recognised {
             };
             return Err(nothing);
         }
-        Ok(Recognised::of(&used, &names, &found))
+        Ok(RecognisedMarkers::of(&used, &names, &found))
     }
 
-    fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> Recognised {
+    fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> RecognisedMarkers {
         let mut markers: Vec<NamedMarker> = Vec::new();
         let mut unknown = Vec::new();
         let mut places: BTreeSet<(Landmark, Option<Side>)> = BTreeSet::new();
@@ -134,16 +134,16 @@ impl Recognised {
                 continue;
             };
             let mut definition = (*definition).clone();
-            // A landmark has one marker; a second one on it only says how the segment moves.
+            // A landmark has one marker; a second one only shows the motion of the segment.
             if definition.landmark.is_some_and(|l| !places.insert((l, definition.side))) {
                 definition.landmark = None;
             }
             markers.push(NamedMarker { name: (*name).to_owned(), definition });
         }
-        Recognised { sets: used.iter().map(|set| set.name.clone()).collect(), markers, unknown }
+        RecognisedMarkers { sets: used.iter().map(|set| set.name.clone()).collect(), markers, unknown }
     }
 
-    /// The name in the recording of the marker on a landmark.
+    /// Name of the marker on a landmark.
     #[must_use]
     pub fn on(&self, landmark: Landmark, side: Option<Side>) -> Option<&str> {
         let is_it = |m: &&NamedMarker| m.definition.landmark == Some(landmark) && m.definition.side == side;

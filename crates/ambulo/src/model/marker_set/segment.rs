@@ -1,4 +1,4 @@
-//! Segments that markers stand on.
+//! Segments of the full body that markers are fixed to.
 
 use crate::model::anthropometry::Dimensions;
 use crate::model::{BodyId, Model, Side};
@@ -43,13 +43,13 @@ impl Segment {
         Segment::WORDS[self as usize].0
     }
 
-    /// Whether there is one on each side.
+    /// Whether there is one per side.
     #[must_use]
     pub fn is_paired(self) -> bool {
         !matches!(self, Segment::Pelvis | Segment::Torso)
     }
 
-    /// The body of the full body's model; sides count for paired segments only.
+    /// The body of the segment in the model of the full body; `side` is used for paired segments only.
     #[must_use]
     pub fn body(self, model: &Model, side: Option<Side>) -> Option<BodyId> {
         let stem = match self {
@@ -61,8 +61,8 @@ impl Segment {
         model.body(&format!("{stem}_{}", side?.letter()))
     }
 
-    /// The length that places on the segment are shares of [m]: distance of the hip centres, lumbar joint to shoulders, hip to knee,
-    /// knee to ankle, heel to tip of the toes, shoulder to elbow, elbow to wrist.
+    /// Length of the segment [m], the unit of positions on it: distance between the hip centres, lumbar joint to shoulders, hip to
+    /// knee, knee to ankle, heel to tip of the toes, shoulder to elbow, elbow to wrist.
     #[must_use]
     pub fn length(self, d: &Dimensions) -> f64 {
         match self {

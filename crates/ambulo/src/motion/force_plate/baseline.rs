@@ -1,41 +1,41 @@
-//! What a plate shows while nobody stands on it.
+//! Signal of an unloaded force plate.
 //!
-//! The vertical force is cut into blocks of [`BLOCK_S`]. Those that are as quiet as the quietest are candidates; the
-//! unloaded plate is the lowest of them, since no foot can pull a plate up. That level is taken as the offset if it is
-//! below zero, or below [`LARGEST_UNSURE_N`]; a higher one could be a person who stands still, and is believed only if the file's
-//! own FORCE_PLATFORM:ZERO frames show the same level and the load is several times as large.
+//! The vertical force is divided into blocks of [`BLOCK_S`]. Those that are as quiet as the quietest are candidates; the
+//! unloaded plate is the lowest of them, because a foot cannot pull. This level is used as the offset if it is
+//! below [`LARGEST_UNCONFIRMED_N`]; a higher one could be a person standing still, and is used only if the
+//! FORCE_PLATFORM:ZERO frames of the file have the same level and the load is several times as large.
 //! Pinned by: tests/force_plate.rs
 
 use std::ops::Range;
 
 /// Length of a block [s].
 const BLOCK_S: f64 = 0.05;
-/// Fewest samples of a block.
+/// Smallest number of samples of a block.
 const BLOCK_SAMPLES: usize = 3;
-/// The unloaded level must be seen for this long [s].
+/// Shortest total duration of the unloaded level [s].
 const SHORTEST_QUIET_S: f64 = 0.1;
 /// A block is quiet if its standard deviation is at most this many times that of the quietest twentieth ...
 const QUIET_FACTOR: f64 = 3.0;
 /// ... or at most this [N].
 const QUIET_N: f64 = 1.0;
-/// Blocks within this of the lowest level belong to it [N]; wider where the blocks themselves are noisier.
+/// Blocks this close to the lowest level belong to it [N]; more if the blocks are noisier.
 const LEVEL_WIDTH_N: f64 = 4.0;
-/// A plate that rings after a step may dip below its level for this share of the samples; one that does so for longer was
-/// pressed on at its quietest.
+/// A plate that vibrates after a step may be below its level for this share of the samples; if it is so for longer, it was loaded
+/// at its quietest.
 const RINGING_SHARE: f64 = 0.02;
-/// An upward offset above this needs a witness [N].
-const LARGEST_UNSURE_N: f64 = 50.0;
-/// With the witness of the ZERO frames, an offset may be this share of the load above it.
-const WITNESSED_SHARE: f64 = 0.35;
+/// An upward offset above this must be confirmed by the ZERO frames [N].
+const LARGEST_UNCONFIRMED_N: f64 = 50.0;
+/// Largest confirmed offset, as a share of the load above it.
+const CONFIRMED_SHARE: f64 = 0.35;
 
 /// The unloaded level of every channel.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Baseline {
-    /// Level of each channel, in the file's unit.
+    /// Level of each channel, in the unit of the file.
     pub(super) levels: Vec<f64>,
-    /// Vertical force of the unloaded plate [N], before it was removed.
+    /// Vertical force of the unloaded plate [N].
     pub(super) vertical_n: f64,
-    /// Whether the file's own ZERO frames were used.
+    /// Whether the ZERO frames of the file were used.
     pub(super) from_zero_frames: bool,
 }
 
@@ -45,7 +45,7 @@ struct Block {
     deviation: f64,
 }
 
-/// The baseline, if the plate was seen without load. `vertical` is the upward force on the foot [N] with its offset.
+/// The baseline; `None` if the plate is never unloaded. `vertical` is the upward force on the foot [N] with its offset.
 pub(super) fn find(
     channels: &[Vec<f64>],
     vertical: &[f64],
@@ -65,13 +65,13 @@ pub(super) fn find(
     }
     let peak = vertical.iter().copied().filter(|x| x.is_finite()).fold(f64::NEG_INFINITY, f64::max);
     let zero = zero.filter(|span| span.len() >= 2 && span.end <= vertical.len());
-    let witness = zero.filter(|span| {
+    let confirming = zero.filter(|span| {
         let there = mean(vertical[span.clone()].iter().copied());
         (there - level).abs() <= LEVEL_WIDTH_N.max(QUIET_FACTOR * noise)
     });
-    let sure = level <= LARGEST_UNSURE_N || (witness.is_some() && level <= WITNESSED_SHARE * (peak - level));
+    let sure = level <= LARGEST_UNCONFIRMED_N || (confirming.is_some() && level <= CONFIRMED_SHARE * (peak - level));
     sure.then(|| {
-        let spans: Vec<Range<usize>> = match &witness {
+        let spans: Vec<Range<usize>> = match &confirming {
             Some(span) => vec![span.clone()],
             None => quiet.iter().map(|b| b.samples.clone()).collect(),
         };
@@ -79,7 +79,7 @@ pub(super) fn find(
         Baseline {
             levels: channels.iter().map(|c| over(c)).collect(),
             vertical_n: over(vertical),
-            from_zero_frames: witness.is_some(),
+            from_zero_frames: confirming.is_some(),
         }
     })
 }

@@ -1,6 +1,6 @@
-//! The force plates of a C3D file.
+//! Reads the force plates of a C3D file.
 
-use super::decode::{PlateSource, decode, origin_was_turned};
+use super::decode::{PlateSource, decode, origin_was_reversed};
 use super::kind::Units;
 use super::{PlateRecording, PlateSettings, units};
 use crate::findings::{Code, Findings};
@@ -8,33 +8,33 @@ use crate::spatial::Vec3;
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
 
-/// Edges of plates that people stand on: from a step to a treadmill [m].
+/// Plausible edges of plates: from a step to a treadmill [m].
 const EDGE_M: [f64; 2] = [0.1, 10.0];
-/// Factors that slips of unit bring.
-const SLIPS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+/// Factors of wrong units.
+const UNIT_FACTORS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
 
-/// Why plates cannot be read at all.
+/// Why no plate can be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlateError {
-    /// The parameters of the plates make no sense.
+    /// The parameters of the plates are not valid.
     #[error("the force plates cannot be read")]
     Parameters(#[from] ambulo_formats::Error),
     /// Lengths without a unit.
     #[error(
-        "the force plates stand in a file whose POINT:UNITS is `{found}`; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
+        "the force plates cannot be read: POINT:UNITS is `{found}`; expected a unit of length such as mm. hint: set POINT:UNITS in the file"
     )]
     Unit {
-        /// What the file says.
+        /// The unit in the file.
         found: String,
     },
 }
 
-/// The force plates of a C3D file, in the laboratory's axes; none if the file has none. A plate that cannot be read is left
-/// out, with a warning.
+/// Reads the force plates of a C3D file, in the axes of the laboratory; empty if there are none. A plate that cannot be read is
+/// left out, with a warning.
 ///
 /// # Errors
-/// Parameters of the plates that make no sense, a file without unit of length.
+/// Invalid parameters of the plates, a file without unit of length.
 pub fn plates_from_c3d(
     file: &C3d,
     settings: PlateSettings,
@@ -54,7 +54,7 @@ pub fn plates_from_c3d(
         let name = format!("plate {}", i + 1);
         report_volts(file, platform, &name, findings);
         let source = source(file, platform, unit_m, body, name.clone());
-        if source.as_ref().is_ok_and(origin_was_turned) {
+        if source.as_ref().is_ok_and(origin_was_reversed) {
             turned.push(i + 1);
         }
         let plate = source.and_then(|source| decode(&source, settings, findings));
@@ -63,12 +63,12 @@ pub fn plates_from_c3d(
             Err(reason) => findings.report(Code::PlatesUnusable, format!("{name} was left out: {reason}")),
         }
     }
-    report_turned(&turned, platforms.len(), findings);
+    report_reversed(&turned, platforms.len(), findings);
     Ok(plates)
 }
 
-/// One note for all plates: this is so in nearly every file of Vicon's programs.
-fn report_turned(turned: &[usize], plates: usize, findings: &mut Findings) {
+/// Reports reversed ORIGINs in one note for all plates: nearly every file of Vicon's programs has them.
+fn report_reversed(turned: &[usize], plates: usize, findings: &mut Findings) {
     let which = match turned {
         [] => return,
         all if all.len() == plates => "every plate".to_owned(),
@@ -76,7 +76,7 @@ fn report_turned(turned: &[usize], plates: usize, findings: &mut Findings) {
         some => format!("plates {}", some.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
     };
     let message = format!(
-        "ORIGIN of {which} leads from the surface down to the sensors, as many programs write it; it was turned round"
+        "ORIGIN of {which} points from the surface down to the sensors, as many programs write it; it was reversed"
     );
     findings.report(Code::PlatesOriginTurned, message);
 }
@@ -114,7 +114,7 @@ fn source(
     })
 }
 
-/// The unit of length, put right where it makes no plate that a foot could stand on.
+/// The unit of length, corrected if the edges of the plates are implausible.
 fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings) -> f64 {
     let edge = |p: &Platform| (Vec3::from(p.corners[0]) - Vec3::from(p.corners[1])).norm();
     let mut edges: Vec<f64> = platforms.iter().map(edge).filter(|e| e.is_finite() && *e > 0.0).collect();
@@ -124,7 +124,7 @@ fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings
     if fits(stated_m) {
         return stated_m;
     }
-    let Some(factor) = SLIPS.into_iter().find(|f| fits(stated_m * f)) else { return stated_m };
+    let Some(factor) = UNIT_FACTORS.into_iter().find(|f| fits(stated_m * f)) else { return stated_m };
     let message = format!(
         "the force plates have edges of {:.4} m by the file's unit; lengths of plates were multiplied by {factor}",
         middle * stated_m
@@ -133,7 +133,7 @@ fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings
     stated_m * factor
 }
 
-/// Kistler's polynomial moves the centre of pressure by millimetres.
+/// Reports a Kistler polynomial, which would correct the centre of pressure by millimetres.
 fn report_polynomial(file: &C3d, findings: &mut Findings) {
     if file.parameters.numbers("FORCE_PLATFORM", "FPCOPPOLY").iter().any(|x| x.abs() > 0.0) {
         let message = "the file has a polynomial that corrects the centre of pressure (FPCOPPOLY); it was not used";
@@ -141,7 +141,7 @@ fn report_polynomial(file: &C3d, findings: &mut Findings) {
     }
 }
 
-/// Channels in volts need a calibration matrix.
+/// Reports forces in an unknown unit such as volts without a calibration matrix.
 fn report_volts(file: &C3d, platform: &Platform, name: &str, findings: &mut Findings) {
     let unit = platform.channels.first().copied().flatten().and_then(|i| file.channels.get(i)).map(|c| c.unit.trim());
     let known = unit.is_none_or(|u| u.is_empty() || units::force_n(u).is_some());
@@ -151,23 +151,23 @@ fn report_volts(file: &C3d, platform: &Platform, name: &str, findings: &mut Find
     }
 }
 
-/// The plate's channels up to the first that it does not have.
+/// The channels of a plate, up to the first missing one.
 fn channels<'a>(file: &'a C3d, platform: &Platform) -> Result<Vec<&'a Channel>, String> {
     let indices = platform.channels.iter().map_while(|i| *i);
     let find = |i: usize| file.channels.get(i).ok_or_else(|| format!("the file has no channel {}", i + 1));
     indices.map(find).collect()
 }
 
-/// The ZERO frames as samples. They are counted from the first frame of the file (unverified: the format's guide says
-/// `frames`, and files that were cut do not agree); a range that shows a loaded plate is not used anyway.
+/// The ZERO frames as samples, counted from the first frame of the file (unverified: the guide of the format says
+/// `frames`, and trimmed files do not agree); a range with a loaded plate is not used in any case.
 fn zero_samples(file: &C3d, [first, last]: [i64; 2]) -> Range<usize> {
     let frame = |n: i64| usize::try_from(n).unwrap_or(0) * file.samples_per_frame();
     frame(first - 1)..frame(last)
 }
 
-/// Units by the words beside the channels; the moment's by the unit of the points where they say nothing.
+/// Units of the channels; without one, the unit of the moment follows from that of the points.
 ///
-/// A calibration matrix turns volts into the file's own units, so there the words beside the channels do not count for
+/// A calibration matrix converts volts to the units of the file, so the units of the channels are then not used for
 /// the moment.
 fn units_of(platform: &Platform, channels: &[&Channel], unit_m: f64) -> Units {
     let word = |i: usize| channels.get(i).map_or("", |c| c.unit.as_str());
@@ -178,7 +178,7 @@ fn units_of(platform: &Platform, channels: &[&Channel], unit_m: f64) -> Units {
     Units { force_n, moment_nm, length_m }
 }
 
-/// Mean place of everything that was seen and is a marker; markers are above the floor.
+/// Mean position of all visible markers, which are above the floor.
 fn mean_marker(file: &C3d) -> Option<Vec3> {
     let markers = crate::motion::real_points::real_points(file);
     let seen = markers.iter().flat_map(|p| &p.positions).filter(|p| p.iter().all(|x| x.is_finite()));

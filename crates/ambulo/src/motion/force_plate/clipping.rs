@@ -1,19 +1,19 @@
-//! Channels that ran into the end of their range.
+//! Detects clipped channels.
 //!
-//! A clipped channel comes steeply to its largest or smallest value, and stays there to the last digit. A rounded peak
-//! comes gently, an unloaded plate stays at its baseline: neither is clipping.
+//! A clipped channel rises steeply to its largest or smallest value and keeps exactly this value. A rounded peak
+//! is reached gently, and an unloaded plate stays at its baseline: neither is clipping.
 //! Pinned by: tests/force_plate.rs
 
 use std::ops::Range;
 
-/// The value must be held for this many samples.
+/// Smallest number of samples with the same value.
 const HELD_SAMPLES: usize = 5;
-/// Over as many samples before, the channel must have moved by this share of its range.
+/// In as many samples before or after, the channel must change by this share of its range.
 const STEEP_SHARE: f64 = 0.02;
-/// An extreme this close to the unloaded level, as a share of the range, is no limit of the amplifier.
+/// An extreme value this close to the unloaded level, as a share of the range, is not a limit of the amplifier.
 const NEAR_BASELINE: f64 = 0.05;
 
-/// Where a channel was clipped. `unloaded` is its level without load.
+/// Ranges of samples in which a channel is clipped. `unloaded` is its level without load.
 pub(super) fn spans(samples: &[f64], unloaded: f64) -> Vec<Range<usize>> {
     let finite = || samples.iter().copied().filter(|x| x.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
@@ -23,10 +23,10 @@ pub(super) fn spans(samples: &[f64], unloaded: f64) -> Vec<Range<usize>> {
     }
     let far = |limit: f64| (limit - unloaded).abs() > NEAR_BASELINE * range;
     let limits = [low, high].into_iter().filter(|&limit| far(limit));
-    limits.flat_map(|limit| held(samples, limit, STEEP_SHARE * range)).collect()
+    limits.flat_map(|limit| constant_runs(samples, limit, STEEP_SHARE * range)).collect()
 }
 
-fn held(samples: &[f64], limit: f64, steep: f64) -> Vec<Range<usize>> {
+fn constant_runs(samples: &[f64], limit: f64, steep: f64) -> Vec<Range<usize>> {
     let mut spans = Vec::new();
     let mut start = 0;
     while start < samples.len() {

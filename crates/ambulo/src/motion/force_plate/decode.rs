@@ -1,4 +1,4 @@
-//! One plate, from its channels to the laboratory.
+//! Converts the channels of one plate to forces in the axes of the laboratory.
 
 use super::baseline::{self, Baseline};
 use super::clipping;
@@ -9,60 +9,60 @@ use crate::findings::{Code, Findings};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
-/// What a file says about one plate.
+/// The parameters and channels of one plate in the file.
 pub(super) struct PlateSource {
     pub(super) name: String,
     /// FORCE_PLATFORM:TYPE.
     pub(super) number: u8,
     /// Corners in the laboratory [m].
     pub(super) corners: [Vec3; 4],
-    /// ORIGIN as it is stated, in the plate's axes [m].
+    /// ORIGIN as stated, in the axes of the plate [m].
     pub(super) origin: Vec3,
-    /// Channels in the order of the type, in the file's units.
+    /// Channels in the order of the type, in the units of the file.
     pub(super) channels: Vec<Vec<f64>>,
-    /// Rows of the calibration matrix; none if the file has none.
+    /// Rows of the calibration matrix; empty if the file has none.
     pub(super) calibration: Vec<Vec<f64>>,
-    /// Samples in which the file says that the plate was unloaded.
+    /// Samples in which the plate was unloaded according to the file.
     pub(super) zero: Option<Range<usize>>,
     pub(super) times: Vec<f64>,
     pub(super) rate_hz: f64,
     pub(super) units: Units,
-    /// Mean place of the markers, which are above the floor [m].
+    /// Mean position of the markers, which are above the floor [m].
     pub(super) body: Option<Vec3>,
 }
 
-/// Baselines above this are worth a warning, smaller ones a note [N].
+/// Baselines above this give a warning, smaller ones a note [N].
 const LARGE_BASELINE_N: f64 = 10.0;
-/// Baselines below this are not worth a word [N].
+/// Baselines below this are not reported [N].
 const SMALL_BASELINE_N: f64 = 0.5;
-/// A plate whose force varies by less than this was never stepped on [N].
+/// A plate whose force varies by less than this was not stepped on [N].
 const STEP_N: f64 = 50.0;
 /// The centre of pressure may lie this far beyond the edge [m]: errors of corners and of light loads.
 const EDGE_SLACK_M: f64 = 0.05;
-/// Loads of at least this share of the peak say where the foot stood.
+/// Smallest load for evaluating centres of pressure, as a share of the peak.
 const SOLID_LOAD: f64 = 0.2;
-/// A reading is doubted if fewer of its centres of pressure lie on the plate, and another believed if more do.
-const DOUBTED_SHARE: f64 = 0.5;
-const BELIEVED_SHARE: f64 = 0.8;
-/// A centre of pressure that moves less than this does not tell of a person [m]: bodies sway by millimetres ...
-const STILL_M: f64 = 0.5e-3;
-/// ... and one that moves more than this may [m].
-const MOVES_M: f64 = 2e-3;
+/// Smallest share of centres of pressure on the plate in a plausible reading, and in an accepted alternative.
+const LEAST_ON_PLATE_SHARE: f64 = 0.5;
+const ACCEPTED_ON_PLATE_SHARE: f64 = 0.8;
+/// Smallest movement of the centre of pressure in a plausible reading [m]: bodies sway by millimetres ...
+const LEAST_SPREAD_M: f64 = 0.5e-3;
+/// ... and in an accepted alternative [m].
+const ACCEPTED_SPREAD_M: f64 = 2e-3;
 
-/// How the numbers are read.
+/// Interpretation of the channels.
 #[derive(Clone, Copy)]
 struct Reading {
     kind: PlateKind,
     origin: Vec3,
     units: Units,
-    /// 1, or -1 where the file holds the force of the foot on the plate.
+    /// 1, or -1 if the file has the force of the foot on the plate.
     sign: f64,
 }
 
-/// The plate's measurements in the laboratory.
+/// Converts a plate to forces and moments in the axes of the laboratory.
 ///
 /// # Errors
-/// Why the plate cannot be read, for people.
+/// Why the plate cannot be read, in words.
 pub(super) fn decode(
     source: &PlateSource,
     settings: PlateSettings,
@@ -77,7 +77,7 @@ pub(super) fn decode(
     reading.sign = load_sign(&vertical(&channels, reading, &surface, up));
     if reading.sign < 0.0 {
         let message = format!(
-            "{} pulls its load down: the file holds the force of the foot on the plate; all signs of this plate were turned",
+            "the force of {} points down: the file has the force of the foot on the plate; all signs of this plate were reversed",
             source.name
         );
         findings.report(Code::PlatesForceOnPlate, message);
@@ -90,7 +90,7 @@ pub(super) fn decode(
         remove(&mut channels, baseline, layout.kind);
         report_baseline(source, baseline, findings);
     }
-    reading = believed(source, &surface, up, &channels, reading, findings);
+    reading = corrected_reading(source, &surface, up, &channels, reading, findings);
     let mut recording = recording(source, &surface, up, &channels, reading);
     recording.baseline_n = removed.map(|b| b.vertical_n);
     recording.clipped = clipped;
@@ -99,7 +99,7 @@ pub(super) fn decode(
 
 fn layout(source: &PlateSource) -> Result<Layout, String> {
     let Some(layout) = Layout::of_type(source.number) else {
-        return Err(format!("type {} is not documented; known are 1 to 7", source.number));
+        return Err(format!("type {} is not documented; expected 1 to 7", source.number));
     };
     if source.channels.len() < layout.channels {
         let (found, expected) = (source.channels.len(), layout.channels);
@@ -116,7 +116,7 @@ fn calibrated(source: &PlateSource, layout: Layout, findings: &mut Findings) -> 
     let zero = matrix.iter().flatten().all(|&x| x.abs() <= 0.0);
     if zero && rows == layout.channels {
         let message = format!(
-            "{} is of type {} but has no calibration matrix; its channels were taken as calibrated",
+            "{} is of type {} but has no calibration matrix; its channels were assumed calibrated",
             source.name, source.number
         );
         findings.report(Code::PlatesNoCalibration, message);
@@ -136,16 +136,16 @@ fn calibrated(source: &PlateSource, layout: Layout, findings: &mut Findings) -> 
     Ok(matrix[..rows].iter().map(product).collect())
 }
 
-/// ORIGIN with the sign that the format asks for: the surface lies above the sensors, against the plate's z.
+/// ORIGIN with the sign of the format: the surface is above the sensors, opposite to z of the plate.
 fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec3 {
     let stated = source.origin;
     let finite = stated.map(|x| if x.is_finite() { x } else { 0.0 });
-    if kind.stands_on_sensors() {
-        // a and b are half distances, which have no sign; only the height can be turned.
+    if kind.has_four_sensors() {
+        // a and b are half distances without sign; only the height can be reversed.
         let origin = Vec3::new(finite.x.abs(), finite.y.abs(), -finite.z.abs());
         if origin.x <= 0.0 || origin.y <= 0.0 {
             let message = format!(
-                "{} does not say how far its sensors stand apart (ORIGIN {} {} {}): its moments and its centre of pressure are meaningless",
+                "{} does not state the distances between its sensors (ORIGIN {} {} {}): its moments and its centre of pressure are meaningless",
                 source.name, stated.x, stated.y, stated.z
             );
             findings.report(Code::PlatesNoSensorDistance, message);
@@ -155,17 +155,17 @@ fn origin(source: &PlateSource, kind: PlateKind, findings: &mut Findings) -> Vec
     if leads_down(kind, finite) { -finite } else { finite }
 }
 
-/// Whether ORIGIN leads from the surface down to the sensors. Most of Vicon's files have it so, against the format's guide.
+/// Whether ORIGIN points from the surface down to the sensors, as in most of Vicon's files, contrary to the guide of the format.
 fn leads_down(kind: PlateKind, origin: Vec3) -> bool {
     kind == PlateKind::Wrench && origin.z > 0.0
 }
 
-/// Whether the stated ORIGIN of a plate was turned round.
-pub(super) fn origin_was_turned(source: &PlateSource) -> bool {
+/// Whether the stated ORIGIN of a plate was reversed.
+pub(super) fn origin_was_reversed(source: &PlateSource) -> bool {
     Layout::of_type(source.number).is_some_and(|layout| leads_down(layout.kind, source.origin))
 }
 
-/// The unit normal that points to where the markers are; against the plate's z without markers.
+/// The unit normal on the side of the markers; opposite to z of the plate without markers.
 fn upward(surface: &Surface, body: Option<Vec3>) -> Vec3 {
     let down = surface.normal();
     let markers_below = body.is_some_and(|b| (b - surface.center).dot(&down) > 0.0);
@@ -193,8 +193,8 @@ fn vertical(channels: &[Vec<f64>], reading: Reading, surface: &Surface, up: Vec3
     wrenches(channels, reading).iter().map(|w| w.force.dot(&up_in_plate)).collect()
 }
 
-/// -1 if the load acts downwards. Without a step, a plate that shows a constant force is either loaded or off its zero;
-/// only a load that is too large for an offset then counts.
+/// -1 if the load acts downwards. Without a step, a constant force is either a load or an offset;
+/// then only a force that is too large for an offset counts.
 fn load_sign(vertical: &[f64]) -> f64 {
     let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -206,7 +206,7 @@ fn load_sign(vertical: &[f64]) -> f64 {
 
 fn remove(channels: &mut [Vec<f64>], baseline: &Baseline, kind: PlateKind) {
     for (i, (channel, level)) in channels.iter_mut().zip(&baseline.levels).enumerate() {
-        if !kind.is_place(i) {
+        if !kind.is_coordinate(i) {
             channel.iter_mut().for_each(|x| *x -= level);
         }
     }
@@ -214,7 +214,8 @@ fn remove(channels: &mut [Vec<f64>], baseline: &Baseline, kind: PlateKind) {
 
 fn report_baseline(source: &PlateSource, baseline: &Baseline, findings: &mut Findings) {
     let offset = baseline.vertical_n;
-    let evidence = if baseline.from_zero_frames { "the file's ZERO frames" } else { "its quietest time without load" };
+    let evidence =
+        if baseline.from_zero_frames { "the ZERO frames of the file" } else { "its quietest time without load" };
     let message = format!("{} showed {offset:.1} N without load, by {evidence}; this was removed", source.name);
     if offset.abs() > LARGE_BASELINE_N {
         findings.report(Code::PlatesLargeBaseline, message);
@@ -229,11 +230,11 @@ fn clipped(
     layout: Layout,
     findings: &mut Findings,
 ) -> Vec<[f64; 2]> {
-    // The baseline is that of the calibrated channels; without a matrix they are the raw ones.
+    // The baseline is of the calibrated channels, which are the raw ones without a matrix.
     let level = |i: usize| baseline.filter(|_| layout.matrix_rows.is_none()).map_or(0.0, |b| b.levels[i]);
     let mut clipped = Vec::new();
     for (i, channel) in source.channels[..layout.channels].iter().enumerate() {
-        if layout.kind.is_place(i) {
+        if layout.kind.is_coordinate(i) {
             continue;
         }
         let spans = clipping::spans(channel, level(i));
@@ -252,10 +253,10 @@ fn clipped(
     clipped
 }
 
-/// The reading as the file states it, or the one that puts the centre of pressure on the plate.
+/// The reading stated by the file, or an alternative with the centre of pressure on the plate.
 ///
-/// Moments that are a thousand times too small put it on the plate as well: into its middle, where it does not move.
-fn believed(
+/// Moments that are a thousand times too small also place it on the plate, but in its middle, where it does not move.
+fn corrected_reading(
     source: &PlateSource,
     surface: &Surface,
     up: Vec3,
@@ -264,25 +265,25 @@ fn believed(
     findings: &mut Findings,
 ) -> Reading {
     let share = |reading: Reading| share_on_plate(&recording(source, surface, up, channels, reading));
-    // Without ORIGIN, or the shear force would move the centre.
+    // Without ORIGIN, because the shear force would move the centre.
     let moves_m = |reading: Reading| {
         spread_m(&recording(source, surface, up, channels, Reading { origin: Vec3::zeros(), ..reading }))
     };
     let Some(found) = share(stated) else { return stated };
-    if found >= DOUBTED_SHARE && (stated.kind.stands_on_sensors() || moves_m(stated) >= STILL_M) {
+    if found >= LEAST_ON_PLATE_SHARE && (stated.kind.has_four_sensors() || moves_m(stated) >= LEAST_SPREAD_M) {
         return stated;
     }
     for (other, what) in alternatives(stated) {
-        if share(other).is_some_and(|s| s >= BELIEVED_SHARE) && moves_m(other) >= MOVES_M {
+        if share(other).is_some_and(|s| s >= ACCEPTED_ON_PLATE_SHARE) && moves_m(other) >= ACCEPTED_SPREAD_M {
             let message = format!(
-                "the centre of pressure of {} is not that of a foot as the file states its units; with {what} it is, so this was assumed",
+                "the centre of pressure of {} is not plausible with the units in the file; it is with {what}, so this was assumed",
                 source.name
             );
             findings.report(Code::PlatesReadingChanged, message);
             return other;
         }
     }
-    if found < DOUBTED_SHARE {
+    if found < LEAST_ON_PLATE_SHARE {
         let message = format!(
             "the centre of pressure of {} lies on the plate only {:.0} % of the time; its CORNERS, ORIGIN, CHANNEL or units may be wrong",
             source.name,
@@ -303,7 +304,7 @@ fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
             vec![
                 (moment(1000.0), "moments a thousand times larger (N.m instead of N.mm)"),
                 (moment(0.001), "moments a thousand times smaller (N.mm instead of N.m)"),
-                (turned, "ORIGIN turned round"),
+                (turned, "ORIGIN reversed"),
             ]
         }
         PlateKind::Point => {
@@ -318,14 +319,14 @@ fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
     }
 }
 
-/// Share of the solidly loaded samples whose centre of pressure lies on the plate; `None` without load.
+/// Share of the well-loaded samples whose centre of pressure is on the plate; `None` without load.
 fn share_on_plate(recording: &PlateRecording) -> Option<f64> {
     let centers = solid_centers(recording);
     let inside = centers.iter().filter(|c| recording.depth_inside(**c) >= -EDGE_SLACK_M).count();
     (!centers.is_empty()).then(|| inside as f64 / centers.len() as f64)
 }
 
-/// How far the centre of pressure moves [m]: the diagonal of the box that holds nine tenths of it along each axis.
+/// Extent of the centre of pressure [m]: the diagonal of the box with nine tenths of its values along each axis.
 fn spread_m(recording: &PlateRecording) -> f64 {
     let centers = solid_centers(recording);
     let along = |axis: usize| {
@@ -337,7 +338,7 @@ fn spread_m(recording: &PlateRecording) -> f64 {
     Vec3::new(along(0), along(1), along(2)).norm()
 }
 
-/// Centres of pressure while the load is solid [m].
+/// Centres of pressure under sufficient load [m].
 fn solid_centers(recording: &PlateRecording) -> Vec<Vec3> {
     let solid = SOLID_LOAD * recording.peak_n();
     let loaded = (0..recording.times.len()).filter(|&i| recording.is_loaded(i) && recording.vertical(i) >= solid);

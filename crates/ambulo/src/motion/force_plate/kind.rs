@@ -1,7 +1,7 @@
-//! What the channels of a force plate mean: from numbers to a wrench about the centre of its surface.
+//! Types of force plates: converts channels to a wrench about the centre of the surface.
 //!
-//! Everything is in the plate's own axes: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the side
-//! of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate that lies in the floor. F is the force
+//! Everything is in the axes of the plate: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the side
+//! of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate in the floor. F is the force
 //! **on the foot**, M its moment about the centre of the surface, c the channels.
 //!
 //! | type | channels | F | M |
@@ -16,9 +16,9 @@
 //!
 //! o is ORIGIN: for types 2, 4, 5 it leads from the origin of the sensors to the centre of the surface, so that
 //! M = M_sensor + F × o, and o₃ is negative where the sensors lie below the surface. For types 3, 6, 7 o₁ and o₂ are half
-//! the distances between the sensors along x and y: sensor 1 stands at (o₁, o₂), 2 at (-o₁, o₂), 3 at (-o₁, -o₂), 4 at
+//! the distances between the sensors along x and y: sensor 1 is at (o₁, o₂), 2 at (-o₁, o₂), 3 at (-o₁, -o₂), 4 at
 //! (o₁, -o₂), and o₃ is the height of the surface above them, again negative. Many programs write o with the opposite
-//! sign; o₃ > 0 is how it is noticed.
+//! sign, which is detected by o₃ > 0.
 //!
 //! Source: C3D User Guide (Motion Lab Systems), pages on FORCE_PLATFORM:TYPE, ORIGIN, CHANNEL, CAL_MATRIX at c3d.org;
 //! types 3, 5, 6, 7: Visual3D's pages on FP_TYPE; type 5 as well: BTK's `ForcePlatformType5`. The moments are derived
@@ -27,7 +27,7 @@
 
 use crate::spatial::{Vec3, Wrench};
 
-/// How a plate's channels are to be read: `FORCE_PLATFORM:TYPE`.
+/// Meaning of the channels of a plate: `FORCE_PLATFORM:TYPE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PlateKind {
     /// Type 1: force, centre of pressure, free moment.
@@ -44,9 +44,9 @@ pub(super) enum PlateKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) kind: PlateKind,
-    /// How many channels the plate has.
+    /// Number of channels.
     pub(super) channels: usize,
-    /// Rows of the calibration matrix, where the type has one.
+    /// Rows of the calibration matrix, if the type has one.
     pub(super) matrix_rows: Option<usize>,
 }
 
@@ -67,7 +67,7 @@ impl Layout {
     }
 }
 
-/// What one unit in the file is worth.
+/// SI values of the units in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Units {
     /// Force [N].
@@ -88,7 +88,7 @@ impl PlateKind {
             PlateKind::Point => {
                 let force = triple(0) * units.force_n;
                 let point = Vec3::new(at(3), at(4), 0.0) * units.length_m;
-                // A plate without load states no point.
+                // An unloaded plate may have no point.
                 let arm = if point.iter().all(|x| x.is_finite()) { point } else { Vec3::zeros() };
                 Wrench { force, moment: arm.cross(&force) + Vec3::z() * (at(5) * units.moment_nm) }
             }
@@ -97,7 +97,7 @@ impl PlateKind {
                 Wrench { force, moment: triple(3) * units.moment_nm + force.cross(&origin) }
             }
             PlateKind::EightForces => {
-                // Two sensors share a shear channel; only sums enter, so half of it at each is as good as any.
+                // Two sensors share a shear channel; only sums enter, so each gets half of it.
                 let half = |i: usize| 0.5 * at(i);
                 let sensors = [
                     Vec3::new(half(0), half(2), at(4)),
@@ -111,13 +111,13 @@ impl PlateKind {
         }
     }
 
-    /// Whether a channel states a place and has no offset that could be removed.
-    pub(super) fn is_place(self, channel: usize) -> bool {
+    /// Whether a channel is a coordinate, which has no offset to be removed.
+    pub(super) fn is_coordinate(self, channel: usize) -> bool {
         self == PlateKind::Point && (3..5).contains(&channel)
     }
 
-    /// Whether ORIGIN holds the places of four sensors.
-    pub(super) fn stands_on_sensors(self) -> bool {
+    /// Whether ORIGIN has the positions of four sensors.
+    pub(super) fn has_four_sensors(self) -> bool {
         matches!(self, PlateKind::EightForces | PlateKind::TwelveForces)
     }
 }

@@ -1,6 +1,6 @@
-//! Force plates: the force on the foot, from the channels of a plate to the laboratory's axes.
+//! Force plates: converts their channels to the force on the foot in the axes of the laboratory.
 //!
-//! With R the plate's axes in the laboratory, C the centre of its surface, n the upward normal, and F, M the force and
+//! With R the axes of the plate in the laboratory, C the centre of its surface, n the upward normal, and F, M the force and
 //! its moment about C in the plate's axes (kind.rs):
 //!
 //!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
@@ -12,8 +12,8 @@
 //! | `free_moment`          | T      | N.m  | about the normal through p                  |
 //!
 //! Derived from R M = (p - C) × R F + T n with (p - C) · n = 0.
-//! A person can push a plate and not pull it, so the load acts along n: a plate whose load acts the other way round
-//! records the force of the foot on it, and all its signs are turned.
+//! A foot cannot pull a plate, so the load acts along n: if it acts in the opposite direction, the file has
+//! the force of the foot on the plate, and all signs are reversed.
 //! Pinned by: tests/force_plate.rs, tests/laboratory_files.rs
 
 mod baseline;
@@ -30,20 +30,20 @@ pub use standing::standing_weight_n;
 
 use crate::spatial::{Mat3, Vec3};
 
-/// Below this vertical force a centre of pressure means nothing, and a foot counts as unloaded [N].
+/// Below this vertical force the centre of pressure is undefined and a foot counts as unloaded [N].
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
 
-/// What one force plate measured. From a file it stands in the laboratory's axes; [`PlateRecording::turned`] brings it to
-/// the world's.
+/// Forces and moments of one force plate. From a file they are in the axes of the laboratory; [`PlateRecording::rotated`]
+/// rotates them to those of the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateRecording {
     /// Name: `plate 1`, counted from 1 in the order of the file.
     pub name: String,
     /// FORCE_PLATFORM:TYPE of the file.
     pub kind: u8,
-    /// Instants [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times: Vec<f64>,
-    /// Force of the plate on the foot [N], one entry an instant.
+    /// Force of the plate on the foot [N], one entry per time.
     pub force: Vec<Vec3>,
     /// Its moment about the origin of the axes [N.m].
     pub moment: Vec<Vec3>,
@@ -51,16 +51,16 @@ pub struct PlateRecording {
     pub corners: [Vec3; 4],
     /// Unit normal of the surface, upward.
     pub up: Vec3,
-    /// Vertical force that the unloaded plate showed and that was removed [N]; `None` if nothing was removed.
+    /// Vertical force of the unloaded plate that was removed [N]; `None` if nothing was removed.
     pub baseline_n: Option<f64>,
-    /// Times during which a channel was at the end of its range: first and last instant [s].
+    /// Times during which a channel was clipped: first and last time [s].
     pub clipped: Vec<[f64; 2]>,
 }
 
-/// How plates are read.
+/// Settings of [`plates_from_c3d`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlateSettings {
-    /// Whether what a plate shows without load is removed.
+    /// Whether the signal of the unloaded plate is removed.
     pub remove_baseline: bool,
 }
 
@@ -83,7 +83,7 @@ impl PlateRecording {
         self.force[sample].dot(&self.up)
     }
 
-    /// Whether the plate carries more than [`CENTER_OF_PRESSURE_LOAD_N`].
+    /// Whether the vertical force exceeds [`CENTER_OF_PRESSURE_LOAD_N`].
     #[must_use]
     pub fn is_loaded(&self, sample: usize) -> bool {
         self.vertical(sample) > CENTER_OF_PRESSURE_LOAD_N
@@ -117,7 +117,7 @@ impl PlateRecording {
         self.up.dot(&(self.moment_about_center(sample) - arm.cross(&self.force[sample])))
     }
 
-    /// How far a point lies inside the edges, measured along the surface [m]; negative outside.
+    /// Distance of a point from the nearest edge along the surface [m]; positive inside, negative outside.
     #[must_use]
     pub fn depth_inside(&self, point: Vec3) -> f64 {
         let center = self.center();
@@ -130,9 +130,9 @@ impl PlateRecording {
         (0..4).map(edge).fold(f64::INFINITY, f64::min)
     }
 
-    /// The same measurements seen from axes that are turned: `world_from_lab * v`.
+    /// The same measurements in rotated axes: `world_from_lab * v`.
     #[must_use]
-    pub fn turned(&self, world_from_lab: &Mat3) -> PlateRecording {
+    pub fn rotated(&self, world_from_lab: &Mat3) -> PlateRecording {
         let turn = |vectors: &[Vec3]| vectors.iter().map(|v| world_from_lab * v).collect();
         PlateRecording {
             force: turn(&self.force),

@@ -1,14 +1,14 @@
-//! The weight of somebody who stands.
+//! Body weight from quiet standing on force plates.
 
 use super::PlateRecording;
 
-/// Plates carry a person if together they carry more than this [N].
+/// Smallest total force of a person [N].
 const PERSON_N: f64 = 50.0;
-/// Somebody stands if nine tenths of the loaded samples keep within this share of their median.
+/// In quiet standing nine tenths of the loaded samples are within this share of their median.
 const STILL_SHARE: f64 = 0.1;
 
-/// The median of what all plates carry together [N], if that is a person who stands still; `None` otherwise. Divided by g it is a
-/// mass, if both feet stand on plates.
+/// The median of the total force of all plates [N], if a person stands still on them; `None` otherwise. Divided by g it is the
+/// body mass, if both feet are on plates.
 #[must_use]
 pub fn standing_weight_n(plates: &[PlateRecording]) -> Option<f64> {
     let samples = plates.iter().map(|p| p.times.len()).min()?;

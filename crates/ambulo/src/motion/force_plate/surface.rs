@@ -1,12 +1,12 @@
-//! Where a plate lies: its corners, centre, axes and normal.
+//! Surface of a plate from its corners: centre, axes and normal.
 
 use crate::spatial::{Mat3, Vec3};
 
-/// Opposite edges may differ by this share of the longer one; measured corners of flat plates differ by less than 1 %.
+/// Largest difference of opposite edges, as a share of the longer one; those of measured plates differ by less than 1 %.
 const EDGE_MISMATCH: f64 = 0.2;
-/// Neighbouring edges meet at right angles to within this cosine (14 degrees).
+/// Largest cosine between neighbouring edges (14 degrees off a right angle).
 const SKEW: f64 = 0.25;
-/// Shortest edge of a plate that a foot can stand on [m].
+/// Shortest edge of a plate [m].
 const SHORTEST_EDGE_M: f64 = 0.05;
 
 /// The surface of a plate.
@@ -21,13 +21,13 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// From the corners in the order of FORCE_PLATFORM:CORNERS: (+x +y), (-x +y), (-x -y), (+x -y) of the plate's axes.
+    /// Computes the surface from the corners in the order of FORCE_PLATFORM:CORNERS: (+x +y), (-x +y), (-x -y), (+x -y) of the plate's axes.
     ///
     /// The centre is the mean of all four (BTK takes the middle of the diagonal from the first to the third, ezc3d the mean of four:
-    /// opensim-org/opensim-core#2860; the mean has the smaller error if each corner was measured alone).
+    /// opensim-org/opensim-core#2860; the mean has the smaller error if each corner was measured independently).
     ///
     /// # Errors
-    /// What is wrong with the corners, for people.
+    /// Why the corners are not a plate, in words.
     pub(super) fn through(corners: &[Vec3; 4]) -> Result<Surface, String> {
         let [c1, c2, c3, c4] = corners;
         if !corners.iter().all(|c| c.iter().all(|x| x.is_finite())) {
@@ -44,7 +44,7 @@ impl Surface {
         let skewed = cosine.is_nan() || cosine.abs() > SKEW;
         if mismatch(edges[0], edges[1]) || mismatch(edges[2], edges[3]) || skewed {
             return Err(format!(
-                "its corners form no rectangle (edges {:.3}, {:.3}, {:.3}, {:.3} m)",
+                "its corners do not form a rectangle (edges {:.3}, {:.3}, {:.3}, {:.3} m)",
                 edges[0], edges[3], edges[1], edges[2]
             ));
         }
@@ -54,7 +54,7 @@ impl Surface {
         Ok(Surface { center: (c1 + c2 + c3 + c4) * 0.25, lab_from_plate, size: [x.norm(), y.norm()] })
     }
 
-    /// The plate's z in the laboratory: down, if the plate lies in the floor and its corners stand in the agreed order.
+    /// z of the plate in the laboratory: down for a plate in the floor with corners in the order of the format.
     pub(super) fn normal(&self) -> Vec3 {
         self.lab_from_plate.column(2).into()
     }

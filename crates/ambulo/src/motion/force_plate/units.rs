@@ -1,4 +1,4 @@
-//! Units as they are written beside channels.
+//! Units of the channels.
 
 use crate::spatial::STANDARD_GRAVITY;
 
@@ -11,7 +11,7 @@ const INCH_M: f64 = 0.0254;
 /// Metres in a foot, exact by definition.
 const FOOT_M: f64 = 0.3048;
 
-/// Newtons of one unit; `None` for words that name no force (volts, bits).
+/// Newtons of one unit; `None` if it is not a force (volts, bits).
 pub(super) fn force_n(unit: &str) -> Option<f64> {
     match plain(unit).as_str() {
         "n" | "nt" | "newton" | "newtons" => Some(1.0),
@@ -46,7 +46,7 @@ pub(super) fn moment_nm(unit: &str) -> Option<f64> {
     })
 }
 
-/// Lower case, letters alone.
+/// Letters only, in lower case.
 fn plain(unit: &str) -> String {
     unit.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect()
 }

@@ -1,30 +1,30 @@
-//! Up and forward of a file, by where hips and ankles are.
+//! Determines up and forward of a file from the positions of hips and ankles.
 
+use super::body_joints::{BodyJoint, BodyJoints};
 use super::error::SkeletonError;
-use super::landmarks::{Landmark, Landmarks};
 use super::poses::Skeleton;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::spatial::{Mat3, Pose, Vec3};
 
-/// Frames that the guess looks at.
+/// Largest number of frames used.
 const FRAMES: usize = 400;
-/// The hips must stand so straight above the ankles on average, cosine to the nearest axis: 30 degrees.
+/// Smallest cosine between the mean direction from ankles to hips and the nearest axis: 30 degrees.
 const STRAIGHT: f64 = 0.87;
-/// A way at least so long, in lengths of the leg, tells where a person walks.
+/// Shortest distance that determines the walking direction, in leg lengths.
 const WAY: f64 = 1.5;
 
-/// How the file's axes lie in the world.
+/// Axes of the file relative to the world.
 #[derive(Debug)]
 pub(super) struct Axes {
-    /// Signed permutation: the world's axes are the file's under other names.
+    /// Signed permutation of the axes.
     pub(super) world_from_file: Mat3,
-    /// Unit vector in the file's axes.
+    /// Unit vector in the axes of the file.
     pub(super) up: Vec3,
     pub(super) statement: String,
 }
 
-/// Four places of the legs in one frame.
+/// Hips and ankles in one frame.
 struct Legs {
     /// Right, left.
     hips: [Vec3; 2],
@@ -32,10 +32,10 @@ struct Legs {
 }
 
 impl Legs {
-    fn of(poses: &[Pose], landmarks: &Landmarks) -> Option<Legs> {
-        let place = |landmark, side| landmarks.get(landmark, side).map(|joint| poses[joint].translation);
-        let both = |landmark| Some([place(landmark, Side::Right)?, place(landmark, Side::Left)?]);
-        let legs = Legs { hips: both(Landmark::Hip)?, ankles: both(Landmark::Ankle)? };
+    fn of(poses: &[Pose], body_joints: &BodyJoints) -> Option<Legs> {
+        let place = |body_joint, side| body_joints.get(body_joint, side).map(|joint| poses[joint].translation);
+        let both = |body_joint| Some([place(body_joint, Side::Right)?, place(body_joint, Side::Left)?]);
+        let legs = Legs { hips: both(BodyJoint::Hip)?, ankles: both(BodyJoint::Ankle)? };
         let finite = legs.hips.iter().chain(&legs.ankles).all(|place| place.iter().all(|x| x.is_finite()));
         finite.then_some(legs)
     }
@@ -56,15 +56,15 @@ impl Legs {
 impl Axes {
     pub(super) fn guess(
         skeleton: &Skeleton<'_>,
-        landmarks: &Landmarks,
+        body_joints: &BodyJoints,
         findings: &mut Findings,
     ) -> Result<Axes, SkeletonError> {
-        let legs: Vec<Legs> = skeleton.some_poses(FRAMES).filter_map(|poses| Legs::of(&poses, landmarks)).collect();
+        let legs: Vec<Legs> = skeleton.some_poses(FRAMES).filter_map(|poses| Legs::of(&poses, body_joints)).collect();
         let mean: Vec3 = legs.iter().map(|legs| legs.upwards()).sum::<Vec3>() / legs.len() as f64;
         let (up, share) = nearest_axis(mean).ok_or(SkeletonError::Up)?;
         if share < STRAIGHT {
             let message = format!(
-                "the hips stand above the ankles along {:.2} {:.2} {:.2} on average; {} was taken for up",
+                "the mean direction from ankles to hips is {:.2} {:.2} {:.2}; {} was assumed to be up",
                 mean.x,
                 mean.y,
                 mean.z,
@@ -80,21 +80,21 @@ impl Axes {
     }
 }
 
-/// Where the person goes or looks, as an axis of the file across `up`, and which of both it was.
+/// Walking or facing direction as a horizontal axis of the file, and which of the two it is.
 fn ahead(legs: &[Legs], up: Vec3) -> Option<(Vec3, &'static str)> {
     let level = |v: Vec3| v - up * v.dot(&up);
     let (first, last) = (legs.first()?, legs.last()?);
     let facing = |legs: &Legs| level(up.cross(&legs.to_the_right())).try_normalize(0.0).unwrap_or_default();
     let way = level(last.mid_hip() - first.mid_hip());
     let mean: Vec3 = legs.iter().map(facing).sum::<Vec3>() / legs.len() as f64;
-    // Who walks backwards or turns round does not face where the way leads.
+    // A person who walks backwards or turns does not face along the path.
     if way.norm() > WAY * first.upwards().norm() && way.normalize().dot(&mean) > 0.5 {
         return nearest_axis(way).map(|(axis, _)| (axis, "walking along"));
     }
     nearest_axis(facing(first)).map(|(axis, _)| (axis, "facing along"))
 }
 
-/// The axis along which a vector is longest, with its sign, and the cosine between both.
+/// The signed axis nearest to a vector, and the cosine between them.
 fn nearest_axis(v: Vec3) -> Option<(Vec3, f64)> {
     let unit = v.try_normalize(0.0).filter(|unit| unit.iter().all(|x| x.is_finite()))?;
     let axis = unit.iamax();

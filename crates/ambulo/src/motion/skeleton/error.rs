@@ -1,6 +1,6 @@
-//! Why a skeleton makes no body.
+//! Why a skeleton cannot be read.
 
-/// Why a skeleton makes no body.
+/// Why a skeleton cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SkeletonError {
@@ -9,34 +9,34 @@ pub enum SkeletonError {
         "no joint was recognised as {missing}; expected the joints of both legs, in names such as LeftUpLeg, LeftLeg, LeftFoot (HumanIK, CMU, Mixamo, Biped and others). Found: {found}"
     )]
     Names {
-        /// What was looked for.
+        /// The missing joints.
         missing: String,
-        /// The names of the file.
+        /// The joint names of the file.
         found: String,
     },
-    /// No frame.
+    /// Too few frames.
     #[error("the file has a skeleton but no frames; expected at least two")]
     NoFrames,
-    /// A leg of no length.
+    /// Legs without length.
     #[error("thigh and shank are {length} long together, in the file's unit; expected a length above zero")]
     NoLegs {
         /// Mean of both sides.
         length: f64,
     },
-    /// No usual unit fits.
+    /// No usual unit gives a plausible leg length.
     #[error(
         "thigh and shank together are {length:.4} long, which is not a plausible human leg length in any of {units}; expected the stature of the person"
     )]
     Unit {
         /// Mean of both sides, in the file's unit.
         length: f64,
-        /// What was tried.
+        /// The units that were tried.
         units: String,
     },
-    /// Hips that are nowhere above the ankles.
-    #[error("the hips are nowhere above the ankles, so up is not known; expected a person on their feet")]
+    /// Hips that are never above the ankles.
+    #[error("the hips are not above the ankles, so the upward direction is not known; expected an upright person")]
     Up,
-    /// The table of names of the crate.
+    /// The built-in table of names cannot be read.
     #[error(transparent)]
     Table(#[from] crate::toml_reader::TomlError),
 }

@@ -1,12 +1,12 @@
-//! The centres of all joints of a skeleton, under their own names.
+//! Trajectories of all joints of a skeleton.
 
 use super::error::SkeletonError;
 use super::poses::Skeleton;
 use crate::motion::{MarkerPath, MarkerRecording};
 use ambulo_formats::bvh::Bvh;
 
-/// The paths of all joints of a skeleton, whatever they are called, in the file's axes, `metres_per_unit` times as long as in the file.
-/// A name that stands twice is numbered from its second time on: `toe`, `toe_2`.
+/// Trajectories of all joints of a skeleton under their own names, in the axes of the file, multiplied by `metres_per_unit`.
+/// Repeated names are numbered: `toe`, `toe_2`.
 ///
 /// # Errors
 /// Fewer than two frames.

@@ -1,33 +1,33 @@
-//! Skeletons of animation files as recordings of joint centres.
+//! Reads skeletons of animation files as recordings of joint centres.
 //!
-//! A BVH file states neither unit nor up nor mass. Joints are known by their names (`landmarks.rs`), the unit by the length
-//! of the legs (`unit.rs`), up and forward by where legs and hips are (`axes.rs`); what was taken is said in
-//! [`SkeletonRecording::statement`]. What comes out are paths of joint centres in the world's axes, as if cameras had seen
-//! markers there, and points beside them that show how a segment is turned:
+//! A BVH file has no unit, upward direction or mass. Joints are recognised by their names (`body_joints.rs`), the unit by the length
+//! of the legs (`unit.rs`), up and forward by the positions of legs and hips (`axes.rs`); the assumptions are stated in
+//! [`SkeletonRecording::statement`]. The result has trajectories of joint centres in the axes of the world, like recorded
+//! markers, and of points next to them that show the orientation of the segments:
 //!
-//! | name | where |
+//! | name | position |
 //! |---|---|
 //! | `hip_s` `knee_s` `ankle_s` `toe_s` | centres of the joints of side s, `toe` being the ball of the foot |
 //! | `toe_tip_s` | the end of the foot's last bone |
-//! | `heel_s` | a third of the way from ankle to tip of the foot behind the ankle, as low as the toe: no skeleton has a heel |
-//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm; the end of a forearm that carries no hand |
-//! | `pelvis_up` `pelvis_front` | [`REACH`] above and in front of mid-hip, fixed to the pelvis |
-//! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`REACH`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
-//! | `foot_front_s` `toe_front_s` | [`REACH`] in front of ankle and ball along a foot that stands flat, fixed to foot and toes |
+//! | `heel_s` | a third of the way from ankle to tip of the foot behind the ankle, as low as the toe: skeletons have no heel |
+//! | `shoulder_s` `elbow_s` `wrist_s` | centres of the joints of the arm; the end of a forearm without a hand |
+//! | `pelvis_up` `pelvis_front` | [`POINT_DISTANCE_M`] above and in front of mid-hip, fixed to the pelvis |
+//! | `thigh_side_s` `shank_side_s` `foot_side_s` | [`POINT_DISTANCE_M`] to the right of knee, ankle and ankle, fixed to thigh, shank and foot |
+//! | `foot_front_s` `toe_front_s` | [`POINT_DISTANCE_M`] in front of ankle and ball along a flat foot, fixed to foot and toes |
 //!
-//! Above, in front and to the right are meant of a person who stands upright: as in the file's own resting pose where that is
-//! one, else as on average over the recording.
+//! Above, in front and to the right refer to upright standing: the resting pose of the file if it is upright, otherwise
+//! the mean posture of the recording.
 //!
 //! Pinned by: tests/skeleton_recording.rs
 
 mod axes;
+mod body_joints;
 mod error;
 mod joint_paths;
-mod landmarks;
-mod neutral;
 mod points;
 mod poses;
 mod unit;
+mod upright_posture;
 
 pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
@@ -37,39 +37,39 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Mat3;
 use ambulo_formats::bvh::Bvh;
 use axes::Axes;
-use landmarks::Landmarks;
-use neutral::Neutral;
+use body_joints::BodyJoints;
 use points::points;
 use poses::Skeleton;
 use unit::Unit;
+use upright_posture::UprightPosture;
 
-/// How far the points that show turning stand from their joint [m].
-pub const REACH: f64 = 0.1;
+/// Distance of the points that show the orientation of a segment from their joint [m].
+pub const POINT_DISTANCE_M: f64 = 0.1;
 
-/// Faster than this no joint moves [m/s]: hands of athletes who throw reach about 20 m/s (unverified).
-const LEAP: f64 = 30.0;
+/// Highest plausible speed of a joint [m/s]: hands of throwing athletes reach about 20 m/s (unverified).
+const MOST_JOINT_SPEED: f64 = 30.0;
 
 /// Joint centres of a skeleton over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkeletonRecording {
-    /// Paths in the world's axes: x forward, y up, z right.
+    /// Trajectories in the axes of the world: x forward, y up, z right.
     pub markers: MarkerRecording,
-    /// What was taken for unit and axes, in one line.
+    /// The assumed unit and axes, in one line.
     pub statement: String,
-    /// Length of the file's unit [m].
+    /// Length of the unit of the file [m].
     pub metres_per_unit: f64,
-    /// From the file's axes to the world's.
+    /// Rotation from the axes of the file to those of the world.
     pub world_from_file: Mat3,
-    /// The stature that was given, or else the one that goes with the legs [m].
+    /// The given stature, or the one estimated from the legs [m].
     pub height_m: f64,
 }
 
-/// The motion of a skeleton, in metres and in the world's axes.
+/// Reads the motion of a skeleton in metres, in the axes of the world.
 ///
-/// `height_m` is the person's stature [m] if known: the unit is judged by it.
+/// `height_m` is the stature [m], if known; it determines the unit.
 ///
 /// # Errors
-/// Joints of the legs that no name matches, no frames, legs of no length, a unit that cannot be told.
+/// Joints of the legs that are not recognised, no frames, legs without length, an unknown unit.
 pub fn skeleton_from_bvh(
     bvh: &Bvh,
     name: &str,
@@ -77,11 +77,11 @@ pub fn skeleton_from_bvh(
     findings: &mut Findings,
 ) -> Result<SkeletonRecording, SkeletonError> {
     let skeleton = Skeleton::new(bvh)?;
-    let landmarks = Landmarks::find(bvh.joints(), findings)?;
-    let unit = Unit::guess(&skeleton, &landmarks, height_m, findings)?;
-    let axes = Axes::guess(&skeleton, &landmarks, findings)?;
-    let neutral = Neutral::find(&skeleton, &landmarks, &axes, findings);
-    let points = points(&skeleton, &landmarks, &neutral, REACH / unit.metres);
+    let body_joints = BodyJoints::find(bvh.joints(), findings)?;
+    let unit = Unit::guess(&skeleton, &body_joints, height_m, findings)?;
+    let axes = Axes::guess(&skeleton, &body_joints, findings)?;
+    let upright_posture = UprightPosture::find(&skeleton, &body_joints, &axes, findings);
+    let points = points(&skeleton, &body_joints, &upright_posture, POINT_DISTANCE_M / unit.metres);
     let scaled = axes.world_from_file * unit.metres;
     let mut markers: Vec<MarkerPath> = points
         .iter()
@@ -95,8 +95,8 @@ pub fn skeleton_from_bvh(
     let times = (0..skeleton.frames()).map(|frame| frame as f64 * bvh.frame_time_s()).collect();
     let rate_hz = 1.0 / bvh.frame_time_s();
     let mut markers = MarkerRecording { name: name.to_owned(), rate_hz, times, markers };
-    leave_out_pose(&mut markers, findings);
-    warn_of_low_trust(&unit, &neutral, findings);
+    drop_initial_pose(&mut markers, findings);
+    warn_of_low_trust(&unit, &upright_posture, findings);
     Ok(SkeletonRecording {
         markers,
         statement: format!("{}; {}", unit.statement, axes.statement),
@@ -106,29 +106,30 @@ pub fn skeleton_from_bvh(
     })
 }
 
-/// A first frame from which a joint leaps faster than [`LEAP`] is no motion but a pose for the program that reads the file.
-fn leave_out_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
+/// Removes a first frame from which a joint moves faster than [`MOST_JOINT_SPEED`]: it is a pose for other programs, not motion.
+fn drop_initial_pose(markers: &mut MarkerRecording, findings: &mut Findings) {
     let rate_hz = markers.rate_hz;
     let speed = |path: &MarkerPath| path.positions.windows(2).next().map(|pair| (pair[1] - pair[0]).norm() * rate_hz);
     let fastest = markers.markers.iter().filter_map(speed).fold(0.0, f64::max);
-    if fastest <= LEAP || markers.frames() < 3 {
+    if fastest <= MOST_JOINT_SPEED || markers.frames() < 3 {
         return;
     }
     markers.times.remove(0);
     for path in &mut markers.markers {
         path.positions.remove(0);
     }
-    let message = format!("the first frame is a pose, from which joints leap at {fastest:.0} m/s; it was left out");
+    let message =
+        format!("the first frame is a separate pose, from which joints jump at {fastest:.0} m/s; it was left out");
     findings.report(Code::BvhPose, message);
 }
 
-fn warn_of_low_trust(unit: &Unit, neutral: &Neutral, findings: &mut Findings) {
-    let neutral = if neutral.is_resting_pose { "its resting pose" } else { "its mean posture" };
+fn warn_of_low_trust(unit: &Unit, upright_posture: &UprightPosture, findings: &mut Findings) {
+    let upright_posture = if upright_posture.is_resting_pose { "its resting pose" } else { "its mean posture" };
     findings.report(
         Code::BvhLowTrust,
         format!(
-            "a BVH file states no mass, no unit and no up, and its motion was fitted to a skeleton and mostly filtered before: {}, \
-             upright standing is {neutral}; joint centres are those of an animated figure, so forces are an estimate for comparison only",
+            "a BVH file has no mass, unit or upward direction, and its motion was fitted to a skeleton and usually filtered: {}, \
+             upright standing is {upright_posture}; joint centres are those of an animated figure, so forces are an estimate for comparison only",
             unit.statement
         ),
     );

@@ -1,11 +1,11 @@
-//! Where the joints of a skeleton are: forward kinematics.
+//! Poses of the joints of a skeleton: forward kinematics.
 //!
-//! A joint's frame in its parent's: its place, then the rotations of its channels in the file's order, each about axes that
-//! the ones before have turned: R = R_1 R_2 R_3.
+//! The frame of a joint in its parent: its position, then the rotations of its channels in the order of the file, each about axes
+//! rotated by the previous ones: R = R_1 R_2 R_3.
 //!
-//! Position channels replace the offset or are added to it; the file does not say which. Of a root the choice shifts the
-//! whole motion by a constant, and they are taken to replace it. Of another joint they are taken for what they are nearer
-//! to on average: the offset, or zero.
+//! Position channels either replace the offset or are added to it; the file does not specify which. For a root the choice shifts the
+//! whole motion by a constant, and they are assumed to replace it. For other joints the assumption is the one that is nearer
+//! to the values on average: the offset, or zero.
 
 use super::error::SkeletonError;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -13,11 +13,11 @@ use ambulo_formats::bvh::{Bvh, ChannelKind};
 use nalgebra::Rotation3;
 use std::ops::Range;
 
-/// A skeleton in motion, ready for forward kinematics. Lengths in the file's unit, axes of the file.
+/// A skeleton in motion, in the unit and the axes of the file.
 pub(super) struct Skeleton<'b> {
     bvh: &'b Bvh,
     ranges: Vec<Range<usize>>,
-    /// Whether a joint's position channels are added to its offset.
+    /// Whether the position channels of a joint are added to its offset.
     added: Vec<bool>,
 }
 
@@ -35,12 +35,12 @@ impl<'b> Skeleton<'b> {
         self.bvh.frames()
     }
 
-    /// The joint that carries this one.
+    /// The parent of a joint.
     pub(super) fn parent(&self, joint: usize) -> Option<usize> {
         self.bvh.joints()[joint].parent
     }
 
-    /// All joints in one frame; `None` of a frame means that every channel is zero and every joint at its offset.
+    /// Poses of all joints in a frame; `None` is the resting pose, with all channels zero.
     pub(super) fn poses(&self, frame: Option<usize>) -> Vec<Pose> {
         let values = frame.and_then(|frame| self.bvh.frame(frame));
         let mut poses: Vec<Pose> = Vec::with_capacity(self.ranges.len());
@@ -55,12 +55,12 @@ impl<'b> Skeleton<'b> {
         poses
     }
 
-    /// All frames, one after the other.
+    /// The poses of all frames.
     pub(super) fn all_poses(&self) -> impl Iterator<Item = Vec<Pose>> + '_ {
         (0..self.frames()).map(|frame| self.poses(Some(frame)))
     }
 
-    /// At most `most` frames, evenly spread.
+    /// The poses of at most `most` frames, spread over the recording.
     pub(super) fn some_poses(&self, most: usize) -> impl Iterator<Item = Vec<Pose>> + '_ {
         (0..self.frames()).step_by(self.frames().div_ceil(most)).map(|frame| self.poses(Some(frame)))
     }
@@ -85,8 +85,8 @@ impl<'b> Skeleton<'b> {
         Pose { rotation, translation }
     }
 
-    /// From one joint to a joint that it carries, in its own axes when all channels are zero; zero to itself.
-    pub(super) fn way(&self, from: usize, to: usize) -> Vec3 {
+    /// Vector from a joint to one of its descendants in the resting pose; zero to itself.
+    pub(super) fn offset_between(&self, from: usize, to: usize) -> Vec3 {
         let joints = self.bvh.joints();
         let (mut way, mut at) = (Vec3::zeros(), to);
         while at != from {
@@ -99,7 +99,7 @@ impl<'b> Skeleton<'b> {
         way
     }
 
-    /// The far end of a joint's own bone, in its axes: an end site or else a joint that it carries, if not where it is.
+    /// Distal end of the bone of a joint, in its axes: an end site or a child joint at another position.
     pub(super) fn tip(&self, joint: usize) -> Option<Vec3> {
         let joints = self.bvh.joints();
         let carried = joints.iter().filter(|other| other.parent == Some(joint)).map(|other| other.offset);
@@ -107,8 +107,8 @@ impl<'b> Skeleton<'b> {
         ends.map(Vec3::from).find(|end| end.norm() > 0.0)
     }
 
-    /// The last joint that carries both.
-    pub(super) fn common_carrier(&self, a: usize, b: usize) -> Option<usize> {
+    /// The last common ancestor of two joints.
+    pub(super) fn common_ancestor(&self, a: usize, b: usize) -> Option<usize> {
         let chain = |joint: usize| std::iter::successors(Some(joint), |&joint| self.parent(joint));
         chain(a).skip(1).find(|joint| chain(b).skip(1).any(|other| other == *joint))
     }

@@ -1,4 +1,4 @@
-//! Which joint is which, by its name: crates/ambulo/data/bvh_names.toml.
+//! Recognises the joints of a skeleton by their names: crates/ambulo/data/bvh_names.toml.
 
 use super::error::SkeletonError;
 use crate::findings::{Code, Findings};
@@ -10,7 +10,7 @@ const NAMES: &str = include_str!("../../../data/bvh_names.toml");
 
 /// A joint of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Landmark {
+pub(super) enum BodyJoint {
     Hip,
     Knee,
     Ankle,
@@ -20,78 +20,78 @@ pub(super) enum Landmark {
     Wrist,
 }
 
-impl Landmark {
-    pub(super) const ALL: [Landmark; 7] = [
-        Landmark::Hip,
-        Landmark::Knee,
-        Landmark::Ankle,
-        Landmark::Toe,
-        Landmark::Shoulder,
-        Landmark::Elbow,
-        Landmark::Wrist,
+impl BodyJoint {
+    pub(super) const ALL: [BodyJoint; 7] = [
+        BodyJoint::Hip,
+        BodyJoint::Knee,
+        BodyJoint::Ankle,
+        BodyJoint::Toe,
+        BodyJoint::Shoulder,
+        BodyJoint::Elbow,
+        BodyJoint::Wrist,
     ];
 
-    /// As the table of names calls it, and markers without their side.
+    /// Name in the table of names; also the marker name without its side.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Landmark::Hip => "hip",
-            Landmark::Knee => "knee",
-            Landmark::Ankle => "ankle",
-            Landmark::Toe => "toe",
-            Landmark::Shoulder => "shoulder",
-            Landmark::Elbow => "elbow",
-            Landmark::Wrist => "wrist",
+            BodyJoint::Hip => "hip",
+            BodyJoint::Knee => "knee",
+            BodyJoint::Ankle => "ankle",
+            BodyJoint::Toe => "toe",
+            BodyJoint::Shoulder => "shoulder",
+            BodyJoint::Elbow => "elbow",
+            BodyJoint::Wrist => "wrist",
         }
     }
 
     fn is_needed(self) -> bool {
-        matches!(self, Landmark::Hip | Landmark::Knee | Landmark::Ankle)
+        matches!(self, BodyJoint::Hip | BodyJoint::Knee | BodyJoint::Ankle)
     }
 }
 
-/// The joints that were recognised, by their place among the file's.
+/// The recognised joints, by their index in the file.
 #[derive(Debug)]
-pub(super) struct Landmarks {
-    found: Vec<(Landmark, Side, usize)>,
+pub(super) struct BodyJoints {
+    found: Vec<(BodyJoint, Side, usize)>,
 }
 
-impl Landmarks {
-    pub(super) fn get(&self, landmark: Landmark, side: Side) -> Option<usize> {
-        self.found.iter().find(|(l, s, _)| (*l, *s) == (landmark, side)).map(|(.., joint)| *joint)
+impl BodyJoints {
+    pub(super) fn get(&self, body_joint: BodyJoint, side: Side) -> Option<usize> {
+        self.found.iter().find(|(l, s, _)| (*l, *s) == (body_joint, side)).map(|(.., joint)| *joint)
     }
 
-    pub(super) fn find(joints: &[Joint], findings: &mut Findings) -> Result<Landmarks, SkeletonError> {
+    pub(super) fn find(joints: &[Joint], findings: &mut Findings) -> Result<BodyJoints, SkeletonError> {
         let aliases = built_in_aliases()?;
         let names = sided_names(joints);
-        let mut landmarks = Landmarks { found: Vec::new() };
+        let mut body_joints = BodyJoints { found: Vec::new() };
         let mut missing = Vec::new();
-        for landmark in Landmark::ALL {
-            let known = aliases.iter().filter(|(name, _)| name == landmark.name()).flat_map(|(_, aliases)| aliases);
+        for body_joint in BodyJoint::ALL {
+            let known = aliases.iter().filter(|(name, _)| name == body_joint.name()).flat_map(|(_, aliases)| aliases);
             for side in Side::BOTH {
-                let is_free = |joint: &usize| landmarks.found.iter().all(|(.., taken)| taken != joint);
+                let is_free = |joint: &usize| body_joints.found.iter().all(|(.., taken)| taken != joint);
                 let joint = known.clone().find_map(|alias| {
                     let is = |(s, stem): &(Side, String)| *s == side && stem == alias;
                     (0..names.len()).find(|joint| names[*joint].iter().any(is) && is_free(joint))
                 });
                 match joint {
-                    Some(joint) => landmarks.found.push((landmark, side, joint)),
-                    None => missing.push((landmark, side)),
+                    Some(joint) => body_joints.found.push((body_joint, side, joint)),
+                    None => missing.push((body_joint, side)),
                 }
             }
         }
-        landmarks.report(&missing, joints, findings)?;
-        Ok(landmarks)
+        body_joints.report(&missing, joints, findings)?;
+        Ok(body_joints)
     }
 
     fn report(
         &self,
-        missing: &[(Landmark, Side)],
+        missing: &[(BodyJoint, Side)],
         joints: &[Joint],
         findings: &mut Findings,
     ) -> Result<(), SkeletonError> {
         let listed = |wanted: bool| {
-            let of_kind = missing.iter().filter(|(landmark, _)| landmark.is_needed() == wanted);
-            of_kind.map(|(landmark, side)| format!("{side} {}", landmark.name())).collect::<Vec<_>>().join(", ")
+            let of_kind = missing.iter().filter(|(body_joint, _)| body_joint.is_needed() == wanted);
+            of_kind.map(|(body_joint, side)| format!("{side} {}", body_joint.name())).collect::<Vec<_>>().join(", ")
         };
         let (needed, useful) = (listed(true), listed(false));
         if !needed.is_empty() {
@@ -107,7 +107,7 @@ impl Landmarks {
     }
 }
 
-/// The names of a file, for a message.
+/// The joint names of a file for a message.
 fn shown(joints: &[Joint]) -> String {
     const MOST: usize = 60;
     let mut names: Vec<&str> = joints.iter().take(MOST).map(|joint| joint.name.as_str()).collect();
@@ -117,26 +117,26 @@ fn shown(joints: &[Joint]) -> String {
     names.join(", ")
 }
 
-/// Name of each landmark with its aliases, best first.
+/// Name of each joint of the body with its aliases, best first.
 fn built_in_aliases() -> Result<Vec<(String, Vec<String>)>, TomlError> {
     let source = Source::new(NAMES, "crates/ambulo/data/bvh_names.toml");
     let parsed = source.parse()?;
     let root = Table::root(&source, &parsed);
-    let landmark = |table: &Table<'_>| {
+    let body_joint = |table: &Table<'_>| {
         let name = table.need("name", "the joint of the body")?.filled_text()?;
         let aliases = table.need("aliases", "names of that joint")?.list("a list of names")?;
         Ok((name, aliases.iter().map(|alias| alias.filled_text()).collect::<Result<_, TomlError>>()?))
     };
-    root.tables("landmark")?.iter().map(landmark).collect()
+    root.tables("landmark")?.iter().map(body_joint).collect()
 }
 
-/// For each joint, the sides and names without side that its name may mean.
+/// For each joint, the possible sides in its name, with the rest of the name.
 fn sided_names(joints: &[Joint]) -> Vec<Vec<(Side, String)>> {
     let shared = shared_beginning(joints);
     joints.iter().map(|joint| sides_of(&plain(&joint.name[shared..]))).collect()
 }
 
-/// Length of what all names begin with and what ends with no letter, such as `Bip01 `; of one joint alone nothing.
+/// Length of the common prefix of all names that does not end with a letter, such as `Bip01 `; zero for a single joint.
 fn shared_beginning(joints: &[Joint]) -> usize {
     let [first, others @ ..] = joints else { return 0 };
     if others.is_empty() {
@@ -148,7 +148,7 @@ fn shared_beginning(joints: &[Joint]) -> usize {
     ends.filter(|(end, c)| *end <= length && !c.is_alphabetic()).map(|(end, _)| end).next_back().unwrap_or(0)
 }
 
-/// Letters and digits in lower case, behind the last colon.
+/// Letters and digits after the last colon, in lower case.
 fn plain(name: &str) -> String {
     let last = name.rsplit(':').next().unwrap_or(name);
     last.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()

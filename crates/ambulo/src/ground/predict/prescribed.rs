@@ -1,16 +1,16 @@
-//! What is known of the ground's forces from elsewhere, so that the rest can be judged: each source of error in turn.
+//! Measured quantities that replace their estimates in a prediction, so that each source of error can be evaluated alone.
 
 use super::PredictError;
 use crate::ground::footfalls::Footfalls;
 use crate::model::{BySide, Side};
 use crate::spatial::{Vec3, Wrench};
 
-/// What is known and need not be found. Series have one entry a frame of the motion; not a number where nothing is known.
+/// Quantities that are given and not estimated. Series have one entry per frame of the motion; not a number where unknown.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Known {
-    /// When the feet stand.
+pub struct Prescribed {
+    /// Stances of the feet.
     pub footfalls: Option<Footfalls>,
-    /// Of the ground on the body: force [N] and moment about the world's origin [N.m].
+    /// Total ground force [N] and its moment about the world's origin [N.m].
     pub total: Option<Vec<Wrench>>,
     /// The right foot's share of the vertical force, 0 to 1.
     pub right_share: Option<Vec<f64>>,
@@ -18,8 +18,8 @@ pub struct Known {
     pub centers: Option<BySide<Vec<Vec3>>>,
 }
 
-impl Known {
-    /// Whether every series is as long as the motion, and the stances of each foot follow each other.
+impl Prescribed {
+    /// Checks that every series is as long as the motion, and that the stances of each foot are in order of time.
     pub(super) fn check(&self, frames: usize) -> Result<(), PredictError> {
         let centers = |side: Side| self.centers.as_ref().map(|c| c[side].len());
         let series = [
@@ -46,23 +46,23 @@ impl Known {
         }
     }
 
-    /// The total wrench: known where it is a number, found elsewhere.
-    pub(super) fn total(&self, found: Vec<Wrench>) -> Vec<Wrench> {
-        let Some(known) = &self.total else { return found };
-        known.iter().zip(found).map(|(known, found)| if is_number(known) { *known } else { found }).collect()
+    /// The total wrench: the given one where it is a number, otherwise the computed one.
+    pub(super) fn total(&self, computed: Vec<Wrench>) -> Vec<Wrench> {
+        let Some(given) = &self.total else { return computed };
+        given.iter().zip(computed).map(|(given, computed)| if is_number(given) { *given } else { computed }).collect()
     }
 
-    /// The total wrench in a frame, where it is known.
+    /// The given total wrench in a frame.
     pub(super) fn total_at(&self, frame: usize) -> Option<Wrench> {
         self.total.as_ref().map(|total| total[frame]).filter(is_number)
     }
 
-    /// The right foot's share of the vertical force in a frame.
+    /// The given share of the right foot in the vertical force in a frame.
     pub(super) fn right_share_at(&self, frame: usize) -> Option<f64> {
         self.right_share.as_ref().map(|share| share[frame]).filter(|share| share.is_finite())
     }
 
-    /// A foot's centre of pressure in a frame [m].
+    /// The given centre of pressure of a foot in a frame [m].
     pub(super) fn center_at(&self, side: Side, frame: usize) -> Option<Vec3> {
         self.centers.as_ref().map(|c| c[side][frame]).filter(|center| center.iter().all(|x| x.is_finite()))
     }

@@ -1,61 +1,61 @@
-//! When standing feet will leave the ground and swinging feet will land, after the frames that are known.
+//! Predicts the foot offs and foot strikes after the newest frame.
 //!
-//! People step evenly: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to 30 ms (Owings, Grabiner
-//! 2004, unverified). So a foot leaves after the time for which both feet usually stand together, once the other has landed, and
-//! otherwise after a usual stance; it lands a stride after it landed. What is overdue by some time x is expected in another x: who stops walking is
-//! soon expected to stand on.
+//! People step regularly: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to 30 ms (Owings,
+//! Grabiner 2004, unverified). Foot off is therefore expected at the usual time after the other foot's strike, or, before that strike,
+//! after a usual stance; foot strike is expected one stride after the previous one. An event that is overdue by a time x is expected
+//! after another x: for a person who stops walking, continued stance is soon expected.
 //!
 //! | code        | meaning                                       |
 //! | `stance_s`  | from strike to off of a foot                  |
 //! | `stride_s`  | from strike to strike of a foot               |
 //! | `overlap_s` | from the other foot's strike to off of a foot |
 //!
-//! Each is the median of those in the last window that had any.
+//! Each is the median over the latest window with such events.
 
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::model::Side;
 use crate::motion::TimeGrid;
 use crate::numerics::median;
 
-/// The other foot lands in this part of a stance when it takes over.
+/// In walking the other foot's strike is later than this share of a stance.
 const TAKES_OVER_AFTER: f64 = 0.5;
 
-/// Usual times of somebody's steps [s], as far as they were seen.
+/// Usual times of a person's steps [s]; `None` until they were observed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Rhythm {
+pub(super) struct StepTiming {
     stance_s: Option<f64>,
     stride_s: Option<f64>,
     overlap_s: Option<f64>,
 }
 
-impl Rhythm {
-    /// Takes in what a window shows.
-    pub(super) fn learn(&mut self, footfalls: &Footfalls) {
+impl StepTiming {
+    /// Updates the times from the footfalls of a window.
+    pub(super) fn update(&mut self, footfalls: &Footfalls) {
         let falls = &footfalls.falls;
         let stances = falls.iter().filter_map(|fall| Some(fall.off_s? - fall.strike_s?));
         let strikes = |side: Side| footfalls.of(side).filter_map(|fall| fall.strike_s).collect::<Vec<f64>>();
         let strides = |side: Side| strikes(side).windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
-        let overlaps = falls.iter().filter_map(|fall| Some(fall.off_s? - taken_over(fall, fall.off_s?, falls)?));
+        let overlaps = falls.iter().filter_map(|fall| Some(fall.off_s? - other_strike(fall, fall.off_s?, falls)?));
         self.stance_s = median(stances).or(self.stance_s);
         self.stride_s = median(Side::BOTH.into_iter().flat_map(strides)).or(self.stride_s);
         self.overlap_s = median(overlaps).or(self.overlap_s);
     }
 
-    /// Adds what will happen after the window: the offs of feet that stand, and the next stance of each foot.
-    pub(super) fn foretell(&self, footfalls: &mut Footfalls, grid: TimeGrid) {
+    /// Adds the predicted events after the window: the offs of feet in stance, and the next stance of each foot.
+    pub(super) fn extrapolate(&self, footfalls: &mut Footfalls, grid: TimeGrid) {
         let Some(stance_s) = self.stance_s else { return };
         let seen = footfalls.falls.clone();
         for fall in footfalls.falls.iter_mut().filter(|fall| fall.off_s.is_none()) {
             let Some(strike) = fall.strike_s else { continue };
-            let other = taken_over(fall, grid.end_s(), &seen).filter(|s| s - strike > TAKES_OVER_AFTER * stance_s);
+            let other = other_strike(fall, grid.end_s(), &seen).filter(|s| s - strike > TAKES_OVER_AFTER * stance_s);
             let by_other = other.zip(self.overlap_s).map(|(landed, overlap)| landed + overlap);
-            fall.off_s = Some(still_to_come(by_other.unwrap_or(strike + stance_s), grid));
+            fall.off_s = Some(expected_time(by_other.unwrap_or(strike + stance_s), grid));
         }
         let Some(stride_s) = self.stride_s.filter(|stride| *stride > stance_s) else { return };
         for side in Side::BOTH {
             let Some(last) = footfalls.of(side).last().copied() else { continue };
             let (Some(strike), Some(off)) = (last.strike_s, last.off_s) else { continue };
-            let strike = still_to_come(strike + stride_s, grid).max(off + 0.5 * (stride_s - stance_s));
+            let strike = expected_time(strike + stride_s, grid).max(off + 0.5 * (stride_s - stance_s));
             footfalls.falls.push(Footfall { strike_s: Some(strike), off_s: Some(strike + stance_s), ..last });
         }
         let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
@@ -63,15 +63,15 @@ impl Rhythm {
     }
 }
 
-/// When the other foot last landed during a stance that ends.
-fn taken_over(fall: &Footfall, end_s: f64, falls: &[Footfall]) -> Option<f64> {
+/// The other foot's last strike during a stance.
+fn other_strike(fall: &Footfall, end_s: f64, falls: &[Footfall]) -> Option<f64> {
     let strike = fall.strike_s?;
     let mut others = falls.iter().filter(|other| other.side != fall.side).filter_map(|other| other.strike_s);
     others.rfind(|landed| *landed > strike && *landed < end_s)
 }
 
-/// What has not happened yet is overdue by as much as it is still expected to take.
-fn still_to_come(expected_s: f64, grid: TimeGrid) -> f64 {
+/// An overdue event is expected after as much time as it is overdue.
+fn expected_time(expected_s: f64, grid: TimeGrid) -> f64 {
     let overdue = grid.end_s() - expected_s;
     if overdue < 0.0 { expected_s } else { grid.end_s() + overdue.max(grid.step_s) }
 }
@@ -99,12 +99,12 @@ mod tests {
     }
 
     #[test]
-    fn an_even_walk_goes_on_evenly() {
+    fn a_regular_walk_is_extrapolated_exactly() {
         for end_s in [2.2, 2.45, 2.55] {
             let (mut footfalls, grid) = seen(end_s);
-            let mut rhythm = Rhythm::default();
-            rhythm.learn(&footfalls);
-            rhythm.foretell(&mut footfalls, grid);
+            let mut step_timing = StepTiming::default();
+            step_timing.update(&footfalls);
+            step_timing.extrapolate(&mut footfalls, grid);
             for (i, fall) in footfalls.falls.iter().enumerate() {
                 let (strike, off) = (fall.strike_s.unwrap(), fall.off_s.unwrap());
                 assert!(
@@ -117,18 +117,18 @@ mod tests {
     }
 
     #[test]
-    fn who_stands_on_is_expected_to_stand_on_and_nothing_is_foretold_without_a_step() {
+    fn continued_stance_is_expected_of_a_person_who_stops_and_nothing_is_predicted_without_a_step() {
         let (mut footfalls, grid) = seen(4.5);
         footfalls.falls.last_mut().unwrap().off_s = None;
-        let mut rhythm = Rhythm::default();
-        rhythm.learn(&footfalls);
-        rhythm.foretell(&mut footfalls, grid);
+        let mut step_timing = StepTiming::default();
+        step_timing.update(&footfalls);
+        step_timing.extrapolate(&mut footfalls, grid);
         let last = footfalls.of(Side::Left).find(|fall| fall.strike_s == Some(3.5)).unwrap();
         // Expected at 4.1 s, not seen until 4.5 s.
         assert!((last.off_s.unwrap() - 4.9).abs() < 1e-9, "{last:?}");
         let mut standing = Footfalls { falls: vec![fall(Side::Right, 0.1, None)], floor_velocity: Vec3::zeros() };
         let before = standing.clone();
-        Rhythm::default().foretell(&mut standing, grid);
+        StepTiming::default().extrapolate(&mut standing, grid);
         assert_eq!(standing, before);
     }
 }

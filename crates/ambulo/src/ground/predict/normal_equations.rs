@@ -1,51 +1,50 @@
-//! The normal equations of the estimate: expectations and evidence, by number of the unknowns.
+//! The normal equations of the estimate, from prior and evidence.
 
 use super::PredictError;
-use super::samples::{Evidence, Samples};
+use super::gaussian_filter::GaussianFilter;
+use super::samples::{EstimateInputs, StanceSamples};
 use super::stances::Stance;
-use super::taps::Taps;
 use super::unknowns::Unknowns;
 use crate::numerics::BandMatrix;
 use crate::spatial::{Vec3, Wrench};
 
-/// The motion's evidence is read about this often [s]: at the bandwidth of [`super::Weights`] neighbours tell nearly the
-/// same.
+/// The total wrench is compared about this often [s]: at the bandwidth of [`super::Weights`] neighbouring frames are nearly equal.
 const OBSERVED_EVERY_S: f64 = 0.04;
-/// Within a reach of the recording's ends the motion is less certain: noise grows by this factor.
+/// Near the ends of the recording, within the length of the filter, noise is larger by this factor.
 const AT_THE_ENDS: f64 = 2.0;
-/// Most memory for the equations and their inverse: ten minutes of walking take 60 MB.
+/// Memory limit for the equations and their inverse [bytes]: ten minutes of walking take 60 MB.
 const MOST_BYTES: f64 = 1e9;
-/// Smaller coefficients, as a share of one deviation of the noise, do not count.
+/// Smaller coefficients, as a share of a standard deviation of the noise, are neglected.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// The unknowns' likeliest values, and their covariances inside the band.
+/// Estimated values of the unknowns, and their covariances inside the band.
 pub(super) struct Solution {
     pub(super) values: Vec<f64>,
     pub(super) covariances: BandMatrix,
 }
 
-/// What the equations are made of.
-pub(super) struct System<'a> {
-    pub(super) evidence: &'a Evidence<'a>,
+/// Inputs of the equations.
+pub(super) struct NormalEquations<'a> {
+    pub(super) inputs: &'a EstimateInputs<'a>,
     pub(super) unknowns: &'a Unknowns,
-    /// One entry a stance, on the taps' stride.
-    pub(super) samples: &'a [Samples],
-    pub(super) taps: &'a Taps,
+    /// One entry per stance, with the stride of the filter.
+    pub(super) samples: &'a [StanceSamples],
+    pub(super) filter: &'a GaussianFilter,
 }
 
-/// Six equations of an instant: forces and moments along three axes.
+/// Six equations of a frame: forces and moments along three axes.
 #[derive(Debug, Default)]
 struct Rows {
     rest: [f64; 6],
     coefficients: [Vec<f64>; 6],
 }
 
-impl System<'_> {
+impl NormalEquations<'_> {
     /// # Errors
-    /// Equations without a solution, which finite evidence always has, or more of them than memory should hold.
+    /// Equations that are too large, or have no solution (which happens only with numbers that are not finite).
     pub(super) fn solve(&self) -> Result<Solution, PredictError> {
-        let grid = self.evidence.grid;
-        let stride = self.taps.stride;
+        let grid = self.inputs.grid;
+        let stride = self.filter.stride;
         let every = stride * ((OBSERVED_EVERY_S / grid.step_s / stride as f64).round() as usize).max(1);
         let instants = || (0..grid.frames).step_by(every);
         let ranges: Vec<Option<[usize; 2]>> = instants().map(|frame| self.range(grid.time(frame))).collect();
@@ -57,7 +56,7 @@ impl System<'_> {
         }
         let mut matrix = BandMatrix::zeros(self.unknowns.count, width);
         let mut values = vec![0.0; self.unknowns.count];
-        // Every unknown has unit deviation about zero.
+        // Prior: every unknown has mean 0 and standard deviation 1.
         for number in 0..self.unknowns.count {
             matrix.add(number, number, 1.0);
         }
@@ -82,34 +81,34 @@ impl System<'_> {
         Ok(Solution { values, covariances: factor.inverse_in_band() })
     }
 
-    /// Lowest and highest number that the taps around an instant reach.
+    /// Lowest and highest index of the unknowns that influence the filtered wrench at a time.
     fn range(&self, time: f64) -> Option<[usize; 2]> {
-        let reach = self.taps.reach_s(self.evidence.grid);
+        let reach = self.filter.reach_s(self.inputs.grid);
         let [from, to] = [time - reach, time + reach];
-        let near = self.evidence.stances.iter().zip(&self.unknowns.curves);
+        let near = self.inputs.stances.iter().zip(&self.unknowns.curves);
         let near = near.filter(|(stance, _)| stance.end_s >= from && stance.start_s <= to);
         let ends = near.flat_map(|(_, curves)| curves).map(|curve| curve.range(from, to));
         ends.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
     }
 
-    /// Forward, up and right at an instant: of the stance that is nearest.
+    /// Forward, up and right direction of the nearest stance.
     fn axes(&self, time: f64) -> [Vec3; 3] {
         let apart = |s: &Stance| (s.start_s - time).max(time - s.end_s);
-        let nearest = self.evidence.stances.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let up = self.evidence.measure.up;
+        let nearest = self.inputs.stances.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let up = self.inputs.body_scale.up;
         nearest.map_or([Vec3::x(), up, Vec3::z()], |s| [s.forward, up, s.right])
     }
 
     fn observe(&self, frame: usize, first: usize, count: usize, rows: &mut Rows) {
-        let grid = self.evidence.grid;
+        let grid = self.inputs.grid;
         for row in &mut rows.coefficients {
             row.clear();
             row.resize(count, 0.0);
         }
         let axes = self.axes(grid.time(frame));
         let mut rest = Wrench::ZERO;
-        for (tap, weight) in self.taps.around(frame, grid.frames) {
-            add(&mut rest, &self.evidence.about_mass_center(tap), weight);
+        for (tap, weight) in self.filter.around(frame, grid.frames) {
+            add(&mut rest, &self.inputs.about_mass_center(tap), weight);
             for (samples, curves) in self.samples.iter().zip(&self.unknowns.curves) {
                 let Some(sample) = samples.at(tap) else { continue };
                 add(&mut rest, &sample.expected, -weight);
@@ -127,15 +126,15 @@ impl System<'_> {
         rows.rest = along(&rest, &axes);
     }
 
-    /// Standard deviations of the six equations at an instant [N, N.m].
+    /// Standard deviations of the six equations at a time [N, N.m].
     fn noise(&self, time: f64) -> [f64; 6] {
-        let Evidence { grid, measure, weights, .. } = *self.evidence;
-        let reach = self.taps.reach_s(grid);
+        let EstimateInputs { grid, body_scale, weights, .. } = *self.inputs;
+        let reach = self.filter.reach_s(grid);
         let at_end = time - grid.start_s < reach || grid.end_s() - time < reach;
-        let scale = measure.weight_n * if at_end { AT_THE_ENDS } else { 1.0 };
+        let scale = body_scale.weight_n * if at_end { AT_THE_ENDS } else { 1.0 };
         std::array::from_fn(|row| match row {
             0..3 => scale * weights.force_noise[row],
-            _ => scale * measure.size() * weights.moment_noise[row - 3],
+            _ => scale * body_scale.size() * weights.moment_noise[row - 3],
         })
     }
 }
@@ -149,7 +148,7 @@ fn along(load: &Wrench, axes: &[Vec3; 3]) -> [f64; 6] {
     std::array::from_fn(|row| if row < 3 { load.force.dot(&axes[row]) } else { load.moment.dot(&axes[row - 3]) })
 }
 
-/// Adds an equation of unit noise to the normal equations.
+/// Adds an equation with noise of standard deviation 1 to the normal equations.
 fn add_equation(matrix: &mut BandMatrix, right: &mut [f64], row: &[(usize, f64)], rest: f64) {
     for (n, &(i, a)) in row.iter().enumerate() {
         right[i] += a * rest;

@@ -1,33 +1,33 @@
-//! The last few seconds of a stream: as many frames as fit, the oldest forgotten first.
+//! Buffer of the last few seconds of a stream; the oldest frames are dropped first.
 
 use super::StreamError;
 use crate::model::{Drive, Model};
 use crate::motion::Motion;
 
-/// Frames of the free coordinates; the model itself knows the others.
+/// The newest frames of the free coordinates, up to a fixed number.
 #[derive(Debug, Clone)]
-pub(super) struct Recent {
+pub(super) struct FrameBuffer {
     motion: Motion,
     step_s: f64,
-    most: usize,
-    /// Number of the next frame, and the newest one without a gap.
+    capacity: usize,
+    /// Number of the next frame, and of the newest one without a gap.
     pub(super) next: usize,
     newest_complete: Option<usize>,
 }
 
-impl Recent {
-    pub(super) fn new(model: &Model, rate_hz: f64, most: usize) -> Recent {
+impl FrameBuffer {
+    pub(super) fn new(model: &Model, rate_hz: f64, capacity: usize) -> FrameBuffer {
         let is_free = |drive: &Drive| matches!(drive, Drive::Free);
-        let column = |drive: &Drive| is_free(drive).then(|| Vec::with_capacity(most));
+        let column = |drive: &Drive| is_free(drive).then(|| Vec::with_capacity(capacity));
         let motion = Motion {
             origin: "stream".to_owned(),
-            times: Vec::with_capacity(most),
+            times: Vec::with_capacity(capacity),
             columns: model.coordinates().iter().map(|c| column(&c.drive)).collect(),
         };
-        Recent { motion, step_s: 1.0 / rate_hz, most, next: 0, newest_complete: None }
+        FrameBuffer { motion, step_s: 1.0 / rate_hz, capacity, next: 0, newest_complete: None }
     }
 
-    /// Takes a frame in, and the oldest one out when all places are taken.
+    /// Adds a frame, and drops the oldest one if the buffer is full.
     pub(super) fn push(&mut self, model: &Model, q: &[f64]) -> Result<(), StreamError> {
         let (frame, expected) = (self.next, model.coordinates().len());
         if q.len() != expected {
@@ -40,7 +40,7 @@ impl Recent {
         if free().all(|(_, x)| x.is_finite()) {
             self.newest_complete = Some(frame);
         }
-        if self.motion.times.len() == self.most {
+        if self.motion.times.len() == self.capacity {
             self.forget(1);
         }
         self.motion.times.push(frame as f64 * self.step_s);
@@ -53,7 +53,7 @@ impl Recent {
         Ok(())
     }
 
-    /// Frames since the newest one without a gap: 0 if that is the newest of all.
+    /// Number of frames since the newest one without a gap.
     pub(super) fn missing(&self) -> usize {
         self.newest_complete.map_or(self.next, |newest| self.next - 1 - newest)
     }
@@ -62,7 +62,7 @@ impl Recent {
         self.forget(self.motion.times.len());
     }
 
-    /// Forgets incomplete frames at the start: no spline reaches them.
+    /// Drops incomplete frames at the start, which cannot be interpolated.
     pub(super) fn forget_leading_gap(&mut self) {
         let columns = || self.motion.columns.iter().flatten();
         let is_complete = |&row: &usize| columns().all(|c| c[row].is_finite());
@@ -90,7 +90,7 @@ impl Recent {
         number as f64 * self.step_s
     }
 
-    /// Bytes that the frames take, full or not.
+    /// Allocated memory of the frames [bytes].
     pub(super) fn bytes(&self) -> usize {
         let columns = self.motion.columns.iter().flatten().map(Vec::capacity).sum::<usize>();
         (self.motion.times.capacity() + columns) * size_of::<f64>()
