@@ -83,7 +83,7 @@ fn place(panel: &Panel) -> f64 {
 #[test]
 fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_signs() {
     let bench = Workbench::empty("figures_walk");
-    bench.run(&["walk", "--cycles", "2", "-o", "out"]).done();
+    bench.run(&["walk", "--cycles", "2", "--convention", "opensim", "-o", "out"]).done();
     let cycles = Cycles::read(&bench);
     let mass_kg = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
     let quantities = cycles.quantities();
