@@ -36,11 +36,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether what was done also passed what was asked of it.
+/// The result of a command that ran to its end; it sets the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
     /// Exit code 0.
     Accepted,
-    /// Done, but a limit was missed: exit code 1.
+    /// Infeasible motion or exceeded limit: exit code 1.
     Refused,
 }

@@ -11,7 +11,7 @@ use workbench::{FORCES, RAW, Workbench};
 const STRICT: &[&str] = FORCES.split_at(8).0;
 
 #[test]
-fn a_feasible_motion_exits_with_zero_and_says_how_near_it_came() {
+fn a_feasible_motion_exits_with_zero_and_reports_its_closest_limit() {
     let bench = Workbench::new("feasible");
     let run = bench.forces(&RAW).done();
     assert!(run.stdout.contains("  verdict   feasible: at most "), "{}", run.stdout);
@@ -26,7 +26,7 @@ fn a_feasible_motion_exits_with_zero_and_says_how_near_it_came() {
 }
 
 #[test]
-fn the_built_in_walks_sliding_feet_are_found_by_the_built_in_limits() {
+fn sliding_feet_are_detected_with_the_built_in_limits() {
     let bench = Workbench::new("sliding");
     let run = bench.run(&[STRICT, &RAW].concat()).infeasible();
     assert!(run.stdout.contains("  verdict   infeasible, "), "{}", run.stdout);
@@ -67,7 +67,7 @@ fn thresholds_are_read_from_a_file() {
 }
 
 #[test]
-fn a_file_of_thresholds_that_cannot_be_used_is_refused() {
+fn an_invalid_thresholds_file_is_rejected() {
     let bench = Workbench::new("bad_thresholds");
     let refused = |file: &str, words: &[&str]| bench.run(&[STRICT, &["--thresholds", file]].concat()).refused(words);
     bench.write("a.toml", "[friction]\navailable = \"much\"\n");
@@ -81,7 +81,7 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused() {
 }
 
 #[test]
-fn without_ground_forces_only_the_joints_are_judged() {
+fn without_ground_forces_only_joints_are_checked() {
     let bench = Workbench::new("no_ground");
     bench.run(&[&FORCES[..4], &RAW, &["--no-ground"]].concat()).done();
     let verdict = bench.json("out/summary.json")["verdict"].clone();
@@ -91,7 +91,7 @@ fn without_ground_forces_only_the_joints_are_judged() {
 }
 
 #[test]
-fn what_a_device_gives_need_not_be_given_by_muscles() {
+fn the_moment_of_a_device_is_subtracted_before_strength_is_checked() {
     let bench = Workbench::new("device");
     let weak = "skip = [\"sliding\", \"center_of_pressure\"]\n[strength]\nshare = 0.25\n";
     bench.write("weak.toml", weak);
@@ -103,7 +103,7 @@ fn what_a_device_gives_need_not_be_given_by_muscles() {
     };
     let alone = judge(&[]);
     assert!(alone > 0);
-    // A device that gives the right ankle all it needs.
+    // A device that supplies the whole moment of the right ankle.
     let moments = bench.table("out/moments.sto");
     let (times, ankle) = (moments.times().unwrap(), moments.column("ankle_angle_r_moment").unwrap());
     let rows: Vec<String> = times.iter().zip(ankle).map(|(t, m)| format!("{t},{m}")).collect();

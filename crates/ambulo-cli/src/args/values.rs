@@ -1,4 +1,4 @@
-//! Numbers and names as they are typed.
+//! Parsers of option values.
 
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
@@ -82,27 +82,27 @@ impl FromStr for FootColumns {
                 Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
             }
             _ => Err(
-                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
-                      PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
+                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; the columns are \
+                      PREFIX + vx vy vz and px py pz, with `torque` instead of `force` for the free moment"
                     .into(),
             ),
         }
     }
 }
 
-/// Which foot stands on a force plate.
+/// Which foot is on a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlateFoot {
     /// The plate, counted from 1.
     pub(crate) plate: usize,
-    /// The foot; `None` leaves the plate out.
+    /// The foot; `None` ignores the plate.
     pub(crate) side: Option<Side>,
 }
 
 impl FromStr for PlateFoot {
     type Err = String;
     fn from_str(text: &str) -> Result<PlateFoot, String> {
-        let expected = "expected PLATE=FOOT, plates counted from 1, the foot r, l or off, such as 1=r";
+        let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot";
         let (plate, foot) = text.split_once('=').ok_or(expected)?;
         let side = match foot.trim().to_ascii_lowercase().as_str() {
             "r" | "right" => Some(Side::Right),
@@ -117,7 +117,7 @@ impl FromStr for PlateFoot {
     }
 }
 
-/// A mass that the person carries.
+/// A mass carried by the person.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CarriedMass(pub(crate) AddedMass);
 

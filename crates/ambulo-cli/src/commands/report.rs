@@ -1,4 +1,4 @@
-//! `ambulo report`: the page of a result folder; and the page that other verbs write.
+//! `ambulo report`: the page of a result folder, and the page that the other commands write.
 
 use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
@@ -13,20 +13,20 @@ use std::path::{Path, PathBuf};
 /// Name of the page in a result folder.
 pub(super) const PAGE: &str = "report.html";
 
-/// Folders beside the first that a page can tell apart.
+/// Further folders that a page can show.
 const MOST_COMPARED: usize = 2;
 
 pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
     let folders: Vec<&Path> = std::iter::once(&args.folder).chain(&args.compare).map(PathBuf::as_path).collect();
     if args.compare.len() > MOST_COMPARED {
-        bail!("--compare: found {} folders; expected {MOST_COMPARED} at most", args.compare.len());
+        bail!("--compare: found {} folders; expected at most {MOST_COMPARED}", args.compare.len());
     }
     let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
     if !matches!(files::ending(&output).as_str(), "html" | "htm") {
         bail!("{}: expected a name that ends in .html for the page", output.display());
     }
     files::write(&output, page_of_folders(&folders)?.as_bytes())?;
-    printer::report(&output, args.voice)?;
+    printer::report(&output, args.print)?;
     Ok(Verdict::Accepted)
 }
 
@@ -42,18 +42,18 @@ pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
         })
         .collect();
     let page = report_page(&folders);
-    // What could not be read is the cause of whatever came of it.
+    // An unreadable file is the cause of any later error, so it is reported first.
     opened.iter().try_for_each(ResultFolder::check)?;
     Ok(page?)
 }
 
-/// A run whose page cannot be made keeps its other results.
+/// The finding of a run whose page could not be written; its other results are kept.
 pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
     let message = format!("{PAGE} was not written: {reason:#}");
     Finding { code: Code::ReportNotWritten, message, count: 1 }
 }
 
-/// The page of a run that is being written; `name` is that of its folder.
+/// The page of a run that is being written; `name` is the name of its folder.
 pub(super) fn page_of_run(name: &Path, written: &[OutputFile], summary: &[u8]) -> Result<OutputFile> {
     let file = |name: &str| match name {
         "summary.json" => Some(summary.to_vec()),

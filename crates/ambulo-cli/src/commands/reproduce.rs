@@ -1,4 +1,4 @@
-//! `ambulo reproduce`: the claims and figures of the 1997 paper.
+//! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
 use crate::{Verdict, files, printer};
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let others = if args.brief {
         Vec::new()
     } else {
-        printer::progress("other values for what the paper leaves open", args.voice);
+        printer::progress("sensitivity to values that the paper does not give", args.print);
         sensitivities()?
     };
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
@@ -29,11 +29,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
     files::write(&args.output.join("claims.json"), &json)?;
-    printer::reproduce(&claims, &others, &args.output, args.voice)?;
+    printer::reproduce(&claims, &others, &args.output, args.print)?;
     Ok(Verdict::Accepted)
 }
 
 fn gather(name: &str, mode: &mut Mode<'_>, clock: &dyn Fn() -> f64, args: &ReproduceArgs) -> Result<Evidence> {
-    printer::progress(name, args.voice);
+    printer::progress(name, args.print);
     Ok(Evidence::gather(mode, Scope::Full, Some(clock))?)
 }

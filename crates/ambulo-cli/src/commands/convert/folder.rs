@@ -1,4 +1,4 @@
-//! Result folders: for animation programs, and as one long table.
+//! Conversion of result folders: for animation programs, and to one long table.
 
 use super::{Converted, lost};
 use crate::args::ConvertArgs;
@@ -8,7 +8,7 @@ use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder};
 use ambulo_results::Folder;
 use anyhow::{Result, bail};
 
-/// What can be made of a folder.
+/// Formats to which a result folder can be converted.
 pub(super) const TARGETS: &[&str] = &["glb", "bvh", "csv"];
 
 pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
@@ -36,7 +36,7 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
         }
         _ => csv_of_folder(&folder).map(String::into_bytes),
     };
-    // What could not be read is the cause of whatever came of it.
+    // An unreadable file is the cause of any later error, so it is reported first.
     opened.check()?;
     Ok(Converted { files: vec![(args.output.clone(), made?)], findings })
 }

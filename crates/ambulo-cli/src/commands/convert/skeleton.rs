@@ -1,4 +1,4 @@
-//! Skeletons in motion: from BVH, and from a model's coordinates to BVH.
+//! Conversion of skeletons: from BVH, and from a model's coordinates to BVH or glTF.
 
 use super::{Converted, lost};
 use crate::args::ConvertArgs;
@@ -25,7 +25,7 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Conv
             channel_table(&bvh).with_context(|| shown.clone())?.write_csv()
         }
         _ => {
-            lost(&mut findings, &["rotations of the joints".to_owned(), "which joint carries which".to_owned()]);
+            lost(&mut findings, &["rotations of the joints".to_owned(), "hierarchy of the joints".to_owned()]);
             let markers = joint_markers(args, &bvh, &mut findings).with_context(|| shown.clone())?;
             trc_of_markers(&markers).with_context(|| shown.clone())?.write()
         }
@@ -33,7 +33,7 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Conv
     Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })
 }
 
-/// The centres of all joints, in metres by the unit that goes with the legs.
+/// The centres of all joints in metres; the unit of length is inferred from the length of the legs.
 fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Result<MarkerRecording> {
     const CENTIMETRE: f64 = 0.01;
     let name = args.input.file_name().unwrap_or_default().to_string_lossy();
@@ -47,14 +47,14 @@ fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Resu
         Err(error) => {
             findings.report(
                 Code::BvhUnit,
-                format!("lengths were taken as centimetres, for this is no person's skeleton: {error}"),
+                format!("lengths were read as centimetres, because this is not the skeleton of a person: {error}"),
             );
             Ok(joint_paths(bvh, &name, CENTIMETRE)?)
         }
     }
 }
 
-/// `time` and `<joint>.<channel>`, numbers as in the file.
+/// `time` and `<joint>.<channel>`, with the numbers of the file.
 fn channel_table(bvh: &Bvh) -> Result<Table> {
     let times = (0..bvh.frames()).map(|frame| frame as f64 * bvh.frame_time_s()).collect();
     let mut columns = vec![("time".to_owned(), times)];
@@ -67,7 +67,7 @@ fn channel_table(bvh: &Bvh) -> Result<Table> {
     Ok(Table::new("channels", columns)?)
 }
 
-/// A model's coordinates as a skeleton or an animation.
+/// Converts a model's coordinates to a skeleton or an animation.
 pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();

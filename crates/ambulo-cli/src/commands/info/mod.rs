@@ -1,4 +1,4 @@
-//! `ambulo info`: what a file holds.
+//! `ambulo info`: describes the content of a file.
 
 mod bvh;
 mod c3d;
@@ -18,7 +18,7 @@ use std::path::Path;
 pub(crate) fn run(args: &InfoArgs) -> Result<Verdict> {
     let bytes = files::read(&args.file)?;
     let sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
-    printer::info(&sheet, args.voice)?;
+    printer::info(&sheet, args.print)?;
     Ok(Verdict::Accepted)
 }
 
