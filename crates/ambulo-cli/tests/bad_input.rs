@@ -5,7 +5,7 @@
 
 mod workbench;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::filter::LowPass;
@@ -275,7 +275,7 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
         assert!(ExternalLoads::read(&loads[..cut]).is_err(), "the loads read when cut at {cut}");
     }
     let loads = ExternalLoads::read(&loads).unwrap().0;
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),
@@ -312,7 +312,7 @@ fn analyse(files: [&[u8]; 4]) -> Option<usize> {
     let plates = force_recordings(&model, &loads, &Table::read_storage(grf).ok()?.0, &mut findings).ok()?;
     let low_pass = LowPass { order: 3, cutoff_hz: 6.0 };
     let smoother = Smoother::Butterworth(low_pass);
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother,
         force_filter: Some(low_pass),
         window: Window::default(),
@@ -482,8 +482,8 @@ fn forces_on_the_plate_instead_of_on_the_foot_give_a_warning() {
         rows
     });
     let run = bench.forces(&RAW).infeasible();
-    run.warned(&["pulls `calcn_r` down", "hint: change the sign of forces and torques"]);
-    run.warned(&["the residual at the root is", "hint: check files, sides and time origin"]);
+    run.warned(&["pulls `calcn_r` down", "hint: reverse the sign of forces and torques"]);
+    run.warned(&["the residual force at the root is", "hint: check files, sides and time origin"]);
 }
 
 #[test]
@@ -491,5 +491,5 @@ fn a_knee_that_bends_the_other_way_gives_a_warning() {
     let bench = Workbench::new("knee");
     let joint = "<Coordinate name=\"knee_angle_r\"><default_value>0</default_value>";
     bench.edit("figure.osim", joint, &format!("{joint}<range>-0.1 2.1</range>"));
-    bench.forces(&RAW).infeasible().warned(&["`knee_angle_r` runs from -6", "the model allows -6 to 120"]);
+    bench.forces(&RAW).infeasible().warned(&["`knee_angle_r` ranges from -6", "the model allows -6 to 120"]);
 }

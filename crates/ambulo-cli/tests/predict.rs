@@ -179,7 +179,7 @@ fn half_the_mass_is_only_detected_with_force_plates() {
         (run, bench.json("out/summary.json")["mass"].as_str().unwrap().to_owned())
     };
     let (run, known) = mass(&[]);
-    run.reports(&["the plates beside the prediction carry 7", "the model has 40.0 kg", "hint: ", "--mass"]);
+    run.reports(&["the force plates alongside the prediction measure 7", "the model has 40.0 kg", "hint: ", "--mass"]);
     assert_eq!(known, "contradicted");
     assert!(run.stdout.contains("40.00 kg (model, but the force plates measured another)"), "{}", run.stdout);
     ran(bench.run(&["forces", "demo/input/walk.bvh", "--mass", "40", "--height", "1.75"]));
@@ -195,7 +195,7 @@ fn exchanged_feet_on_plates_give_a_warning() {
     let bench = Workbench::new("predict_exchanged");
     let exchanged = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
     let run = bench.run(&[&MOTION[..], &PLATES[..2], &exchanged, &["--predict"], &RAW[..2]].concat());
-    ran(run).reports(&["plates beside the prediction: ", "right and left may be exchanged"]);
+    ran(run).reports(&["measured forces alongside the prediction: ", "right and left may be exchanged"]);
     let summary = bench.json("out/summary.json");
     let feet = summary["comparison"]["feet"].as_array().unwrap();
     assert!(feet.iter().all(|foot| foot["vertical"]["rmse_bw"].as_f64().unwrap() > 0.3), "{feet:?}");

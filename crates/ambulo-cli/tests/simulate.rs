@@ -207,7 +207,7 @@ fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
     let bench = bench("simulate_verdict", &["stumble.toml"]);
     let run = bench.run(&["simulate", "stumble.toml", "--plot", "-o", "out"]).infeasible();
     assert!(
-        run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles give"),
+        run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles can supply"),
         "{}",
         run.stdout
     );

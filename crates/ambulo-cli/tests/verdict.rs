@@ -20,7 +20,7 @@ fn a_feasible_motion_exits_with_zero_and_reports_its_closest_limit() {
     assert_eq!(verdict["reasons"], serde_json::json!([]));
     let closest = verdict["closest"].as_array().unwrap();
     assert!(closest.iter().any(|c| c["check"] == "strength" && c["share"].as_f64().unwrap() < 1.0), "{closest:?}");
-    let skipped = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "left out by the thresholds");
+    let skipped = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "skipped by the thresholds");
     assert_eq!(skipped.map(|n| n["check"].clone()).collect::<Vec<Value>>(), ["center_of_pressure", "sliding"]);
     assert!(!bench.text("out/figures/moments.svg").contains("red: not feasible"));
 }
@@ -58,7 +58,7 @@ fn thresholds_are_read_from_a_file() {
         "skip = [\"sliding\", \"center_of_pressure\"]\n[friction]\navailable = 0.05\n[strength]\nshare = 0.2\n";
     bench.write("limits.toml", limits);
     let run = bench.run(&[STRICT, &RAW, &["--thresholds", "limits.toml"]].concat()).infeasible();
-    assert!(run.stdout.contains("friction: the left foot needs a friction of 0."), "{}", run.stdout);
+    assert!(run.stdout.contains("friction: the left foot needs a coefficient of friction of 0."), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     let checks: Vec<&str> =
         verdict["reasons"].as_array().unwrap().iter().map(|r| r["check"].as_str().unwrap()).collect();

@@ -5,8 +5,8 @@
 mod free_bodies;
 
 use ambulo::analysis::{
-    Agreement, Analysis, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource, SHORTEST_CONTACT_S,
-    Settings, analyse, compare, contacts, cycles, events, over_cycle, peak, residual,
+    Agreement, Analysis, AnalysisSettings, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource,
+    SHORTEST_CONTACT_S, analyse, compare, contacts, cycles, events, over_cycle, peak, residual,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::{Code, Findings};
@@ -127,8 +127,8 @@ fn a_cycle_runs_from_strike_to_strike_of_one_foot_and_lies_wholly_on_the_grid() 
         event(Side::Right, Strike, 2.1),
         event(Side::Right, Strike, 3.2),
     ];
-    let right = |number, start_s, end_s, toe_off_s| Cycle { side: Side::Right, number, start_s, end_s, toe_off_s };
-    let left = Cycle { side: Side::Left, number: 1, start_s: 0.6, end_s: 1.65, toe_off_s: None };
+    let right = |number, start_s, end_s, foot_off_s| Cycle { side: Side::Right, number, start_s, end_s, foot_off_s };
+    let left = Cycle { side: Side::Left, number: 1, start_s: 0.6, end_s: 1.65, foot_off_s: None };
     let whole = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 401 };
     let expected = [right(1, 0.1, 1.1, Some(0.8)), right(2, 1.1, 2.1, None), right(3, 2.1, 3.2, None), left];
     assert_eq!(cycles(&list, whole), expected);
@@ -144,7 +144,7 @@ fn a_cycle_runs_from_strike_to_strike_of_one_foot_and_lies_wholly_on_the_grid() 
 #[test]
 fn a_straight_line_stays_straight_over_a_cycle_of_101_samples() {
     let grid = TimeGrid { start_s: 0.4, step_s: 1.0 / 60.0, frames: 120 };
-    let cycle = Cycle { side: Side::Left, number: 1, start_s: 0.503, end_s: 1.617, toe_off_s: None };
+    let cycle = Cycle { side: Side::Left, number: 1, start_s: 0.503, end_s: 1.617, foot_off_s: None };
     let time = |percent: usize| cycle.start_s + percent as f64 / 100.0 * (cycle.end_s - cycle.start_s);
     let line: Vec<f64> = grid.times().iter().map(|t| 2.0 - 3.0 * t).collect();
     let read = over_cycle(grid, &line, &cycle);
@@ -223,7 +223,7 @@ fn curves_are_compared_at_the_instants_of_the_second_that_both_cover() {
     assert_eq!(found.samples, 4);
     assert_near(found.rmse, 0.0, ROUNDING, "rmse on the chords");
     let error = compare(a, Curve { times: &[3.0, 4.0], values: &[0.0, 0.0] }).unwrap_err();
-    let expected = "no common time: one runs from 0 s to 2 s, the other from 3 s to 4 s; expected an overlap";
+    let expected = "no common time: one curve covers 0 s to 2 s, the other 3 s to 4 s; expected an overlap";
     assert_eq!(error.to_string(), expected);
     let error = compare(a, Curve { times: &fine, values: &[5.0, f64::NAN, 5.0, 0.0, 1.0] }).unwrap_err();
     assert_eq!(error, ComparisonError::NotFinite { time_s: 1.0 });
@@ -310,7 +310,7 @@ fn alternating(model: &Model, share: f64) -> Vec<ForceRecording> {
 }
 
 fn run(model: &Model, motion: &Motion, plates: &[ForceRecording]) -> (Analysis, Findings) {
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),

@@ -10,10 +10,10 @@ mod shared_data;
 mod common;
 
 use ambulo::analysis::feasibility::{
-    Check, Evidence, FootFrame, Frame, Hill, Judge, Measured, Measurement, Person, StrengthCurve, Thresholds, Verdict,
-    check, check_frame,
+    Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, MotionAndForces, Person,
+    StrengthCurve, Thresholds, Verdict, check, check_frame,
 };
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::ground::{BodyForces, GroundForces};
@@ -158,9 +158,9 @@ impl Standing {
         body_motion(&self.human.model, Posture { q: &self.q, qd: &self.qd, qdd: &rest })
     }
 
-    fn measure(&self, thresholds: &Thresholds) -> (Vec<Measurement>, bool) {
+    fn measure(&self, thresholds: &Thresholds) -> (Vec<CheckedValue>, bool) {
         let person = Person::of_human(&self.human);
-        let judge = Judge::new(&self.human.model, &person, thresholds);
+        let judge = FeasibilityLimits::new(&self.human.model, &person, thresholds);
         let frame = Frame {
             q: &self.q,
             qd: &self.qd,
@@ -324,7 +324,7 @@ fn a_measurement_says_what_was_found_and_what_is_allowed_in_the_unit_of_its_chec
     standing.q[knee] = -163_f64.to_radians();
     let (list, _) = standing.measure(&Thresholds::default());
     let id = standing.human.model.coordinate("knee_angle_r").unwrap();
-    let m = list.iter().find(|m| m.check == Check::Range && m.of == Measured::Coordinate(id)).unwrap();
+    let m = list.iter().find(|m| m.check == Check::Range && m.of == CheckedPart::Coordinate(id)).unwrap();
     assert_near(m.value, -163.0, 1e-9, "angle [deg]");
     assert_near(m.limit, -160.0, 1e-9, "limit [deg]");
     assert!(m.share > 1.0);
@@ -368,7 +368,7 @@ fn judged_with(
     });
     let ground = GroundForces { bodies: bodies.to_vec() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = Evidence { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
+    let evidence = MotionAndForces { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
     let mut findings = Findings::default();
     let verdict = check(&evidence, &Person::of_human(&human), thresholds, &mut findings);
     (verdict, findings)
@@ -424,7 +424,7 @@ fn a_fault_has_its_times_its_worst_value_and_a_sentence_and_short_ones_are_noise
     }
     assert_eq!(
         verdict.reasons[0].message,
-        "the right foot needs a friction of 0.25; 0.10 is there (from 2.300 to 2.490 s, worst at 2.400 s)"
+        "the right foot needs a coefficient of friction of 0.25; 0.10 is available (from 2.300 to 2.490 s, worst at 2.400 s)"
     );
     // Asked for, the short one is found too.
     let (verdict, _) = judged(push, &Thresholds { shortest_s: 0.0, ..thresholds });
@@ -441,7 +441,7 @@ fn a_walker_who_flies_longer_than_allowed_is_told_how_long() {
     let message = "no foot is loaded for 0.200 s while walking; 0.030 s are allowed (from 2.400 to 2.590 s)";
     assert_eq!(verdict.reasons[0].message, message);
     assert!(findings.as_slice().is_empty());
-    assert_eq!(verdict.not_judged[0].why, "left out by the thresholds");
+    assert_eq!(verdict.not_judged[0].why, "skipped by the thresholds");
 }
 
 #[test]
@@ -450,7 +450,7 @@ fn where_nothing_measures_a_standing_man_nothing_is_judged_and_that_is_said() {
     let (verdict, findings) = judged(load, &Thresholds::default());
     assert!(verdict.feasible, "{:?}", verdict.reasons);
     let text = &findings.as_slice()[0].message;
-    assert!(text.contains("not judged in 20 of 101 frames (the first at 2.400 s)"), "{text}");
+    assert!(text.contains("not checked in 20 of 101 frames (the first at 2.400 s)"), "{text}");
 }
 
 #[test]
@@ -558,11 +558,11 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
         ("[person]\nmass_kg = 1000\n", "line 2, `person.mass_kg`: found 1000; expected a number from 2 to 300"),
         (
             "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [10, 0]\n",
-            "line 3, `strength.table[1].angle_deg`: found [10, 0]; expected a list of one or more rising angles",
+            "line 3, `strength.table[1].angle_deg`: found [10, 0]; expected a list of one or more increasing angles",
         ),
         (
             "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [0, 10]\npositive_nm = [1]\nnegative_nm = [1, 2]\n",
-            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one an angle",
+            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one per angle",
         ),
     ] {
         assert_eq!(Thresholds::from_toml(text).unwrap_err().to_string(), message);
@@ -660,7 +660,7 @@ fn walkers(data: &Path) -> Vec<(&'static str, Subject)> {
 
 fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let six_hz = LowPass { order: 3, cutoff_hz: 6.0 };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(six_hz),
         force_filter: Some(six_hz),
         window: Window::default(),
@@ -671,7 +671,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let Subject { model, motion, plates } = subject;
     let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
-    let evidence = Evidence { model, trajectory, forces, ground, device: None };
+    let evidence = MotionAndForces { model, trajectory, forces, ground, device: None };
     check(&evidence, &Person::of_model(model), thresholds, &mut findings)
 }
 

@@ -10,7 +10,7 @@ mod walking_puppet;
 
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
-    CarriedMass, CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PredictedAnalysis, PredictionChecks,
+    CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PlateMass, PredictedAnalysis, PredictionChecks,
     PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
@@ -40,7 +40,7 @@ fn checked_after(
     model: &Model,
     trajectory: &Trajectory,
     soles: &BySide<Option<Sole>>,
-    carried: Option<CarriedMass>,
+    plate_mass: Option<PlateMass>,
     change: impl Fn(&mut Prediction),
 ) -> (PredictionChecks, Findings) {
     let mut prediction = prediction(model, trajectory, soles);
@@ -53,7 +53,7 @@ fn checked_after(
         prediction: &prediction,
         cycles: &cycles,
         thresholds: &Thresholds::default(),
-        carried,
+        plate_mass,
     };
     let mut findings = Findings::default();
     (prediction_checks(&evidence, &mut findings), findings)

@@ -5,7 +5,7 @@
 
 mod shared_data;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
@@ -464,7 +464,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
     let motion = coordinates_from_table(&model, &table, "recording", &mut findings).unwrap();
     let rate_hz = Some(2000.0);
     let window = Window { from_s: Some(1.0), to_s: Some(1.7) };
-    let asked = Settings { smoother: Smoother::Off, force_filter: None, window, rate_hz, instrumented: None };
+    let asked = AnalysisSettings { smoother: Smoother::Off, force_filter: None, window, rate_hz, instrumented: None };
     let analysis = analyse(&model, &motion, &[], asked, &mut findings).unwrap();
     let grid = analysis.trajectory.grid();
     let step_s = scene.settings().step_s;

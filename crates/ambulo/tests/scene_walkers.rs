@@ -138,7 +138,7 @@ fn a_walk_that_hits_a_kerb_is_infeasible_from_then_on_and_feasible_without_it() 
     assert!(reasons.iter().all(|r| r.time_s[0] > hit_s - 0.0015), "{reasons:#?}");
     assert!(reasons[0].time_s[0] < hit_s + 0.05);
     let knee = reasons.iter().find(|r| r.check == Check::Strength && r.quantity == "knee_angle_l_moment").unwrap();
-    assert!(knee.value.abs() > 5.0 * knee.limit.abs() && knee.message.contains("the muscles give"));
+    assert!(knee.value.abs() > 5.0 * knee.limit.abs() && knee.message.contains("the muscles can supply"));
 }
 
 /// Forces on the first body of a closure, at its point.

@@ -101,7 +101,7 @@ fn every_cycle_is_whole_and_like_the_one_before() {
         for cycle in cycles {
             let duration = cycle.end_s - cycle.start_s;
             assert!((duration - walk.walk.cycle_s()).abs() < 2e-3, "{side}: {duration} s");
-            assert!(cycle.toe_off_s.is_some());
+            assert!(cycle.foot_off_s.is_some());
         }
     }
     let grid = analysis.trajectory.grid();

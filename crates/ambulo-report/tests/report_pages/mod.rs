@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
-use ambulo::analysis::{PredictionInput, Settings, analyse, analyse_predicted};
+use ambulo::analysis::{AnalysisSettings, PredictionInput, analyse, analyse_predicted};
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
 use ambulo::model::Model;
@@ -40,7 +40,7 @@ pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &Extern
     let motion = coordinates_from_table(&model, &motion, "walk.mot", &mut findings).unwrap();
     let ground = Table::read_storage(ground).unwrap().0;
     let plates = force_recordings(&model, loads, &ground, &mut findings).unwrap();
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),
@@ -86,7 +86,7 @@ pub(crate) fn predicted() -> Files {
     let motion = coordinates_from_table(&model, &table("walk.mot"), "walk.mot", &mut findings).unwrap();
     let loads = ExternalLoads::read(&read("walk_grf.xml")).unwrap().0;
     let plates = force_recordings(&model, &loads, &table("walk_grf.mot"), &mut findings).unwrap();
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),

@@ -1,7 +1,7 @@
 //! The recordings that the fit is judged on, ready to be predicted again and again.
 
 use crate::validate::recording::{self, Group};
-use ambulo::analysis::{Analysis, Compared, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
+use ambulo::analysis::{Analysis, ComparedAnalyses, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::feet;
 use ambulo::ground::predict::{Known, PredictSettings, Prediction, Weights, predict};
@@ -103,7 +103,7 @@ impl Case {
         let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
         let (model, measured) = (&self.outcome.body, &self.measured);
         Some(ground_agreement(
-            &Compared { model, predicted: &found, prediction: &prediction, measured },
+            &ComparedAnalyses { model, predicted: &found, prediction: &prediction, measured },
             &self.coverage,
         ))
     }
