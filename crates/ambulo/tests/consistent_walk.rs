@@ -5,7 +5,7 @@ use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
-use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, gait_signals};
+use ambulo::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, gait_signals};
 use ambulo::simulation::{ImpactLaw, StepSettings};
 use std::sync::LazyLock;
 
@@ -74,7 +74,8 @@ fn nothing_holds_the_trunk_of_a_simulated_walk() {
 fn the_same_curves_unchanged_need_a_hand() {
     let case = &*CASE;
     let settings = ConsistentWalkSettings::default();
-    let ground = Ground { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
+    let ground =
+        GroundContact { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
     let signals = gait_signals(&case.walk, &case.human.model);
     let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
     let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };

@@ -272,7 +272,7 @@ fn a_figure_that_follows_its_walk_by_motors_stays_near_it() {
 }
 
 #[test]
-fn what_only_other_files_show_is_refused_with_its_place() {
+fn what_only_other_files_show_is_rejected_with_its_place() {
     let refusal = |text: &str| built(text).err().map_or_else(|| panic!("a bad scene"), |e| e.to_string());
     let text = alone("", 0.1).replace("\"free\"", "\"none.toml\"");
     assert!(refusal(&text).starts_with("line 10, `figure[1].walk`: none.toml"), "{}", refusal(&text));

@@ -7,7 +7,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
+use ambulo::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
 use ambulo::simulation::{ImpactLaw, Signal, StepSettings};
 use ambulo::spatial::{Vec3, Wrench};
 
@@ -17,17 +17,17 @@ fn human() -> Human {
     Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: false }.human().unwrap()
 }
 
-fn ground(friction: f64) -> Ground {
-    Ground { friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
+fn ground(friction: f64) -> GroundContact {
+    GroundContact { friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
 }
 
-fn walker(gait: &str, human: &Human, ground: &Ground) -> (Walker, f64) {
+fn walker(gait: &str, human: &Human, ground: &GroundContact) -> (Walker, f64) {
     let gait = Gait::named(gait).unwrap();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
     (Walker::new(human, gait_signals(&walk, &human.model), ground, walk.speed()).unwrap(), walk.cycle_s())
 }
 
-fn walked(gait: &str, ground: &Ground, step_s: f64, cycles: f64) -> WalkRecording {
+fn walked(gait: &str, ground: &GroundContact, step_s: f64, cycles: f64) -> WalkRecording {
     let (walker, cycle_s) = walker(gait, &human(), ground);
     let settings = StepSettings { step_s, ..StepSettings::default() };
     walker.walk(&settings, cycles * cycle_s, &mut Findings::default()).unwrap()
