@@ -17,9 +17,12 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
         let holds = if claim.pass { "holds" } else { "fails" };
         print_line(&format!("{:3} {holds}  {}", claim.id, claim.paper))?;
         print_line(&format!("           {} = {:.4}", claim.headline, claim.value()))?;
-        let turned = others.iter().filter(|other| other.turned(claims).contains(&claim.id)).count();
-        if turned > 0 {
-            print_line(&format!("           reversed by {turned} of {} other values: assumptions.csv", others.len()))?;
+        let reversed = others.iter().filter(|other| other.reversed(claims).contains(&claim.id)).count();
+        if reversed > 0 {
+            print_line(&format!(
+                "           reversed by {reversed} of {} other values: assumptions.csv",
+                others.len()
+            ))?;
         }
     }
     let held = claims.iter().filter(|claim| claim.pass).count();
