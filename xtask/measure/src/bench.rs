@@ -1,13 +1,12 @@
-//! How long our inverse dynamics, synthetic walks, ground forces without plates, the stages of the main job and the `ambulo` command
-//! take: `cargo xtask bench`.
+//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo` command:
+//! `cargo xtask bench`.
 //!
-//! Before anything is timed, the torques of the reference human are compared with those of another engine; a time of a
-//! wrong answer is worth nothing. Where other engines are installed (see `peers`) they run right after ours, and the
-//! ratios are printed: between runs the same program moves by up to 30 %, within a run by a few percent.
+//! First, the torques of the reference human are compared with those of another engine, because the time of a wrong result is
+//! meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are printed: between runs, times
+//! of the same program vary by up to 30 %, within a run by a few percent.
 //!
-//! Times of our own code are CPU time of the thread, as the peers' programs measure it, so that other work on the
-//! machine does not count. The `ambulo` command is timed by the clock on the wall, as its user does. Everything is also
-//! written to `target/bench.csv`.
+//! Times of our own code are CPU time of the thread, as in the peers' programs, so that other work on the machine does not count. The
+//! `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
 mod gait;
 mod human;
@@ -83,7 +82,7 @@ fn bench_human(human: &human::Human) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// Times the stages of the main job, then the command.
+/// Times the stages of an analysis, then the command.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
     let mut rows = walk::stages(walk)?;
@@ -107,7 +106,7 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// Ours divided by a peer's, both from this run.
+/// Our time divided by a peer's, both from this run.
 struct Ratio {
     row: Row,
     asked: Option<f64>,

@@ -1,4 +1,4 @@
-//! Synthetic walks: made, made consistent, walked by the simulator as put right and as in 1997.
+//! Times synthetic walks: one cycle of joint curves, the consistent walk, and the simulation in the corrected and in the paper's mode.
 
 use super::timing::{Timing, cpu_us};
 use super::{Row, table, verdict};
@@ -12,13 +12,13 @@ use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 
-/// Rate at which a cycle is made [Hz].
+/// Frame rate of a cycle [Hz].
 const RATE_HZ: f64 = 100.0;
 /// A cycle with its torques takes less than this [ms].
 const ASKED_OF_CYCLE_MS: f64 = 1.0;
 /// A step of the paper's mode takes at most this [us]: 200 times real time at 1 kHz.
 const ASKED_OF_STEP_US: f64 = 5.0;
-/// Steps of the simulator [s], and how many cycles it walks.
+/// Time step of the simulator [s], and number of cycles.
 const STEP_S: f64 = 1e-3;
 const CYCLES: usize = 6;
 /// How often a walk is made consistent: a second each.

@@ -22,7 +22,7 @@ use std::process::Command;
 /// Folder of the peers' environments.
 const ENV_VARIABLE: &str = "AMBULO_PEERS_ENV";
 
-/// A recording, what OpenSim reaches on it and what is asked of us.
+/// A recording with OpenSim's result and our limits.
 struct Case {
     name: &'static str,
     folder: &'static str,

@@ -1,4 +1,4 @@
-//! Ground forces without plates: predicted from a trajectory, behind a fit of markers, and frame by frame.
+//! Times the prediction of ground forces: from a trajectory, including the marker fit, and frame by frame.
 //!
 //! A synthetic walk needs no data; the recording with markers is that of `bench-markers`. No other engine installed here predicts ground
 //! forces, so there is no ratio. What a prediction holds in memory is counted by a test of the library
