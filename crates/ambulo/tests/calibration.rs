@@ -8,7 +8,7 @@ mod common;
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Walk, WalkCoordinates};
 use ambulo::kinematics::calibration::{
-    Calibrated, CalibrationError, Measures, Person, Trial, assume_upright_trunk, calibrate,
+    Calibrated, CalibrationError, Measures, PersonMeasurements, Trial, assume_upright_trunk, calibrate,
 };
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
@@ -37,14 +37,14 @@ fn build() -> Build {
     Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.74, toe_joint: true }
 }
 
-fn person() -> Person {
+fn person() -> PersonMeasurements {
     let measures = Measures {
         marker_radius: Some(RADIUS),
         knee_width: [Some(KNEE_WIDTH); 2],
         ankle_width: [Some(ANKLE_WIDTH); 2],
         ..Measures::default()
     };
-    Person { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measures }
+    PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measures }
 }
 
 /// Plus one on the right.
@@ -190,7 +190,11 @@ fn recognised(recording: &MarkerRecording) -> Recognised {
     MarkerSet::recognise(recording.markers.iter().map(|m| m.name.as_str())).unwrap()
 }
 
-fn measured(recording: &MarkerRecording, trial: Trial, person: &Person) -> Result<Calibrated, CalibrationError> {
+fn measured(
+    recording: &MarkerRecording,
+    trial: Trial,
+    person: &PersonMeasurements,
+) -> Result<Calibrated, CalibrationError> {
     calibrate(recording, trial, &recognised(recording), person, &mut Findings::default())
 }
 
@@ -283,7 +287,7 @@ fn lengths_are_found_from_a_walk_alone() {
 #[test]
 fn a_stature_that_nobody_gave_is_taken_from_the_legs() {
     let human = subject();
-    let unknown = Person { height: None, ..person() };
+    let unknown = PersonMeasurements { height: None, ..person() };
     let body = measured(&standing(&human, &[]), Trial::Standing, &unknown).unwrap();
     // Thigh and shank of the table's man are 0.8625 of 1.741 m.
     assert_near(body.report.height_m, (THIGH + SHANK) / (0.8625 / 1.741), 1e-6, "stature");
@@ -293,7 +297,7 @@ fn a_stature_that_nobody_gave_is_taken_from_the_legs() {
 #[test]
 fn widths_that_nobody_measured_are_taken_from_the_stature_and_said() {
     let human = subject();
-    let unknown = Person { measures: Measures::default(), ..person() };
+    let unknown = PersonMeasurements { measures: Measures::default(), ..person() };
     let recording = standing(&human, &["KNM", "MED"]);
     let mut findings = Findings::default();
     let body = calibrate(&recording, Trial::Standing, &recognised(&recording), &unknown, &mut findings).unwrap();
@@ -354,7 +358,7 @@ fn a_recording_without_what_is_needed_is_refused_by_name() {
     large.markers.iter_mut().flat_map(|m| &mut m.positions).for_each(|p| *p *= 1000.0);
     let large = measured(&large, Trial::Standing, &person()).unwrap_err().to_string();
     assert!(large.contains("unit"), "{large}");
-    let undivided = Person { table: SegmentTable::DempsterWinter, ..person() };
+    let undivided = PersonMeasurements { table: SegmentTable::DempsterWinter, ..person() };
     assert!(matches!(
         measured(&standing(&human, &[]), Trial::Standing, &undivided),
         Err(CalibrationError::NoPelvis { .. })

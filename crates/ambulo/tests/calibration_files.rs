@@ -6,7 +6,7 @@
 mod gait_files;
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{Calibrated, Measures, Person, Trial, calibrate};
+use ambulo::kinematics::calibration::{Calibrated, Measures, PersonMeasurements, Trial, calibrate};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::Side;
@@ -208,8 +208,12 @@ fn opensims_recordings_give_opensims_angles_on_the_built_in_body() {
     for (name, standing, walk, mass, height, knee) in examples {
         let folder = folder.join(name);
         let [standing, walk] = [standing, walk].map(|file| trc(&folder, file));
-        let person =
-            Person { table: SegmentTable::DeLevaMale, mass, height: Some(height), measures: Measures::default() };
+        let person = PersonMeasurements {
+            table: SegmentTable::DeLevaMale,
+            mass,
+            height: Some(height),
+            measures: Measures::default(),
+        };
         // The walk of the first example has no marker on knees and ankles.
         let trials = [(Trial::Standing, &standing), (Trial::Moving, &walk)];
         let trials = &trials[..if name.contains("2392") { 1 } else { 2 }];
@@ -258,7 +262,7 @@ fn a_runner_on_a_treadmill_is_followed() {
     let folder = folder.join("opensim-rajagopal-run");
     let [standing, run] = ["static_run.trc", "motion_capture_run.trc"].map(|file| trc(&folder, file));
     let table = SegmentTable::DeLevaMale;
-    let person = Person { table, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let person = PersonMeasurements { table, mass: 72.84, height: Some(1.80), measures: Measures::default() };
     let known = MarkerSet::recognise(standing.markers.iter().map(|m| m.name.as_str())).unwrap();
     let body = calibrate(&standing, Trial::Standing, &known, &person, &mut Findings::default()).unwrap();
     show(&body);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use ambulo::findings::Findings;
-use ambulo::gait::{Gait, GaitError, Jet, Joint, Laws, Pelvis, Speed, Style, Walk};
+use ambulo::gait::{Gait, GaitError, Jet, Laws, LegJoint, Pelvis, Speed, Style, Walk};
 use proptest::prelude::*;
 
 const LEG: f64 = 0.92;
@@ -333,7 +333,7 @@ fn the_gaits_of_the_document_are_walked() {
 fn the_document_has_every_knot_and_gait() {
     for style in [Style::Knots, Style::Paper1997] {
         let laws = Laws::built_in(style).unwrap();
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             let row = DOCUMENT.lines().find(|line| line.starts_with(&format!("| {} | ", joint.name()))).unwrap();
             for knot in laws.legs.of(joint).knots() {
                 assert!(row.contains(&knot.name), "{row} lacks {}", knot.name);

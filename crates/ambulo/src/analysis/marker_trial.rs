@@ -50,7 +50,7 @@ pub enum BodySource<'a> {
     /// The built-in body, calibrated for the person.
     BuiltIn {
         /// Known data of the person.
-        person: &'a calibration::Person,
+        person: &'a calibration::PersonMeasurements,
         /// The marker set; `None`: recognised from the marker names.
         set: Option<&'a MarkerSet>,
     },
@@ -287,7 +287,7 @@ impl Subject {
     fn built_in(
         moving: &MarkerRecording,
         standing: Option<&MarkerRecording>,
-        person: &calibration::Person,
+        person: &calibration::PersonMeasurements,
         set: Option<&MarkerSet>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {

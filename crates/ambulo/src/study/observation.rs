@@ -267,11 +267,11 @@ impl MarkerSource {
     }
 
     /// What is known about the person, for the built-in body.
-    fn person(&self, findings: &mut Findings) -> Result<calibration::Person, StudyError> {
+    fn person(&self, findings: &mut Findings) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| standing.as_ref().and_then(of).or_else(|| of(trial));
-        Ok(calibration::Person {
+        Ok(calibration::PersonMeasurements {
             table: *table,
             mass: built_in_mass_kg(self, findings).ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),

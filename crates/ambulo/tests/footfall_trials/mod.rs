@@ -14,7 +14,7 @@ use ambulo::analysis::{BodySource, LaboratoryRecording, MarkerTrial, body_in_mot
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts;
 use ambulo::kinematics::Trajectory;
-use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::calibration::{Measures, PersonMeasurements};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::anthropometry::SegmentTable;
@@ -204,8 +204,12 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         forces: forces_of(&small, &by_angles),
         all_seen: true,
     };
-    let person =
-        Person { table: SegmentTable::DeLevaMale, mass: 72.84, height: Some(1.80), measures: Measures::default() };
+    let person = PersonMeasurements {
+        table: SegmentTable::DeLevaMale,
+        mass: 72.84,
+        height: Some(1.80),
+        measures: Measures::default(),
+    };
     let runner = BodySource::BuiltIn { person: &person, set: None };
     let (markers, still) = (trc(run, "motion_capture_run.trc"), trc(run, "static_run.trc"));
     vec![

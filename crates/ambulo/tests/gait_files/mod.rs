@@ -10,7 +10,7 @@
 mod shared_data;
 
 use ambulo::findings::Findings;
-use ambulo::kinematics::calibration::{Measures, Person};
+use ambulo::kinematics::calibration::{Measures, PersonMeasurements};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::{MarkerRecording, markers_from_c3d};
@@ -24,7 +24,7 @@ pub(crate) struct Subject {
     pub(crate) name: &'static str,
     pub(crate) standing: File,
     pub(crate) walk: File,
-    pub(crate) person: Person,
+    pub(crate) person: PersonMeasurements,
 }
 
 /// A C3D file and its markers in world axes.
@@ -71,7 +71,7 @@ fn subject(name: &'static str, table: SegmentTable, standing: &str, walk: &str) 
     let mass = standing.processing("Bodymass").unwrap();
     let height = standing.processing("Height").map(|mm| 0.001 * mm);
     let measures = Measures::from_processing(|name| standing.processing(name));
-    Some(Subject { name, standing, walk, person: Person { table, mass, height, measures } })
+    Some(Subject { name, standing, walk, person: PersonMeasurements { table, mass, height, measures } })
 }
 
 pub(crate) fn woman() -> Option<Subject> {

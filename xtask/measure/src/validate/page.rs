@@ -26,8 +26,8 @@ pub(super) fn text(trials: &[Trial]) -> String {
          Per foot over its whole stances on plates (vertical above 20 N); RMSE in % of body weight, rRMSE over the mean of the two \
          ranges, Pearson's r. Fore-aft is along the walking direction, in turns that of the pelvis in that stance. Centres of \
          pressure where the plate carries more than 5 % of body weight. Moments of a leg over the instrumented window \
-         foot, and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
-         `walking` makes the means.\n"
+         and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
+         `walking` determines the means.\n"
     );
     let sections = [
         ("Criteria", criteria(trials)),
@@ -49,7 +49,7 @@ fn number(x: f64, digits: usize) -> String {
 
 fn criteria(trials: &[Trial]) -> String {
     let mut table = Table::new(&["quantity", "criterion", "result", "verdict"]);
-    for entry in criteria_of(trials) {
+    for entry in all_criteria(trials) {
         let Criterion { what, result, allowed, digits } = entry;
         let criterion = match allowed {
             [Some(least), Some(most)] => format!("{} to {}", number(least, digits), number(most, digits)),
@@ -64,11 +64,10 @@ fn criteria(trials: &[Trial]) -> String {
     table.text()
 }
 
-fn criteria_of(trials: &[Trial]) -> Vec<Criterion> {
+fn all_criteria(trials: &[Trial]) -> Vec<Criterion> {
     let mean = |figure| over_subjects(trials, figure, |trial| Some(&trial.agreement));
-    let mut criteria_of = Vec::new();
-    let mut add =
-        |what: String, result: f64, allowed, digits| criteria_of.push(Criterion { what, result, allowed, digits });
+    let mut list = Vec::new();
+    let mut add = |what: String, result: f64, allowed, digits| list.push(Criterion { what, result, allowed, digits });
     let of_forces = [(5.0, 4.0, 0.99), (2.8, 8.5, 0.97), (1.5, 12.0, 0.88)];
     for (k, (rmse, relative, r)) in of_forces.into_iter().enumerate() {
         let name = COMPONENTS[k];
@@ -110,7 +109,7 @@ fn criteria_of(trials: &[Trial]) -> Vec<Criterion> {
     }
     let slowest = trials.iter().map(|trial| trial.microseconds).fold(0.0, f64::max);
     add("prediction, microseconds a frame, slowest recording".to_owned(), slowest, [None, Some(20.0)], 1);
-    criteria_of
+    list
 }
 
 fn forces(trials: &[Trial]) -> String {

@@ -3,7 +3,7 @@
 use super::CalibrationError;
 use super::axes::{angles_zxy, beside, direction, from_y_z};
 use super::pelvis::Pelvis;
-use super::person::{Person, of};
+use super::person::{PersonMeasurements, of};
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
@@ -93,7 +93,7 @@ pub(super) fn find(
     sight: &Sight<'_>,
     frames: &[usize],
     pelvis: &Pelvis,
-    person: &Person,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Result<Legs, CalibrationError> {
     let mut legs = [None, None];
@@ -121,7 +121,13 @@ pub(super) fn find(
 }
 
 /// Breadths of knee and ankle [m] with whether they were measured.
-fn breadths(sight: &Sight<'_>, frames: &[usize], pelvis: &Pelvis, person: &Person, side: Side) -> [(f64, bool); 2] {
+fn breadths(
+    sight: &Sight<'_>,
+    frames: &[usize],
+    pelvis: &Pelvis,
+    person: &PersonMeasurements,
+    side: Side,
+) -> [(f64, bool); 2] {
     let measured = [of(&person.measures.knee_width, side), of(&person.measures.ankle_width, side)];
     let stature = person.height.or_else(|| rough_stature(sight, frames, pelvis, side)).unwrap_or(f64::NAN);
     let usual = [KNEE_BREADTH * stature, ANKLE_BREADTH * stature];

@@ -42,7 +42,7 @@ mod trunk;
 mod upright;
 
 pub use error::CalibrationError;
-pub use person::{Measures, Person};
+pub use person::{Measures, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlace, SegmentScale};
 pub use upright::assume_upright_trunk;
@@ -74,7 +74,7 @@ pub fn calibrate(
     recording: &MarkerRecording,
     trial: Trial,
     recognised: &Recognised,
-    person: &Person,
+    person: &PersonMeasurements,
     findings: &mut Findings,
 ) -> Result<Calibrated, CalibrationError> {
     if person.table.is_undivided() {

@@ -5,7 +5,7 @@ use crate::model::anthropometry::SegmentTable;
 
 /// A person: whose body is built.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Person {
+pub struct PersonMeasurements {
     /// Whose segments: masses by this table.
     pub table: SegmentTable,
     /// Body mass [kg].

@@ -2,7 +2,7 @@
 
 use super::axes::{about_z, direction, fitted, from_y_x, from_y_z, inside, median_point};
 use super::pelvis::Pelvis;
-use super::person::{Person, of};
+use super::person::{PersonMeasurements, of};
 use super::sight::Sight;
 use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
@@ -61,7 +61,7 @@ pub(super) fn find(
     frames: &[usize],
     pelvis: &Pelvis,
     dimensions: &Dimensions,
-    person: &Person,
+    person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Trunk {
     let finder = Finder { sight, frames, dimensions, person };
@@ -96,7 +96,7 @@ struct Finder<'a> {
     sight: &'a Sight<'a>,
     frames: &'a [usize],
     dimensions: &'a Dimensions,
-    person: &'a Person,
+    person: &'a PersonMeasurements,
 }
 
 impl Finder<'_> {
