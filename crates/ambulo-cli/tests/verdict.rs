@@ -73,7 +73,7 @@ fn an_invalid_thresholds_file_is_rejected() {
     bench.write("a.toml", "[friction]\navailable = \"much\"\n");
     refused("a.toml", &["a.toml: line 2, `friction.available`: found \"much\"; expected a number from 0 to 5"]);
     bench.write("a.toml", "[frictoin]\n");
-    refused("a.toml", &["a.toml: line 1, `frictoin`: unknown key", "hint: is `friction` meant?"]);
+    refused("a.toml", &["a.toml: line 1, `frictoin`: unknown key", "hint: did you mean `friction`?"]);
     bench.write("a.toml", [0xff, 0xfe]);
     refused("a.toml", &["a.toml"]);
     refused("none.toml", &["none.toml: there is no such file"]);

@@ -226,7 +226,7 @@ fn impossible_walks_are_rejected() {
     }
     refused(&["--mass", "20"], &["20 kg at 1.75 m; expected"]);
     refused(&["--gait", "moonwalk"], &["--gait", "found `moonwalk`", "standard, long, short, goose, slow, free, fast"]);
-    refused(&["--gait", "gose"], &["hint: is `goose` meant?"]);
+    refused(&["--gait", "gose"], &["hint: did you mean `goose`?"]);
     refused(&["--style", "2024"], &["--style: found `2024`; expected one of knots, 1997"]);
     refused(&["--figure", "barbie"], &["--figure", "no figure is named `barbie`", "de-leva-male"]);
     refused(&["--cycles", "0"], &["found 0 cycles; expected 1 to 1000"]);
@@ -241,7 +241,7 @@ fn impossible_walks_are_rejected() {
         assert!(run.code == Some(2) && run.stderr.contains(words), "{args:?}: {}", run.stderr);
     }
     bench.write("limits.toml", "[frictoin]\n");
-    refused(&["--thresholds", "limits.toml"], &["limits.toml: line 1", "hint: is `friction` meant?"]);
+    refused(&["--thresholds", "limits.toml"], &["limits.toml: line 1", "hint: did you mean `friction`?"]);
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn errors_in_gait_files_are_reported_with_their_line() {
     };
     refused("speed = 0\n", &["gait.toml", "speed"]);
     refused("speed = \"quick\"\n", &["gait.toml: line 1", "quick"]);
-    refused("sped = 1.2\n", &["gait.toml: line 1", "hint: is `speed` meant?"]);
+    refused("sped = 1.2\n", &["gait.toml: line 1", "hint: did you mean `speed`?"]);
     refused("style = \"2024\"\n", &["gait.toml: line 1", "2024"]);
     refused("= 3\n", &["gait.toml: line 1", "this is not TOML"]);
     let overlapping = "[[knot]]\njoint = \"knee\"\nknot = \"stance peak\"\nphase = 0.5\n";

@@ -1,4 +1,4 @@
-//! Walks that need no hand to hold them: the plan, the walk stepped through time, and what must not depend on anything.
+//! Dynamically consistent walks: the planned motion, its simulation, and invariances.
 
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
@@ -101,7 +101,7 @@ fn feet_carry_the_weight_and_never_fly() {
 }
 
 #[test]
-fn standing_feet_stay_where_they_are() {
+fn feet_in_stance_stay_in_place() {
     let case = &*CASE;
     let cycle = last_cycle(&case.recording, &case.walk);
     let Some(slip) = case.recording.stance_slip(cycle.start - cycle.len()) else { panic!("no whole stance") };
@@ -146,7 +146,7 @@ fn the_plan_and_the_simulation_agree() {
 }
 
 #[test]
-fn momentum_changes_by_what_the_feet_push() {
+fn ground_forces_explain_the_change_of_momentum() {
     let case = &*CASE;
     let model = &case.human.model;
     let mut worst = 0.0_f64;

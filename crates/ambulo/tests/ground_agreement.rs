@@ -1,10 +1,10 @@
-//! Predicted forces against plates: the metrics themselves.
+//! Metrics of the agreement of predicted with measured forces.
 //!
 //! | claim                                              | tolerance and its reason                    |
 //! |----------------------------------------------------|---------------------------------------------|
-//! | forces against themselves differ by nothing        | rounding                                    |
-//! | forces a tenth larger differ by a tenth            | rounding                                    |
-//! | a stance beside the plates bars its time           | a frame                                     |
+//! | equal forces have no difference                    | rounding                                    |
+//! | forces 10 % larger differ by 10 %                  | rounding                                    |
+//! | a stance outside the plates is not in the window   | a frame                                     |
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -43,7 +43,7 @@ fn seen(predicted: &PredictedAnalysis, plates: &[ForceRecording]) -> PlateCovera
     PlateCoverage::by_load(predicted.measured.as_ref().unwrap(), plates, &predicted.prediction.footfalls)
 }
 
-/// The plates' own forces, changed, as if they were a prediction.
+/// Agreement of the measured forces, changed, with themselves.
 fn against(change: impl Fn(&mut Analysis)) -> GroundAgreement {
     let whole = predicted(&WALK.loads);
     let measured = whole.measured.as_ref().unwrap();
@@ -54,13 +54,13 @@ fn against(change: impl Fn(&mut Analysis)) -> GroundAgreement {
     ground_agreement(&compared, &seen(&whole, &WALK.loads))
 }
 
-/// Each foot's forces as the plates have them.
+/// Measured forces of each foot.
 fn of_feet(analysis: &Analysis) -> Vec<BodyForces> {
     feet(&WALK.human.model, &analysis.ground).into_iter().map(|(_, forces)| forces).collect()
 }
 
 #[test]
-fn forces_against_themselves_differ_by_nothing() {
+fn equal_forces_have_no_difference() {
     let same = against(|_| ());
     assert_eq!(same.feet.iter().map(|foot| foot.side.letter()).collect::<String>(), "rl");
     for foot in &same.feet {
@@ -76,7 +76,7 @@ fn forces_against_themselves_differ_by_nothing() {
 }
 
 #[test]
-fn forces_a_tenth_larger_differ_by_a_tenth() {
+fn forces_ten_percent_larger_differ_by_ten_percent() {
     let larger = against(|analysis| {
         for foot in &mut analysis.ground.bodies {
             foot.force.iter_mut().for_each(|force| *force *= 1.1);
@@ -99,7 +99,7 @@ fn forces_a_tenth_larger_differ_by_a_tenth() {
 }
 
 #[test]
-fn feet_that_are_exchanged_do_not_agree() {
+fn exchanged_feet_do_not_agree() {
     let exchanged = against(|analysis| {
         let [right, left] = &of_feet(analysis)[..] else { panic!("two feet") };
         let (mut on_right, mut on_left) = (left.clone(), right.clone());
@@ -113,7 +113,7 @@ fn feet_that_are_exchanged_do_not_agree() {
 }
 
 #[test]
-fn a_stance_beside_the_plates_bars_its_time() {
+fn a_stance_outside_the_plates_is_not_in_the_window() {
     let grid = WALK.trajectory.grid();
     let whole = predicted(&WALK.loads);
     let [from, to] = seen(&whole, &WALK.loads).window.unwrap();
@@ -144,7 +144,7 @@ fn a_stance_beside_the_plates_bars_its_time() {
 }
 
 #[test]
-fn beyond_their_recording_plates_say_nothing() {
+fn beyond_their_recording_plates_are_not_compared() {
     let grid = WALK.trajectory.grid();
     let middle = 0.5 * (grid.start_s + grid.end_s());
     let mut plates = WALK.loads.clone();
@@ -159,7 +159,7 @@ fn beyond_their_recording_plates_say_nothing() {
     let measured = of_feet(partly.measured.as_ref().unwrap());
     let after = |i: &usize| grid.time(*i) > middle + grid.step_s * 1.5;
     let total = |i: usize| measured.iter().map(|foot| foot.force[i].norm()).sum::<f64>();
-    assert!((0..grid.frames).filter(after).all(|i| total(i) < f64::MIN_POSITIVE), "a force that nobody measured");
+    assert!((0..grid.frames).filter(after).all(|i| total(i) < f64::MIN_POSITIVE), "a force that was not measured");
     assert!((0..grid.frames).filter(|i| grid.time(*i) < middle).all(|i| total(i) > 300.0));
     let found = seen(&partly, &plates);
     assert!(found.window.unwrap()[1] <= middle && found.stances.iter().all(|(_, s)| s[1] <= middle), "{found:?}");

@@ -81,13 +81,13 @@ fn refusal(text: &str) -> SceneError {
     SceneFile::parse(text).expect_err("a bad scene")
 }
 
-/// What is said of the good scene after one replacement.
+/// The error of the valid scene after one replacement.
 fn said(from: &str, to: &str) -> String {
     assert_eq!(GOOD.matches(from).count(), 1, "{from:?} stands once");
     refusal(&GOOD.replace(from, to)).to_string()
 }
 
-/// What is said of the good scene with more at its end.
+/// The error of the valid scene with text appended.
 fn said_with(end: &str) -> String {
     refusal(&format!("{GOOD}{end}")).to_string()
 }
@@ -307,7 +307,7 @@ fn degrees_become_radians_and_radians_stay() {
 }
 
 #[test]
-fn blows_that_stick_go_with_steps_of_impulses_alone() {
+fn sticking_impacts_require_steps_of_impulses() {
     let scene = |more: &str| {
         format!("step = 0.001\nduration = 1\n{more}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n")
     };
@@ -444,7 +444,7 @@ fn figures_materials_and_obstacles_read_as_they_say() {
 
 // ---- uniform solids ----
 
-/// Inertia about the mass centre of a body of 1 kg with these shapes, as the scene has it.
+/// Inertia about the mass centre of a body of 1 kg with these shapes in a scene.
 fn inertia_of(shapes: &str) -> Mat3 {
     let text = format!("step = 1\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\nshape = {shapes}\n");
     parse(&text).bodies[0].inertia.about_center()
@@ -521,20 +521,20 @@ fn an_unknown_key_is_rejected_with_those_that_are_known() {
     assert_eq!(
         said("mass = 2\n", "mas = 2\n"),
         "line 15, `body[1].mas`: unknown key; expected `name`, `mass`, `inertia`, `position`, `rotation`, \
-         `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: is `mass` meant?"
+         `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: did you mean `mass`?"
     );
     assert_eq!(
         said("friction = 0.9", "frcition = 0.9"),
         "line 6, `material.rubber.frcition`: unknown key; expected `law`, `friction`, `restitution`. \
-         hint: is `friction` meant?"
+         hint: did you mean `friction`?"
     );
     assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: unknown key; expected `title`"));
-    assert!(said("[[event]]", "[[evnt]]").ends_with("hint: is `event` meant?"));
+    assert!(said("[[event]]", "[[evnt]]").ends_with("hint: did you mean `event`?"));
     assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: unknown key"));
 }
 
 #[test]
-fn a_missing_key_is_rejected_with_what_it_means() {
+fn a_missing_key_is_rejected_with_its_meaning() {
     assert_eq!(
         said("step = 0.001\n", ""),
         "line 1, `step`: found no `step`; expected the time step [s], such as 0.001"
@@ -605,7 +605,7 @@ fn numbers_that_are_not_finite_are_rejected() {
 }
 
 #[test]
-fn steps_and_durations_above_zero_are_asked_for() {
+fn steps_and_durations_must_be_above_zero() {
     let step = |text: &str| said("step = 0.001", text);
     assert_eq!(step("step = 0"), "line 2, `step`: found 0; expected a number above zero");
     assert_eq!(step("step = -0.001"), "line 2, `step`: found -0.001; expected a number above zero");
@@ -641,18 +641,18 @@ fn values_of_another_kind_are_rejected() {
     assert_eq!(
         said("kind = \"ball\"\nparent", "kind = \"bal\"\nparent"),
         "line 37, `joint[2].kind`: found \"bal\"; expected one of \"weld\", \"revolute\", \"universal\", \"ball\", \
-         \"prismatic\", \"planar\", \"free\". hint: is \"ball\" meant?"
+         \"prismatic\", \"planar\", \"free\". hint: did you mean \"ball\"?"
     );
     let axis = said("axis = [0, 0, 1]", "axis = [0, 0, 0]");
     assert_eq!(axis, "line 31, `joint[1].axis`: found [0, 0, 0]; expected a direction [x, y, z] longer than zero");
 }
 
 #[test]
-fn names_that_stand_for_nothing_are_rejected() {
+fn unknown_names_are_rejected() {
     assert_eq!(
         said("parent = \"upper\"", "parent = \"uper\""),
         "line 38, `joint[2].parent`: found \"uper\"; expected \"world\", a body, or \"figure/body\". \
-         hint: is \"upper\" meant?"
+         hint: did you mean \"upper\"?"
     );
     assert_eq!(
         said("child = \"lower\"", "child = \"shin\""),
@@ -667,14 +667,14 @@ fn names_that_stand_for_nothing_are_rejected() {
     assert_eq!(
         said("material = \"rubber\"", "material = \"ruber\""),
         "line 11, `obstacle[1].material`: found \"ruber\"; expected one of \"default\", \"rubber\". \
-         hint: is \"rubber\" meant?"
+         hint: did you mean \"rubber\"?"
     );
     assert!(
         said("remove = \"string\"", "remove = \"rope\"").contains("expected a closure or a joint. hint: the names")
     );
     let events = said("remove = \"string\"", "add = \"knee\"");
     assert_eq!(events, "line 51, `event[1].add`: found \"knee\"; expected a closure. hint: \"knee\" is a joint");
-    assert!(said_with("[output]\nplot = [\"joint:kne\"]\n").ends_with("hint: is \"knee\" meant?"));
+    assert!(said_with("[output]\nplot = [\"joint:kne\"]\n").ends_with("hint: did you mean \"knee\"?"));
 }
 
 #[test]
@@ -709,7 +709,7 @@ fn joints_that_form_no_tree_are_rejected() {
 }
 
 #[test]
-fn a_circle_that_does_not_hold_the_first_joint_is_found() {
+fn a_cycle_without_the_first_joint_is_detected() {
     let bodies: String =
         (0..5).map(|i| format!("[[body]]\nname = \"b{i}\"\nmass = 1\ninertia = [1, 1, 1]\n")).collect();
     let joints: String = [("b1", "b0"), ("b2", "b1"), ("b3", "b2"), ("b1", "b3")]
@@ -881,7 +881,7 @@ fn figures_and_pairs_that_make_no_sense_are_rejected() {
     let ignore = |pair: &str| said_with(&format!("[[ignore]]\npair = {pair}\n"));
     assert_eq!(ignore("[\"upper\"]"), "line 53, `ignore[1].pair`: found [\"upper\"]; expected two names");
     assert!(ignore("[\"upper\", \"upper\"]").contains("expected two different names"));
-    assert!(ignore("[\"upper\", \"flor\"]").ends_with("hint: is \"floor\" meant?"));
+    assert!(ignore("[\"upper\", \"flor\"]").ends_with("hint: did you mean \"floor\"?"));
 }
 
 #[test]
@@ -894,7 +894,7 @@ fn an_error_from_later_reads_the_same_way() {
     );
 }
 
-/// A figure that the program builds; the text of `build` stands in line 4.
+/// A built-in figure; `build` is in line 4.
 fn person(build: &str, more: &str) -> String {
     format!("step = 1\nduration = 1\n[[figure]]\nbuild = {build}\nname = \"ann\"\n{more}\n")
 }
@@ -950,7 +950,11 @@ fn built_figures_that_make_no_sense_are_rejected() {
         (ANN, "walk = { gait = \"trot\" }", "line 6, `figure[1].walk.gait`: found \"trot\"; expected a path that ends"),
         (ANN, "walk = { speed = 0 }", "`figure[1].walk.speed`: found 0; expected a number above zero"),
         (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),
-        (ANN, "walk = { mode = \"curve\" }", "expected one of \"corrected\", \"curves\". hint: is \"curves\" meant?"),
+        (
+            ANN,
+            "walk = { mode = \"curve\" }",
+            "expected one of \"corrected\", \"curves\". hint: did you mean \"curves\"?",
+        ),
         (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
         (
             ANN,
@@ -1071,7 +1075,7 @@ fn seeds() -> Vec<String> {
     examples().into_iter().map(|(_, text)| text).chain([GOOD.to_owned()]).collect()
 }
 
-/// Whatever is said of a text points into it.
+/// The line of every error is in the text.
 fn survives(text: &str) -> Result<(), TestCaseError> {
     if let Err(error) = SceneFile::parse(text) {
         prop_assert!(error.line >= 1 && error.line <= text.matches('\n').count() + 1, "{}", error);

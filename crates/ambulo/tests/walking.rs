@@ -1,4 +1,4 @@
-//! Walking figures: forces against inverse dynamics, momentum, symmetry, the laws of contact, and what is refused.
+//! Walking figures: forces compared with inverse dynamics, momentum, symmetry, contact laws, and invalid figures.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
@@ -161,7 +161,7 @@ fn the_same_walk_has_the_same_bits() {
 }
 
 #[test]
-fn figures_that_cannot_walk_are_refused() {
+fn invalid_figures_are_rejected() {
     let human = human();
     let none = Walker::new(&human, vec![Signal::Constant(0.0)], &ground(1.0), 1.0);
     assert_eq!(none.unwrap_err(), WalkingError::Signals { found: 1, expected: human.model.coordinates().len() });

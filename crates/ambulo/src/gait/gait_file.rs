@@ -177,7 +177,7 @@ fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChang
         let quoted: Vec<String> = known().map(|name| format!("\"{name}\"")).collect();
         let error = value.wrong(&format!("one of the {}'s knots {}", joint.name(), quoted.join(", ")));
         return Err(match nearest(knot, known()) {
-            Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+            Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
             None => error,
         });
     }

@@ -235,7 +235,7 @@ fn goose_changes() -> Vec<KnotChange> {
 
 fn unknown_gait(name: &str) -> GaitError {
     let hint = match nearest(name, Gait::NAMES.into_iter()) {
-        Some(near) => format!(". hint: is `{near}` meant?"),
+        Some(near) => format!(". hint: did you mean `{near}`?"),
         None => String::from(", or a TOML file (docs/GAITS.md)"),
     };
     GaitError::UnknownGait { name: name.to_owned(), known: Gait::NAMES.join(", "), hint }

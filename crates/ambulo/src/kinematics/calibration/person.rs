@@ -1,22 +1,22 @@
-//! What is known of a person besides the markers.
+//! Known measurements of a person, in addition to the markers.
 
 use crate::model::Side;
 use crate::model::anthropometry::SegmentTable;
 
-/// A person: whose body is built.
+/// Mass, stature and measurements of the person whose body is calibrated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PersonMeasurements {
-    /// Whose segments: masses by this table.
+    /// Table of the segment masses.
     pub table: SegmentTable,
     /// Body mass [kg].
     pub mass: f64,
-    /// Stature [m]; estimated from the legs if it is not known.
+    /// Stature [m]; estimated from the legs if unknown.
     pub height: Option<f64>,
-    /// What was measured on the body.
+    /// Measurements of the body.
     pub measures: Measures,
 }
 
-/// Measures of a body [m], right before left; `None` where nobody measured.
+/// Measurements of a body [m], right before left; `None` if not measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Measures {
     /// Radius of the markers.
@@ -31,7 +31,7 @@ pub struct Measures {
     pub shoulder_offset: [Option<f64>; 2],
 }
 
-/// Radius of a marker when nothing is said [m]: 14 mm across is the usual size.
+/// Default radius of a marker [m]: the usual diameter is 14 mm.
 pub(super) const MARKER_RADIUS: f64 = 0.007;
 
 impl Measures {
