@@ -29,7 +29,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) output: PathBuf,
     /// The part of a C3D that is written to .csv [default: markers].
     #[arg(long, value_enum)]
-    pub(crate) what: Option<What>,
+    pub(crate) what: Option<C3dPart>,
     /// Rotate markers to x forward, y up, z right (ground forces always are in these axes).
     #[arg(long)]
     pub(crate) world: bool,
@@ -45,7 +45,7 @@ pub(crate) struct ConvertArgs {
 
 /// A part of a C3D.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum What {
+pub(crate) enum C3dPart {
     /// Marker positions [m].
     Markers,
     /// Analog channels, in their own units.

@@ -1,7 +1,7 @@
 //! Options of `ambulo forces`.
 
 use super::PrintArgs;
-use super::values::{CarriedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::values::{AddedMassArg, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -83,7 +83,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) device: Option<PathBuf>,
     /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
-    pub(crate) add_mass: Vec<CarriedMass>,
+    pub(crate) add_mass: Vec<AddedMassArg>,
     /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,

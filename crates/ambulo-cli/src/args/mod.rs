@@ -7,7 +7,7 @@ mod tools;
 mod values;
 mod walk;
 
-pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
+pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Consistency, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};

@@ -119,19 +119,19 @@ impl FromStr for PlateFoot {
 
 /// A mass carried by the person.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CarriedMass(pub(crate) AddedMass);
+pub(crate) struct AddedMassArg(pub(crate) AddedMass);
 
-impl fmt::Display for CarriedMass {
+impl fmt::Display for AddedMassArg {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let CarriedMass(AddedMass { body, mass_kg, position_m }) = self;
+        let AddedMassArg(AddedMass { body, mass_kg, position_m }) = self;
         let [x, y, z]: [f64; 3] = (*position_m).into();
         write!(f, "{body}:{mass_kg}:{x},{y},{z}")
     }
 }
 
-impl FromStr for CarriedMass {
+impl FromStr for AddedMassArg {
     type Err = String;
-    fn from_str(text: &str) -> Result<CarriedMass, String> {
+    fn from_str(text: &str) -> Result<AddedMassArg, String> {
         let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
         let mut parts = text.split(':');
         let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
@@ -144,7 +144,7 @@ impl FromStr for CarriedMass {
         };
         match (position[..].try_into(), parts.next()) {
             (Ok::<[f64; 3], _>(position), None) if !body.is_empty() => {
-                Ok(CarriedMass(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
+                Ok(AddedMassArg(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
             }
             _ => Err(expected()),
         }

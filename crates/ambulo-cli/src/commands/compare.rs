@@ -2,19 +2,19 @@
 
 use crate::args::CompareArgs;
 use crate::printer::ComparedColumn;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::{Curve, compare};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 
-pub(crate) fn run(args: &CompareArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &CompareArgs) -> Result<Completion> {
     let (a, _) = files::read_table(&args.a)?;
     let (b, _) = files::read_table(&args.b)?;
     let columns = columns(args, &a, &b)?;
     let rows = columns.iter().map(|name| row(args, &a, &b, name)).collect::<Result<Vec<_>>>()?;
     printer::compare(&rows, args.limit, args.print)?;
     let refused = rows.iter().any(|row| row.within_limit == Some(false));
-    Ok(if refused { Verdict::Refused } else { Verdict::Accepted })
+    Ok(if refused { Completion::Failed } else { Completion::Passed })
 }
 
 fn columns(args: &CompareArgs, a: &Table, b: &Table) -> Result<Vec<String>> {

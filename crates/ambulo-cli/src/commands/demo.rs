@@ -3,7 +3,7 @@
 use super::stopwatch::Stopwatch;
 use super::walk::{SyntheticRun, default_build};
 use crate::args::DemoArgs;
-use crate::{Verdict, files};
+use crate::{Completion, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
@@ -14,7 +14,7 @@ use ambulo_results::Convention;
 use anyhow::Result;
 use std::path::Path;
 
-pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let gait = Gait::named("free")?;

@@ -2,7 +2,7 @@
 
 use crate::args::EventsArgs;
 use crate::printer::{EventSource, SourceAgreement};
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::{LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
@@ -18,7 +18,7 @@ use anyhow::{Context, Result, bail};
 use std::fmt::Write;
 use std::fs;
 
-pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     let bytes = files::read(&args.input)?;
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
         files::write(output, csv(&sources).as_bytes())?;
     }
     printer::events(&sources, &agreements(&sources), &findings, args.print)?;
-    Ok(Verdict::Accepted)
+    Ok(Completion::Passed)
 }
 
 fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {

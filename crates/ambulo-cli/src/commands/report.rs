@@ -2,7 +2,7 @@
 
 use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;
 use ambulo_results::Folder;
@@ -16,7 +16,7 @@ pub(super) const PAGE: &str = "report.html";
 /// Further folders that a page can show.
 const MOST_COMPARED: usize = 2;
 
-pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ReportArgs) -> Result<Completion> {
     let folders: Vec<&Path> = std::iter::once(&args.folder).chain(&args.compare).map(PathBuf::as_path).collect();
     if args.compare.len() > MOST_COMPARED {
         bail!("--compare: found {} folders; expected at most {MOST_COMPARED}", args.compare.len());
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
     }
     files::write(&output, page_of_folders(&folders)?.as_bytes())?;
     printer::report(&output, args.print)?;
-    Ok(Verdict::Accepted)
+    Ok(Completion::Passed)
 }
 
 /// The page of result folders, from their files.

@@ -1,7 +1,7 @@
 //! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
@@ -9,7 +9,7 @@ use ambulo_report::{reproduction_files, reproduction_page};
 use anyhow::Result;
 use std::time::Instant;
 
-pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     json.push(b'\n');
     files::write(&args.output.join("claims.json"), &json)?;
     printer::reproduce(&claims, &others, &args.output, args.print)?;
-    Ok(Verdict::Accepted)
+    Ok(Completion::Passed)
 }
 
 fn gather(name: &str, mode: &mut Mode<'_>, clock: &dyn Fn() -> f64, args: &ReproduceArgs) -> Result<Evidence> {

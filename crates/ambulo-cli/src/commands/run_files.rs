@@ -3,7 +3,7 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::PrintArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
@@ -30,7 +30,7 @@ pub(super) struct RunFiles<'a> {
 
 impl RunFiles<'_> {
     /// Writes all files and prints the outcome.
-    pub(super) fn write(self, output: &Path, print: PrintArgs) -> Result<Verdict> {
+    pub(super) fn write(self, output: &Path, print: PrintArgs) -> Result<Completion> {
         let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
         let mut written = outcome_tables(outcome)?;
         let (clinical, convention) = clinical_file(outcome, convention)?;
@@ -49,7 +49,7 @@ impl RunFiles<'_> {
         summary.timing_ms = clock.into_laps();
         files::write(&output.join("summary.json"), &json(&summary)?)?;
         printer::forces(&summary, output, print)?;
-        Ok(if outcome.verdict.feasible { Verdict::Accepted } else { Verdict::Refused })
+        Ok(if outcome.verdict.feasible { Completion::Passed } else { Completion::Failed })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// More steps than this are a mistake of the user.
 const MOST_STEPS: f64 = 1e9;
 
-pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
     }
     write_json(&args.output.join("summary.json"), &summary)?;
     printer::simulate(&summary, &args.output, args.print)?;
-    Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
+    Ok(if feasible { Completion::Passed } else { Completion::Failed })
 }
 
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.

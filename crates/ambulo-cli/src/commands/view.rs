@@ -2,17 +2,17 @@
 
 use super::report::{PAGE, page_of_folders};
 use crate::args::ViewArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &ViewArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ViewArgs) -> Result<Completion> {
     let page = page(&args.page)?;
     // The browser may run in another folder.
     let page = page.canonicalize().unwrap_or(page);
     let opened = has_screen() && open::that_detached(&page).is_ok();
     printer::view(&page, opened, args.print)?;
-    Ok(Verdict::Accepted)
+    Ok(Completion::Passed)
 }
 
 /// The page to open; it is written if a result folder has none.

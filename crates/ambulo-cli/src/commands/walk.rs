@@ -3,7 +3,7 @@
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
@@ -18,7 +18,7 @@ use anyhow::{Context, Result};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let (gait, mut read) = gait(&args.gait)?;
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
             let file = gait_file(&walk)?;
             files::write(&output.join(&file.name), &file.bytes)?;
         }
-        return printer::states(&state_table(&walk), &findings, args.print).map(|()| Verdict::Accepted);
+        return printer::states(&state_table(&walk), &findings, args.print).map(|()| Completion::Passed);
     }
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
@@ -70,7 +70,7 @@ impl SyntheticRun<'_> {
         mut clock: Stopwatch,
         output: &Path,
         print: PrintArgs,
-    ) -> Result<Verdict> {
+    ) -> Result<Completion> {
         let settings = Settings { thresholds: self.thresholds.clone(), ..Settings::default() };
         let mut watch = |stage: Stage| {
             clock.lap(stage.word());

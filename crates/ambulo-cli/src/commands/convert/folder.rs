@@ -1,6 +1,6 @@
 //! Conversion of result folders: for animation programs, and to one long table.
 
-use super::{Converted, lost};
+use super::{Converted, report_lost};
 use crate::args::ConvertArgs;
 use crate::commands::result_folder::ResultFolder;
 use ambulo::findings::{Code, Findings};
@@ -21,13 +21,13 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     let mut findings = Findings::default();
     let made = match to {
         "glb" => glb_of_folder(&folder).map(|glb| {
-            lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
+            report_lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
             let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
             findings.report(Code::ConvertAxes, format!("lengths are in metres; x forward, y up, z right{arrows}"));
             glb.bytes
         }),
         "bvh" => {
-            lost(
+            report_lost(
                 &mut findings,
                 &["forces".to_owned(), "masses and inertias".to_owned(), "the time of the first frame".to_owned()],
             );

@@ -6,7 +6,7 @@ mod skeleton;
 mod table;
 
 use crate::args::ConvertArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Findings};
 use anyhow::{Result, bail};
 use std::fs;
@@ -28,7 +28,7 @@ struct Converted {
     findings: Findings,
 }
 
-pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
     let (from, to) = (files::ending(&args.input), files::ending(&args.output));
     let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
     for (path, _) in &converted.files {
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
     }
     let written: Vec<String> = converted.files.iter().map(|(path, _)| path.display().to_string()).collect();
     printer::convert(&args.input.display().to_string(), &written, &converted.findings, args.print)?;
-    Ok(Verdict::Accepted)
+    Ok(Completion::Passed)
 }
 
 fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
@@ -116,7 +116,7 @@ fn check_target(path: &Path, args: &ConvertArgs) -> Result<()> {
 }
 
 /// Reports data that the new format cannot hold.
-fn lost(findings: &mut Findings, what: &[String]) {
+fn report_lost(findings: &mut Findings, what: &[String]) {
     if !what.is_empty() {
         findings.report(Code::ConvertLost, format!("not carried over: {}", what.join(", ")));
     }

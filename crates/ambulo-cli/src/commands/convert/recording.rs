@@ -1,7 +1,7 @@
 //! Conversion of laboratory recordings: C3D and TRC.
 
-use super::{Converted, counted, lost};
-use crate::args::{ConvertArgs, What};
+use super::{Converted, counted, report_lost};
+use crate::args::{C3dPart, ConvertArgs};
 use crate::files;
 use ambulo::analysis::LaboratoryRecording;
 use ambulo::findings::{Code, Findings};
@@ -37,10 +37,10 @@ fn from_c3d(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let (c3d, remarks) = C3d::read(bytes)?;
     let mut findings = Findings::default();
     files::note_remarks(&args.input.display().to_string(), &remarks, &mut findings);
-    match (to, args.what.unwrap_or(What::Markers)) {
-        ("mot" | "sto", _) | (_, What::Forces) => forces(args, &c3d, to, findings),
-        ("csv", What::Analog) => {
-            lost(&mut findings, &others(&c3d, &[counted(c3d.points.len(), "point")]));
+    match (to, args.what.unwrap_or(C3dPart::Markers)) {
+        ("mot" | "sto", _) | (_, C3dPart::Forces) => forces(args, &c3d, to, findings),
+        ("csv", C3dPart::Analog) => {
+            report_lost(&mut findings, &others(&c3d, &[counted(c3d.points.len(), "point")]));
             let table = analog_table(&c3d)?;
             Ok(Converted { files: vec![(args.output.clone(), table.write_csv())], findings })
         }
@@ -48,7 +48,7 @@ fn from_c3d(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
             let markers = markers_from_c3d(&c3d, &mut findings)?;
             let other = c3d.points.len().saturating_sub(markers.markers.len());
             let channels = counted(c3d.channels.len(), "analog channel");
-            lost(&mut findings, &others(&c3d, &[counted(other, "other point"), channels]));
+            report_lost(&mut findings, &others(&c3d, &[counted(other, "other point"), channels]));
             let plates =
                 if args.world { plates_from_c3d(&c3d, PlateSettings::default(), &mut findings)? } else { vec![] };
             let markers = in_requested_axes(args, markers, &plates, &c3d.point_unit, &mut findings);
@@ -121,7 +121,7 @@ fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Re
         findings.report(Code::ConvertHeights, message);
     }
     let points = counted(c3d.points.len(), "point");
-    lost(&mut findings, &others(c3d, &[points, counted(c3d.channels.len(), "raw analog channel")]));
+    report_lost(&mut findings, &others(c3d, &[points, counted(c3d.channels.len(), "raw analog channel")]));
     if to == "csv" {
         return Ok(Converted { files: vec![(args.output.clone(), table.write_csv())], findings });
     }

@@ -1,6 +1,6 @@
 //! Conversion of skeletons: from BVH, and from a model's coordinates to BVH or glTF.
 
-use super::{Converted, lost};
+use super::{Converted, report_lost};
 use crate::args::ConvertArgs;
 use crate::files;
 use ambulo::findings::{Code, Findings};
@@ -21,11 +21,11 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Conv
     files::note_remarks(&shown, &remarks, &mut findings);
     let bytes = match to {
         "csv" => {
-            lost(&mut findings, &["offsets of the joints".to_owned(), "end sites".to_owned()]);
+            report_lost(&mut findings, &["offsets of the joints".to_owned(), "end sites".to_owned()]);
             channel_table(&bvh).with_context(|| shown.clone())?.write_csv()
         }
         _ => {
-            lost(&mut findings, &["rotations of the joints".to_owned(), "hierarchy of the joints".to_owned()]);
+            report_lost(&mut findings, &["rotations of the joints".to_owned(), "hierarchy of the joints".to_owned()]);
             let markers = joint_markers(args, &bvh, &mut findings).with_context(|| shown.clone())?;
             trc_of_markers(&markers).with_context(|| shown.clone())?.write()
         }
@@ -82,7 +82,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let smoothed = smooth(&model, &motion, settings, &mut findings).with_context(|| shown.clone())?;
     let trajectory = Trajectory::complete(&model, &smoothed, &mut findings).with_context(|| shown.clone())?;
     if to == "glb" {
-        lost(&mut findings, &["masses and inertias".to_owned()]);
+        report_lost(&mut findings, &["masses and inertias".to_owned()]);
         findings.report(Code::ConvertAxes, "lengths are in metres; x forward, y up, z right");
         let bytes = glb_of_motion(&model, &trajectory).with_context(|| shown.clone())?;
         return Ok(Converted { files: vec![(args.output.clone(), bytes)], findings });
@@ -90,7 +90,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let bvh = skeleton_of(&model, &trajectory).with_context(|| shown.clone())?;
     let masses =
         ["masses and inertias".to_owned(), "ranges of the joints".to_owned(), "the time of the first frame".to_owned()];
-    lost(&mut findings, &masses);
+    report_lost(&mut findings, &masses);
     findings.report(Code::ConvertAxes, "lengths are in centimetres; x forward, y up, z right");
     Ok(Converted { files: vec![(args.output.clone(), bvh.write())], findings })
 }

@@ -9,7 +9,7 @@ mod skeleton;
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
 use crate::args::{Adjusted, Filter, ForcesArgs, MarkerFitting};
-use crate::{Verdict, files};
+use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
@@ -24,7 +24,7 @@ use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     if let (Some(from), Some(to)) = (args.from, args.to)
         && from > to
     {
@@ -86,7 +86,7 @@ struct Reading {
     ground: Option<PathBuf>,
 }
 
-fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Reading) -> Result<Verdict> {
+fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Reading) -> Result<Completion> {
     let Reading { mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
