@@ -26,9 +26,9 @@ use std::process::Command;
 use timing::Timing;
 
 /// Our time over MuJoCo's least calls, at most: one frame at a time, many frames side by side (0.7 us over 3.5 us).
-const ASKED_OF_MUJOCO: [f64; 2] = [0.43, 0.20];
+const REQUIRED_OF_MUJOCO: [f64; 2] = [0.43, 0.20];
 /// The whole `ambulo forces` command takes at most this long [ms].
-const ASKED_OF_PROGRAM_MS: f64 = 100.0;
+const REQUIRED_OF_PROGRAM_MS: f64 = 100.0;
 /// Ends of the names of the peers' rows that ours are divided by.
 const MUJOCO: &str = "mj_rne and what it needs";
 const PINOCCHIO: &str = "rnea";
@@ -91,7 +91,7 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
     println!();
     match walk::program(walk) {
         Ok(program) => {
-            let met = verdict(program.wall_ms.median, ASKED_OF_PROGRAM_MS);
+            let met = verdict(program.wall_ms.median, REQUIRED_OF_PROGRAM_MS);
             rows.push(Row { quantity: "ambulo forces, wall time".to_owned(), unit: "ms", timing: program.wall_ms });
             if let Some(peak_mb) = program.peak_mb {
                 let timing = Timing::single(peak_mb);
@@ -99,7 +99,7 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
             }
             let own = rows.iter().position(|r| r.quantity.starts_with("ambulo")).unwrap_or_default();
             print!("{}", table(&rows[own..]));
-            println!("asked: at most {ASKED_OF_PROGRAM_MS} ms: {met}");
+            println!("required: at most {REQUIRED_OF_PROGRAM_MS} ms: {met}");
         }
         Err(reason) => println!("`ambulo forces` was not timed: {reason}"),
     }
@@ -109,18 +109,18 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
 /// Our time divided by a peer's, both from this run.
 struct Ratio {
     row: Row,
-    asked: Option<f64>,
+    required: Option<f64>,
 }
 
 fn ratios(ours: &[Row], peers: &[PeerTiming]) -> Vec<Ratio> {
     let mut ratios = Vec::new();
-    for (peer, asked) in [(MUJOCO, Some(ASKED_OF_MUJOCO)), (PINOCCHIO, None)] {
+    for (peer, required) in [(MUJOCO, Some(REQUIRED_OF_MUJOCO)), (PINOCCHIO, None)] {
         let found = peers.iter().find(|p| p.name.ends_with(peer));
         let Some((name, theirs)) = found.and_then(|p| Some((p.name.as_str(), p.median_us()?))) else { continue };
         for (i, row) in ours.iter().enumerate() {
             let quantity = format!("{} / {name}", row.quantity.trim_start_matches("inverse dynamics, "));
             let row = Row { quantity, unit: "1", timing: Timing::single(row.timing.median / theirs) };
-            ratios.push(Ratio { row, asked: asked.map(|limits| limits[i]) });
+            ratios.push(Ratio { row, required: required.map(|limits| limits[i]) });
         }
     }
     ratios
@@ -131,9 +131,9 @@ fn ratios_table(ratios: &[Ratio]) -> String {
         return "no ratio: peers not installed or not running, see the hints above\n".to_owned();
     }
     let mut text = format!("\n{:<62} {:>7}\n", "ours : theirs", "ratio");
-    for Ratio { row, asked } in ratios {
-        let asked = asked.map(|limit| format!("  asked {limit:.2}: {}", verdict(row.timing.median, limit)));
-        let _ = writeln!(text, "{:<62} {:7.3}{}", row.quantity, row.timing.median, asked.unwrap_or_default());
+    for Ratio { row, required } in ratios {
+        let required = required.map(|limit| format!("  required {limit:.2}: {}", verdict(row.timing.median, limit)));
+        let _ = writeln!(text, "{:<62} {:7.3}{}", row.quantity, row.timing.median, required.unwrap_or_default());
     }
     text
 }

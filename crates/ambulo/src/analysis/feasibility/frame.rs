@@ -32,7 +32,7 @@ pub struct FeasibilityLimits {
     coordinates: Vec<CoordinateLimits>,
 }
 
-/// CoordinateLimits of one coordinate.
+/// Limits of one coordinate.
 #[derive(Debug, Clone)]
 struct CoordinateLimits {
     strength: Option<StrengthCurve>,

@@ -182,8 +182,8 @@ impl Left {
             world.bodies.iter().zip(&state.twists).map(|(body, twist)| twist.linear * body.mass).sum()
         };
         let loads: Vec3 = world.bodies.iter().map(|body| body.load.force + world.gravity * body.mass).sum();
-        let asked = (momentum(after) - momentum(before)) / STEP_S - loads;
-        raise(&mut self.balance, (total - asked).norm() / weight);
+        let needed = (momentum(after) - momentum(before)) / STEP_S - loads;
+        raise(&mut self.balance, (total - needed).norm() / weight);
     }
 
     /// The largest of them.
