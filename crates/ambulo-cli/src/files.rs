@@ -1,4 +1,4 @@
-//! Files in and out, with errors that name them.
+//! Reading and writing of files; every error names its file.
 
 use ambulo::findings::{Code, Findings};
 use ambulo_formats::Remark;
@@ -9,17 +9,16 @@ use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-/// Larger files are refused before they are read: no recording of walking needs more, and memory stays bounded.
+/// Larger files are rejected before they are read, which bounds the memory; no recording of walking needs more.
 const LARGEST_FILE_BYTES: u64 = 512 << 20;
 
-/// The content of a file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     let shown = path.display();
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
         Err(e) if e.kind() == ErrorKind::NotFound => {
             bail!(
-                "{shown}: there is no such file. hint: check the path; the current folder is where you typed the command"
+                "{shown}: there is no such file. hint: check the path; it is relative to the folder in which you typed the command"
             )
         }
         Err(e) => return Err(e).with_context(|| format!("{shown}: cannot be opened")),
@@ -33,17 +32,17 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     }
     let mut bytes = Vec::new();
     let file = fs::File::open(path).with_context(|| format!("{shown}: cannot be opened"))?;
-    // The size that was stated may be wrong (a device, a growing file).
+    // The size in the metadata may be wrong (a device, a growing file).
     file.take(LARGEST_FILE_BYTES).read_to_end(&mut bytes).with_context(|| format!("{shown}: cannot be read"))?;
     Ok(bytes)
 }
 
-/// The ending of a file's name, in lower case, without its point; empty if there is none.
+/// The extension of a file name in lower case, without the point; empty if there is none.
 pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-/// A table, as CSV or as OpenSim storage, by the ending of its name.
+/// Reads a table as CSV or as OpenSim storage, depending on the extension.
 pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
     let bytes = read(path)?;
     let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
@@ -51,8 +50,8 @@ pub(crate) fn read_table(path: &Path) -> Result<(Table, Vec<Remark>)> {
     read.with_context(|| path.display().to_string())
 }
 
-/// Every file that a run may write beside its summary; what an earlier run left of them is removed, so that a folder
-/// never holds results of two runs.
+/// Every file that a run may write in addition to its summary. Those of an earlier run are removed, so that a folder never contains
+/// results of two runs.
 const RESULTS: &[&str] = &[
     "report.html",
     "kinematics.mot",
@@ -113,16 +112,13 @@ const RESULTS: &[&str] = &[
     "figures/figure7.csv",
 ];
 
-/// Puts the results of a run in place of an earlier run's, unless that would write over something that was read.
+/// Replaces the results of an earlier run, unless this would overwrite an input of the present one.
 pub(crate) fn replace_results(folder: &Path, files: &[OutputFile], read: &[PathBuf]) -> Result<()> {
     let inputs: Vec<PathBuf> = read.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
     for name in RESULTS.iter().chain(&["summary.json"]) {
         let target = folder.join(name);
         if fs::canonicalize(&target).is_ok_and(|path| inputs.contains(&path)) {
-            bail!(
-                "{}: this file was read and would be written over. hint: choose another folder with -o",
-                target.display()
-            );
+            bail!("{}: this input file would be overwritten. hint: choose another folder with -o", target.display());
         }
     }
     for stale in RESULTS.iter().map(|name| folder.join(name)).filter(|path| path.is_file()) {
@@ -131,18 +127,18 @@ pub(crate) fn replace_results(folder: &Path, files: &[OutputFile], read: &[PathB
     files.iter().try_for_each(|file| write(&folder.join(&file.name), &file.bytes))
 }
 
-/// Writes a file, making its folder first.
+/// Writes a file; creates its folder if necessary.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     if let Some(folder) = path.parent() {
         if folder.is_file() {
             bail!("{}: this is a file; expected a folder for the results", folder.display());
         }
-        fs::create_dir_all(folder).with_context(|| format!("{}: cannot make this folder", folder.display()))?;
+        fs::create_dir_all(folder).with_context(|| format!("{}: this folder cannot be created", folder.display()))?;
     }
     fs::write(path, bytes).with_context(|| format!("{}: cannot be written", path.display()))
 }
 
-/// What was odd in a file becomes findings.
+/// Reports the remarks of a reader as findings.
 pub(crate) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
         findings.report(Code::FileOdd, format!("{path}: {remark}"));

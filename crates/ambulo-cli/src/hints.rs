@@ -1,4 +1,4 @@
-//! What the user of the command can do about an error or a finding of the library: the options that help.
+//! Hints for errors and findings of the library: the command-line options that help.
 //!
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
@@ -11,25 +11,24 @@ use ambulo::motion::skeleton::SkeletonError;
 use ambulo::study::StudyError;
 use std::error::Error;
 
-/// Cuts a part of a recording off.
-const RANGE: &str = "`--from` and `--to` choose the range";
+const RANGE: &str = "`--from` and `--to` choose the time range";
 
 /// The hint for a finding.
 pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     let hint = match code {
         Code::PlatesTwoFeet | Code::PlatesUnassigned => {
-            "`--plate 1=r` states the foot on plate 1; a standing trial is for `--static`"
+            "`--plate 1=r` assigns the right foot to plate 1; give a standing trial with `--static`"
         }
         Code::ResidualLarge => RANGE,
-        Code::LoadsGuessed => "`--right`, `--left` or `--loads` state others",
-        Code::LoadsFarFromFoot => "`--right` and `--left` state the bodies, where there is no loads file",
-        Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another range",
-        Code::MassStandingMismatch | Code::PredictionMass => "`--mass KG` gives the mass",
+        Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
+        Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
+        Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
+        Code::MassStandingMismatch | Code::PredictionMass => "`--mass KG` sets the mass",
         Code::MassUnverified => {
-            "with markers, `--mass KG` or a standing trial on force plates (`--static`); recorded coordinates have the mass of their model"
+            "with markers, give `--mass KG` or a standing trial on force plates (`--static`); recorded coordinates use the mass of their model"
         }
-        Code::GroundPredicted => "`--grf` gives measured forces, `--no-ground` computes a motion without contact",
-        Code::WalkNotConsistent => "`--mode paper` computes the gait as it is",
+        Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
+        Code::WalkNotConsistent => "`--mode paper` computes the unchanged gait",
         _ => return None,
     };
     Some(hint)
@@ -57,9 +56,9 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
-        StudyError::ForceColumns { .. } => {
-            Some("`--right BODY:PREFIX` and `--left BODY:PREFIX` name the columns, or `--loads XML` describes them")
-        }
+        StudyError::ForceColumns { .. } => Some(
+            "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",
+        ),
         _ => None,
     }
 }
@@ -75,7 +74,7 @@ fn of_analysis(error: &AnalysisError) -> Option<&'static str> {
 
 fn of_motion(error: &MotionError) -> Option<&'static str> {
     match error {
-        MotionError::NoColumn { .. } => Some("`--right` and `--left` name other columns"),
+        MotionError::NoColumn { .. } => Some("`--right` and `--left` choose other columns"),
         MotionError::Gap { .. } | MotionError::ForceNotFinite { .. } => Some(RANGE),
         _ => None,
     }
@@ -88,7 +87,7 @@ fn of_trajectory(error: &TrajectoryError) -> Option<&'static str> {
 fn of_prediction(error: &PredictError) -> Option<&'static str> {
     match error {
         PredictError::NoFeet { .. } | PredictError::NoSole { .. } => {
-            Some("`--no-ground` computes a motion without contact, `--grf` gives measured forces")
+            Some("`--no-ground` computes a motion without contact, `--grf` reads measured forces")
         }
         PredictError::NoGravity { .. } => Some("`--no-ground` computes a motion without contact"),
         PredictError::TooLarge { .. } => Some(RANGE),
@@ -97,7 +96,7 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
 }
 
 fn of_skeleton(error: &SkeletonError) -> Option<&'static str> {
-    matches!(error, SkeletonError::Unit { .. }).then_some("`--height M` gives the stature in metres")
+    matches!(error, SkeletonError::Unit { .. }).then_some("`--height M` sets the stature in metres")
 }
 
 fn of_comparison(error: &ComparisonError) -> Option<&'static str> {
@@ -110,7 +109,7 @@ mod tests {
     use ambulo::analysis::AnalysisError;
     use anyhow::Context;
 
-    /// As the verbs hand errors on: wrapped by the analysis, and with the file in front.
+    /// Errors as the commands return them: wrapped by the analysis, with the file in front.
     #[test]
     fn an_error_has_the_hint_of_its_cause() {
         let gap = || MotionError::Gap { column: "a".to_owned(), from_s: 0.0, to_s: 1.0, longest_s: 0.2 };

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let args = Args::parse();
     let done = match args.command {
-        None => printer::guide().map(|()| Verdict::Accepted),
+        None => printer::guide().map(|()| Completion::Passed),
         Some(Command::Forces(args)) => commands::forces::run(&args),
         Some(Command::Walk(args)) => commands::walk::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
@@ -27,8 +27,8 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => commands::compare::run(&args),
     };
     match done {
-        Ok(Verdict::Accepted) => ExitCode::SUCCESS,
-        Ok(Verdict::Refused) => ExitCode::from(1),
+        Ok(Completion::Passed) => ExitCode::SUCCESS,
+        Ok(Completion::Failed) => ExitCode::from(1),
         Err(error) => {
             printer::error(&error);
             ExitCode::from(2)
@@ -36,11 +36,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether what was done also passed what was asked of it.
+/// The result of a command that ran to its end; it sets the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
+enum Completion {
     /// Exit code 0.
-    Accepted,
-    /// Done, but a limit was missed: exit code 1.
-    Refused,
+    Passed,
+    /// Infeasible motion or exceeded limit: exit code 1.
+    Failed,
 }

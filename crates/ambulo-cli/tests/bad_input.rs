@@ -1,11 +1,11 @@
-//! What a user gets wrong: each mistake with its message, exit code 2 or a finding, and no panic.
+//! Mistakes of users: each gives a clear message and exit code 2, or a finding, and never a panic.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 mod workbench;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::from_osim;
 use ambulo::motion::filter::LowPass;
@@ -37,7 +37,7 @@ fn a_missing_file_is_named_once_with_a_hint() {
 }
 
 #[test]
-fn a_coordinate_that_the_model_does_not_know_and_one_that_is_missing_are_warned_about() {
+fn unknown_and_missing_coordinates_give_warnings() {
     let bench = Workbench::new("unknown_coordinate");
     bench.edit("walk.mot", "knee_angle_r", "knee_flexion_r");
     let unknown = "the model has no such coordinates: `knee_flexion_r`";
@@ -56,7 +56,7 @@ fn a_coordinate_that_the_model_does_not_know_and_one_that_is_missing_are_warned_
 }
 
 #[test]
-fn the_motion_of_another_model_is_refused() {
+fn the_motion_of_another_model_is_rejected() {
     let bench = Workbench::new("another_model");
     bench.write("walk.mot", "c\nnRows=2\nendheader\ntime a b\n0 1 2\n0.01 1 2\n");
     bench.forces(&RAW).refused(&[
@@ -67,7 +67,7 @@ fn the_motion_of_another_model_is_refused() {
 }
 
 #[test]
-fn rows_without_numbers_are_bridged_where_short_and_refused_where_long() {
+fn short_gaps_in_the_motion_are_interpolated_and_long_ones_rejected() {
     let bench = Workbench::new("nan_rows");
     let blank = |from: usize, to: usize| {
         bench.write("walk.mot", demo_input("walk.mot"));
@@ -89,19 +89,19 @@ fn rows_without_numbers_are_bridged_where_short_and_refused_where_long() {
 }
 
 #[test]
-fn forces_without_numbers_are_refused_with_load_and_time() {
+fn a_force_that_is_not_a_number_is_rejected_with_its_load_and_time() {
     let bench = Workbench::new("nan_forces");
     bench.edit_rows("walk_grf.mot", |mut rows| {
         rows[50][2] = "nan".into();
         rows
     });
     bench.forces(&RAW).refused(&["`right` has no number from 0.5000 s"]);
-    // The fault is in the forces' file, not in the motion's.
+    // The error is in the force file, not in the motion file.
     bench.forces(&RAW).refused(&["walk_grf.mot"]);
 }
 
 #[test]
-fn the_hint_to_cut_the_range_helps_against_forces_without_numbers() {
+fn the_hint_to_choose_another_time_range_works() {
     let bench = Workbench::new("cut_nan_forces");
     bench.edit_rows("walk_grf.mot", |mut rows| {
         rows[50][2] = "nan".into();
@@ -121,9 +121,9 @@ fn an_error_says_what_is_wrong_once() {
 }
 
 #[test]
-fn a_clock_that_runs_back_and_two_rows_for_one_instant_are_refused_with_their_line() {
+fn decreasing_and_repeated_times_are_rejected_with_their_line() {
     let bench = Workbench::new("clock");
-    // Five lines of header without nRows, the names, then the rows: row 10 stands in line 17 - 1.
+    // Five lines of header without nRows, the names, then the rows: row 10 is in line 17 - 1.
     let line = |name: &str, row: usize| {
         let text = bench.text(name);
         text.lines().position(|l| l.trim() == "endheader").unwrap() + 3 + row
@@ -150,14 +150,14 @@ fn a_clock_that_runs_back_and_two_rows_for_one_instant_are_refused_with_their_li
 }
 
 #[test]
-fn degrees_under_a_header_of_radians_are_warned_about() {
+fn degrees_in_a_file_declared_in_radians_give_a_warning() {
     let bench = Workbench::new("degrees");
     bench.edit("walk.mot", "inDegrees=yes", "inDegrees=no");
     bench.forces(&RAW).infeasible().warned(&["look like degrees", "hint: set inDegrees=yes"]);
 }
 
 #[test]
-fn plates_in_millimetres_are_warned_about() {
+fn centres_of_pressure_in_millimetres_give_a_warning() {
     let bench = Workbench::new("millimetres");
     bench.edit_rows("walk_grf.mot", |mut rows| {
         for row in &mut rows {
@@ -173,7 +173,7 @@ fn plates_in_millimetres_are_warned_about() {
 }
 
 #[test]
-fn a_load_on_a_body_that_does_not_exist_is_refused_with_the_bodies_that_do() {
+fn a_load_on_a_body_that_does_not_exist_is_rejected_with_the_bodies_that_do() {
     let bench = Workbench::new("unknown_body");
     bench.edit("walk_grf.xml", "calcn_r", "hoof_r");
     bench.forces(&RAW).refused(&["walk_grf.xml", "the load `right`", "the body `hoof_r`", "calcn_r"]);
@@ -184,7 +184,7 @@ fn a_load_on_a_body_that_does_not_exist_is_refused_with_the_bodies_that_do() {
 }
 
 #[test]
-fn a_load_whose_columns_do_not_exist_is_refused_with_the_columns_that_do() {
+fn a_load_whose_columns_do_not_exist_is_rejected_with_the_columns_that_do() {
     let bench = Workbench::new("unknown_columns");
     bench.edit("walk_grf.xml", "ground_force_r_v", "plate_v");
     bench.forces(&RAW).refused(&[
@@ -196,20 +196,20 @@ fn a_load_whose_columns_do_not_exist_is_refused_with_the_columns_that_do() {
 }
 
 #[test]
-fn without_ground_forces_they_are_predicted_and_the_user_is_told_what_else_there_is() {
+fn without_ground_forces_they_are_predicted_and_a_note_names_the_alternatives() {
     let bench = Workbench::new("no_ground");
     let run = bench.run(&FORCES[..4]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
-    run.says(&["note: no ground forces were given; they are predicted", "hint: `--grf`", "--no-ground"]);
+    run.reports(&["note: no ground forces were given; they are predicted", "hint: `--grf`", "--no-ground"]);
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
     bench.run(&[&FORCES[..4], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
     bench.run(&[&FORCES[..4], &["--no-ground"], &RAW].concat()).done();
     assert_eq!(bench.json("out/summary.json")["ground"]["source"], "none");
-    assert!(!bench.folder.join("out/grf.mot").exists(), "forces that nobody measured were written");
+    assert!(!bench.folder.join("out/grf.mot").exists(), "ground forces were written without ground contact");
 }
 
 #[test]
-fn an_empty_file_is_refused_whichever_it_is() {
+fn an_empty_file_is_rejected_whichever_it_is() {
     let bench = Workbench::new("empty");
     for name in INPUT {
         for content in ["", " \n\t\n"] {
@@ -222,7 +222,7 @@ fn an_empty_file_is_refused_whichever_it_is() {
 }
 
 #[test]
-fn a_file_of_another_kind_is_refused() {
+fn a_file_of_another_kind_is_rejected() {
     let bench = Workbench::new("another_kind");
     for (name, other) in [(0, 1), (1, 0), (2, 3), (3, 2), (3, 0), (0, 3)].map(|(a, b)| (INPUT[a], INPUT[b])) {
         bench.write(name, demo_input(other));
@@ -237,11 +237,11 @@ fn a_file_of_another_kind_is_refused() {
 }
 
 #[test]
-fn a_truncated_file_is_refused_or_its_missing_rows_are_said() {
+fn a_truncated_file_is_rejected_or_its_missing_rows_are_reported() {
     let bench = Workbench::new("truncated");
     for name in INPUT {
         let bytes = demo_input(name);
-        // Where only the last number is cut, nobody can tell.
+        // A cut inside the last number cannot be detected.
         let last_row = bytes.trim_ascii_end().iter().rposition(|&b| b == b'\n').unwrap();
         let step = bytes.len() / 60 + 1;
         for cut in (0..bytes.len()).step_by(step).chain([last_row, last_row + 3]) {
@@ -275,7 +275,7 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
         assert!(ExternalLoads::read(&loads[..cut]).is_err(), "the loads read when cut at {cut}");
     }
     let loads = ExternalLoads::read(&loads).unwrap().0;
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),
@@ -302,8 +302,8 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
     assert!(read > 0 && analysed > 0, "no cut fell between two numbers");
 }
 
-/// Everything that `forces` does between reading and writing; whether it came to the end.
-fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
+/// The whole computation of `forces` without files; `None` if it ends with an error.
+fn analysed_files(files: [&[u8]; 4]) -> Option<usize> {
     let [figure, walk, grf, loads] = files;
     let mut findings = Findings::default();
     let model = from_osim(&OsimModel::read(figure).ok()?, &mut findings).ok()?;
@@ -312,7 +312,7 @@ fn whole_way(files: [&[u8]; 4]) -> Option<usize> {
     let plates = force_recordings(&model, &loads, &Table::read_storage(grf).ok()?.0, &mut findings).ok()?;
     let low_pass = LowPass { order: 3, cutoff_hz: 6.0 };
     let smoother = Smoother::Butterworth(low_pass);
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother,
         force_filter: Some(low_pass),
         window: Window::default(),
@@ -347,14 +347,14 @@ fn no_damaged_byte_makes_the_library_panic() {
             }
         }
         let [figure, walk, grf, loads] = &damaged;
-        through += usize::from(whole_way([figure, walk, grf, loads]).is_some());
+        through += usize::from(analysed_files([figure, walk, grf, loads]).is_some());
     }
     println!("{through} of 1200 damaged inputs went through");
     assert!(through > 100, "only {through} of 1200: the damage never reaches the analysis");
 }
 
 #[test]
-fn an_entity_bomb_is_refused_at_once() {
+fn an_entity_bomb_is_rejected_at_once() {
     let entity = |i: usize| format!("<!ENTITY e{} \"{}\">\n", i + 1, format!("&e{i};").repeat(10));
     let entities: String = (0..9).map(entity).collect();
     let bomb = format!("<?xml version=\"1.0\"?>\n<!DOCTYPE bomb [<!ENTITY e0 \"ha\">\n{entities}]>\n");
@@ -373,7 +373,7 @@ fn an_entity_bomb_is_refused_at_once() {
 }
 
 #[test]
-fn elements_nested_without_end_are_refused() {
+fn elements_nested_without_end_are_rejected() {
     let bench = Workbench::new("nested");
     let depth = 100_000;
     let nest = |open: &str, inside: &str, close: &str| format!("{}{inside}{}", open.repeat(depth), close.repeat(depth));
@@ -387,7 +387,7 @@ fn elements_nested_without_end_are_refused() {
 }
 
 #[test]
-fn functions_nested_without_end_are_refused() {
+fn functions_nested_without_end_are_rejected() {
     // A reader that calls itself for each level needs a limit: the stack ends the program without a message.
     let bench = Workbench::new("nested_functions");
     for depth in [100, 1_000, 10_000, 100_000] {
@@ -405,7 +405,7 @@ fn functions_nested_without_end_are_refused() {
 }
 
 #[test]
-fn a_joint_whose_child_is_ground_is_refused() {
+fn a_joint_whose_child_is_ground_is_rejected() {
     let bench = Workbench::new("ground_is_child");
     let joint = "<WeldJoint name=\"back\"><socket_parent_frame>/bodyset/torso</socket_parent_frame>\
         <socket_child_frame>/ground</socket_child_frame></WeldJoint>\n</objects></JointSet>";
@@ -415,7 +415,7 @@ fn a_joint_whose_child_is_ground_is_refused() {
 }
 
 #[test]
-fn a_hundred_megabytes_of_garbage_are_refused_in_a_gigabyte_and_a_few_seconds() {
+fn a_hundred_megabytes_of_garbage_are_rejected_in_a_gigabyte_and_a_few_seconds() {
     const SIZE: usize = 100 << 20;
     let bench = Workbench::new("garbage").removed_at_the_end();
     let mut state: u64 = 11;
@@ -462,7 +462,7 @@ fn a_hundred_megabytes_of_garbage_are_refused_in_a_gigabyte_and_a_few_seconds() 
 }
 
 #[test]
-fn exchanged_feet_are_noticed() {
+fn exchanged_feet_give_a_warning() {
     let bench = Workbench::new("exchanged");
     let swapped = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
     let run = bench.run(&[&FORCES[..4], &["--grf", "walk_grf.mot"], &swapped, &RAW].concat()).infeasible();
@@ -471,7 +471,7 @@ fn exchanged_feet_are_noticed() {
 }
 
 #[test]
-fn forces_on_the_plate_in_place_of_forces_on_the_foot_are_noticed() {
+fn forces_on_the_plate_instead_of_on_the_foot_give_a_warning() {
     let bench = Workbench::new("downward");
     bench.edit_rows("walk_grf.mot", |mut rows| {
         for row in &mut rows[1..] {
@@ -482,14 +482,14 @@ fn forces_on_the_plate_in_place_of_forces_on_the_foot_are_noticed() {
         rows
     });
     let run = bench.forces(&RAW).infeasible();
-    run.warned(&["pulls `calcn_r` down", "hint: change the sign of forces and torques"]);
-    run.warned(&["the residual at the root is", "hint: check files, sides and time origin"]);
+    run.warned(&["pulls `calcn_r` down", "hint: reverse the sign of forces and torques"]);
+    run.warned(&["the residual force at the root is", "hint: check files, sides and time origin"]);
 }
 
 #[test]
-fn a_knee_that_bends_the_other_way_is_noticed() {
+fn a_knee_that_bends_the_other_way_gives_a_warning() {
     let bench = Workbench::new("knee");
     let joint = "<Coordinate name=\"knee_angle_r\"><default_value>0</default_value>";
     bench.edit("figure.osim", joint, &format!("{joint}<range>-0.1 2.1</range>"));
-    bench.forces(&RAW).infeasible().warned(&["`knee_angle_r` runs from -6", "the model allows -6 to 120"]);
+    bench.forces(&RAW).infeasible().warned(&["`knee_angle_r` ranges from -6", "the model allows -6 to 120"]);
 }

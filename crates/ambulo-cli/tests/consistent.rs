@@ -1,4 +1,4 @@
-//! `ambulo forces --consistent`: what is written, what is said, and that the written motion obeys the written forces.
+//! `ambulo forces --consistent`: files and messages of residual reduction; the written motion agrees with the written forces.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -38,37 +38,37 @@ fn number(value: &Value, path: &str) -> f64 {
 }
 
 #[test]
-fn the_motion_that_is_written_obeys_the_forces_and_says_that_it_was_changed() {
+fn the_written_motion_agrees_with_the_forces_and_is_labelled_as_changed() {
     let bench = with_demo("consistent");
-    let (plain, said) = forces(&bench, &WALK, "plain");
-    assert!(plain["consistency"].is_null() && !said.contains("agreed"), "{said}");
-    let (agreed, said) = forces(&bench, &[&WALK[..], &["--consistent"]].concat(), "agreed");
-    let part = &agreed["consistency"];
+    let (plain, stdout) = forces(&bench, &WALK, "plain");
+    assert!(plain["consistency"].is_null() && !stdout.contains("residual reduction"), "{stdout}");
+    let (reduced, stdout) = forces(&bench, &[&WALK[..], &["--consistent"]].concat(), "reduced");
+    let part = &reduced["consistency"];
     assert!(number(part, "/residual_before/force_rms_bw") > 0.01, "{part}");
     assert!(number(part, "/residual_after/force_rms_bw") < 0.003, "{part}");
     assert!((number(part, "/mass_percent") + 2.0).abs() < 0.5, "{part}");
-    assert!((number(&agreed, "/mass_model_kg") - 75.0).abs() < 0.4, "{}", agreed["mass_model_kg"]);
+    assert!((number(&reduced, "/mass_model_kg") - 75.0).abs() < 0.4, "{}", reduced["mass_model_kg"]);
     let changes = part["changes"].as_object().unwrap();
     assert!(
         changes.values().all(|c| c["unit"] == "deg" && c["max"].as_f64() < Some(2.0) || c["unit"] == "mm"),
         "{part}"
     );
-    assert!((number(&agreed, "/residual/force_rms_bw") - number(part, "/residual_after/force_rms_bw")).abs() < 1e-3);
-    assert!(said.contains("agreed    motion and forces from") && said.contains("residual after"), "{said}");
+    assert!((number(&reduced, "/residual/force_rms_bw") - number(part, "/residual_after/force_rms_bw")).abs() < 1e-3);
+    assert!(stdout.contains("residual reduction, ") && stdout.contains("residual after"), "{stdout}");
     let head = |folder: &str| {
         let text = fs::read_to_string(bench.folder.join(folder).join("kinematics.mot")).unwrap();
         text.lines().next().unwrap().to_owned()
     };
     assert_eq!(head("plain"), "Coordinates");
-    assert_eq!(head("agreed"), "Coordinates, changed to agree with the forces");
+    assert_eq!(head("reduced"), "Coordinates, changed to agree with the forces");
     // Motion, forces and body once more, as files: inside the window little is missing.
     let [from, to] = ["/window_s/0", "/window_s/1"].map(|path| (number(part, path)).to_string());
     let again = [
-        "agreed/kinematics.mot",
+        "reduced/kinematics.mot",
         "--model",
-        "agreed/subject.osim",
+        "reduced/subject.osim",
         "--loads",
-        "agreed/external_loads.xml",
+        "reduced/external_loads.xml",
         "--cutoff",
         "off",
         "--from",
@@ -83,12 +83,12 @@ fn the_motion_that_is_written_obeys_the_forces_and_says_that_it_was_changed() {
 }
 
 #[test]
-fn the_motion_alone_may_change_and_a_motion_without_forces_cannot() {
+fn the_body_can_be_kept_and_forces_are_required() {
     let bench = with_demo("consistent_motion");
-    let (agreed, said) = forces(&bench, &[&WALK[..], &["--consistent=motion"]].concat(), "out");
-    let part = &agreed["consistency"];
+    let (reduced, stdout) = forces(&bench, &[&WALK[..], &["--consistent=motion"]].concat(), "out");
+    let part = &reduced["consistency"];
     assert!(part["mass_percent"] == 0.0 && part["trunk_center_mm"] == serde_json::json!([0.0, 0.0, 0.0]), "{part}");
-    assert!(!said.contains("mass centre of"), "{said}");
+    assert!(!stdout.contains("mass centre of"), "{stdout}");
     let run = bench.run(&[&["forces"], &WALK[..], &["--consistent", "--no-ground", "-o", "out"]].concat());
     assert_eq!(run.code, Some(2));
     assert!(run.stderr.contains("--consistent") && run.stderr.contains("--no-ground"), "{}", run.stderr);

@@ -1,4 +1,4 @@
-//! `info`, `convert`, `events` on files of every kind, and a laboratory's own files through `forces`: all of them made by `demo`.
+//! `info`, `convert` and `events` on files of every kind, and `forces` on laboratory files; `demo` writes all of them.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -42,7 +42,7 @@ fn info(bench: &Workbench, file: &str) -> (Value, String) {
 }
 
 #[test]
-fn info_tells_a_recording_as_a_colleague_would() {
+fn info_describes_a_recording() {
     let bench = with_demo("info_recording");
     let (json, text) = info(&bench, "demo/input/walk.c3d");
     assert_eq!(
@@ -59,7 +59,7 @@ fn info_tells_a_recording_as_a_colleague_would() {
     assert!(plates.iter().all(|plate| plate["loaded_s"].as_array().unwrap().len() == 1), "{json}");
     let feet = json["feet_on_plates"].as_array().unwrap();
     let sides: Vec<&str> = feet.iter().filter_map(|foot| foot["side"].as_str()).collect();
-    // The plates stand in the order of right, then left contacts.
+    // The plates are in the order of right, then left contacts.
     assert_eq!(sides.concat(), "rrrrlllll", "{json}");
     for line in [
         "encoding: Intel (little-endian), reals",
@@ -76,7 +76,7 @@ fn info_tells_a_recording_as_a_colleague_would() {
 }
 
 #[test]
-fn info_tells_gaps_of_markers_and_markers_that_nobody_knows() {
+fn info_lists_marker_gaps_and_unknown_markers() {
     let bench = with_demo("info_gaps");
     let (mut c3d, _) = C3d::read(&bench.read("demo/input/walk.c3d")).unwrap();
     for frame in (10..30).chain(50..55) {
@@ -91,14 +91,14 @@ fn info_tells_gaps_of_markers_and_markers_that_nobody_knows() {
     let gap = serde_json::json!({ "marker": "RASI", "gaps": 2, "missing_frames": 25, "longest_s": 0.2 });
     assert_eq!(json["markers_with_gaps"][0], gap);
     assert!(
-        text.contains("RASI: 2 gaps, 25 frames (6 %), longest 0.200 s") && text.contains("LASI: never seen"),
+        text.contains("RASI: 2 gaps, 25 frames (6 %), longest 0.200 s") && text.contains("LASI: never visible"),
         "{text}"
     );
     assert!(text.contains("Mystery7"), "{text}");
 }
 
 #[test]
-fn info_tells_what_a_skeleton_was_taken_for() {
+fn info_describes_how_a_skeleton_is_interpreted() {
     let bench = with_demo("info_skeleton");
     let (json, text) = info(&bench, "demo/input/walk.bvh");
     assert_eq!((&json["frames"], &json["channels"]), (&437.into(), &45.into()));
@@ -114,11 +114,11 @@ fn info_tells_what_a_skeleton_was_taken_for() {
         "HIERARCHY\nROOT Trunk\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\nMOTION\nFrames: 2\nFrame Time: 1\n0\n1\n",
     );
     let (_, text) = info(&bench, "tree.bvh");
-    assert!(text.contains("axes: not known: no joint was recognised as right hip"), "{text}");
+    assert!(text.contains("axes: unknown: no joint was recognised as right hip"), "{text}");
 }
 
 #[test]
-fn a_laboratory_s_files_give_the_forces_that_moved_the_figure() {
+fn laboratory_files_give_the_forces_of_the_synthetic_walk() {
     let bench = with_demo("laboratory");
     bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-o", "out", "--quiet"]).done();
     // Markers on a body made to measure, plates, a filter of 6 Hz against the figure's own, unfiltered: what a 6 Hz filter takes from
@@ -142,7 +142,7 @@ fn a_laboratory_s_files_give_the_forces_that_moved_the_figure() {
 }
 
 #[test]
-fn a_skeleton_gives_back_the_angles_that_it_was_made_from() {
+fn a_skeleton_gives_the_angles_that_it_was_written_from() {
     let bench = with_demo("skeleton");
     let run = bench.run(&["forces", "demo/input/walk.bvh", "--mass", "75", "--height", "1.75", "-o", "out", "--quiet"]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
@@ -164,7 +164,7 @@ fn events_of_plates_motion_and_file_agree() {
     for agreement in json["agreement"].as_array().unwrap() {
         for kind in agreement["kinds"].as_array().unwrap() {
             let (pairs, apart) = (kind["pairs"].as_u64().unwrap(), kind["mean_absolute_ms"].as_f64().unwrap());
-            // Published methods err by about 20 ms; a foot that stands at an end of the recording has no event there.
+            // Published methods have errors of about 20 ms; a stance at an end of the recording has no event there.
             assert!(pairs == 8 && kind["missed"] == 0 && apart < 30.0, "{agreement}");
         }
     }
@@ -176,10 +176,10 @@ fn events_of_plates_motion_and_file_agree() {
         let motion = bench.run(&["events", file]).done();
         assert!(motion.stdout.starts_with("motion of the feet (4 methods): 16\n"), "{file}: {}", motion.stdout);
     }
-    bench.run(&["events", "demo/input/figure.osim"]).refused(&["`.osim` holds no gait; expected .c3d, .trc"]);
-    bench.run(&["events", "demo/input/walk.mot"]).refused(&["no columns of ground forces", "hint: "]);
+    bench.run(&["events", "demo/input/figure.osim"]).refused(&["`.osim` contains no gait; expected .c3d, .trc"]);
+    bench.run(&["events", "demo/input/walk.mot"]).refused(&["no ground-force columns", "hint: "]);
     let input = "demo/input/walk.trc";
-    bench.run(&["events", input, "-o", input]).refused(&["this file was read and would be written over"]);
+    bench.run(&["events", input, "-o", input]).refused(&["this input file would be overwritten"]);
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn markers_go_from_c3d_to_trc_and_back() {
     let bench = with_demo("convert_markers");
     let run = bench.run(&["convert", "demo/input/walk.c3d", "walk.trc"]).done();
     assert_eq!(run.stdout, "written: walk.trc\n");
-    run.says(&["note: not carried over: 54 analog channels, 16 events, "]);
+    run.reports(&["note: not carried over: 54 analog channels, 16 events, "]);
     bench.run(&["convert", "walk.trc", "again.c3d"]).done();
     let (first, _) = C3d::read(&bench.read("demo/input/walk.c3d")).unwrap();
     let (again, _) = C3d::read(&bench.read("again.c3d")).unwrap();
@@ -198,11 +198,11 @@ fn markers_go_from_c3d_to_trc_and_back() {
     for (a, b) in first.points.iter().zip(&again.points) {
         let differences = a.positions.iter().flatten().zip(b.positions.iter().flatten()).map(|(a, b)| (a - b).abs());
         assert_eq!(a.name, b.name);
-        // Reals of 24 bits: 7000 mm are held to 0.0005.
+        // Single precision: 0.0005 mm at 7000 mm.
         assert!(differences.fold(0.0, f64::max) < 1e-3, "{}", a.name);
     }
     let run = bench.run(&["convert", "demo/input/walk.c3d", "world.trc", "--world"]).done();
-    run.says(&["walking +y -> world x forward"]);
+    run.reports(&["walking +y -> world x forward"]);
     let (lab, _) = Trc::read(&bench.read("walk.trc")).unwrap();
     let (world, _) = Trc::read(&bench.read("world.trc")).unwrap();
     for (a, b) in lab.markers().iter().zip(world.markers()) {
@@ -227,7 +227,7 @@ fn plates_become_ground_reactions_by_foot() {
     let columns = "ground_force_r_vy,ground_force_l_vy,ground_force_r_vx,ground_force_l_vx";
     let files = ["compare", "grf.mot", "demo/grf.mot", "--columns", columns, "--limit", "2"];
     bench.run(&[&files[..], &["--from", "0.5", "--to", "3.8"]].concat()).done();
-    // And they are what `forces` takes.
+    // `forces` reads them.
     let run = [
         "forces",
         "demo/input/walk.mot",
@@ -246,8 +246,8 @@ fn plates_become_ground_reactions_by_foot() {
 fn tables_and_skeletons_are_converted() {
     let bench = with_demo("convert_tables");
     let run = bench.run(&["convert", "demo/input/walk.mot", "walk.csv"]).done();
-    run.says(&["not carried over: the header's word that angles are in degrees"]);
-    bench.run(&["convert", "walk.csv", "walk.sto"]).done().says(&["does not say whether angles are in degrees"]);
+    run.reports(&["not carried over: the header's statement that angles are in degrees"]);
+    bench.run(&["convert", "walk.csv", "walk.sto"]).done().reports(&["does not say whether angles are in degrees"]);
     let (first, again) = (bench.table("demo/input/walk.mot"), bench.table("walk.sto"));
     assert!(again.columns().eq(first.columns()) && again.in_degrees.is_none());
     let figure = "demo/input/figure.osim";
@@ -257,7 +257,7 @@ fn tables_and_skeletons_are_converted() {
     bench.run(&["convert", "walk.bvh", "channels.csv"]).done();
     let (table, _) = Table::read_csv(&bench.read("channels.csv")).unwrap();
     assert_eq!((table.names()[1].as_str(), table.names().len()), ("Hips.Xposition", 46));
-    bench.run(&["convert", "walk.bvh", "centres.trc"]).done().says(&["lengths in centimetres"]);
+    bench.run(&["convert", "walk.bvh", "centres.trc"]).done().reports(&["lengths in centimetres"]);
     let (centres, _) = Trc::read(&bench.read("centres.trc")).unwrap();
     let (markers, _) = Trc::read(&bench.read("demo/input/walk.trc")).unwrap();
     // The centre of the knee by the skeleton and by the model.
@@ -269,24 +269,24 @@ fn tables_and_skeletons_are_converted() {
 }
 
 #[test]
-fn conversions_that_make_no_sense_are_refused_with_those_that_do() {
+fn impossible_conversions_are_rejected_with_the_possible_ones() {
     let bench = with_demo("convert_refused");
     let refused = |args: &[&str], words: &[&str]| bench.run(&[&["convert"][..], args].concat()).refused(words);
     let (walk, figure) = ("demo/input/walk.c3d", "demo/input/figure.osim");
-    refused(&[walk, "x.bvh"], &["there is no way from .c3d to .bvh; expected one of .trc, .csv, .mot, .sto"]);
-    refused(&[figure, "x.trc"], &["`.osim` is not converted; expected an input that ends with one of .c3d, .trc"]);
+    refused(&[walk, "x.bvh"], &[".c3d cannot be converted to .bvh; expected one of .trc, .csv, .mot, .sto"]);
+    refused(&[figure, "x.trc"], &["`.osim` cannot be converted; expected an input with the extension .c3d, .trc"]);
     refused(&["demo/input/walk.mot", "x.bvh"], &["expected --model FILE.osim"]);
     refused(&[walk, "x.trc", "--what", "analog"], &["--what is for .c3d to .csv only"]);
     refused(&["demo/input/walk.mot", "x.csv", "--world"], &["--world is for markers and joint centres only"]);
     refused(&["demo/input/standing.c3d", "x.trc", "--model", figure], &["--model is for .bvh and .glb only"]);
     refused(&["no.c3d", "x.trc"], &["no.c3d: there is no such file"]);
     bench.write("x.trc", "mine");
-    refused(&[walk, "x.trc"], &["x.trc: this file is there already", "hint: --force writes over it"]);
+    refused(&[walk, "x.trc"], &["x.trc: this file already exists", "hint: --force overwrites it"]);
     assert_eq!(bench.text("x.trc"), "mine");
     bench.run(&["convert", walk, "x.trc", "--force"]).done();
     assert!(bench.text("x.trc").starts_with("PathFileType"));
     bench.write("y.xml", "mine");
-    refused(&[walk, "y.mot"], &["y.xml: this file is there already"]);
+    refused(&[walk, "y.mot"], &["y.xml: this file already exists"]);
     assert!(!bench.exists("y.mot"));
     bench.write("walk.csv", "a,b\n1,2\n");
     refused(&["walk.csv", "x.sto"], &["the first column is `a`; expected `time`"]);
@@ -297,12 +297,12 @@ fn conversions_that_make_no_sense_are_refused_with_those_that_do() {
 }
 
 #[test]
-fn forces_that_were_converted_go_with_the_recording_that_they_came_from() {
+fn converted_forces_agree_with_their_recording() {
     let bench = with_demo("own_forces");
     bench.run(&["convert", "demo/input/walk.c3d", "grf.mot"]).done();
     let walk = ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--quiet"];
     bench.run(&[&walk[..], &["-o", "plates"]].concat()).done();
-    // The table stands in world axes, the markers in the laboratory's.
+    // The table is in world axes, the markers in laboratory axes.
     bench.run(&[&walk[..], &["--loads", "grf.xml", "-o", "table"]].concat()).done();
     let summary = bench.json("table/summary.json");
     let codes: Vec<&str> =
@@ -313,12 +313,12 @@ fn forces_that_were_converted_go_with_the_recording_that_they_came_from() {
 }
 
 #[test]
-fn the_same_is_not_said_twice_nor_at_length() {
+fn messages_are_short_and_not_repeated() {
     let bench = with_demo("calm");
     for name in ["walk", "standing"] {
         let file = format!("demo/input/{name}.c3d");
         let (mut c3d, _) = C3d::read(&bench.read(&file)).unwrap();
-        // As Vicon's programs write it, down to the sensors; and points that are no markers.
+        // As Vicon's programs write it, down to the sensors; and points that are not markers.
         let mut origin = c3d.parameters.get("FORCE_PLATFORM", "ORIGIN").unwrap().clone();
         let plates = origin.numbers().unwrap().len() / 3;
         origin.values = Values::Reals([0.0, 0.0, 10.0].repeat(plates));
@@ -334,13 +334,13 @@ fn the_same_is_not_said_twice_nor_at_length() {
         bench.write(&file, c3d.write().unwrap());
     }
     let run = bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-o", "out"]).done();
-    run.says(&["44 only in the recording", "and 38 more"]);
+    run.reports(&["44 only in the recording", "and 38 more"]);
     assert_eq!(run.stderr.matches("ORIGIN of every plate").count(), 1, "{}", run.stderr);
     assert!(!run.stderr.contains("times)") && !run.stderr.contains("Extra9"), "{}", run.stderr);
 }
 
 #[test]
-fn mass_events_and_moments_of_the_figure_come_back_over_the_whole_recording() {
+fn mass_events_and_moments_of_the_synthetic_walk_are_recovered_over_the_whole_recording() {
     let bench = with_demo("identity");
     let run =
         ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
@@ -372,7 +372,7 @@ fn mass_events_and_moments_of_the_figure_come_back_over_the_whole_recording() {
 }
 
 #[test]
-fn what_info_says_to_type_next_can_be_typed() {
+fn the_command_that_info_suggests_works() {
     let bench = with_demo("next");
     let (_, text) = info(&bench, "demo/input/walk.trc");
     assert!(text.contains("--height M -o out") && text.contains("or --model MODEL.osim"), "{text}");
@@ -383,7 +383,7 @@ fn what_info_says_to_type_next_can_be_typed() {
     assert!(text.contains(next), "{text}");
     let run = ["forces", "walk.trc", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
     bench.run(&[&run[..], &["--grf", "grf.mot", "-o", "out", "--quiet"]].concat()).done();
-    // Without forces they are predicted; a figure without sway passes its feet, and that is a verdict.
+    // Without measured forces they are predicted; this figure does not sway over its feet, so the verdict may be infeasible.
     bench.run(&[&run[..], &["-o", "predicted", "--quiet"]].concat()).infeasible();
     // The standing figure has both feet on one plate.
     let (_, text) = info(&bench, "demo/input/standing.c3d");

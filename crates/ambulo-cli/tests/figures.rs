@@ -1,4 +1,4 @@
-//! The figures that a run writes: their lines are the numbers of the run's files, in signs that agree with those of healthy people.
+//! Figures of a run: their lines show the numbers of the run's files, with the signs of normative data.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -65,7 +65,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
 }
 
-/// Correlation of what is shown with the band, for both sides.
+/// Correlation of the drawn mean with the normative mean, for both sides.
 fn with_band(bench: &Workbench, id: &str, speed: f64) -> Vec<f64> {
     let cycles = Cycles::read(bench);
     let mass_kg = bench.json("out/summary.json")["mass_kg"].as_f64().unwrap();
@@ -81,7 +81,7 @@ fn place(panel: &Panel) -> f64 {
 }
 
 #[test]
-fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_signs() {
+fn figures_show_the_numbers_of_the_cycles_with_the_usual_clinical_signs() {
     let bench = Workbench::empty("figures_walk");
     bench.run(&["walk", "--cycles", "2", "--convention", "opensim", "-o", "out"]).done();
     let cycles = Cycles::read(&bench);
@@ -111,7 +111,7 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
     }
     assert!(compared > 60, "{compared}");
 
-    // Speed of the gait `free`. What is asked of the correlation is far above what a turned sign would give.
+    // Speed of the gait `free`. The required correlation is far above that of a reversed sign.
     let speed = bench.json("out/summary.json")["walk"]["speed_dimensionless"].as_f64().unwrap();
     let alike = [
         ("hip_flexion_angle", 0.95),
@@ -130,7 +130,7 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
         let found = with_band(&bench, id, speed);
         assert!(found.len() == 2 && found.iter().all(|r| *r > least), "{id}: {found:?}");
     }
-    // The calf pushes off before the other foot meets the ground, at 48 % in the source.
+    // The plantarflexion moment peaks before the opposite foot strike, at 48 % in the source.
     let ankle = quantities.iter().find(|q| q.id == "ankle_dorsiflexion_moment").unwrap();
     for side in Side::BOTH {
         let mean = cycles.mean(ankle, side, mass_kg).unwrap();
@@ -140,7 +140,7 @@ fn the_lines_of_a_walks_figures_are_the_numbers_of_its_cycles_in_everybodys_sign
 }
 
 #[test]
-fn frontal_and_transverse_signs_agree_with_healthy_people_on_both_sides() {
+fn frontal_and_transverse_signs_agree_with_normative_curves_on_both_sides() {
     let Some(data) = shared_data::data() else { return };
     let folder = data.join("opensim-rajagopal-walk");
     let path = |name: &str| folder.join(name).display().to_string();
@@ -173,7 +173,7 @@ fn frontal_and_transverse_signs_agree_with_healthy_people_on_both_sides() {
 }
 
 #[test]
-fn a_prediction_is_drawn_with_its_uncertainty_beside_the_plates() {
+fn a_prediction_is_drawn_with_its_uncertainty_and_the_measured_forces() {
     let bench = Workbench::new("figures_prediction");
     let run = bench.forces(&["--predict"]);
     assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
@@ -212,7 +212,7 @@ fn a_trial_without_forces_or_cycles_has_the_figures_that_it_can_have() {
 }
 
 #[test]
-fn a_models_name_does_not_get_out_of_its_text() {
+fn the_name_of_a_model_is_escaped() {
     let bench = Workbench::new("figures_name");
     let text = bench.text("figure.osim");
     let name = text.split("<Model name=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap().to_owned();

@@ -1,4 +1,4 @@
-//! Markers, plates and skeletons that cannot be used: the message says where, what was found, what was allowed and what to do.
+//! Unusable markers, plates and skeletons: the message states where, what was found, what was expected and what to do.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -32,14 +32,14 @@ fn forces(bench: &Workbench, input: &str, more: &[&str]) -> Run {
     bench.run(&[&["forces", input], more].concat())
 }
 
-/// Changes a C3D and writes it anew.
+/// Changes a C3D and writes it under a new name.
 fn edit_c3d(bench: &Workbench, name: &str, new: &str, edit: impl Fn(&mut C3d)) {
     let (mut c3d, _) = C3d::read(&bench.read(name)).unwrap();
     edit(&mut c3d);
     bench.write(new, c3d.write().unwrap());
 }
 
-/// Takes mass and stature out of a recording.
+/// Removes mass and stature from a recording.
 fn without_mass(c3d: &mut C3d) {
     c3d.parameters.groups.retain(|group| group.name != "PROCESSING");
 }
@@ -72,7 +72,7 @@ fn a_c3d_that_is_cut_says_where() {
 }
 
 #[test]
-fn markers_that_were_never_seen_and_recordings_without_frames_are_refused() {
+fn markers_that_were_never_seen_and_recordings_without_frames_are_rejected() {
     let bench = laboratory("never_seen");
     edit_c3d(&bench, "walk.c3d", "blind.c3d", |c3d| {
         c3d.points.iter_mut().for_each(|point| point.positions.fill([f64::NAN; 3]));
@@ -95,7 +95,7 @@ fn markers_that_were_never_seen_and_recordings_without_frames_are_refused() {
 }
 
 #[test]
-fn names_that_nobody_knows_are_listed_beside_those_that_are_needed() {
+fn unknown_marker_names_are_listed_with_the_required_ones() {
     let bench = laboratory("unknown_names");
     edit_c3d(&bench, "walk.c3d", "mystery.c3d", |c3d| {
         c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
@@ -103,7 +103,7 @@ fn names_that_nobody_knows_are_listed_beside_those_that_are_needed() {
     let words =
         ["no marker set fits", "of the 46 markers `Mystery0`", "plug-in-gait", "`RASI`", "at least 4", "hint: "];
     forces(&bench, "mystery.c3d", &[]).refused(&[&["mystery.c3d"], &words[..]].concat());
-    // The file that is at fault is named, whichever it is.
+    // The message names the file with the error.
     edit_c3d(&bench, "standing.c3d", "mystery.c3d", |c3d| {
         c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
     });
@@ -119,12 +119,12 @@ fn names_that_nobody_knows_are_listed_beside_those_that_are_needed() {
 }
 
 #[test]
-fn a_body_needs_a_mass_and_a_stature_that_people_have() {
+fn a_body_needs_a_plausible_mass_and_stature() {
     let bench = laboratory("mass");
     edit_c3d(&bench, "walk.c3d", "light.c3d", without_mass);
     forces(&bench, "light.c3d", &[]).refused(&["light.c3d: the body mass is not known", "expected --mass KG"]);
     forces(&bench, "walk.trc", &[]).refused(&["walk.trc: the body mass is not known", "expected --mass KG"]);
-    forces(&bench, "walk.bvh", &[]).refused(&["walk.bvh: a BVH states no body mass", "expected --mass KG"]);
+    forces(&bench, "walk.bvh", &[]).refused(&["walk.bvh: a BVH contains no body mass", "expected --mass KG"]);
     for (input, mass) in [("walk.c3d", "-75"), ("walk.c3d", "nan"), ("walk.c3d", "75000"), ("walk.bvh", "-75")] {
         forces(&bench, input, &["--mass", mass]).refused(&[input, "the body mass is", "expected 2 to 300 kg"]);
     }
@@ -147,7 +147,7 @@ fn a_body_needs_a_mass_and_a_stature_that_people_have() {
 }
 
 #[test]
-fn plates_are_named_as_the_file_has_them() {
+fn plates_keep_the_numbers_of_the_file() {
     let bench = laboratory("plates");
     let plate = |plates: &[&str]| {
         let options: Vec<&str> = plates.iter().flat_map(|plate| ["--plate", plate]).collect();
@@ -155,26 +155,26 @@ fn plates_are_named_as_the_file_has_them() {
     };
     plate(&["99=r"]).refused(&["--plate 99", "walk.c3d has 9 force plates", "from 1 to 9", "hint: `ambulo info`"]);
     for words in ["words", "0=r", "1=x", "1.5=r", "=", "1=", "18446744073709551616=r"] {
-        plate(&[words]).refused(&[words, "expected PLATE=FOOT, plates counted from 1", "such as 1=r"]);
+        plate(&[words]).refused(&[words, "expected PLATE=FOOT, such as 1=r", "plates counted from 1"]);
     }
     plate(&["1=l", "1=r"]).refused(&["--plate 1 is given twice"]);
     let all: Vec<String> = (1..=9).map(|i| format!("{i}=off")).collect();
     let all: Vec<&str> = all.iter().map(String::as_str).collect();
     let predicted = |run: Run, words: &[&str]| {
         assert!(matches!(run.code, Some(0 | 1)), "{}", run.stderr);
-        run.says(words);
-        run.says(&["the ground forces are predicted from the motion"]);
+        run.reports(words);
+        run.reports(&["the ground forces are predicted from the motion"]);
         assert_eq!(bench.json("out/summary.json")["ground"]["source"], "predicted");
     };
     let hint = "`--no-ground` computes";
     predicted(plate(&all), &["no load was measured on the file's 9 force plates", hint]);
     let trc = ["--model", "figure.osim", "--plate", "1=r"];
-    forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with plates"]);
+    forces(&bench, "walk.trc", &trc).refused(&["walk.trc has no force plates", "expected a C3D with force plates"]);
     predicted(forces(&bench, "walk.trc", &trc[..2]), &["the file has no force plates", "hint: `--grf`"]);
     // A person who stands with both feet on one plate.
-    let words = ["plate 1, 0.000-0.499 s: the right foot was on it", "is for `--static`"];
+    let words = ["plate 1, 0.000-0.499 s: the right foot was on it", "a standing trial with `--static`"];
     predicted(forces(&bench, "standing.c3d", &[]), &words);
-    // A trial whose plates nobody hits.
+    // A trial without a foot on a plate.
     edit_c3d(&bench, "walk.c3d", "missed.c3d", |c3d| {
         c3d.channels.iter_mut().for_each(|channel| channel.samples.fill(0.0));
     });
@@ -182,30 +182,30 @@ fn plates_are_named_as_the_file_has_them() {
 }
 
 #[test]
-fn a_standing_trial_is_one_of_the_same_person_who_stands() {
+fn a_standing_trial_must_show_the_same_person_standing_still() {
     let bench = laboratory("static");
     forces(&bench, "walk.c3d", &["--static", "none.c3d"]).refused(&["none.c3d: there is no such file"]);
-    forces(&bench, "walk.c3d", &["--static", "walk.mot"]).refused(&["walk.mot: expected markers, a .c3d or a .trc"]);
+    forces(&bench, "walk.c3d", &["--static", "walk.mot"]).refused(&["walk.mot: expected markers (.c3d or .trc)"]);
     forces(&bench, "walk.c3d", &["--static", "walk.c3d"]).warned(&[
         "in the standing trial the markers move",
         "0 of 437 frames",
         "hint: give a trial in which the person",
     ]);
-    // Other names than the walk's: the body that is made has none of its markers.
+    // The standing trial has other names than the walk, so the calibrated body has none of the markers.
     edit_c3d(&bench, "walk.c3d", "prefixed.c3d", |c3d| {
         c3d.points.iter_mut().enumerate().for_each(|(i, point)| point.name = format!("Mystery{i}"));
     });
     let words =
         ["prefixed.c3d", "have no marker in common", "the model has RASI", "the recording has Mystery0", "hint: "];
     forces(&bench, "prefixed.c3d", &STILL).refused(&words);
-    // What scales a model must have its markers.
+    // A standing trial that scales a model needs the markers of the model.
     let figure = ["--model", "figure.osim", "--grf", "walk_grf.mot"];
     let run = forces(&bench, "walk.trc", &[&figure[..], &STILL].concat());
     run.refused(&["standing.c3d", "no marker in common", "sacrum", "RASI"]);
 }
 
 #[test]
-fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() {
+fn a_model_needs_the_markers_of_the_recording_and_rejects_options_of_the_built_in_body() {
     let bench = laboratory("model");
     let figure = ["--model", "figure.osim"];
     forces(&bench, "walk.c3d", &figure).refused(&[
@@ -217,7 +217,7 @@ fn a_model_has_the_markers_of_its_recording_and_takes_no_other_body_s_options() 
     ]);
     for (option, value) in [("--height", "1.75"), ("--markers", "plug-in-gait"), ("--figure", "de-leva-female")] {
         let run = forces(&bench, "walk.trc", &[&figure[..], &["--grf", "walk_grf.mot", option, value]].concat());
-        run.refused(&[&format!("{option} has no use with --model"), "hint: --static FILE"]);
+        run.refused(&[&format!("{option} has no effect with --model"), "hint: --static FILE"]);
     }
     for given in [&STILL[..], &["--mass", "75"], &["--height", "1.7"], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());
@@ -247,7 +247,7 @@ fn a_trc_that_is_cut_says_where() {
 }
 
 #[test]
-fn a_skeleton_that_is_cut_or_given_what_it_has_no_use_for_is_refused() {
+fn a_truncated_skeleton_and_options_without_effect_are_rejected() {
     let bench = laboratory("cut_bvh");
     let text = bench.text("walk.bvh");
     let motion = text.find("MOTION").unwrap();
@@ -262,35 +262,35 @@ fn a_skeleton_that_is_cut_or_given_what_it_has_no_use_for_is_refused() {
     bench.run(&["events", "cut.bvh"]).refused(&["cut.bvh: line", "truncated"]);
     for given in [&STILL[..], &["--model", "figure.osim"], &["--grf", "walk_grf.mot"], &["--markers", "cast"]] {
         let run = forces(&bench, "walk.bvh", &[&["--mass", "75"][..], given].concat());
-        run.refused(&["walk.bvh", &format!("{} has no use for a .bvh", given[0]), "expected --mass and --height"]);
+        run.refused(&["walk.bvh", &format!("{} has no effect for a .bvh", given[0]), "expected --mass and --height"]);
     }
 }
 
 #[test]
-fn what_is_no_file_of_markers_is_refused_by_its_name() {
+fn other_files_are_rejected_by_their_extension() {
     let bench = laboratory("names");
     let kinds = "expected .c3d or .trc (markers)";
     forces(&bench, "-", &[]).refused(&["-: standard input is not read", kinds]);
     forces(&bench, ".", &[]).refused(&["this is a folder", kinds]);
-    forces(&bench, "walk", &[]).refused(&["walk: its name has no ending", kinds]);
+    forces(&bench, "walk", &[]).refused(&["walk: its name has no extension", kinds]);
     forces(&bench, "walk.xyz", &[]).refused(&["unknown kind of recording `.xyz`", kinds]);
     forces(&bench, "none.c3d", &[]).refused(&["none.c3d: there is no such file", "hint: "]);
     forces(&bench, "walk.c3d", &["--max-gap", "-1"]).refused(&["'-1' for '--max-gap <S>'", "zero or more"]);
     forces(&bench, "walk.c3d", &["--from", "50"]).refused(&["walk.c3d: the range from 50 s", "hint: "]);
-    bench.run(&["convert", "walk.c3d", "walk"]).refused(&["no ending that says its format", ".trc, .csv"]);
+    bench.run(&["convert", "walk.c3d", "walk"]).refused(&["has no extension", ".trc, .csv"]);
 }
 
 #[test]
-fn results_never_write_over_markers_or_a_model_that_was_read() {
+fn results_never_overwrite_input_markers_or_an_input_model() {
     let bench = laboratory("overwrite");
-    // `subject.osim` is what a run writes, and what a later run may be given.
+    // A run writes `subject.osim`, and a later run may read it.
     forces(&bench, "walk.c3d", &[&STILL[..], &["-o", "out", "--quiet"]].concat()).done();
     let before = bench.read("out/subject.osim");
     let run = forces(&bench, "walk.c3d", &["--model", "out/subject.osim", "-o", "out"]);
-    run.refused(&["out/subject.osim: this file was read and would be written over", "hint: choose another folder"]);
+    run.refused(&["out/subject.osim: this input file would be overwritten", "hint: choose another folder"]);
     assert_eq!(bench.read("out/subject.osim"), before);
     forces(&bench, "walk.c3d", &["--model", "out/subject.osim", "-o", "again", "--quiet"]).done();
-    // A folder that holds the input keeps it.
+    // An input in the result folder is kept.
     bench.write("out/walk.c3d", bench.read("walk.c3d"));
     forces(&bench, "out/walk.c3d", &[&STILL[..], &["-o", "out", "--quiet"]].concat()).done();
     assert_eq!(bench.read("out/walk.c3d"), bench.read("walk.c3d"));
@@ -298,7 +298,7 @@ fn results_never_write_over_markers_or_a_model_that_was_read() {
 }
 
 #[test]
-fn what_a_person_carries_counts_on_the_built_in_body_too() {
+fn a_carried_mass_is_added_to_the_built_in_body_too() {
     let bench = laboratory("carried");
     let load = ["--add-mass", "torso:5"];
     let total = |input: &str, given: &[&str]| -> f64 {

@@ -1,6 +1,6 @@
-//! One road: the files of `ambulo forces` are those of `study::run`, byte for byte.
+//! The files of `ambulo forces` are equal, byte for byte, to those written from `study::run`.
 //!
-//! Each recording goes once through the command and once through the library, from the same bytes. `report.html` is left out: it is made
+//! Each recording goes once through the command and once through the library, from the same bytes. `report.html` is left out: it is written
 //! from the other files. In `summary.json`, `timing_ms` (the command's clock) and `input` (names of files) are left out.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
@@ -29,7 +29,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use workbench::Workbench;
 
-/// Makes the source of a recording, as the command reads it.
+/// Reads the source of a recording as the command does.
 struct Reader {
     folder: PathBuf,
     findings: Findings,
@@ -96,7 +96,7 @@ fn built_in(mass_kg: Option<f64>, height_m: Option<f64>) -> MarkerBody {
     MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg, height_m, set: None }
 }
 
-/// An input without names of files.
+/// An input without file names.
 fn unnamed() -> Input {
     Input {
         motion: String::new(),
@@ -164,7 +164,7 @@ fn predicting() -> Settings {
     Settings { ground: GroundSettings::Predicted, ..Settings::default() }
 }
 
-/// Gait2392 with angles, and forces that are named by hand.
+/// Coordinates of gait2392, with force columns named on the command line.
 fn gait2392(name: &str, more: &[&str], settings: &Settings) {
     let Some(data) = shared_data::data() else { return };
     let mut reader = Reader::of(data.join("opensim-gait2392-subject01"));

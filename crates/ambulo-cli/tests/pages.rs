@@ -1,4 +1,4 @@
-//! `ambulo report` and `ambulo view`: the page of a folder, and what is refused.
+//! `ambulo report` and `ambulo view`: the page of a folder, and errors.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -14,20 +14,20 @@ fn bench(name: &str) -> Workbench {
 }
 
 #[test]
-fn the_page_made_anew_is_the_page_of_the_run() {
+fn a_page_written_again_equals_the_page_of_the_run() {
     let bench = bench("page-anew");
     let first = bench.text("out/report.html");
     std::fs::remove_file(bench.folder.join("out/report.html")).unwrap();
     bench.run(&["report", "out"]).done();
-    assert!(bench.text("out/report.html") == first, "the page made anew differs");
-    // A folder without a page gets one when it is looked at.
+    assert!(bench.text("out/report.html") == first, "the page written again differs");
+    // `view` writes the page if a folder has none.
     std::fs::remove_file(bench.folder.join("out/report.html")).unwrap();
     let run = bench.run(&["view", "out"]).done();
     assert!(run.stdout.contains("report.html") && bench.text("out/report.html") == first, "{}", run.stdout);
 }
 
 #[test]
-fn a_page_asks_nothing_of_the_network_and_is_small() {
+fn a_page_loads_nothing_from_the_network_and_is_small() {
     let bench = bench("page-offline");
     let page = bench.text("out/report.html");
     for asked in ["src=\"http", "href=\"http", "@import", "url(http"] {
@@ -37,7 +37,7 @@ fn a_page_asks_nothing_of_the_network_and_is_small() {
 }
 
 #[test]
-fn two_and_three_runs_stand_on_one_page() {
+fn two_and_three_runs_are_shown_on_one_page() {
     let bench = bench("page-compared");
     let copy = |to: &str| {
         std::fs::create_dir_all(bench.folder.join(to)).unwrap();
@@ -52,7 +52,7 @@ fn two_and_three_runs_stand_on_one_page() {
     copy("c");
     bench.run(&["report", "out", "--compare", "b/out", "--compare", "c", "-o", "three.html"]).done();
     let page = bench.text("three.html");
-    // Two folders have one name: they are called by the way to them.
+    // Folders with the same name are shown with their path.
     assert!(page.contains("<title>out / b/out / c - Ambulo</title>"), "{}", &page[..400]);
     bench
         .run(&["report", "out", "--compare", "c", "--compare", "c", "--compare", "c"])
@@ -60,7 +60,7 @@ fn two_and_three_runs_stand_on_one_page() {
 }
 
 #[test]
-fn what_is_no_folder_of_a_run_is_refused_with_a_hint() {
+fn anything_but_a_result_folder_is_rejected_with_a_hint() {
     let bench = bench("page-refused");
     std::fs::create_dir_all(bench.folder.join("empty")).unwrap();
     std::fs::create_dir_all(bench.folder.join("paper")).unwrap();

@@ -1,4 +1,4 @@
-//! Folders of results for animation programs and as one table: what is drawn is what the files say.
+//! Conversion of result folders to animations and to one table: they agree with the files of the folder.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -97,7 +97,7 @@ fn converted(bench: &Workbench, input: &str, output: &str) -> Vec<u8> {
 }
 
 #[test]
-fn drawn_feet_stand_where_their_forces_act() {
+fn drawn_feet_touch_the_ground_where_their_forces_act() {
     let bench = demo();
     let animation = Animation::new(&converted(bench, "demo", "feet.glb"));
     let forces = bench.table("demo/grf.mot");
@@ -139,16 +139,16 @@ fn drawn_feet_stand_where_their_forces_act() {
         1e3 * worst[2],
         1e3 * worst[1]
     );
-    // Soft shoes give by up to a centimetre and a half; forces act between heel and tip.
+    // Soft shoes are compressed by up to 1.5 cm; forces act between heel and tip.
     assert!(seen > 40 && worst[0] < 0.005 && worst[1] < 0.025 && worst[2] < 0.005, "{worst:?}");
 }
 
 #[test]
-fn an_animation_moves_as_the_markers_of_the_same_walk() {
+fn an_animation_agrees_with_the_markers_of_the_same_walk() {
     let bench = demo();
     let animation = Animation::new(&converted(bench, "demo", "markers.glb"));
     let (markers, _) = Trc::read(&bench.read("demo/input/walk.trc")).unwrap();
-    // Origins of these bodies are their joints, where the figure's own markers stand.
+    // Origins of these bodies are their joints, where the markers of the figure are.
     for (body, marker) in
         [("calcn_r", "ankle_r"), ("tibia_l", "knee_l"), ("femur_r", "hip_r"), ("forearm_l", "elbow_l")]
     {
@@ -163,7 +163,7 @@ fn an_animation_moves_as_the_markers_of_the_same_walk() {
 }
 
 #[test]
-fn the_long_table_holds_the_numbers_of_the_files() {
+fn the_long_table_has_the_numbers_of_the_files() {
     let bench = demo();
     let text = String::from_utf8(converted(bench, "demo", "results.csv")).unwrap();
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -193,7 +193,7 @@ fn the_long_table_holds_the_numbers_of_the_files() {
 }
 
 #[test]
-fn a_folder_and_its_own_files_make_the_same_skeleton_and_animation() {
+fn a_folder_and_its_files_give_the_same_skeleton_and_animation() {
     let bench = demo();
     let folder = Bvh::read(&converted(bench, "demo", "folder.bvh")).unwrap().0;
     let model = ["--model", "demo/figure.osim", "--force"];
@@ -219,10 +219,12 @@ fn a_folder_and_its_own_files_make_the_same_skeleton_and_animation() {
 }
 
 #[test]
-fn what_a_folder_cannot_give_is_said() {
+fn impossible_conversions_of_a_folder_are_rejected() {
     let bench = demo();
-    bench.run(&["convert", "demo", "x.trc"]).refused(&["a folder of results becomes .glb, .bvh or .csv; found `.trc`"]);
-    bench.run(&["convert", "demo", "x"]).refused(&["found a name without an ending"]);
+    bench
+        .run(&["convert", "demo", "x.trc"])
+        .refused(&["a result folder is converted to .glb, .bvh or .csv; found `.trc`"]);
+    bench.run(&["convert", "demo", "x"]).refused(&["found a name without an extension"]);
     bench.run(&["convert", "demo", "x.glb", "--world"]).refused(&["--what, --world and --model are for files"]);
     std::fs::create_dir_all(bench.folder.join("empty")).unwrap();
     bench.run(&["convert", "empty", "x.glb"]).refused(&["empty: found no summary.json"]);
@@ -238,14 +240,14 @@ fn what_a_folder_cannot_give_is_said() {
     let rows = bench.text("demo/grf.mot");
     bench.write("cut/grf.mot", rows.lines().take(100).collect::<Vec<_>>().join("\n") + "\n");
     bench.run(&["convert", "cut", "x.glb"]).refused(&["cut/grf.mot: "]);
-    // Arrows are explained where there are any.
+    // The scale of the arrows is stated if there are arrows.
     std::fs::remove_file(bench.folder.join("cut/grf.mot")).unwrap();
     for (folder, arrows) in [("demo", true), ("cut", false)] {
         let said = bench.run(&["convert", folder, "said.glb", "--force"]).done();
         assert_eq!(said.stderr.contains("arrows are 1 m for 1000 N"), arrows, "{folder}: {}", said.stderr);
     }
     bench.write("x.glb", "mine");
-    bench.run(&["convert", "demo", "x.glb"]).refused(&["x.glb: this file is there already"]);
+    bench.run(&["convert", "demo", "x.glb"]).refused(&["x.glb: this file already exists"]);
 }
 
 #[test]

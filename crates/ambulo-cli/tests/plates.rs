@@ -1,4 +1,4 @@
-//! Plates of a C3D under feet: what is left out, what a person decides, which cycles and which mass remain.
+//! Force plates of a C3D: assignment of feet by the user, ignored plates, and the resulting cycles and mass.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -46,7 +46,7 @@ fn cycles(bench: &Workbench) -> BTreeSet<(String, String)> {
 }
 
 #[test]
-fn cycles_begin_with_strikes_on_plates_and_end_with_strikes_that_were_only_seen() {
+fn cycles_begin_with_a_foot_strike_on_a_plate_and_may_end_with_one_from_the_motion() {
     let bench = with_demo("two_plates");
     let (all, _) = forces(&bench, &[]);
     assert_eq!((all["mass_source"].as_str(), cycles(&bench).len()), (Some("plates"), 6));
@@ -57,7 +57,7 @@ fn cycles_begin_with_strikes_on_plates_and_end_with_strikes_that_were_only_seen(
     let sides: Vec<&str> = contacts.iter().map(|c| c["side"].as_str().unwrap()).collect();
     assert_eq!(sides, ["r", "l"], "{contacts:?}");
     assert_eq!(cycles(&bench).into_iter().map(|(side, _)| side).collect::<String>(), "lr", "one cycle of each foot");
-    // Two plates see no whole cycle; the standing trial's plates say the mass.
+    // Two plates measure no whole cycle, so the mass is from the standing trial.
     assert_eq!(two["mass_source"], "standing");
     assert!((two["mass_kg"].as_f64().unwrap() - 75.0).abs() < 0.1, "{}", two["mass_kg"]);
     let strikes = rows(&bench, "events.csv").into_iter().filter(|row| row[1] == "strike").count();
@@ -71,7 +71,7 @@ fn cycles_begin_with_strikes_on_plates_and_end_with_strikes_that_were_only_seen(
 }
 
 #[test]
-fn a_person_decides_whose_foot_a_plate_carries() {
+fn the_user_can_assign_a_foot_to_a_plate() {
     let bench = with_demo("told_plate");
     let (told, _) = forces(&bench, &["--plate", "2=l"]);
     let second = &told["subject"]["plates"][1];

@@ -1,6 +1,6 @@
 //! `ambulo forces` without plates and with `--predict`: files, columns, keys, comparison, exit codes.
 //!
-//! The demo's walk lies on the instants of its own forces, so that prediction and truth stand side by side.
+//! The demo's walk lies on the instants of its own forces, so that prediction and truth can be compared directly.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -17,8 +17,8 @@ fn ran(run: Run) -> Run {
     run
 }
 
-/// Runs `forces --predict` beside the demo's own forces.
-fn beside_plates(bench: &Workbench, more: &[&str]) -> Run {
+/// Runs `forces --predict` with the measured forces of the demo.
+fn predict_with_plates(bench: &Workbench, more: &[&str]) -> Run {
     ran(bench.run(&[&MOTION[..], &PLATES, &["--predict"], &RAW[..2], more].concat()))
 }
 
@@ -26,7 +26,7 @@ fn beside_plates(bench: &Workbench, more: &[&str]) -> Run {
 fn forces_are_predicted_where_none_were_measured() {
     let bench = Workbench::new("predicted");
     let run = ran(bench.run(&[&MOTION[..], &RAW[..2]].concat()));
-    run.says(&[
+    run.reports(&[
         "note: no ground forces were given; they are predicted",
         "warning: body mass is neither given nor measured",
     ]);
@@ -39,15 +39,15 @@ fn forces_are_predicted_where_none_were_measured() {
     {
         assert!(bench.exists(&format!("out/{name}")), "{name}");
     }
-    assert!(!bench.exists("out/grf_measured.mot"), "nobody measured anything");
-    // The weight stands on the feet; what is sharper than markers show is left over.
+    assert!(!bench.exists("out/grf_measured.mot"), "there are no measured forces");
+    // The feet carry the weight; changes too fast for markers remain as residual.
     assert!(summary["residual"]["force_rms_bw"].as_f64().unwrap() < 0.1, "{}", summary["residual"]);
 }
 
 #[test]
 fn all_files_share_the_samples_of_the_motion_and_name_their_columns() {
     let bench = Workbench::new("predict_columns");
-    beside_plates(&bench, &[]);
+    predict_with_plates(&bench, &[]);
     let times = bench.table("out/kinematics.mot").times().unwrap().to_vec();
     for name in ["grf.mot", "grf_measured.mot", "grf_sd.mot", "moments.sto"] {
         assert_eq!(bench.table(&format!("out/{name}")).times().unwrap(), times, "{name}");
@@ -79,7 +79,7 @@ fn all_files_share_the_samples_of_the_motion_and_name_their_columns() {
 }
 
 #[test]
-fn what_was_predicted_is_read_again_as_if_it_had_been_measured() {
+fn predicted_forces_can_be_read_as_measured_forces() {
     let bench = Workbench::new("predict_again");
     ran(bench.run(&[&MOTION[..], &RAW[..2], &["-o", "first"]].concat()));
     let again = ["--loads", "first/external_loads.xml", "--cutoff", "off", "--force-cutoff", "off", "-o", "second"];
@@ -94,10 +94,10 @@ fn what_was_predicted_is_read_again_as_if_it_had_been_measured() {
 }
 
 #[test]
-fn beside_plates_the_prediction_is_compared() {
+fn a_prediction_is_compared_with_measured_forces() {
     let bench = Workbench::new("predict_compared");
-    let run = beside_plates(&bench, &[]);
-    for words in ["against plates", "vertical", "fore-aft", "lateral", "ankle_angle_r_moment", "strike"] {
+    let run = predict_with_plates(&bench, &[]);
+    for words in ["compared with plates", "vertical", "fore-aft", "lateral", "ankle_angle_r_moment", "strike"] {
         assert!(run.stdout.contains(words), "`{words}` is missing in: {}", run.stdout);
     }
     let summary = bench.json("out/summary.json");
@@ -129,7 +129,7 @@ fn beside_plates_the_prediction_is_compared() {
 }
 
 #[test]
-fn a_walk_that_its_feet_carry_passes_the_checks_and_one_that_leans_on_something_does_not() {
+fn a_walk_carried_by_its_feet_passes_the_checks_and_one_with_other_support_fails() {
     let bench = Workbench::empty("predict_checks");
     bench.run(&["demo", "-o", "demo", "--quiet"]).done();
     let motion = ["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim", "--cutoff", "off"];
@@ -140,7 +140,7 @@ fn a_walk_that_its_feet_carry_passes_the_checks_and_one_that_leans_on_something_
     let checks = summary["prediction"]["checks"].as_array().unwrap();
     assert!(checks.iter().all(|check| check["passed"] != false), "{checks:?}");
     let mass = checks.iter().find(|check| check["name"] == "mass").unwrap();
-    assert_eq!(mass["passed"], true, "plates beside the prediction weigh: {mass}");
+    assert_eq!(mass["passed"], true, "the measured forces give the mass: {mass}");
     for key in ["value", "allowed", "unit", "time_s", "not_judged"] {
         assert!(mass.get(key).is_some(), "{key}: {mass}");
     }
@@ -155,7 +155,7 @@ fn a_walk_that_its_feet_carry_passes_the_checks_and_one_that_leans_on_something_
         rows
     });
     let run = bench.run(&motion).infeasible();
-    run.says(&["warning: the whole body's"]);
+    run.reports(&["warning: the whole body's"]);
     assert!(run.stdout.contains("            failed: "), "{}", run.stdout);
     let summary = bench.json("out/summary.json");
     let codes = summary["findings"].as_array().unwrap();
@@ -170,7 +170,7 @@ fn a_walk_that_its_feet_carry_passes_the_checks_and_one_that_leans_on_something_
 }
 
 #[test]
-fn half_the_mass_shows_beside_plates_alone() {
+fn half_the_mass_is_only_detected_with_force_plates() {
     let bench = Workbench::empty("predict_half");
     bench.run(&["demo", "-o", "demo", "--quiet"]).done();
     let mass = |more: &[&str]| {
@@ -179,23 +179,23 @@ fn half_the_mass_shows_beside_plates_alone() {
         (run, bench.json("out/summary.json")["mass"].as_str().unwrap().to_owned())
     };
     let (run, known) = mass(&[]);
-    run.says(&["the plates beside the prediction carry 7", "the model has 40.0 kg", "hint: ", "--mass"]);
+    run.reports(&["the force plates alongside the prediction measure 7", "the model has 40.0 kg", "hint: ", "--mass"]);
     assert_eq!(known, "contradicted");
-    assert!(run.stdout.contains("40.00 kg (model, but plates carry another)"), "{}", run.stdout);
+    assert!(run.stdout.contains("40.00 kg (model, but the force plates measured another)"), "{}", run.stdout);
     ran(bench.run(&["forces", "demo/input/walk.bvh", "--mass", "40", "--height", "1.75"]));
     let summary = bench.json("out/summary.json");
     let checks = summary["prediction"]["checks"].as_array().unwrap();
     let mass = checks.iter().find(|check| check["name"] == "mass").unwrap();
-    assert!(mass["passed"].is_null() && mass["not_judged"].is_string(), "nobody weighs: {mass}");
-    assert_eq!(summary["mass"], "verified", "what --mass states stands");
+    assert!(mass["passed"].is_null() && mass["not_judged"].is_string(), "the mass is not measured: {mass}");
+    assert_eq!(summary["mass"], "verified", "--mass is used");
 }
 
 #[test]
-fn plates_of_the_wrong_feet_show() {
+fn exchanged_feet_on_plates_give_a_warning() {
     let bench = Workbench::new("predict_exchanged");
     let exchanged = ["--right", "calcn_r:ground_force_l_", "--left", "calcn_l:ground_force_r_"];
     let run = bench.run(&[&MOTION[..], &PLATES[..2], &exchanged, &["--predict"], &RAW[..2]].concat());
-    ran(run).says(&["plates beside the prediction: ", "right and left may be exchanged"]);
+    ran(run).reports(&["measured forces alongside the prediction: ", "right and left may be exchanged"]);
     let summary = bench.json("out/summary.json");
     let feet = summary["comparison"]["feet"].as_array().unwrap();
     assert!(feet.iter().all(|foot| foot["vertical"]["rmse_bw"].as_f64().unwrap() > 0.3), "{feet:?}");
@@ -214,7 +214,7 @@ fn markers_and_skeletons_need_no_plates() {
     input("walk.bvh", &["--mass", "75", "--height", "1.75"]);
     let summary = bench.json("out/summary.json");
     assert_eq!((summary["ground"]["source"].as_str(), summary["mass"].as_str()), (Some("predicted"), Some("verified")));
-    // Plates in the C3D: compared on stances that stand wholly on their own plate.
+    // Plates in the C3D: compared on stances that are entirely on one plate.
     input("walk.c3d", &["--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75", "--predict"]);
     let summary = bench.json("out/summary.json");
     assert_eq!(summary["comparison"]["feet"].as_array().unwrap().len(), 2);
@@ -222,7 +222,7 @@ fn markers_and_skeletons_need_no_plates() {
 }
 
 #[test]
-fn what_cannot_be_predicted_is_refused() {
+fn impossible_predictions_are_rejected() {
     let bench = Workbench::new("predict_refused");
     bench.run(&[&MOTION[..], &["--predict", "--no-ground"]].concat()).refused(&["--predict", "--no-ground"]);
     bench.run(&[&MOTION[..], &["--from", "0.5", "--to", "0.505"]].concat()).refused(&["walk.mot", "expected"]);

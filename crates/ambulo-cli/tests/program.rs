@@ -1,4 +1,4 @@
-//! The command as a user meets it: guide, help, options, small tools, folders.
+//! The command line: guide, help, options, small tools, result folders.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -9,7 +9,7 @@ use serde_json::Value;
 use workbench::{FORCES, RAW, Workbench};
 
 #[test]
-fn alone_it_prints_a_guide() {
+fn without_arguments_the_command_prints_a_guide() {
     let run = Workbench::empty("guide").run(&[]).done();
     for verb in [
         "ambulo demo",
@@ -30,7 +30,7 @@ fn alone_it_prints_a_guide() {
 }
 
 #[test]
-fn help_of_every_verb_has_an_example() {
+fn the_help_of_every_command_has_an_example() {
     let bench = Workbench::empty("help");
     for verb in ["demo", "walk", "forces", "simulate", "report", "view", "info", "convert", "events", "compare"] {
         let run = bench.run(&[verb, "--help"]).done();
@@ -42,7 +42,7 @@ fn help_of_every_verb_has_an_example() {
 }
 
 #[test]
-fn what_cannot_be_asked_for_exits_with_two_and_says_what_can() {
+fn invalid_options_exit_with_two_and_state_the_valid_ones() {
     let bench = Workbench::new("options");
     let cases: [(&[&str], &str); 12] = [
         (&["dance"], "unrecognized subcommand"),
@@ -69,7 +69,7 @@ fn what_cannot_be_asked_for_exits_with_two_and_says_what_can() {
 }
 
 #[test]
-fn compare_exits_with_one_where_a_limit_is_missed_and_two_where_nothing_can_be_compared() {
+fn compare_exits_with_one_if_a_limit_is_exceeded_and_two_if_nothing_can_be_compared() {
     let bench = Workbench::empty("compare");
     let table = |offset: f64| {
         format!("t\nendheader\ntime\ta\tb\n0\t{}\t1\n1\t{}\t2\n2\t{}\t3\n", offset, 1.0 + offset, 2.0 + offset)
@@ -90,9 +90,9 @@ fn compare_exits_with_one_where_a_limit_is_missed_and_two_where_nothing_can_be_c
     bench.run(&["compare", "a.sto", "b.sto", "--columns", "c"]).refused(&["there is no column `c`", "a, b"]);
     bench
         .run(&["compare", "a.sto", "b.sto", "--from", "7"])
-        .refused(&["no row between --from and --to", "from 0 s to 2 s"]);
+        .refused(&["no row between --from and --to", "covers 0 s to 2 s"]);
     bench.write("late.sto", "t\nendheader\ntime\ta\n8\t1\n9\t1\n");
-    bench.run(&["compare", "a.sto", "late.sto"]).refused(&["no common time", "from 8 s to 9 s"]);
+    bench.run(&["compare", "a.sto", "late.sto"]).refused(&["no common time", "the other 8 s to 9 s"]);
     bench.write("other.sto", "t\nendheader\ntime\tz\n0\t1\n");
     bench.run(&["compare", "a.sto", "other.sto"]).refused(&["no column in common"]);
     bench.write("hole.sto", "t\nendheader\ntime\ta\n0\tnan\n1\t1\n");
@@ -100,7 +100,7 @@ fn compare_exits_with_one_where_a_limit_is_missed_and_two_where_nothing_can_be_c
 }
 
 #[test]
-fn compare_refuses_a_clock_that_runs_back() {
+fn compare_rejects_decreasing_times() {
     // Values between samples are looked up by bisection, which returns nonsense in unsorted instants.
     let bench = Workbench::empty("compare_clock");
     bench.write("a.sto", "t\nendheader\ntime\ta\n0\t0\n2\t2\n1\t1\n3\t3\n");
@@ -109,7 +109,7 @@ fn compare_refuses_a_clock_that_runs_back() {
 }
 
 #[test]
-fn info_tells_what_each_kind_of_file_holds() {
+fn info_describes_each_kind_of_file() {
     let bench = Workbench::new("info");
     let json = |file: &str| serde_json::from_str::<Value>(&bench.run(&["info", file, "--json"]).done().stdout).unwrap();
     let model = json("figure.osim");
@@ -140,18 +140,18 @@ fn info_tells_what_each_kind_of_file_holds() {
 }
 
 #[test]
-fn what_was_read_is_never_written_over() {
+fn an_input_file_is_never_overwritten() {
     let bench = Workbench::new("same_folder");
     bench.write("external_loads.xml", bench.read("walk_grf.xml"));
     let before = bench.read("external_loads.xml");
     bench
         .run(&[&FORCES[..4], &["--loads", "external_loads.xml", "-o", "."], &RAW].concat())
-        .refused(&["external_loads.xml: this file was read and would be written over", "hint: choose another folder"]);
+        .refused(&["external_loads.xml: this input file would be overwritten", "hint: choose another folder"]);
     assert_eq!(bench.read("external_loads.xml"), before);
 }
 
 #[test]
-fn results_of_an_earlier_run_do_not_stay_beside_those_of_the_next() {
+fn results_of_an_earlier_run_are_removed() {
     let bench = Workbench::new("stale");
     bench.forces(&[&RAW[..], &["-o", "out"]].concat()).done();
     assert!(!bench.read("out/cycles.csv").is_empty());

@@ -59,7 +59,7 @@ fn a_run_writes_the_documented_files_with_the_documented_columns() {
     }
     assert!(!bench.exists("out/closures.csv") && !bench.exists("out/moments.sto"));
 
-    // Another scene in the same folder leaves nothing of the first.
+    // Another scene in the same folder removes the results of the first.
     bench.run(&["simulate", "hands.toml", "--duration", "1.2", "-o", "out"]).done();
     assert_eq!(header(&bench, "out/closures.csv"), "time,closure,fx,fy,fz,mx,my,mz,px,py,pz,gap_m");
     assert!(bench.text("out/closures.csv").contains("\n1.1,hand in hand,"));
@@ -84,7 +84,7 @@ fn the_summary_has_its_documented_keys() {
 }
 
 #[test]
-fn a_run_in_two_halves_gives_the_bytes_of_one() {
+fn a_resumed_run_gives_the_same_bytes_as_one_run() {
     // Events on both sides of the break, contacts with friction, impacts within steps.
     for (scene, half, whole) in [("hands", "1.5", "2.7"), ("grasp", "0.8", "1.1"), ("pile", "0.25", "0.5")] {
         let file = format!("{scene}.toml");
@@ -106,19 +106,21 @@ fn a_run_in_two_halves_gives_the_bytes_of_one() {
 }
 
 #[test]
-fn a_state_of_another_scene_is_refused() {
+fn a_state_of_another_scene_is_rejected() {
     let bench = bench("simulate_other_state", &["pendulum.toml", "top.toml"]);
     bench.run(&["simulate", "top.toml", "--duration", "0.1", "--save", "top.json", "-o", "out"]).done();
     bench.run(&["simulate", "pendulum.toml", "--resume", "top.json"]).refused(&["top.json", "another scene", "rod"]);
     bench
         .run(&["simulate", "top.toml", "--step", "0.001", "--resume", "top.json"])
         .refused(&["the step is 0.0005; expected 0.001"]);
-    bench.run(&["simulate", "top.toml", "--resume", "pendulum.toml"]).refused(&["pendulum.toml: this is no state"]);
-    bench.run(&["simulate", "top.toml", "--save", "top.toml"]).refused(&["would be written over"]);
+    bench
+        .run(&["simulate", "top.toml", "--resume", "pendulum.toml"])
+        .refused(&["pendulum.toml: this file was not written by"]);
+    bench.run(&["simulate", "top.toml", "--save", "top.toml"]).refused(&["would be overwritten"]);
 }
 
 #[test]
-fn a_bad_scene_is_refused_with_line_and_key() {
+fn a_bad_scene_is_rejected_with_line_and_key() {
     let bench = bench("simulate_errors", &["pendulum.toml"]);
     let cases = [
         ("mass = 1.0", "mass = -1.0", "`body[1].mass`: found -1"),
@@ -134,15 +136,15 @@ fn a_bad_scene_is_refused_with_line_and_key() {
     }
     bench.run(&["simulate", "no.toml"]).refused(&["no.toml: there is no such file", "hint: "]);
     bench.run(&["simulate", "."]).refused(&["this is a folder"]);
-    bench.run(&["simulate", "pendulum.toml", "--step", "9"]).refused(&["steps of 9 s over 5 s"]);
-    bench.run(&["simulate", "pendulum.toml", "--step", "1e-12"]).refused(&["1e9 at most"]);
+    bench.run(&["simulate", "pendulum.toml", "--step", "9"]).refused(&["the time step is 9 s, the duration 5 s"]);
+    bench.run(&["simulate", "pendulum.toml", "--step", "1e-12"]).refused(&["1e9 time steps"]);
     let run = bench.run(&["simulate", "pendulum.toml", "--step", "0"]);
     assert!(run.code == Some(2) && run.stderr.contains("above 0"), "{}", run.stderr);
     bench.write("file", "");
     bench.run(&["simulate", "pendulum.toml", "--duration", "0.01", "-o", "file"]).refused(&["expected a folder"]);
 }
 
-/// A figure of the built-in demo that hangs on nothing but its recording.
+/// A figure of the demo whose root follows the recording.
 const WALKER: &str = r#"step = 0.001
 duration = 0.3
 [[figure]]
@@ -154,7 +156,7 @@ root = "driven"
 "#;
 
 #[test]
-fn files_that_a_scene_names_are_looked_for_beside_it_and_their_faults_told_with_line_and_key() {
+fn files_named_in_a_scene_are_relative_to_it_and_their_errors_have_line_and_key() {
     let bench = Workbench::new("simulate_figure");
     std::fs::create_dir_all(bench.folder.join("scenes")).unwrap();
     bench.write("scenes/walk.toml", WALKER.replace("figure.osim", "../figure.osim").replace("walk.mot", "../walk.mot"));
@@ -169,7 +171,7 @@ fn files_that_a_scene_names_are_looked_for_beside_it_and_their_faults_told_with_
         ("motion = \"walk.mot\"", "motion = \"figure.osim\"", "line 6, `figure[1].motion`: figure.osim: "),
         ("from = 0.5", "from = 50", "line 6, `figure[1].motion`: walk.mot: found `from` = 50 s"),
         ("root = \"driven\"", "drive = [\"knee\"]", "`figure[1].drive`: found \"knee\""),
-        ("root = \"driven\"", "drive = [\"pelvis_tx\"]", "`root` says what becomes of it"),
+        ("root = \"driven\"", "drive = [\"pelvis_tx\"]", "see the key `root`"),
         (
             "root = \"driven\"",
             "sphere = { body = \"foot\", radius = 0.03 }",
@@ -180,7 +182,7 @@ fn files_that_a_scene_names_are_looked_for_beside_it_and_their_faults_told_with_
         bench.write("bad.toml", WALKER.replace(old, new));
         let run = bench.run(&["simulate", "bad.toml"]);
         assert_eq!(run.code, Some(2), "{new}: {}", run.stderr);
-        // The hint stands on a line of its own.
+        // The hint is on its own line.
         let said = run.stderr.replace("\n  hint: ", " hint: ");
         assert!(said.contains(words), "{new}: {said}");
     }
@@ -205,7 +207,7 @@ fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
     let bench = bench("simulate_verdict", &["stumble.toml"]);
     let run = bench.run(&["simulate", "stumble.toml", "--plot", "-o", "out"]).infeasible();
     assert!(
-        run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles give"),
+        run.stdout.contains("ann\n  verdict   infeasible") && run.stdout.contains("the muscles can supply"),
         "{}",
         run.stdout
     );
@@ -217,7 +219,7 @@ fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
     // Moments and their limits have a sign, and the reason that comes first may be of either.
     assert!(number(&reason["time_s"][0]) > 1.0 && number(&reason["value"]).abs() > number(&reason["limit"]).abs());
     assert!(bench.text("out/figures/joints.svg").contains("red: not feasible"));
-    // The moment that holds the trunk is there to be read.
+    // The moment that holds the trunk upright is written.
     assert!(bench.text("out/joints.csv").contains(",ann/ground_pelvis,angle_z,"));
     // Before the kerb it is feasible.
     bench.run(&["simulate", "stumble.toml", "--duration", "1.3", "-o", "early"]).done();

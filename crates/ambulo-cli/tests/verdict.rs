@@ -11,7 +11,7 @@ use workbench::{FORCES, RAW, Workbench};
 const STRICT: &[&str] = FORCES.split_at(8).0;
 
 #[test]
-fn a_feasible_motion_exits_with_zero_and_says_how_near_it_came() {
+fn a_feasible_motion_exits_with_zero_and_reports_its_closest_limit() {
     let bench = Workbench::new("feasible");
     let run = bench.forces(&RAW).done();
     assert!(run.stdout.contains("  verdict   feasible: at most "), "{}", run.stdout);
@@ -20,13 +20,13 @@ fn a_feasible_motion_exits_with_zero_and_says_how_near_it_came() {
     assert_eq!(verdict["reasons"], serde_json::json!([]));
     let closest = verdict["closest"].as_array().unwrap();
     assert!(closest.iter().any(|c| c["check"] == "strength" && c["share"].as_f64().unwrap() < 1.0), "{closest:?}");
-    let skipped = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "left out by the thresholds");
+    let skipped = verdict["not_judged"].as_array().unwrap().iter().filter(|n| n["why"] == "skipped by the thresholds");
     assert_eq!(skipped.map(|n| n["check"].clone()).collect::<Vec<Value>>(), ["center_of_pressure", "sliding"]);
     assert!(!bench.text("out/figures/moments.svg").contains("red: not feasible"));
 }
 
 #[test]
-fn the_built_in_walks_sliding_feet_are_found_by_the_built_in_limits() {
+fn sliding_feet_are_detected_with_the_built_in_limits() {
     let bench = Workbench::new("sliding");
     let run = bench.run(&[STRICT, &RAW].concat()).infeasible();
     assert!(run.stdout.contains("  verdict   infeasible, "), "{}", run.stdout);
@@ -58,7 +58,7 @@ fn thresholds_are_read_from_a_file() {
         "skip = [\"sliding\", \"center_of_pressure\"]\n[friction]\navailable = 0.05\n[strength]\nshare = 0.2\n";
     bench.write("limits.toml", limits);
     let run = bench.run(&[STRICT, &RAW, &["--thresholds", "limits.toml"]].concat()).infeasible();
-    assert!(run.stdout.contains("friction: the left foot needs a friction of 0."), "{}", run.stdout);
+    assert!(run.stdout.contains("friction: the left foot needs a coefficient of friction of 0."), "{}", run.stdout);
     let verdict = bench.json("out/summary.json")["verdict"].clone();
     let checks: Vec<&str> =
         verdict["reasons"].as_array().unwrap().iter().map(|r| r["check"].as_str().unwrap()).collect();
@@ -67,13 +67,13 @@ fn thresholds_are_read_from_a_file() {
 }
 
 #[test]
-fn a_file_of_thresholds_that_cannot_be_used_is_refused() {
+fn an_invalid_thresholds_file_is_rejected() {
     let bench = Workbench::new("bad_thresholds");
     let refused = |file: &str, words: &[&str]| bench.run(&[STRICT, &["--thresholds", file]].concat()).refused(words);
     bench.write("a.toml", "[friction]\navailable = \"much\"\n");
     refused("a.toml", &["a.toml: line 2, `friction.available`: found \"much\"; expected a number from 0 to 5"]);
     bench.write("a.toml", "[frictoin]\n");
-    refused("a.toml", &["a.toml: line 1, `frictoin`: unknown key", "hint: is `friction` meant?"]);
+    refused("a.toml", &["a.toml: line 1, `frictoin`: unknown key", "hint: did you mean `friction`?"]);
     bench.write("a.toml", [0xff, 0xfe]);
     refused("a.toml", &["a.toml"]);
     refused("none.toml", &["none.toml: there is no such file"]);
@@ -81,7 +81,7 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused() {
 }
 
 #[test]
-fn without_ground_forces_only_the_joints_are_judged() {
+fn without_ground_forces_only_joints_are_checked() {
     let bench = Workbench::new("no_ground");
     bench.run(&[&FORCES[..4], &RAW, &["--no-ground"]].concat()).done();
     let verdict = bench.json("out/summary.json")["verdict"].clone();
@@ -91,7 +91,7 @@ fn without_ground_forces_only_the_joints_are_judged() {
 }
 
 #[test]
-fn what_a_device_gives_need_not_be_given_by_muscles() {
+fn the_moment_of_a_device_is_subtracted_before_strength_is_checked() {
     let bench = Workbench::new("device");
     let weak = "skip = [\"sliding\", \"center_of_pressure\"]\n[strength]\nshare = 0.25\n";
     bench.write("weak.toml", weak);
@@ -103,7 +103,7 @@ fn what_a_device_gives_need_not_be_given_by_muscles() {
     };
     let alone = judge(&[]);
     assert!(alone > 0);
-    // A device that gives the right ankle all it needs.
+    // A device that supplies the whole moment of the right ankle.
     let moments = bench.table("out/moments.sto");
     let (times, ankle) = (moments.times().unwrap(), moments.column("ankle_angle_r_moment").unwrap());
     let rows: Vec<String> = times.iter().zip(ankle).map(|(t, m)| format!("{t},{m}")).collect();

@@ -1,4 +1,4 @@
-//! `ambulo walk` and `ambulo demo`: files, summary, verdict, and what cannot be asked for.
+//! `ambulo walk` and `ambulo demo`: files, summary, verdict, and errors.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
@@ -29,7 +29,7 @@ fn rows<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn a_walk_leaves_the_files_of_a_recording_on_the_same_instants() {
+fn a_walk_writes_the_files_of_a_recording_with_the_same_times() {
     let bench = Workbench::empty("walk_files");
     let run = bench.run(&["walk", "--cycles", "2", "-o", "out"]).done();
     for words in
@@ -53,7 +53,7 @@ fn a_walk_leaves_the_files_of_a_recording_on_the_same_instants() {
 }
 
 #[test]
-fn the_summary_says_how_the_walk_was_made() {
+fn the_summary_states_how_the_walk_was_computed() {
     let bench = Workbench::empty("walk_summary");
     let run = bench.run(&["walk", "--cycles", "1", "--json", "-o", "out"]).done();
     let summary: Value = serde_json::from_str(&run.stdout).unwrap();
@@ -83,7 +83,7 @@ fn the_summary_says_how_the_walk_was_made() {
 }
 
 #[test]
-fn figure_speed_and_steps_can_be_asked_for() {
+fn figure_speed_and_steps_can_be_chosen() {
     let bench = Workbench::empty("walk_options");
     let walk = |more: &[&str]| {
         let run = bench.run(&[&["walk", "--cycles", "1", "--json", "-o", "out"], more].concat());
@@ -104,7 +104,7 @@ fn figure_speed_and_steps_can_be_asked_for() {
     near(&steps["walk"]["cadence_steps_min"], 110.0);
     near(&steps["walk"]["speed_asked_m_s"], 0.6 * 110.0 / 60.0);
     assert!(!bench.text("out/moments.sto").contains("mtp_angle"));
-    // One number leaves the rest to the gait: short steps stay short at another speed.
+    // With one number given, the gait decides the rest: short steps stay short at another speed.
     near(&walk(&["--step-length", "0.65"])["walk"]["step_length_m"], 0.65);
     let [short, standard] = ["short", "standard"].map(|gait| walk(&["--gait", gait, "--speed", "1.2"])["walk"].clone());
     near(&short["speed_asked_m_s"], 1.2);
@@ -120,11 +120,11 @@ fn figure_speed_and_steps_can_be_asked_for() {
 }
 
 #[test]
-fn the_papers_mode_walks_and_is_no_feasible_walk() {
+fn the_walk_of_the_papers_mode_is_infeasible() {
     let bench = Workbench::empty("walk_paper");
     let paper = ["walk", "--gait", "standard", "--mode", "paper", "--figure", "faure-1997", "-o", "out"];
     let run = bench.run(&paper).infeasible();
-    assert!(run.stdout.contains("paper mode") && run.stdout.contains("blows"), "{}", run.stdout);
+    assert!(run.stdout.contains("paper mode") && run.stdout.contains("impacts"), "{}", run.stdout);
     let summary = bench.json("out/summary.json");
     assert_eq!(summary["ground"]["rule"], "rigid soles");
     assert_eq!(summary["walk"]["parameters_adjusted"], Value::Null);
@@ -134,10 +134,10 @@ fn the_papers_mode_walks_and_is_no_feasible_walk() {
 }
 
 #[test]
-fn a_gait_that_cannot_be_put_right_is_said_to_be_so_and_judged() {
+fn a_gait_that_cannot_be_made_consistent_gives_a_warning_and_a_verdict() {
     let bench = Workbench::empty("walk_goose");
     let run = bench.run(&["walk", "--gait", "goose", "--cycles", "1", "-o", "out"]).infeasible();
-    run.says(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
+    run.reports(&["warning: no small change makes this gait dynamically consistent", "hint: "]);
     let findings = bench.json("out/summary.json")["findings"].clone();
     assert!(findings.as_array().unwrap().iter().any(|f| f["code"] == "walk.not_consistent"), "{findings}");
 }
@@ -180,8 +180,8 @@ fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
     bench.run(&[&model[..], &["--loads", "demo/input/walk_grf.xml", "-o", "again"], &RAW].concat()).done();
     let (made, read) = (bench.table("demo/moments.sto"), bench.table("again/moments.sto"));
     let frames = made.rows();
-    // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate feels the whole foot, so
-    // the moment at the ball of the foot is lost.
+    // The recording's accelerations are those of its samples: exact in between, not at its ends; and a plate measures the whole foot, so
+    // the moment at the toe joint is lost.
     for name in ["hip_flexion_r_moment", "knee_angle_l_moment", "ankle_angle_r_moment", "lumbar_extension_moment"] {
         let (a, b) = (made.column(name).unwrap(), read.column(name).unwrap());
         let differences: Vec<f64> = (10..frames - 10).map(|i| (a[i] - b[i]).powi(2)).collect();
@@ -196,7 +196,7 @@ fn the_demo_needs_no_input_and_its_walk_can_be_read_as_a_recording() {
 }
 
 #[test]
-fn what_makes_no_walk_is_refused() {
+fn impossible_walks_are_rejected() {
     let bench = Workbench::empty("walk_refused");
     let refused = |args: &[&str], words: &[&str]| {
         bench.run(&[&["walk", "-o", "out"], args].concat()).refused(words);
@@ -226,7 +226,7 @@ fn what_makes_no_walk_is_refused() {
     }
     refused(&["--mass", "20"], &["20 kg at 1.75 m; expected"]);
     refused(&["--gait", "moonwalk"], &["--gait", "found `moonwalk`", "standard, long, short, goose, slow, free, fast"]);
-    refused(&["--gait", "gose"], &["hint: is `goose` meant?"]);
+    refused(&["--gait", "gose"], &["hint: did you mean `goose`?"]);
     refused(&["--style", "2024"], &["--style: found `2024`; expected one of knots, 1997"]);
     refused(&["--figure", "barbie"], &["--figure", "no figure is named `barbie`", "de-leva-male"]);
     refused(&["--cycles", "0"], &["found 0 cycles; expected 1 to 1000"]);
@@ -241,11 +241,11 @@ fn what_makes_no_walk_is_refused() {
         assert!(run.code == Some(2) && run.stderr.contains(words), "{args:?}: {}", run.stderr);
     }
     bench.write("limits.toml", "[frictoin]\n");
-    refused(&["--thresholds", "limits.toml"], &["limits.toml: line 1", "hint: is `friction` meant?"]);
+    refused(&["--thresholds", "limits.toml"], &["limits.toml: line 1", "hint: did you mean `friction`?"]);
 }
 
 #[test]
-fn gait_files_with_faults_are_refused_by_line() {
+fn errors_in_gait_files_are_reported_with_their_line() {
     let bench = Workbench::empty("walk_gait_files");
     let refused = |content: &str, words: &[&str]| {
         bench.write("gait.toml", content);
@@ -253,7 +253,7 @@ fn gait_files_with_faults_are_refused_by_line() {
     };
     refused("speed = 0\n", &["gait.toml", "speed"]);
     refused("speed = \"quick\"\n", &["gait.toml: line 1", "quick"]);
-    refused("sped = 1.2\n", &["gait.toml: line 1", "hint: is `speed` meant?"]);
+    refused("sped = 1.2\n", &["gait.toml: line 1", "hint: did you mean `speed`?"]);
     refused("style = \"2024\"\n", &["gait.toml: line 1", "2024"]);
     refused("= 3\n", &["gait.toml: line 1", "this is not TOML"]);
     let overlapping = "[[knot]]\njoint = \"knee\"\nknot = \"stance peak\"\nphase = 0.5\n";
@@ -261,7 +261,7 @@ fn gait_files_with_faults_are_refused_by_line() {
 }
 
 #[test]
-fn a_gait_file_is_never_written_over() {
+fn a_gait_file_is_never_overwritten() {
     let bench = Workbench::empty("walk_same_folder");
     let walk = |folder: &str| bench.run(&["walk", "--gait", "summary.json/../mine.toml", "-o", folder]);
     bench.write("mine.toml", "base = \"free\"\n");

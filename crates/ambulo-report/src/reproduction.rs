@@ -144,7 +144,7 @@ fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
         }
         for sensitivity in of_it {
             let start = format!("{start},{}", cell(sensitivity.other));
-            let turned = sensitivity.turned(claims);
+            let turned = sensitivity.reversed(claims);
             match &sensitivity.outcome {
                 Err(reason) => {
                     let _ = writeln!(text, "{start},,{},,,", cell(reason));

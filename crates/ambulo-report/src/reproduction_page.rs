@@ -200,7 +200,7 @@ fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
         let turned: Vec<String> = own
             .map(|sensitivity| match &sensitivity.outcome {
                 Err(reason) => format!("{}: {reason}", sensitivity.other),
-                Ok(_) => match &sensitivity.turned(claims)[..] {
+                Ok(_) => match &sensitivity.reversed(claims)[..] {
                     [] => format!("{}: none", sensitivity.other),
                     turned => format!("{}: {}", sensitivity.other, turned.join(", ")),
                 },

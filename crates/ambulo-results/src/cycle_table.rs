@@ -46,7 +46,7 @@ fn row(quantity: String, unit: &'static str, cycle: &Cycle, grid: TimeGrid, seri
         cycle: cycle.number,
         unit,
         values: over_cycle(grid, series, cycle),
-        toe_off_percent: cycle.toe_off_s.map(|t| 100.0 * (t - cycle.start_s) / duration),
+        toe_off_percent: cycle.foot_off_s.map(|t| 100.0 * (t - cycle.start_s) / duration),
     }
 }
 

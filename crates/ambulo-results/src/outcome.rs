@@ -6,7 +6,7 @@ use crate::prediction_files::prediction_files;
 use crate::subject_summary::SubjectSummary;
 use crate::summary::{GroundSource, Input, MassKnowledge, Summary, summary};
 use crate::walking_summary::WalkingSummary;
-use ambulo::analysis::{PredictedAnalysis, Settings};
+use ambulo::analysis::{AnalysisSettings, PredictedAnalysis};
 use ambulo::findings::Findings;
 use ambulo::study::{self, ForceOrigin, Outcome, Processing, Tracking};
 use ambulo_formats::Error;
@@ -42,7 +42,7 @@ pub fn predicted_analysis(outcome: &Outcome) -> Option<PredictedAnalysis> {
 #[must_use]
 pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
     let Processing { smoother, force_filter, window } = outcome.processing;
-    let settings = Settings { smoother, force_filter, window, rate_hz: None, instrumented: None };
+    let settings = AnalysisSettings { smoother, force_filter, window, rate_hz: None, instrumented: None };
     let ground_source = match outcome.force_origin {
         ForceOrigin::Measured => GroundSource::Measured,
         ForceOrigin::Predicted { rule } => GroundSource::Predicted { rule },

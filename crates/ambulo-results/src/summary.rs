@@ -7,7 +7,7 @@ use crate::tables::UNLOADED_N;
 use crate::walk_summary::WalkSummary;
 use crate::walking_summary::WalkingSummary;
 use ambulo::analysis::feasibility::Verdict;
-use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PredictionChecks, Settings, peak};
+use ambulo::analysis::{Analysis, AnalysisSettings, GroundAgreement, MassSource, PredictionChecks, peak};
 use ambulo::findings::{Finding, Findings};
 use ambulo::model::Model;
 use ambulo::motion::Smoother;
@@ -287,7 +287,13 @@ impl ForceUnit {
 
 /// The summary of an analysis; the shell adds the last timings.
 #[must_use]
-pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: Input, findings: &Findings) -> Summary {
+pub fn summary(
+    model: &Model,
+    analysis: &Analysis,
+    settings: &AnalysisSettings,
+    input: Input,
+    findings: &Findings,
+) -> Summary {
     let grid = analysis.trajectory.grid();
     let (source, rule) = match input.ground_source {
         GroundSource::Measured => (GroundOrigin::Measured, None),
@@ -330,7 +336,7 @@ pub fn summary(model: &Model, analysis: &Analysis, settings: &Settings, input: I
     }
 }
 
-fn filters(settings: &Settings) -> Filters {
+fn filters(settings: &AnalysisSettings) -> Filters {
     let off = FilterSummary { kind: FilterKind::Off, cutoff_hz: None, order: None };
     let low_pass = |f: LowPass| FilterSummary {
         kind: FilterKind::Butterworth,

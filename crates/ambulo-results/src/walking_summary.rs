@@ -1,7 +1,7 @@
 //! Times and distances of walking: `times_and_distances` of `summary.json`, and `times_and_distances.csv`.
 
 use crate::files::OutputFile;
-use ambulo::analysis::{Spread, StrideQuantity, TimesAndDistances};
+use ambulo::analysis::{StrideQuantity, StrideStatistics, TimesAndDistances};
 use ambulo::model::Side;
 use serde::{Deserialize, Serialize};
 
@@ -118,7 +118,7 @@ impl QuantitySummary {
 }
 
 impl SpreadSummary {
-    fn of(spread: Spread, factor: f64) -> SpreadSummary {
+    fn of(spread: StrideStatistics, factor: f64) -> SpreadSummary {
         SpreadSummary {
             mean: factor * spread.mean,
             sd: spread.standard_deviation.map(|sd| factor * sd),

@@ -5,7 +5,7 @@
 #[path = "../../ambulo/tests/free_bodies/mod.rs"]
 mod free_bodies;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::model::{BodyId, Model};
 use ambulo::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
@@ -54,7 +54,7 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
         (force, Vec3::new(0.3, 0.05, 0.1), Vec3::new(0.0, 4.0, 0.0))
     });
     let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),
@@ -92,7 +92,7 @@ fn the_written_ground_forces_hold_everything_that_pushed_a_side() {
     };
     let plates = [push("calcn_r", 400.0), push("toes_r", 300.0)];
     let motion = Motion { origin: "made".into(), times: grid().times(), columns: vec![Some(vec![0.1; FRAMES]); 12] };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),

@@ -4,7 +4,7 @@
 
 mod common;
 
-use ambulo::analysis::feasibility::{FootFrame, Frame, Judge, Person, Thresholds, check_frame};
+use ambulo::analysis::feasibility::{FeasibilityLimits, FootFrame, Frame, Person, Thresholds, check_frame};
 use ambulo::dynamics::{self, BodyLoad, Workspace};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::WalkMachine;
@@ -154,7 +154,7 @@ fn postures_of_a_walk_and_of_its_machine_allocate_nothing() {
 fn judging_an_instant_allocates_nothing() {
     let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
     let Ok(human) = build.human() else { panic!("no figure") };
-    let judge = Judge::new(&human.model, &Person::of_human(&human), &Thresholds::default());
+    let judge = FeasibilityLimits::new(&human.model, &Person::of_human(&human), &Thresholds::default());
     let state = State::rest(&human.model);
     let bodies = body_motion(&human.model, state.posture());
     let foot = FootFrame { force: Vec3::new(50.0, 300.0, 0.0), center_of_pressure: Vec3::new(0.05, -0.9, 0.0) };

@@ -1,12 +1,12 @@
-//! Events, cycles, peaks, agreement, residual, mass and speed against numbers found by hand.
+//! Events, cycles, peaks, agreement, residual, mass and speed compared with numbers computed by hand.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 mod free_bodies;
 
 use ambulo::analysis::{
-    Agreement, Analysis, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource, SHORTEST_CONTACT_S,
-    Settings, analyse, compare, contacts_from_force, cycles, events, over_cycle, peak, residual,
+    Agreement, Analysis, AnalysisSettings, ComparisonError, Contact, Curve, Cycle, Event, EventKind, MassSource,
+    SHORTEST_CONTACT_S, analyse, compare, contacts_from_force, cycles, events, over_cycle, peak, residual,
 };
 use ambulo::dynamics::{LoadSeries, Workspace, inverse};
 use ambulo::findings::{Code, Findings};
@@ -17,7 +17,7 @@ use ambulo::spatial::{Vec3, Wrench};
 use free_bodies::{DOWN_Y, free_bodies};
 use std::f64::consts::TAU;
 
-/// A handful of roundings of numbers near one.
+/// Several rounding errors of numbers near one.
 const ROUNDING: f64 = 1e-12;
 
 #[track_caller]
@@ -25,7 +25,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}");
 }
 
-/// Strike and toe-off of each contact, not-a-number where cut.
+/// Foot strike and foot off of each contact; NaN at a cut end.
 fn ends(contacts: &[Contact]) -> Vec<[f64; 2]> {
     contacts.iter().map(|c| [c.strike_s.unwrap_or(f64::NAN), c.off_s.unwrap_or(f64::NAN)]).collect()
 }
@@ -40,7 +40,7 @@ fn assert_contacts(times: &[f64], vertical: &[f64], expected: &[[f64; 2]]) {
     }
 }
 
-/// 100 N while inside one of the ranges, else nothing, at 1 kHz over one second.
+/// 100 N inside the ranges and zero elsewhere, at 1 kHz for one second.
 fn on_and_off(ranges: &[[f64; 2]]) -> (Vec<f64>, Vec<f64>) {
     let times: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
     let loaded = |t: f64| ranges.iter().any(|[from, to]| t > from - 1e-9 && t < to - 1e-9);
@@ -54,7 +54,7 @@ const RISE: f64 = -0.0008;
 const FALL: f64 = -0.0002;
 
 #[test]
-fn a_strike_lies_where_the_straight_line_between_two_samples_crosses_twenty_newtons() {
+fn a_strike_is_interpolated_at_twenty_newtons_between_two_samples() {
     let times = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5];
     // 0 -> 100 N crosses at a fifth, 220 -> 20 N touches at its end, 20 -> -30 N is below.
     assert_contacts(&times, &[0.0, 0.0, 100.0, 220.0, 20.0, -30.0], &[[0.12, 0.4]]);
@@ -65,17 +65,17 @@ fn a_strike_lies_where_the_straight_line_between_two_samples_crosses_twenty_newt
 }
 
 #[test]
-fn a_contact_that_the_recording_cuts_has_no_event_at_the_cut() {
+fn a_contact_cut_by_the_recording_has_no_event_at_the_cut() {
     let (times, force) = on_and_off(&[[0.0, 0.3], [0.6, 2.0]]);
     assert_contacts(&times, &force, &[[CUT, 0.3 + FALL], [0.6 + RISE, CUT]]);
     assert_contacts(&times, &vec![700.0; times.len()], &[[CUT, CUT]]);
-    // Its length is not known, so even a short remainder stays.
+    // Its length is unknown, so even a short remainder is kept.
     let (times, force) = on_and_off(&[[0.0, 0.02], [0.99, 2.0]]);
     assert_contacts(&times, &force, &[[CUT, 0.02 + FALL], [0.99 + RISE, CUT]]);
 }
 
 #[test]
-fn breaks_and_contacts_shorter_than_a_twentieth_of_a_second_are_noise() {
+fn gaps_and_contacts_shorter_than_a_twentieth_of_a_second_are_noise() {
     assert_near(SHORTEST_CONTACT_S, 0.05, 0.0, "shortest contact [s]");
     let (times, force) = on_and_off(&[[0.1, 0.3], [0.34, 0.6]]);
     assert_contacts(&times, &force, &[[0.1 + RISE, 0.6 + FALL]]);
@@ -83,7 +83,7 @@ fn breaks_and_contacts_shorter_than_a_twentieth_of_a_second_are_noise() {
     assert_contacts(&times, &force, &[[0.1 + RISE, 0.3 + FALL], [0.36 + RISE, 0.6 + FALL]]);
     let (times, force) = on_and_off(&[[0.1, 0.14], [0.3, 0.36]]);
     assert_contacts(&times, &force, &[[0.3 + RISE, 0.36 + FALL]]);
-    // Breaks are closed first: three short pieces are one contact.
+    // Gaps are closed first: three short pieces are one contact.
     let (times, force) = on_and_off(&[[0.1, 0.13], [0.15, 0.18], [0.2, 0.23]]);
     assert_contacts(&times, &force, &[[0.1 + RISE, 0.23 + FALL]]);
 }
@@ -93,7 +93,7 @@ fn event(side: Side, kind: EventKind, time_s: f64) -> Event {
 }
 
 #[test]
-fn events_of_both_feet_stand_in_order_of_time_and_cut_ends_make_none() {
+fn events_of_both_feet_are_in_order_of_time_and_cut_ends_give_none() {
     let contact = |strike: f64, off: f64| Contact {
         strike_s: strike.is_finite().then_some(strike),
         off_s: off.is_finite().then_some(off),
@@ -116,7 +116,7 @@ fn events_of_both_feet_stand_in_order_of_time_and_cut_ends_make_none() {
 }
 
 #[test]
-fn a_cycle_runs_from_strike_to_strike_of_one_foot_and_lies_wholly_on_the_grid() {
+fn a_cycle_lasts_from_strike_to_strike_of_one_foot_within_the_grid() {
     use EventKind::{Off, Strike};
     let list = [
         event(Side::Right, Strike, 0.1),
@@ -127,12 +127,12 @@ fn a_cycle_runs_from_strike_to_strike_of_one_foot_and_lies_wholly_on_the_grid() 
         event(Side::Right, Strike, 2.1),
         event(Side::Right, Strike, 3.2),
     ];
-    let right = |number, start_s, end_s, toe_off_s| Cycle { side: Side::Right, number, start_s, end_s, toe_off_s };
-    let left = Cycle { side: Side::Left, number: 1, start_s: 0.6, end_s: 1.65, toe_off_s: None };
+    let right = |number, start_s, end_s, foot_off_s| Cycle { side: Side::Right, number, start_s, end_s, foot_off_s };
+    let left = Cycle { side: Side::Left, number: 1, start_s: 0.6, end_s: 1.65, foot_off_s: None };
     let whole = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 401 };
     let expected = [right(1, 0.1, 1.1, Some(0.8)), right(2, 1.1, 2.1, None), right(3, 2.1, 3.2, None), left];
     assert_eq!(cycles(&list, whole), expected);
-    // A narrower grid cuts the first and the last right cycle; numbers count what is left.
+    // A narrower grid cuts the first and the last right cycle; the remaining ones are numbered from 1.
     let narrow = TimeGrid { start_s: 0.5, step_s: 0.01, frames: 200 };
     assert_eq!(cycles(&list, narrow), [right(1, 1.1, 2.1, None), left]);
     // Strikes on the first and the last frame count.
@@ -144,7 +144,7 @@ fn a_cycle_runs_from_strike_to_strike_of_one_foot_and_lies_wholly_on_the_grid() 
 #[test]
 fn a_straight_line_stays_straight_over_a_cycle_of_101_samples() {
     let grid = TimeGrid { start_s: 0.4, step_s: 1.0 / 60.0, frames: 120 };
-    let cycle = Cycle { side: Side::Left, number: 1, start_s: 0.503, end_s: 1.617, toe_off_s: None };
+    let cycle = Cycle { side: Side::Left, number: 1, start_s: 0.503, end_s: 1.617, foot_off_s: None };
     let time = |percent: usize| cycle.start_s + percent as f64 / 100.0 * (cycle.end_s - cycle.start_s);
     let line: Vec<f64> = grid.times().iter().map(|t| 2.0 - 3.0 * t).collect();
     let read = over_cycle(grid, &line, &cycle);
@@ -163,7 +163,7 @@ fn a_straight_line_stays_straight_over_a_cycle_of_101_samples() {
 }
 
 #[test]
-fn a_peak_names_the_first_instant_of_its_extremes() {
+fn a_peak_has_the_first_time_of_its_extremes() {
     let grid = TimeGrid { start_s: 1.0, step_s: 0.5, frames: 5 };
     let found = peak(grid, &[1.0, 7.0, -2.0, 7.0, -2.0]).unwrap();
     let expected = [(found.max, 7.0), (found.max_at_s, 1.5), (found.min, -2.0), (found.min_at_s, 2.0)];
@@ -179,7 +179,7 @@ fn agree(a: &[f64], b: &[f64]) -> Agreement {
 }
 
 #[test]
-fn agreement_is_that_of_the_textbook() {
+fn agreement_has_the_textbook_values() {
     // Differences 0, 0, 2; ranges 2 and 4; covariance 4/3, variances 2/3 and 26/9.
     let found = agree(&[0.0, 1.0, 2.0], &[0.0, 1.0, 4.0]);
     assert_near(found.rmse, (4.0_f64 / 3.0).sqrt(), ROUNDING, "rmse");
@@ -190,7 +190,7 @@ fn agreement_is_that_of_the_textbook() {
 }
 
 #[test]
-fn each_measure_sees_what_another_forgives() {
+fn rmse_rrmse_and_r_detect_different_errors() {
     let wave: Vec<f64> = (0..100).map(|i| (TAU * f64::from(i) / 100.0).sin()).collect();
     let same = agree(&wave, &wave);
     assert_near(same.rmse, 0.0, 0.0, "rmse of equals");
@@ -201,7 +201,7 @@ fn each_measure_sees_what_another_forgives() {
     assert_near(opposite.r, -1.0, ROUNDING, "r of opposites");
     assert_near(opposite.rmse, 2.0_f64.sqrt(), ROUNDING, "rmse of opposites");
     assert_near(opposite.rrmse, 2.0_f64.sqrt() / 2.0, ROUNDING, "rrmse of opposites");
-    // An offset and a wrong scale escape the correlation, not the RMSE.
+    // The correlation does not detect an offset and a wrong scale; the RMSE does.
     let shifted: Vec<f64> = wave.iter().map(|x| 3.0 * x + 5.0).collect();
     let shifted = agree(&wave, &shifted);
     assert_near(shifted.r, 1.0, ROUNDING, "r of a scaled and shifted curve");
@@ -216,14 +216,14 @@ fn each_measure_sees_what_another_forgives() {
 }
 
 #[test]
-fn curves_are_compared_at_the_instants_of_the_second_that_both_cover() {
+fn curves_are_compared_at_the_common_times_of_the_second() {
     let (coarse, fine) = ([0.0, 1.0, 2.0], [0.5, 1.0, 1.5, 2.0, 2.5]);
     let a = Curve { times: &coarse, values: &[0.0, 10.0, 0.0] };
     let found = compare(a, Curve { times: &fine, values: &[5.0, 10.0, 5.0, 0.0, 99.0] }).unwrap();
     assert_eq!(found.samples, 4);
     assert_near(found.rmse, 0.0, ROUNDING, "rmse on the chords");
     let error = compare(a, Curve { times: &[3.0, 4.0], values: &[0.0, 0.0] }).unwrap_err();
-    let expected = "no common time: one runs from 0 s to 2 s, the other from 3 s to 4 s; expected an overlap";
+    let expected = "no common time: one curve covers 0 s to 2 s, the other 3 s to 4 s; expected an overlap";
     assert_eq!(error.to_string(), expected);
     let error = compare(a, Curve { times: &fine, values: &[5.0, f64::NAN, 5.0, 0.0, 1.0] }).unwrap_err();
     assert_eq!(error, ComparisonError::NotFinite { time_s: 1.0 });
@@ -237,7 +237,7 @@ fn grid() -> TimeGrid {
 }
 
 #[test]
-fn the_residual_of_a_body_at_rest_is_its_weight_and_a_plate_that_carries_it_leaves_none() {
+fn the_residual_of_a_body_at_rest_is_its_weight_and_zero_on_a_plate() {
     let model = free_bodies(DOWN_Y, &[("pelvis", 50.0), ("foot_r", 20.0)]);
     let (pelvis, foot) = (model.body("pelvis").unwrap(), model.body("foot_r").unwrap());
     let mut columns = vec![[vec![0.0; FRAMES], vec![0.0; FRAMES], vec![0.0; FRAMES]]; 12];
@@ -261,7 +261,7 @@ fn the_residual_of_a_body_at_rest_is_its_weight_and_a_plate_that_carries_it_leav
     for moment in [unloaded.moment_rms_nm, unloaded.moment_peak_nm] {
         assert_near(moment, 0.3 * 20.0 * 9.81, 1e-10, "residual moment [N.m]");
     }
-    // It does not matter to the total which body is pushed.
+    // The total does not depend on the body on which the force acts.
     for body in [pelvis, foot] {
         let carried = of(&[load(body, 70.0 * 9.81)]);
         assert_near(carried.force_peak_n, 0.0, 1e-10, "residual force [N]");
@@ -310,7 +310,7 @@ fn alternating(model: &Model, share: f64) -> Vec<ForceRecording> {
 }
 
 fn run(model: &Model, motion: &Motion, plates: &[ForceRecording]) -> (Analysis, Findings) {
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: Window::default(),
@@ -338,7 +338,7 @@ fn the_mass_is_the_mean_vertical_force_over_whole_cycles() {
 }
 
 #[test]
-fn a_mass_that_plates_and_model_see_differently_is_a_finding() {
+fn different_masses_of_plates_and_model_give_a_warning() {
     let model = walker();
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &alternating(&model, 1.05));
     assert_near(analysis.mass.kg, 1.05 * MASS, 1e-9, "mass [kg]");
@@ -350,7 +350,7 @@ fn a_mass_that_plates_and_model_see_differently_is_a_finding() {
 }
 
 #[test]
-fn plates_that_saw_one_foot_only_do_not_weigh_the_body() {
+fn plates_under_one_foot_only_do_not_give_the_mass() {
     let model = walker();
     let plates = alternating(&model, 1.0);
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &plates[..1]);
@@ -359,14 +359,14 @@ fn plates_that_saw_one_foot_only_do_not_weigh_the_body() {
     let message = &findings.as_slice()[0].message;
     assert!(findings.has(Code::CyclesOtherFootUnseen) && message.contains("right cycle 1"), "{message}");
     assert!(findings.has(Code::ResidualLarge), "half of the weight is missing");
-    // Without a whole cycle there is nothing to weigh, and nothing to say.
+    // Without a whole cycle there is no mass from plates and no warning.
     let (analysis, findings) = run(&model, &sliding(1.3, 0.0), &[]);
     assert_eq!(analysis.mass.source, MassSource::Model);
     assert!(findings.as_slice().is_empty() && analysis.cycles.is_empty(), "{:?}", findings.as_slice());
 }
 
 #[test]
-fn the_speed_is_that_over_the_ground_or_over_the_belt() {
+fn the_speed_is_relative_to_the_ground_or_the_belt() {
     let model = walker();
     let plates = alternating(&model, 1.0);
     // A spline through a straight line is that line.
@@ -375,12 +375,12 @@ fn the_speed_is_that_over_the_ground_or_over_the_belt() {
     assert_near(speed(0.0, -1.3), 1.3, 1e-9, "treadmill [m/s]");
     assert_near(speed(0.1, -1.3), 1.4, 1e-9, "treadmill, drifting forward [m/s]");
     assert_near(speed(0.0, 0.0), 0.0, 1e-9, "standing [m/s]");
-    // Without a foot on the ground nothing is known of the speed over it.
+    // Without a foot on the ground the speed is unknown.
     assert_eq!(run(&model, &sliding(1.3, 0.0), &[]).0.speed_m_s, None);
 }
 
 #[test]
-fn forces_shorter_than_the_motion_cut_the_window_and_say_so() {
+fn forces_shorter_than_the_motion_limit_the_window_with_a_warning() {
     let model = walker();
     let mut plates = alternating(&model, 1.0);
     let keep = |plate: &ForceRecording| plate.times.iter().filter(|&&t| t <= 2.0).count();

@@ -11,7 +11,7 @@
 
 mod gait_files;
 
-use ambulo::analysis::{Analysis, Settings, analyse};
+use ambulo::analysis::{Analysis, AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::feet_on_plates;
@@ -54,7 +54,7 @@ fn walked(subject: &Subject, trial: Trial, (motion_filter, force_filter): (LowPa
     let feet = feet_on_plates(markers, &plates, &foot_motion(markers, &mut findings), &[], &mut findings);
     let forces = feet.recordings(&plates, model.anatomy().feet().unwrap());
     let window = Window { from_s: markers.times.first().copied(), to_s: markers.times.last().copied() };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(motion_filter),
         force_filter,
         window,

@@ -1,11 +1,11 @@
-//! Walks that need no hand to hold them: the plan, the walk stepped through time, and what must not depend on anything.
+//! Dynamically consistent walks: the planned motion, its simulation, and invariances.
 
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
-use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, gait_signals};
+use ambulo::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, gait_signals};
 use ambulo::simulation::{ImpactLaw, StepSettings};
 use std::sync::LazyLock;
 
@@ -74,7 +74,8 @@ fn nothing_holds_the_trunk_of_a_simulated_walk() {
 fn the_same_curves_unchanged_need_a_hand() {
     let case = &*CASE;
     let settings = ConsistentWalkSettings::default();
-    let ground = Ground { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
+    let ground =
+        GroundContact { friction: 0.6, shoes: Shoes::HuntCrossley(settings.shoes), impact: ImpactLaw::Coulomb };
     let signals = gait_signals(&case.walk, &case.human.model);
     let walker = Walker::new(&case.human, signals, &ground, case.walk.speed()).unwrap_or_else(|e| panic!("{e}"));
     let steps = StepSettings { step_s: STEP_S, ..StepSettings::default() };
@@ -100,7 +101,7 @@ fn feet_carry_the_weight_and_never_fly() {
 }
 
 #[test]
-fn standing_feet_stay_where_they_are() {
+fn feet_in_stance_stay_in_place() {
     let case = &*CASE;
     let cycle = last_cycle(&case.recording, &case.walk);
     let Some(slip) = case.recording.stance_slip(cycle.start - cycle.len()) else { panic!("no whole stance") };
@@ -145,7 +146,7 @@ fn the_plan_and_the_simulation_agree() {
 }
 
 #[test]
-fn momentum_changes_by_what_the_feet_push() {
+fn ground_forces_explain_the_change_of_momentum() {
     let case = &*CASE;
     let model = &case.human.model;
     let mut worst = 0.0_f64;

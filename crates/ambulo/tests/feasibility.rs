@@ -1,4 +1,4 @@
-//! Whether a person could do this: each check by itself, whole motions, thresholds, and recordings of people.
+//! Feasibility: each check separately, whole motions, thresholds, and recordings of people.
 //!
 //! Recordings are looked for as tests/opensim_parity.rs does; without them their tests say `skipped` and pass.
 
@@ -10,10 +10,10 @@ mod shared_data;
 mod common;
 
 use ambulo::analysis::feasibility::{
-    Check, Evidence, FootFrame, Frame, Hill, Judge, Measured, Measurement, Person, StrengthCurve, Thresholds, Verdict,
-    check, check_frame,
+    Check, CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, Hill, MotionAndForces, Person,
+    StrengthCurve, Thresholds, Verdict, check, check_frame,
 };
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::dynamics::{Workspace, inverse};
 use ambulo::findings::Findings;
 use ambulo::ground::{BodyForces, GroundForces};
@@ -40,7 +40,7 @@ fn man() -> Human {
 // ---- strength ----
 
 #[test]
-fn the_strength_of_the_reference_man_is_that_of_the_table() {
+fn the_strength_of_the_reference_man_equals_the_table() {
     use Movement::{AnkleDorsiflexion, HipAdduction, HipFlexion, KneeFlexion};
     let at = |movement: Movement, angle_deg: f64, sign: f64| {
         let curve = StrengthCurve::built_in(movement, 72.6, 1.80).unwrap();
@@ -51,7 +51,7 @@ fn the_strength_of_the_reference_man_is_that_of_the_table() {
         (HipAdduction, -30.0, 295.4, 189.9),
         (KneeFlexion, 60.0, 144.6, 258.7),
         (AnkleDorsiflexion, 5.0, 60.5, 292.5),
-        // Between two angles on a straight line, beyond the table's ends its last values.
+        // Linear between two angles, constant beyond the ends of the table.
         (AnkleDorsiflexion, 2.5, (61.0 + 60.5) / 2.0, (288.3 + 292.5) / 2.0),
         (KneeFlexion, -15.0, 145.3, 264.0),
         (HipFlexion, -45.0, 188.1, 235.2),
@@ -69,14 +69,14 @@ fn the_strength_of_the_reference_man_is_that_of_the_table() {
 }
 
 #[test]
-fn strength_goes_with_mass_times_height() {
+fn strength_scales_with_mass_times_height() {
     let strength = |mass, height| StrengthCurve::built_in(Movement::KneeFlexion, mass, height).unwrap().positive[3];
     assert_near(strength(145.2, 1.8) / strength(72.6, 1.8), 2.0, 1e-12, "twice the mass");
     assert_near(strength(72.6, 0.9) / strength(72.6, 1.8), 0.5, 1e-12, "half the height");
 }
 
 #[test]
-fn muscles_give_less_the_faster_they_shorten_and_more_while_they_are_stretched() {
+fn moments_decrease_with_shortening_speed_and_increase_while_muscles_are_stretched() {
     use Movement::{AnkleDorsiflexion, HipAdduction, HipFlexion, KneeFlexion, TrunkLean};
     for movement in [HipFlexion, HipAdduction, KneeFlexion, AnkleDorsiflexion, TrunkLean] {
         let name = &format!("{movement:?}");
@@ -90,7 +90,7 @@ fn muscles_give_less_the_faster_they_shorten_and_more_while_they_are_stretched()
                 assert!(factor(pair[0]) >= factor(pair[1]), "{name} at {} rad/s", pair[0]);
             }
             assert!(factor(40.0) >= 0.0 && factor(-40.0) < 1.4 && factor(-40.0) > 1.35, "{name}");
-            // One slope through rest: central difference against one-sided, both wrong by less than h/2 times a
+            // The slope is continuous at rest: central and one-sided differences, both with an error of less than h/2 times a
             // curvature of at most 2 s²/rad².
             let h = 1e-5;
             let (before, after) = ((factor(0.0) - factor(-h)) / h, (factor(h) - factor(0.0)) / h);
@@ -100,7 +100,7 @@ fn muscles_give_less_the_faster_they_shorten_and_more_while_they_are_stretched()
 }
 
 #[test]
-fn a_knee_that_counts_flexion_positive_is_as_strong_as_one_that_counts_it_negative() {
+fn strength_does_not_depend_on_the_sign_convention_of_the_knee() {
     let turned = StrengthCurve::built_in(Movement::KneeFlexion, 80.0, 1.7).unwrap();
     let curve = turned.reversed();
     for (angle, rate, sign) in [(-0.3, 2.0, 1.0), (-0.3, 2.0, -1.0), (-1.2, -4.0, 1.0), (0.0, -1.0, -1.0)] {
@@ -112,7 +112,7 @@ fn a_knee_that_counts_flexion_positive_is_as_strong_as_one_that_counts_it_negati
 
 // ---- one instant ----
 
-/// A man who stands on both feet, with everything that one instant needs.
+/// A man standing on both feet, with all data of one frame.
 struct Standing {
     human: Human,
     q: Vec<f64>,
@@ -158,9 +158,9 @@ impl Standing {
         body_motion(&self.human.model, Posture { q: &self.q, qd: &self.qd, qdd: &rest })
     }
 
-    fn measure(&self, thresholds: &Thresholds) -> (Vec<Measurement>, bool) {
+    fn measure(&self, thresholds: &Thresholds) -> (Vec<CheckedValue>, bool) {
         let person = Person::of_human(&self.human);
-        let judge = Judge::new(&self.human.model, &person, thresholds);
+        let judge = FeasibilityLimits::new(&self.human.model, &person, thresholds);
         let frame = Frame {
             q: &self.q,
             qd: &self.qd,
@@ -178,8 +178,8 @@ impl Standing {
         (list, whole)
     }
 
-    /// The checks that an instant does not pass.
-    fn against(&self) -> Vec<Check> {
+    /// The checks that fail in this frame.
+    fn failed(&self) -> Vec<Check> {
         let mut checks: Vec<Check> =
             self.measure(&Thresholds::default()).0.iter().filter(|m| m.share > 1.0).map(|m| m.check).collect();
         checks.dedup();
@@ -190,7 +190,7 @@ impl Standing {
 #[test]
 fn standing_still_is_feasible_and_every_check_is_made() {
     let standing = Standing::new();
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
     let (list, whole) = standing.measure(&Thresholds::default());
     assert!(whole);
     for check in Check::ALL {
@@ -202,7 +202,7 @@ fn standing_still_is_feasible_and_every_check_is_made() {
 }
 
 #[test]
-fn each_check_finds_its_own_fault_and_nothing_else() {
+fn each_check_detects_its_own_violation_and_no_other() {
     type Fault<'a> = &'a dyn Fn(&mut Standing);
     let faults: [(Check, Fault<'_>); 10] = [
         (Check::Strength, &|s| {
@@ -235,12 +235,12 @@ fn each_check_finds_its_own_fault_and_nothing_else() {
     for (check, fault) in faults {
         let mut standing = Standing::new();
         fault(&mut standing);
-        assert_eq!(standing.against(), [check]);
+        assert_eq!(standing.failed(), [check]);
     }
 }
 
 #[test]
-fn what_stays_just_inside_its_limit_is_feasible() {
+fn values_just_inside_their_limits_are_feasible() {
     let mut standing = Standing::new();
     let (ankle, elbow, hip, forward) = (
         standing.set("ankle_angle_r"),
@@ -256,25 +256,25 @@ fn what_stays_just_inside_its_limit_is_feasible() {
     standing.qd[forward] = 0.39;
     standing.residual.force.x = 0.39 * 72.6 * GRAVITY;
     standing.residual.moment.z = 1.49 * 72.6;
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
 }
 
 #[test]
-fn a_treadmill_that_goes_with_the_foot_is_no_sliding_and_one_that_stands_is() {
+fn a_foot_that_moves_with_the_belt_does_not_slide() {
     let mut standing = Standing::new();
     let i = standing.set("pelvis_tx");
     standing.qd[i] = -1.2;
-    assert_eq!(standing.against(), [Check::Sliding]);
+    assert_eq!(standing.failed(), [Check::Sliding]);
     standing.ground_velocity = Vec3::new(-1.2, 0.0, 0.0);
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
     // A foot that carries little may slide.
     standing.ground_velocity = Vec3::zeros();
     standing.feet = standing.feet.map(|foot| foot.map(|f| FootFrame { force: f.force * 0.9, ..f }));
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
 }
 
 #[test]
-fn the_sole_ends_where_the_foot_ends_with_a_margin_of_three_centimetres() {
+fn the_sole_has_the_size_of_the_foot_with_a_margin_of_three_centimetres() {
     let standing = Standing::new();
     let d = standing.human.dimensions;
     let outside = |x: f64, z: f64| {
@@ -289,20 +289,20 @@ fn the_sole_ends_where_the_foot_ends_with_a_margin_of_three_centimetres() {
     assert_near(outside(heel, 0.0), 0.0, 1e-9, "at the heel");
     assert_near(outside(toe, 0.0), 0.0, 1e-9, "at the tip");
     assert_near(outside(heel - 0.05, 0.0), 0.05, 1e-9, "behind the heel");
-    assert_near(outside(toe + 0.02, 0.0), 0.02, 1e-9, "before the tip");
-    assert_near(outside(0.05, 0.5 * d.foot_width + 0.01), 0.01, 1e-9, "beside the foot");
+    assert_near(outside(toe + 0.02, 0.0), 0.02, 1e-9, "in front of the tip");
+    assert_near(outside(0.05, 0.5 * d.foot_width + 0.01), 0.01, 1e-9, "lateral of the foot");
 }
 
 #[test]
-fn runners_may_fly() {
+fn flight_is_allowed_in_running() {
     let mut standing = Standing::new();
     standing.feet = standing.feet.map(|foot| foot.map(|f| FootFrame { force: Vec3::zeros(), ..f }));
     standing.walking = false;
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
 }
 
 #[test]
-fn where_an_unloaded_foot_stands_still_on_the_ground_the_forces_are_not_all_there() {
+fn an_unloaded_foot_at_rest_on_the_ground_means_missing_forces() {
     let mut standing = Standing::new();
     standing.feet.left.as_mut().unwrap().force = Vec3::zeros();
     standing.residual.force.y = 0.9 * 72.6 * GRAVITY;
@@ -311,20 +311,20 @@ fn where_an_unloaded_foot_stands_still_on_the_ground_the_forces_are_not_all_ther
     let (list, whole) = standing.measure(&Thresholds::default());
     assert!(!whole);
     assert!(!list.iter().any(|m| matches!(m.check, Check::Support | Check::Strength | Check::Flight)));
-    // In the air it carries nothing for sure.
+    // In the air it certainly carries nothing.
     let (hip, knee) = (standing.set("hip_flexion_l"), standing.set("knee_angle_l"));
     (standing.q[hip], standing.q[knee]) = (0.8, -1.4);
-    assert_eq!(standing.against(), [Check::Strength, Check::Support]);
+    assert_eq!(standing.failed(), [Check::Strength, Check::Support]);
 }
 
 #[test]
-fn a_measurement_says_what_was_found_and_what_is_allowed_in_the_unit_of_its_check() {
+fn a_checked_value_has_value_and_limit_in_the_unit_of_its_check() {
     let mut standing = Standing::new();
     let knee = standing.set("knee_angle_r");
     standing.q[knee] = -163_f64.to_radians();
     let (list, _) = standing.measure(&Thresholds::default());
     let id = standing.human.model.coordinate("knee_angle_r").unwrap();
-    let m = list.iter().find(|m| m.check == Check::Range && m.of == Measured::Coordinate(id)).unwrap();
+    let m = list.iter().find(|m| m.check == Check::Range && m.of == CheckedPart::Coordinate(id)).unwrap();
     assert_near(m.value, -163.0, 1e-9, "angle [deg]");
     assert_near(m.limit, -160.0, 1e-9, "limit [deg]");
     assert!(m.share > 1.0);
@@ -332,7 +332,7 @@ fn a_measurement_says_what_was_found_and_what_is_allowed_in_the_unit_of_its_chec
 
 // ---- whole motions ----
 
-/// A man who holds still, with some joints bent.
+/// A man at rest with some joints flexed.
 fn still(human: &Human, frames: usize, bent: &[(&str, f64)]) -> Trajectory {
     let grid = TimeGrid { start_s: 2.0, step_s: 0.01, frames };
     let value = |name: &str, default: f64| bent.iter().find(|(n, _)| *n == name).map_or(default, |(_, v)| *v);
@@ -343,12 +343,12 @@ fn still(human: &Human, frames: usize, bent: &[(&str, f64)]) -> Trajectory {
     Trajectory::new(&human.model, grid, columns).unwrap()
 }
 
-/// The verdict on a man who stands for a second while `force(frame)` acts on each foot's middle [N].
+/// The verdict on a man who stands for 1 s while `force(frame)` acts on the middle of each foot [N].
 fn judged(force: impl Fn(usize, Side) -> Vec3, thresholds: &Thresholds) -> (Verdict, Findings) {
     judged_with(force, thresholds, &[])
 }
 
-/// The same with some coordinates elsewhere.
+/// The same with other values of some coordinates.
 fn judged_with(
     force: impl Fn(usize, Side) -> Vec3,
     thresholds: &Thresholds,
@@ -368,7 +368,7 @@ fn judged_with(
     });
     let ground = GroundForces { bodies: bodies.to_vec() };
     let forces = inverse(&mut Workspace::new(model), &trajectory, &ground.loads());
-    let evidence = Evidence { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
+    let evidence = MotionAndForces { model, trajectory: &trajectory, forces: &forces, ground: &ground, device: None };
     let mut findings = Findings::default();
     let verdict = check(&evidence, &Person::of_human(&human), thresholds, &mut findings);
     (verdict, findings)
@@ -385,7 +385,7 @@ fn mass_center(human: &Human) -> Vec3 {
 const HALF: f64 = 0.5 * 72.6 * GRAVITY;
 
 #[test]
-fn a_man_who_stands_is_feasible_and_the_verdict_says_how_near_he_came() {
+fn standing_is_feasible_and_the_verdict_has_the_closest_values() {
     let (verdict, findings) = judged(|_, _| Vec3::new(0.0, HALF, 0.0), &Thresholds::default());
     assert!(verdict.feasible && verdict.reasons.is_empty(), "{:?}", verdict.reasons);
     assert!(findings.as_slice().is_empty());
@@ -398,7 +398,7 @@ fn a_man_who_stands_is_feasible_and_the_verdict_says_how_near_he_came() {
 }
 
 #[test]
-fn a_fault_has_its_times_its_worst_value_and_a_sentence_and_short_ones_are_noise() {
+fn a_reason_has_times_worst_value_and_message_and_short_violations_are_noise() {
     // The right foot is pushed forwards and the left one backwards, a fifth of the load, from 2.30 to 2.49 s; and for
     // two frames only (0.02 s) at 2.80 s.
     let push = |i: usize, side: Side| {
@@ -424,37 +424,37 @@ fn a_fault_has_its_times_its_worst_value_and_a_sentence_and_short_ones_are_noise
     }
     assert_eq!(
         verdict.reasons[0].message,
-        "the right foot needs a friction of 0.25; 0.10 is there (from 2.300 to 2.490 s, worst at 2.400 s)"
+        "the right foot needs a coefficient of friction of 0.25; 0.10 is available (from 2.300 to 2.490 s, worst at 2.400 s)"
     );
-    // Asked for, the short one is found too.
+    // With a smaller limit of time the short one is detected too.
     let (verdict, _) = judged(push, &Thresholds { shortest_s: 0.0, ..thresholds });
     assert_eq!(verdict.reasons.len(), 4);
 }
 
 #[test]
-fn a_walker_who_flies_longer_than_allowed_is_told_how_long() {
+fn too_long_a_flight_is_reported_with_its_duration() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
-    // Held in the air, he should fall: that the support is missing too is left out here.
+    // Kept in the air, he should fall: the missing support is skipped here.
     let thresholds = Thresholds { skip: vec![Check::Support, Check::Balance], ..Thresholds::default() };
     let (verdict, findings) = judged_with(load, &thresholds, &[("pelvis_ty", 1.5)]);
     assert_eq!(verdict.reasons.len(), 1, "{:?}", verdict.reasons);
     let message = "no foot is loaded for 0.200 s while walking; 0.030 s are allowed (from 2.400 to 2.590 s)";
     assert_eq!(verdict.reasons[0].message, message);
     assert!(findings.as_slice().is_empty());
-    assert_eq!(verdict.not_judged[0].why, "left out by the thresholds");
+    assert_eq!(verdict.not_judged[0].why, "skipped by the thresholds");
 }
 
 #[test]
-fn where_nothing_measures_a_standing_man_nothing_is_judged_and_that_is_said() {
+fn frames_with_missing_forces_are_not_checked_and_reported() {
     let load = |i: usize, _: Side| Vec3::new(0.0, if (40..60).contains(&i) { 0.0 } else { HALF }, 0.0);
     let (verdict, findings) = judged(load, &Thresholds::default());
     assert!(verdict.feasible, "{:?}", verdict.reasons);
     let text = &findings.as_slice()[0].message;
-    assert!(text.contains("not judged in 20 of 101 frames (the first at 2.400 s)"), "{text}");
+    assert!(text.contains("not checked in 20 of 101 frames (the first at 2.400 s)"), "{text}");
 }
 
 #[test]
-fn a_check_that_is_skipped_finds_nothing() {
+fn a_skipped_check_gives_no_reason() {
     let push = |_: usize, side: Side| Vec3::new(if side == Side::Right { 0.7 } else { -0.7 } * HALF, HALF, 0.0);
     let (verdict, _) = judged(push, &Thresholds::default());
     let found: Vec<Check> = verdict.reasons.iter().map(|r| r.check).collect();
@@ -467,7 +467,7 @@ fn a_check_that_is_skipped_finds_nothing() {
 // ---- thresholds ----
 
 #[test]
-fn the_file_in_the_documentation_holds_the_defaults() {
+fn the_file_in_the_documentation_has_the_defaults() {
     let block = DOCUMENT.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     assert_eq!(Thresholds::from_toml(block), Ok(Thresholds::default()));
     assert_eq!(Thresholds::from_toml(""), Ok(Thresholds::default()));
@@ -515,7 +515,7 @@ moment_nm_kg = 0.7
     let (name, curve) = t.tables[0].clone();
     assert_eq!(name, "lumbar_extension");
     assert_near(curve.available(0.0, 0.0, 1.0, 1.4), 225.0, 1e-9, "own table");
-    assert_near(curve.available(1.0, 0.0, -1.0, 1.4), 120.5, 1e-9, "own table's end");
+    assert_near(curve.available(1.0, 0.0, -1.0, 1.4), 120.5, 1e-9, "end of the user's table");
     let expected = Thresholds {
         shortest_s: 0.1,
         skip: vec![Check::Flight, Check::CenterOfPressure],
@@ -543,7 +543,7 @@ moment_nm_kg = 0.7
 }
 
 #[test]
-fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
+fn an_invalid_thresholds_file_is_rejected_with_line_and_key() {
     for (text, message) in [
         ("[friction]\navailable = -0.1\n", "line 2, `friction.available`: found -0.1; expected a number from 0 to 5"),
         (
@@ -552,17 +552,17 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
         ),
         (
             "[friction]\navailabel = 0.5\n",
-            "line 2, `friction.availabel`: unknown key; expected `available`, `least_load_bw`. hint: is `available` meant?",
+            "line 2, `friction.availabel`: unknown key; expected `available`, `least_load_bw`. hint: did you mean `available`?",
         ),
         ("friction = 0.5\n", "line 1, `friction`: found 0.5; expected a table under the header [friction]"),
         ("[person]\nmass_kg = 1000\n", "line 2, `person.mass_kg`: found 1000; expected a number from 2 to 300"),
         (
             "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [10, 0]\n",
-            "line 3, `strength.table[1].angle_deg`: found [10, 0]; expected a list of one or more rising angles",
+            "line 3, `strength.table[1].angle_deg`: found [10, 0]; expected a list of one or more increasing angles",
         ),
         (
             "[[strength.table]]\ncoordinate = \"x\"\nangle_deg = [0, 10]\npositive_nm = [1]\nnegative_nm = [1, 2]\n",
-            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one an angle",
+            "line 4, `strength.table[1].positive_nm`: found [1]; expected a list of 2 moments [N.m], zero or more, one per angle",
         ),
     ] {
         assert_eq!(Thresholds::from_toml(text).unwrap_err().to_string(), message);
@@ -572,19 +572,19 @@ fn a_file_of_thresholds_that_cannot_be_used_is_refused_with_line_and_key() {
         error.starts_with("line 1, `skip[1]`: found \"slidng\"; expected one of \"strength\", \"range\""),
         "{error}"
     );
-    assert!(error.ends_with("hint: is \"sliding\" meant?"), "{error}");
+    assert!(error.ends_with("hint: did you mean \"sliding\"?"), "{error}");
     let error = Thresholds::from_toml("[friction\n").unwrap_err().to_string();
     assert!(error.contains("this is not TOML") && error.contains("docs/FEASIBILITY.md"), "{error}");
 }
 
 #[test]
-fn a_table_of_ones_own_is_judged_by() {
+fn a_strength_table_of_the_user_is_used() {
     let mut standing = Standing::new();
     let lumbar = standing.set("lumbar_extension");
     standing.generalized[lumbar] = 150.0;
     let text = "[[strength.table]]\ncoordinate = \"lumbar_extension\"\nangle_deg = [0]\npositive_nm = [100]\nnegative_nm = [50]\n";
     let own = Thresholds::from_toml(text).unwrap();
-    assert_eq!(standing.against(), []);
+    assert_eq!(standing.failed(), []);
     let (list, _) = standing.measure(&own);
     let found: Vec<_> = list.iter().filter(|m| m.share > 1.0).collect();
     assert_eq!(found.len(), 1);
@@ -594,7 +594,7 @@ fn a_table_of_ones_own_is_judged_by() {
 // ---- people ----
 
 #[test]
-fn a_persons_size_is_estimated_from_any_models_legs() {
+fn the_size_of_a_person_is_estimated_from_the_legs_of_any_model() {
     for table in SegmentTable::ALL {
         let human = Build { table, mass: 70.0, height: 1.75, toe_joint: true }.human().unwrap();
         let (known, estimated) = (Person::of_human(&human), Person::of_model(&human.model));
@@ -637,7 +637,7 @@ fn subject(folder: &Path, [model, motion, grf, loads]: [&str; 4]) -> Subject {
     Subject { model, motion, plates }
 }
 
-/// Every recording of normal walking with plates that this machine has.
+/// Every available recording of normal walking with plates.
 fn walkers(data: &Path) -> Vec<(&'static str, Subject)> {
     let (gait2392, gait10dof, rajagopal) = (
         data.join("opensim-gait2392-subject01"),
@@ -660,7 +660,7 @@ fn walkers(data: &Path) -> Vec<(&'static str, Subject)> {
 
 fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let six_hz = LowPass { order: 3, cutoff_hz: 6.0 };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(six_hz),
         force_filter: Some(six_hz),
         window: Window::default(),
@@ -671,7 +671,7 @@ fn verdict(subject: &Subject, thresholds: &Thresholds) -> Verdict {
     let Subject { model, motion, plates } = subject;
     let analysis = analyse(model, motion, plates, settings, &mut findings).unwrap();
     let (trajectory, forces, ground) = (&analysis.trajectory, &analysis.forces, &analysis.ground);
-    let evidence = Evidence { model, trajectory, forces, ground, device: None };
+    let evidence = MotionAndForces { model, trajectory, forces, ground, device: None };
     check(&evidence, &Person::of_model(model), thresholds, &mut findings)
 }
 
@@ -683,7 +683,7 @@ fn checks(verdict: &Verdict) -> Vec<Check> {
 }
 
 #[test]
-fn people_who_walked_could_do_it() {
+fn recorded_walks_are_feasible() {
     let Some(data) = data() else { return };
     for (name, subject) in walkers(&data) {
         let verdict = verdict(&subject, &Thresholds::default());
@@ -704,7 +704,7 @@ fn people_who_walked_could_do_it() {
 }
 
 #[test]
-fn nobody_walks_like_people_on_ice_that_is_too_slippery() {
+fn normal_walking_on_slippery_ice_is_infeasible() {
     let Some(data) = data() else { return };
     for (name, subject) in walkers(&data) {
         let found = verdict(&subject, &Thresholds { friction: 0.05, ..Thresholds::default() });
@@ -713,7 +713,7 @@ fn nobody_walks_like_people_on_ice_that_is_too_slippery() {
 }
 
 #[test]
-fn a_second_body_on_the_back_that_the_plates_do_not_feel_is_found() {
+fn added_mass_that_the_plates_did_not_measure_is_detected() {
     let Some(data) = data() else { return };
     for (name, mut subject) in walkers(&data) {
         let torso = subject.model.body("torso").unwrap();
@@ -726,7 +726,7 @@ fn a_second_body_on_the_back_that_the_plates_do_not_feel_is_found() {
 }
 
 #[test]
-fn three_times_the_mass_and_the_forces_are_too_much_for_one_mans_muscles() {
+fn three_times_the_mass_and_forces_exceed_the_strength() {
     let Some(data) = data() else { return };
     for (name, mut subject) in walkers(&data) {
         let person = Person::of_model(&subject.model);
@@ -744,7 +744,7 @@ fn three_times_the_mass_and_the_forces_are_too_much_for_one_mans_muscles() {
                 *part *= 3.0;
             }
         }
-        // A person of that mass is as strong; this one (who may carry himself, as porters do) cannot carry two more.
+        // A person of that mass would be strong enough; this person (who could carry one more, as porters do) cannot carry two.
         assert!(verdict(&subject, &Thresholds::default()).feasible, "{name}");
         let (mass_kg, height_m) = (Some(person.mass_kg), Some(person.height_m));
         let found = verdict(&subject, &Thresholds { mass_kg, height_m, ..Thresholds::default() });
@@ -753,7 +753,7 @@ fn three_times_the_mass_and_the_forces_are_too_much_for_one_mans_muscles() {
 }
 
 #[test]
-fn the_same_walk_at_twice_the_pace_is_found() {
+fn the_same_walk_at_twice_the_pace_is_infeasible() {
     let Some(data) = data() else { return };
     for (name, mut subject) in walkers(&data) {
         let hurry = |times: &mut Vec<f64>| times.iter_mut().for_each(|t| *t *= 0.5);

@@ -7,7 +7,7 @@
 #![allow(clippy::print_stdout, reason = "the errors are shown with --nocapture")]
 
 use ambulo::findings::Findings;
-use ambulo::gait::{Gait, Jet, Joint, Laws, Speed, Style, Walk};
+use ambulo::gait::{Gait, Jet, Laws, LegJoint, Speed, Style, Walk};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -55,16 +55,16 @@ fn second_derivative(means: &[f64], phase: f64) -> f64 {
     (1..=12).map(sum).sum()
 }
 
-fn quantity(joint: Joint) -> &'static str {
+fn quantity(joint: LegJoint) -> &'static str {
     match joint {
-        Joint::Hip => "Hip Flex/Extension",
-        Joint::Knee => "Knee Flex/Extension",
-        Joint::Ankle => "Ankle Dorsi/Plantarflexion",
+        LegJoint::Hip => "Hip Flex/Extension",
+        LegJoint::Knee => "Knee Flex/Extension",
+        LegJoint::Ankle => "Ankle Dorsi/Plantarflexion",
     }
 }
 
 /// RMS error of the angle [deg], and of the second derivative relative to its own.
-fn errors(table: &str, style: Style, joint: Joint, speed: usize) -> (f64, f64) {
+fn errors(table: &str, style: Style, joint: LegJoint, speed: usize) -> (f64, f64) {
     let laws = Laws::built_in(style).unwrap();
     let means = means(table, quantity(joint), SPEEDS[speed].0);
     let v = Jet::constant(SPEEDS[speed].1);
@@ -84,7 +84,7 @@ fn errors(table: &str, style: Style, joint: Joint, speed: usize) -> (f64, f64) {
 #[test]
 fn the_default_style_is_within_a_degree_and_a_half_of_the_means() {
     let Some(table) = table("schwartz2008_angles.csv") else { return };
-    for joint in Joint::ALL {
+    for joint in LegJoint::ALL {
         for (i, (name, _)) in SPEEDS.iter().enumerate() {
             let (angle, acceleration) = errors(&table, Style::Knots, joint, i);
             println!("{} {name}: angle {angle:.2} deg, acceleration {acceleration:.2}", joint.name());
@@ -98,7 +98,7 @@ fn the_default_style_is_within_a_degree_and_a_half_of_the_means() {
 #[test]
 fn the_paper_s_style_is_not() {
     let Some(table) = table("schwartz2008_angles.csv") else { return };
-    for joint in Joint::ALL {
+    for joint in LegJoint::ALL {
         let (angle, acceleration) = errors(&table, Style::Paper1997, joint, 2);
         println!("1997, {} Free: angle {angle:.2} deg, acceleration {acceleration:.2}", joint.name());
         assert!(angle > ALLOWED_DEG && acceleration > 0.5, "{joint:?}: {angle} deg, {acceleration}");

@@ -4,7 +4,7 @@
 
 mod common;
 
-use ambulo::gait::{End, Jet, Joint, Laws, SpeedRange, Style, SubCycle, quintic};
+use ambulo::gait::{End, Jet, Laws, LegJoint, SpeedRange, Style, SubCycle, quintic};
 use common::{assert_near, derivatives};
 use proptest::prelude::*;
 
@@ -80,7 +80,7 @@ proptest! {
         let laws = Laws::built_in([Style::Knots, Style::Paper1997][style]).unwrap();
         let [f, df, dv, ddv] = rates;
         let speed = Jet { value: v, rate: dv, acceleration: ddv };
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             let curve = laws.legs.of(joint);
             let n = curve.knots().len();
             for k in 0..n {
@@ -140,14 +140,14 @@ fn speeds_inside_the_range_are_left_alone() {
 fn sub_cycles_tile_the_cycle() {
     for style in [Style::Knots, Style::Paper1997] {
         let laws = Laws::built_in(style).unwrap();
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             let curve = laws.legs.of(joint);
             let parts = SubCycle::of(curve);
             let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
             let expected: &[&str] = match joint {
-                Joint::Hip => &["E3", "F", "E1"],
-                Joint::Knee => &["E3", "F", "E1", "E2"],
-                Joint::Ankle => &["L", "E2", "E3", "F", "E1"],
+                LegJoint::Hip => &["E3", "F", "E1"],
+                LegJoint::Knee => &["E3", "F", "E1", "E2"],
+                LegJoint::Ankle => &["L", "E2", "E3", "F", "E1"],
             };
             assert_eq!(names, expected, "{joint:?}");
             for segment in 0..curve.knots().len() {

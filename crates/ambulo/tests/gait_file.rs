@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use ambulo::findings::Findings;
-use ambulo::gait::{Gait, GaitError, Jet, Joint, Laws, Pelvis, Speed, Style, Walk};
+use ambulo::gait::{Gait, GaitError, Jet, Laws, LegJoint, Pelvis, Speed, Style, Walk};
 use proptest::prelude::*;
 
 const LEG: f64 = 0.92;
@@ -166,22 +166,22 @@ fn the_built_in_laws_are_read() {
 fn unknown_words_are_named_with_line_and_key() {
     assert_eq!(
         refused("name = \"a\"\nstyle = \"1979\""),
-        "line 2, `style`: found \"1979\"; expected one of \"knots\", \"1997\". hint: is \"1997\" meant?"
+        "line 2, `style`: found \"1979\"; expected one of \"knots\", \"1997\". hint: did you mean \"1997\"?"
     );
     let text = refused("speeed = 1.0");
     assert!(text.starts_with("line 1, `speeed`: unknown key; expected `name`, `base`,"), "{text}");
-    assert!(text.ends_with("hint: is `speed` meant?"), "{text}");
+    assert!(text.ends_with("hint: did you mean `speed`?"), "{text}");
     let text = refused("base = \"gose\"");
     assert!(
         text.starts_with("line 1, `base`: found \"gose\"; expected one of \"standard\"")
-            && text.ends_with("\"goose\" meant?")
+            && text.ends_with("did you mean \"goose\"?")
     );
     let text = refused("[[change]]\njoint = \"knee\"\nknot = \"swingpeak\"");
     assert!(
         text.starts_with("line 3, `change[1].knot`: found \"swingpeak\"; expected one of the knee's knots"),
         "{text}"
     );
-    assert!(text.ends_with("is \"swing peak\" meant?"), "{text}");
+    assert!(text.ends_with("did you mean \"swing peak\"?"), "{text}");
     let text = refused("name = \"a\"\nspeed = fast");
     assert!(text.starts_with("line 2: this is not TOML") && text.ends_with("see docs/GAITS.md"), "{text}");
 }
@@ -333,7 +333,7 @@ fn the_gaits_of_the_document_are_walked() {
 fn the_document_has_every_knot_and_gait() {
     for style in [Style::Knots, Style::Paper1997] {
         let laws = Laws::built_in(style).unwrap();
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             let row = DOCUMENT.lines().find(|line| line.starts_with(&format!("| {} | ", joint.name()))).unwrap();
             for knot in laws.legs.of(joint).knots() {
                 assert!(row.contains(&knot.name), "{row} lacks {}", knot.name);

@@ -5,7 +5,7 @@
 mod common;
 
 use ambulo::findings::Findings;
-use ambulo::gait::{Clock, Gait, GaitError, Jet, Joint, Laws, Style, SubCycle, Walk};
+use ambulo::gait::{Clock, Gait, GaitError, Jet, Laws, LegJoint, Style, SubCycle, Walk};
 use common::assert_near;
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ fn clock(phase: f64, rate: f64, law_speed: f64) -> Clock {
 #[test]
 fn velocity_and_acceleration_vanish_at_the_bounds() {
     let laws = Laws::built_in(Style::Paper1997).unwrap();
-    for joint in Joint::ALL {
+    for joint in LegJoint::ALL {
         let curve = laws.legs.of(joint);
         for (k, knot) in curve.knots().iter().enumerate() {
             let phase = Jet { value: curve.knot_phase(k, 0.43), rate: 1.0, acceleration: 0.0 };
@@ -49,7 +49,7 @@ fn the_default_style_keeps_accelerations_at_extremes() {
 #[test]
 fn laws_of_speed_are_linear() {
     let laws = Laws::built_in(Style::Paper1997).unwrap();
-    for joint in Joint::ALL {
+    for joint in LegJoint::ALL {
         for knot in laws.legs.of(joint).knots() {
             assert!(knot.phase.is_linear() && knot.angle.is_linear(), "{joint:?} {}", knot.name);
             let middle = 0.5 * (knot.angle.at(0.2) + knot.angle.at(0.6));
@@ -65,7 +65,7 @@ proptest! {
             gait.pace.length_scale = length;
             gait.step_height = height;
         });
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             let curve = walk.legs().of(joint);
             for part in SubCycle::of(curve) {
                 let [from, to] = part.window(curve, v);
@@ -115,7 +115,7 @@ proptest! {
         let (usual, long) = (standard(|_| ()), standard(|gait| gait.pace.length_scale = factor));
         assert_near(long.step_length(), factor * usual.step_length(), 1e-12, "step");
         assert_near(long.cycle_s(), usual.cycle_s(), 1e-12, "duration");
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             for (a, b) in usual.legs().of(joint).knots().iter().zip(long.legs().of(joint).knots()) {
                 let beyond = |angle: f64| angle - joint.neutral();
                 assert_near(beyond(b.angle.at(v)), factor * beyond(a.angle.at(v)), 1e-12, &a.name);
@@ -127,7 +127,7 @@ proptest! {
     #[test]
     fn step_height_scales_all_local_states_most_of_all_those_of_swing(factor in 0.7..1.5_f64, v in 0.2..0.7_f64) {
         let (usual, high) = (standard(|_| ()), standard(|gait| gait.step_height = factor));
-        for joint in Joint::ALL {
+        for joint in LegJoint::ALL {
             for (a, b) in usual.legs().of(joint).knots().iter().zip(high.legs().of(joint).knots()) {
                 prop_assert!(a.height_share >= 0.2, "{joint:?} {} is left alone", a.name);
                 let beyond = |angle: f64| angle - joint.neutral();

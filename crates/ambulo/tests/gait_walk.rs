@@ -60,7 +60,7 @@ fn numbers_that_no_gait_can_have_are_refused() {
     let error = Gait::named("freee").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "gait: found `freee`; expected one of standard, long, short, goose, slow, free, fast. hint: is `free` meant?"
+        "gait: found `freee`; expected one of standard, long, short, goose, slow, free, fast. hint: did you mean `free`?"
     );
 }
 

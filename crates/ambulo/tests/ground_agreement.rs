@@ -10,7 +10,7 @@
 
 use ambulo::analysis::feasibility::Person;
 use ambulo::analysis::{
-    Analysis, Compared, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,
+    Analysis, ComparedAnalyses, GroundAgreement, PlateCoverage, PredictedAnalysis, PredictionInput,
     analyse_predicted_trajectory, ground_agreement,
 };
 use ambulo::findings::Findings;
@@ -50,7 +50,7 @@ fn against(change: impl Fn(&mut Analysis)) -> GroundAgreement {
     let mut changed = measured.clone();
     change(&mut changed);
     let model = &WALK.human.model;
-    let compared = Compared { model, predicted: &changed, prediction: &whole.prediction, measured };
+    let compared = ComparedAnalyses { model, predicted: &changed, prediction: &whole.prediction, measured };
     ground_agreement(&compared, &seen(&whole, &WALK.loads))
 }
 

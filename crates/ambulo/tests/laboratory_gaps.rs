@@ -5,7 +5,7 @@
 
 mod gait_files;
 
-use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, Settings, analyse, body_in_motion};
+use ambulo::analysis::{AnalysisSettings, BodySource, LaboratoryRecording, MarkerTrial, analyse, body_in_motion};
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::motion::filter::LowPass;
@@ -45,12 +45,12 @@ fn trial(subject: Option<Subject>, window: [f64; 2]) -> Option<Trial> {
 /// Moments at hip, knee and ankle [N.m], one row per joint, and the names of the fitted markers.
 fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Findings, Vec<String>) {
     let mut findings = Findings::default();
-    let body = Body::BuiltIn { person: &trial.subject.person, set: None };
+    let body = BodySource::BuiltIn { person: &trial.subject.person, set: None };
     let settings = FitSettings::default();
-    let markers = MarkerTrial { walk, still: Some(&trial.still), body, plate_feet: &[] };
+    let markers = MarkerTrial { trial: walk, standing: Some(&trial.still), body, plate_feet: &[] };
     let body = body_in_motion(&markers, &settings, &mut findings).unwrap();
     let [from, to] = trial.window;
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 6.0 }),
         force_filter: None,
         window: Window { from_s: Some(from), to_s: Some(to) },

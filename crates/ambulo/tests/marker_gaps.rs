@@ -5,7 +5,7 @@
 
 mod marker_data;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::motion::filter::LowPass;
@@ -24,7 +24,7 @@ fn fitted(subject: &Subject, markers: &MarkerRecording) -> (MarkerFit, Findings)
 
 /// Moments at hip, knee and ankle [N.m], one row a joint.
 fn moments(subject: &Subject, fit: &MarkerFit, window: [f64; 2]) -> Vec<Vec<f64>> {
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 6.0 }),
         force_filter: None,
         window: Window { from_s: Some(window[0]), to_s: Some(window[1]) },

@@ -8,7 +8,7 @@
 
 mod shared_data;
 
-use ambulo::analysis::{Agreement, Analysis, Curve, Settings, analyse, compare};
+use ambulo::analysis::{Agreement, Analysis, AnalysisSettings, Curve, analyse, compare};
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BodyId, Model, from_osim};
@@ -71,7 +71,7 @@ fn rajagopal(data: &Path) -> Subject {
 
 fn run_with(subject: &Subject, smoother: Smoother) -> (Analysis, Findings) {
     let settings =
-        Settings { smoother, force_filter: None, window: Window::default(), rate_hz: None, instrumented: None };
+        AnalysisSettings { smoother, force_filter: None, window: Window::default(), rate_hz: None, instrumented: None };
     let mut findings = subject.findings.clone();
     let done = analyse(&subject.model, &subject.motion, &subject.plates, settings, &mut findings);
     (done.unwrap(), findings)

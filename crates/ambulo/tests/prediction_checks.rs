@@ -1,4 +1,4 @@
-//! Whether a prediction can be right, as far as that shows without plates: consistent motions pass, forces beside the feet are found.
+//! Checks of predictions without plates: consistent motions pass, forces that do not act through the feet are detected.
 //!
 //! The recordings are not part of the repository; without them their test says `skipped` and passes.
 
@@ -10,7 +10,7 @@ mod walking_puppet;
 
 use ambulo::analysis::feasibility::{Check, Person, Thresholds};
 use ambulo::analysis::{
-    CarriedMass, CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PredictedAnalysis, PredictionChecks,
+    CheckSettings, CheckedPrediction, MassSource, PlateCoverage, PlateMass, PredictedAnalysis, PredictionChecks,
     PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
@@ -40,7 +40,7 @@ fn checked_after(
     model: &Model,
     trajectory: &Trajectory,
     soles: &BySide<Option<Sole>>,
-    carried: Option<CarriedMass>,
+    plate_mass: Option<PlateMass>,
     change: impl Fn(&mut Prediction),
 ) -> (PredictionChecks, Findings) {
     let mut prediction = prediction(model, trajectory, soles);
@@ -53,7 +53,7 @@ fn checked_after(
         prediction: &prediction,
         cycles: &cycles,
         thresholds: &Thresholds::default(),
-        carried,
+        plate_mass,
     };
     let mut findings = Findings::default();
     (prediction_checks(&evidence, &mut findings), findings)
@@ -67,7 +67,7 @@ fn of_puppet(puppet: &Puppet) -> (PredictionChecks, Findings) {
     checked(&puppet.model, &puppet.trajectory, &puppet.soles)
 }
 
-/// Values as a line; a star where one does not pass.
+/// Values as a line; a star marks failed checks.
 fn line(checks: &PredictionChecks) -> String {
     let value = |check: &ambulo::analysis::PredictionCheck| {
         let star = if check.passed == Some(false) { "*" } else { " " };
@@ -81,7 +81,7 @@ fn failed(checks: &PredictionChecks) -> Vec<&str> {
 }
 
 #[test]
-fn no_recording_is_said_to_push_beside_its_feet() {
+fn no_recording_has_forces_outside_its_feet() {
     let mut is_first = true;
     for trial in everything() {
         for cutoff_hz in [6.0, 15.0] {
@@ -92,7 +92,7 @@ fn no_recording_is_said_to_push_beside_its_feet() {
             }
             println!("{:<15} {cutoff_hz:>4} Hz  {}", trial.name, line(&checks));
             assert!(checks.reasons.is_empty() && !findings.has(FOUND), "{}: {:?}", trial.name, checks.reasons);
-            // Half of what would be too much.
+            // Half of the limit.
             let outside = checks.get("center_of_pressure").unwrap().value.unwrap();
             assert!(outside < 0.015, "{} at {cutoff_hz} Hz: {outside} m", trial.name);
             assert!(failed(&checks).is_empty(), "{} at {cutoff_hz} Hz: {}", trial.name, line(&checks));
@@ -102,7 +102,7 @@ fn no_recording_is_said_to_push_beside_its_feet() {
 }
 
 #[test]
-fn a_walk_that_only_feet_carry_passes() {
+fn a_walk_carried_only_by_the_feet_passes() {
     let (checks, findings) = of_puppet(&walk(NO_HAND));
     println!("{}", line(&checks));
     assert!(failed(&checks).is_empty() && findings.as_slice().is_empty(), "{checks:?}");
@@ -111,7 +111,7 @@ fn a_walk_that_only_feet_carry_passes() {
 }
 
 #[test]
-fn a_hand_on_a_rail_shows() {
+fn a_hand_on_a_rail_is_detected() {
     for (what, hand) in [
         ("on the right", Hand { share: 0.15, forward: 0.1, right: 0.45 }),
         ("on the left", Hand { share: 0.15, forward: 0.1, right: -0.45 }),
@@ -172,7 +172,7 @@ fn standing_upright_passes_and_leaning_beyond_the_toes_does_not() {
 }
 
 #[test]
-fn sitting_shows() {
+fn sitting_is_detected() {
     let (checks, findings) = of_posture(&[
         ("hip_flexion_r", 1.5),
         ("hip_flexion_l", 1.5),
@@ -186,10 +186,10 @@ fn sitting_shows() {
 }
 
 #[test]
-fn hanging_in_a_harness_shows_and_a_jump_does_not() {
+fn hanging_in_a_harness_is_detected_and_a_jump_passes() {
     let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 300 };
     let still = |place: Vec3| [place, Vec3::zeros(), Vec3::zeros()];
-    // Feet that go up and down beside each other.
+    // Feet that move up and down next to each other.
     let feet = |t: f64, up: [f64; 3]| {
         [0.08, -0.08].map(|z: f64| {
             let (phase, rate) = (8.0 * t + 10.0 * z, 8.0);
@@ -206,7 +206,7 @@ fn hanging_in_a_harness_shows_and_a_jump_does_not() {
     assert!(findings.has(FOUND) && failed(&checks).contains(&"held_without_feet"), "{checks:?}");
     let reason = checks.reasons.iter().find(|reason| reason.check == Check::Support).unwrap();
     assert!((reason.value - 1.0).abs() < 0.05, "all of the weight: {reason:?}");
-    // The same in free fall: nothing holds it.
+    // The same in free fall: no support.
     let fall = |t: f64, g: f64| [40.0 - 0.5 * g * t * t, -g * t, -g];
     for (g, is_fine) in [(9.80665, true), (14.0, false)] {
         let falls = moved(grid, |frame| {
@@ -223,7 +223,7 @@ fn hanging_in_a_harness_shows_and_a_jump_does_not() {
 }
 
 #[test]
-fn forces_of_the_feet_that_do_not_balance_the_motion_show() {
+fn forces_of_the_feet_that_do_not_balance_the_motion_are_detected() {
     let puppet = walk(NO_HAND);
     let changed = |change: &dyn Fn(Vec3) -> Vec3| {
         let (checks, findings) = checked_after(&puppet.model, &puppet.trajectory, &puppet.soles, None, |prediction| {
@@ -282,10 +282,10 @@ fn of_mass(share: f64, with_plates: bool, standing_kg: Option<f64>) -> (Predicti
 }
 
 #[test]
-fn a_wrong_mass_shows_only_against_plates() {
+fn a_wrong_mass_is_only_detected_with_plates() {
     let (checks, findings, predicted) = of_mass(0.5, false, None);
     println!("half, alone     {}", line(&checks));
-    // All forces are half of what they were, and agree with each other.
+    // All forces are halved and agree with each other.
     assert!(failed(&checks).is_empty() && findings.as_slice().is_empty(), "{checks:?}");
     assert_eq!((checks.mass_agrees(), predicted.analysis.mass.source), (None, MassSource::Model));
     for (with_plates, standing_kg) in [(true, None), (false, Some(75.0))] {
@@ -295,7 +295,7 @@ fn a_wrong_mass_shows_only_against_plates() {
         assert!(findings.has(Code::PredictionMass) && checks.reasons.is_empty(), "{findings:?}");
         let value = checks.get("mass").unwrap().value.unwrap();
         assert!((value - 2.0).abs() < 0.02, "{value}");
-        assert_eq!(predicted.analysis.mass.source, MassSource::Model, "what contradicts the model is not taken");
+        assert_eq!(predicted.analysis.mass.source, MassSource::Model, "a contradicting mass is not used");
         let (checks, findings, predicted) = of_mass(1.0, with_plates, standing_kg);
         assert_eq!((failed(&checks), checks.mass_agrees()), (vec![], Some(true)), "{findings:?}");
         assert_ne!(predicted.analysis.mass.source, MassSource::Model);

@@ -1,4 +1,4 @@
-//! The claims of the paper: what its mode gives, that the page about it says the same, and that the judge can say no.
+//! The claims of the paper: results of its mode, agreement with the documentation, and judgements that fail.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
@@ -27,7 +27,7 @@ fn value(id: &str, name: &str) -> f64 {
 }
 
 #[test]
-fn torques_and_what_they_add_up_to_converge_as_the_rate_grows() {
+fn torques_and_their_integrals_converge_as_the_rate_grows() {
     for (id, what, finest) in [("a1", "torque", 1.0), ("a2", "impulse", 1.5)] {
         let errors: Vec<f64> =
             [30, 60, 120, 1000].iter().map(|rate| value(id, &format!("hip_{what}_{rate}hz_percent"))).collect();
@@ -51,14 +51,14 @@ fn mass_is_but_the_unit_of_force_while_lengths_and_radii_stay() {
 }
 
 #[test]
-fn the_paper_s_order_of_joints_is_found_and_is_not_that_of_people() {
+fn the_order_of_joints_is_that_of_the_paper_and_not_of_people() {
     let [hip, knee, ankle] = ["hip", "knee", "ankle"].map(|joint| value("h1", &format!("{joint}_largest_nm")));
     assert!(claim("h1").pass && hip > knee && knee > ankle, "{hip} {knee} {ankle}");
     assert!(hip > 5.0 * 0.9 * 80.0, "far above people's 0.9 N.m/kg: {hip}");
 }
 
 #[test]
-fn friction_stops_what_slips_on_one_foot_but_not_what_two_feet_disagree_about() {
+fn friction_stops_slip_in_single_support_but_not_in_double_support() {
     let slips: Vec<f64> = ["0.4", "0.8", "1", "2", "5", "1000"]
         .iter()
         .map(|mu| value("d1", &format!("slip_on_one_foot_at_friction_{mu}_mm_a_step")))
@@ -74,14 +74,14 @@ fn soft_shoes_shorten_the_flight() {
 }
 
 #[test]
-fn the_estimate_of_the_paper_is_told_with_its_correction() {
+fn the_estimate_of_the_paper_is_reported_with_its_correction() {
     assert!((value("c2", "paper_estimate_nm") - 576.0).abs() < 1e-9);
     assert!((value("c2", "estimate_put_right_nm") - 1152.0).abs() < 1e-9);
     assert!(claim("c2").note.contains("12 m/s²") && claim("c2").note.contains("1.22"));
 }
 
 #[test]
-fn the_page_says_what_is_found() {
+fn the_documentation_agrees_with_the_results() {
     let page = include_str!("../../../docs/REPRODUCTION.md");
     for claim in CLAIMS.iter().filter(|claim| claim.id != "k") {
         let holds = if claim.pass { "holds" } else { "fails" };
@@ -123,7 +123,7 @@ fn a_walk_that_changes_from_cycle_to_cycle_is_not_called_periodic() {
 }
 
 #[test]
-fn a_corrected_mode_stands_beside_the_paper_s() {
+fn the_corrected_mode_is_reported_with_the_paper_s() {
     let both = claims(&EVIDENCE, Some(&EVIDENCE));
     for (one, two) in CLAIMS.iter().zip(&both) {
         let same = |(a, b): (&(String, f64), &(String, f64))| a.0 == b.0 && (a.1.to_bits() == b.1.to_bits());
@@ -135,7 +135,7 @@ fn a_corrected_mode_stands_beside_the_paper_s() {
 }
 
 #[test]
-fn what_the_paper_leaves_open_changes_the_walk() {
+fn values_that_the_paper_does_not_give_change_the_walk() {
     let (human, gait) = (paper_human().unwrap(), Gait::named("standard").unwrap());
     let trial = TrialSettings {
         gait: &gait,
@@ -159,7 +159,7 @@ fn what_the_paper_leaves_open_changes_the_walk() {
 }
 
 #[test]
-fn figures_and_tables_hold_what_was_walked() {
+fn figures_and_tables_agree_with_the_walks() {
     assert_eq!(angular_laws().unwrap().panels[0].series.len(), 3);
     let figures = paper_figures(&EVIDENCE, None);
     assert_eq!(

@@ -10,7 +10,9 @@ mod gait_files;
 mod marker_data;
 
 use ambulo::analysis::feasibility::Person;
-use ambulo::analysis::{Analysis, Body, LaboratoryRecording, MarkerTrial, Settings, analyse, body_in_motion};
+use ambulo::analysis::{
+    Analysis, AnalysisSettings, BodySource, LaboratoryRecording, MarkerTrial, analyse, body_in_motion,
+};
 use ambulo::dynamics::LoadSeries;
 use ambulo::dynamics::residual_reduction::{ReducedMotion, ResidualReductionSettings, reduce_residuals};
 use ambulo::findings::{Code, Findings};
@@ -60,7 +62,7 @@ fn case(
     ([from, to], weighed_kg): Seen,
 ) -> Case {
     let filter = LowPass { order: 3, cutoff_hz: CUTOFF_HZ };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(filter),
         force_filter: Some(filter),
         window: Window::default(),
@@ -100,9 +102,9 @@ fn of_c3d(name: &'static str, subject: &gait_files::Subject, seen: Seen) -> Case
         unit: file.c3d.point_unit.clone(),
     };
     let (still, walk) = (recording(&subject.standing), recording(&subject.walk));
-    let body = Body::BuiltIn { person: &subject.person, set: None };
+    let body = BodySource::BuiltIn { person: &subject.person, set: None };
     let settings = FitSettings::default();
-    let trial = MarkerTrial { walk: &walk, still: Some(&still), body, plate_feet: &[] };
+    let trial = MarkerTrial { trial: &walk, standing: Some(&still), body, plate_feet: &[] };
     let body = body_in_motion(&trial, &settings, &mut findings).unwrap();
     case(name, body.subject.model.clone(), &body.fit.motion, &body.plate_forces(), seen)
 }

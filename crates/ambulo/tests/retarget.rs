@@ -5,7 +5,7 @@
 
 mod shared_data;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::kinematics::retarget::{Retargeted, retarget};
@@ -133,7 +133,7 @@ fn the_feet_of_the_walk_in_a_figure_of_eight_meet_the_ground_in_turn() {
 fn support(moved: &Retargeted, [from, to]: [f64; 2], findings: &mut Findings) -> Vec<f64> {
     let model = &moved.human.model;
     let filter = LowPass { order: 3, cutoff_hz: 6.0 };
-    let settings = Settings {
+    let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(filter),
         force_filter: Some(filter),
         window: Window { from_s: Some(from), to_s: Some(to) },

@@ -1,10 +1,9 @@
-//! Scene files: what is read from good ones, and what is said of bad ones.
+//! Scene files: the content of valid ones and the errors of invalid ones.
 
 use ambulo::simulation::ImpactLaw;
 use ambulo::simulation::scene::{
-    Anchor, ArmEntry, Attachment, ContactLaw, ContactPartner, CoordinateKind, DrivenCoordinates, EventAction,
-    FigureWalkMode, GaitSource, Integrator, JointAxes, Method, ObstacleShape, Plot, RootMotion, SceneError, SceneFile,
-    Solid, TimeFunction,
+    Anchor, ArmEntry, Attachment, ContactPartner, DrivenCoordinates, EventAction, FigureWalkMode, GaitSource,
+    JointAxes, MaterialLaw, MotionKind, ObstacleShape, Plot, RootMotion, SceneError, SceneFile, Solid, TimeFunction,
 };
 use ambulo::spatial::{Mat3, Vec3};
 use proptest::prelude::*;
@@ -82,13 +81,13 @@ fn refusal(text: &str) -> SceneError {
     SceneFile::parse(text).expect_err("a bad scene")
 }
 
-/// What is said of the good scene after one replacement.
+/// The error of the valid scene after one replacement.
 fn said(from: &str, to: &str) -> String {
     assert_eq!(GOOD.matches(from).count(), 1, "{from:?} stands once");
     refusal(&GOOD.replace(from, to)).to_string()
 }
 
-/// What is said of the good scene with more at its end.
+/// The error of the valid scene with text appended.
 fn said_with(end: &str) -> String {
     refusal(&format!("{GOOD}{end}")).to_string()
 }
@@ -298,7 +297,7 @@ fn degrees_become_radians_and_radians_stay() {
     let JointAxes::Planar { normal, along } = scene.joints[1].kind else { panic!("{:?}", scene.joints[1].kind) };
     assert_eq!((normal, along), (Vec3::y(), Vec3::x()));
     let [turn, slide, other] = &scene.joints[1].coordinates[..] else { panic!("three coordinates") };
-    assert_eq!([turn.kind, slide.kind], [CoordinateKind::Rotation, CoordinateKind::Translation]);
+    assert_eq!([turn.kind, slide.kind], [MotionKind::Rotation, MotionKind::Translation]);
     let drive = turn.drive.as_ref().unwrap();
     near(drive.max, 12.0);
     assert_eq!(drive.function, TimeFunction::Points(vec![(0.0, 0.0), (1.0, 180_f64.to_radians())]));
@@ -308,7 +307,7 @@ fn degrees_become_radians_and_radians_stay() {
 }
 
 #[test]
-fn blows_that_stick_go_with_steps_of_impulses_alone() {
+fn sticking_impacts_require_steps_of_impulses() {
     let scene = |more: &str| {
         format!("step = 0.001\nduration = 1\n{more}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n")
     };
@@ -403,11 +402,11 @@ fn figures_materials_and_obstacles_read_as_they_say() {
     assert_eq!((scene.solver.method, scene.solver.max_iterations), (Method::ConjugateGradient, 20));
     let names: Vec<&str> = scene.materials.iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["default", "shoe", "mat"]);
-    assert_eq!(scene.materials[0].law, ContactLaw::Rigid { friction: 0.1, restitution: 0.0 });
-    let ContactLaw::HuntCrossley { stiffness, dissipation, .. } = scene.materials[1].law else { panic!("soft") };
+    assert_eq!(scene.materials[0].law, MaterialLaw::Rigid { friction: 0.1, restitution: 0.0 });
+    let MaterialLaw::HuntCrossley { stiffness, dissipation, .. } = scene.materials[1].law else { panic!("soft") };
     near(stiffness, 1e6);
     near(dissipation, 1.0);
-    assert_eq!(scene.materials[2].law, ContactLaw::Regularised { friction: 0.7, stiffness: 2e4, damping: 100.0 });
+    assert_eq!(scene.materials[2].law, MaterialLaw::Regularised { friction: 0.7, stiffness: 2e4, damping: 100.0 });
 
     let [walker, doll, partner] = &scene.figures[..] else { panic!("three figures") };
     assert_eq!((&walker.driven, walker.root, walker.from_s), (&DrivenCoordinates::All, RootMotion::Driven, Some(0.4)));
@@ -445,7 +444,7 @@ fn figures_materials_and_obstacles_read_as_they_say() {
 
 // ---- uniform solids ----
 
-/// Inertia about the mass centre of a body of 1 kg with these shapes, as the scene has it.
+/// Inertia about the mass centre of a body of 1 kg with these shapes in a scene.
 fn inertia_of(shapes: &str) -> Mat3 {
     let text = format!("step = 1\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1\nshape = {shapes}\n");
     parse(&text).bodies[0].inertia.about_center()
@@ -508,7 +507,7 @@ fn shapes_without_inertia_are_uniform_solids() {
 // ---- bad files ----
 
 #[test]
-fn text_that_is_no_toml_is_refused_with_its_line() {
+fn text_that_is_no_toml_is_rejected_with_its_line() {
     let error = refusal("step = 0.001\nduration 2.0\n");
     assert_eq!((error.line, error.key.as_str()), (2, ""));
     assert!(error.to_string().starts_with("line 2: this is not TOML: "), "{error}");
@@ -518,24 +517,24 @@ fn text_that_is_no_toml_is_refused_with_its_line() {
 }
 
 #[test]
-fn an_unknown_key_is_refused_with_those_that_are_known() {
+fn an_unknown_key_is_rejected_with_those_that_are_known() {
     assert_eq!(
         said("mass = 2\n", "mas = 2\n"),
         "line 15, `body[1].mas`: unknown key; expected `name`, `mass`, `inertia`, `position`, `rotation`, \
-         `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: is `mass` meant?"
+         `velocity`, `angular_velocity_deg`, `angular_velocity`, `shape`. hint: did you mean `mass`?"
     );
     assert_eq!(
         said("friction = 0.9", "frcition = 0.9"),
         "line 6, `material.rubber.frcition`: unknown key; expected `law`, `friction`, `restitution`. \
-         hint: is `friction` meant?"
+         hint: did you mean `friction`?"
     );
     assert!(said("[[event]]", "[[evnt]]").starts_with("line 49, `evnt`: unknown key; expected `title`"));
-    assert!(said("[[event]]", "[[evnt]]").ends_with("hint: is `event` meant?"));
+    assert!(said("[[event]]", "[[evnt]]").ends_with("hint: did you mean `event`?"));
     assert!(said("[0, 0.8, 0]", "[0, 0.8, 0]\naxis = [0, 0, 1]").starts_with("line 41, `joint[2].axis`: unknown key"));
 }
 
 #[test]
-fn a_missing_key_is_refused_with_what_it_means() {
+fn a_missing_key_is_rejected_with_its_meaning() {
     assert_eq!(
         said("step = 0.001\n", ""),
         "line 1, `step`: found no `step`; expected the time step [s], such as 0.001"
@@ -544,7 +543,7 @@ fn a_missing_key_is_refused_with_what_it_means() {
     assert_eq!(
         said("inertia = [0.02, 0.001, 0.02]\n", ""),
         "line 19, `body[2].inertia`: found no `inertia`; expected the moments about the mass centre [xx, yy, zz] \
-         [kg.m²]. hint: a body with a shape may go without: it is taken as uniform"
+         [kg.m²]. hint: `inertia` is optional for a body with shapes, which is then taken as uniform"
     );
     assert_eq!(
         said("name = \"knee\"\n", "nmae = \"knee\"\n"),
@@ -564,17 +563,17 @@ fn a_missing_key_of_a_dotted_table_is_placed() {
 }
 
 #[test]
-fn masses_and_inertias_that_no_body_has_are_refused() {
+fn masses_and_inertias_that_no_body_has_are_rejected() {
     assert_eq!(
         said("mass = 2\n", "mass = -2\n"),
-        "line 15, `body[1].mass`: found -2; expected a number above zero. hint: what no force moves is an [[obstacle]]"
+        "line 15, `body[1].mass`: found -2; expected a number above zero. hint: a solid that forces do not move is an [[obstacle]]"
     );
     assert!(said("mass = 2\n", "mass = 0\n").starts_with("line 15, `body[1].mass`: found 0; expected a number above"));
     let inertia = |numbers: &str| said("[0.02, 0.001, 0.02]", numbers);
     assert_eq!(
         inertia("[0.02, 0, 0.02]"),
         "line 22, `body[2].inertia`: found [0.02, 0, 0.02]; expected an inertia above zero about every axis; the smallest \
-         principal moment is 0e0 kg.m². hint: a thin rod has m r²/2 about its axis"
+         principal moment is 0e0 kg.m². hint: the moment of a thin rod about its axis is m r²/2"
     );
     assert!(inertia("[0.02, 0.001, 0.01]").contains("expected an inertia that a body can have; principal moments"));
     assert!(inertia("[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]").contains("expected a symmetric matrix"));
@@ -590,7 +589,7 @@ fn masses_and_inertias_that_no_body_has_are_refused() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_refused() {
+fn numbers_that_are_not_finite_are_rejected() {
     for bad in ["nan", "inf", "-inf", "1e400", "1e16"] {
         assert_eq!(
             said("[0, 1.0, 0]", &format!("[0, {bad}, 0]")),
@@ -606,7 +605,7 @@ fn numbers_that_are_not_finite_are_refused() {
 }
 
 #[test]
-fn steps_and_durations_above_zero_are_asked_for() {
+fn steps_and_durations_must_be_above_zero() {
     let step = |text: &str| said("step = 0.001", text);
     assert_eq!(step("step = 0"), "line 2, `step`: found 0; expected a number above zero");
     assert_eq!(step("step = -0.001"), "line 2, `step`: found -0.001; expected a number above zero");
@@ -615,16 +614,16 @@ fn steps_and_durations_above_zero_are_asked_for() {
     assert_eq!(said("duration = 2.0", "duration = 0"), "line 3, `duration`: found 0; expected a number above zero");
     assert_eq!(
         step("step = 0.001\noutput_rate = 2000"),
-        "line 3, `output_rate`: found 2000; expected at most one row a step, 1000 a second"
+        "line 3, `output_rate`: found 2000; expected at most one row per step, 1000 Hz"
     );
 }
 
 #[test]
-fn values_of_another_kind_are_refused() {
+fn values_of_another_kind_are_rejected() {
     assert_eq!(
         said("mass = 2\n", "mass = \"2\"\n"),
-        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: write numbers without quotes; what no \
-         force moves is an [[obstacle]]"
+        "line 15, `body[1].mass`: found \"2\"; expected a number above zero. hint: write numbers without quotes; a solid \
+         that forces do not move is an [[obstacle]]"
     );
     assert_eq!(said("title = \"Good\"", "title = 5"), "line 1, `title`: found 5; expected a text in quotes");
     assert_eq!(
@@ -642,18 +641,18 @@ fn values_of_another_kind_are_refused() {
     assert_eq!(
         said("kind = \"ball\"\nparent", "kind = \"bal\"\nparent"),
         "line 37, `joint[2].kind`: found \"bal\"; expected one of \"weld\", \"revolute\", \"universal\", \"ball\", \
-         \"prismatic\", \"planar\", \"free\". hint: is \"ball\" meant?"
+         \"prismatic\", \"planar\", \"free\". hint: did you mean \"ball\"?"
     );
     let axis = said("axis = [0, 0, 1]", "axis = [0, 0, 0]");
     assert_eq!(axis, "line 31, `joint[1].axis`: found [0, 0, 0]; expected a direction [x, y, z] longer than zero");
 }
 
 #[test]
-fn names_that_stand_for_nothing_are_refused() {
+fn unknown_names_are_rejected() {
     assert_eq!(
         said("parent = \"upper\"", "parent = \"uper\""),
         "line 38, `joint[2].parent`: found \"uper\"; expected \"world\", a body, or \"figure/body\". \
-         hint: is \"upper\" meant?"
+         hint: did you mean \"upper\"?"
     );
     assert_eq!(
         said("child = \"lower\"", "child = \"shin\""),
@@ -663,54 +662,54 @@ fn names_that_stand_for_nothing_are_refused() {
     assert_eq!(
         said("second = \"world\"", "second = \"floor\""),
         "line 46, `closure[1].second`: found \"floor\"; expected \"world\", a body, or \"figure/body\". hint: \"floor\" \
-         is an obstacle; what joints hold on to is a body, if need be on a driven joint"
+         is an obstacle; joints connect bodies, if necessary a body on a driven joint"
     );
     assert_eq!(
         said("material = \"rubber\"", "material = \"ruber\""),
         "line 11, `obstacle[1].material`: found \"ruber\"; expected one of \"default\", \"rubber\". \
-         hint: is \"rubber\" meant?"
+         hint: did you mean \"rubber\"?"
     );
     assert!(
         said("remove = \"string\"", "remove = \"rope\"").contains("expected a closure or a joint. hint: the names")
     );
     let events = said("remove = \"string\"", "add = \"knee\"");
     assert_eq!(events, "line 51, `event[1].add`: found \"knee\"; expected a closure. hint: \"knee\" is a joint");
-    assert!(said_with("[output]\nplot = [\"joint:kne\"]\n").ends_with("hint: is \"knee\" meant?"));
+    assert!(said_with("[output]\nplot = [\"joint:kne\"]\n").ends_with("hint: did you mean \"knee\"?"));
 }
 
 #[test]
-fn a_name_given_twice_is_refused() {
+fn a_name_given_twice_is_rejected() {
     assert_eq!(
         said("name = \"lower\"", "name = \"upper\""),
-        "line 20, `body[2].name`: found \"upper\"; expected a name of its own; this one stands in line 14 already. \
-         hint: bodies, obstacles and figures share their names, and so do joints and closures"
+        "line 20, `body[2].name`: found \"upper\"; expected a unique name; this one is also in line 14. \
+         hint: names are unique among bodies, obstacles and figures, and among joints and closures"
     );
     assert!(said("name = \"floor\"", "name = \"upper\"").starts_with("line 9, `obstacle[1].name`: found \"upper\""));
     assert!(said("name = \"string\"", "name = \"hip\"").starts_with("line 43, `closure[1].name`: found \"hip\""));
     for bad in ["", "world", "a/b", "a:b", " a"] {
         let said = said("name = \"lower\"", &format!("name = \"{bad}\""));
         assert!(said.starts_with("line 20, `body[2].name`: found "), "{said}");
-        assert!(said.contains("expected a name that is not empty, not \"world\", without / and :"), "{said}");
+        assert!(said.contains("expected a name that is not empty and not \"world\", without / and :"), "{said}");
     }
 }
 
 #[test]
-fn joints_that_form_no_tree_are_refused() {
+fn joints_that_form_no_tree_are_rejected() {
     assert_eq!(
         said("parent = \"world\"", "parent = \"lower\""),
-        "line 28, `joint[1].parent`: found \"lower\"; expected parents that do not lead in a circle; here they do: \
+        "line 28, `joint[1].parent`: found \"lower\"; expected a chain of parents without a cycle; found \
          upper -> lower -> upper. hint: close the loop with a [[closure]]"
     );
-    assert!(said("parent = \"world\"", "parent = \"upper\"").contains("here they do: upper -> upper"));
+    assert!(said("parent = \"world\"", "parent = \"upper\"").contains("without a cycle; found upper -> upper"));
     assert_eq!(
         said("child = \"lower\"", "child = \"upper\""),
-        "line 39, `joint[2].child`: found \"upper\"; expected a body on one joint; this one is on \"hip\" already \
-         (line 25). hint: close the loop with a [[closure]]"
+        "line 39, `joint[2].child`: found \"upper\"; expected the child of one joint; this body is already the \
+         child of \"hip\" (line 25). hint: close the loop with a [[closure]]"
     );
 }
 
 #[test]
-fn a_circle_that_does_not_hold_the_first_joint_is_found() {
+fn a_cycle_without_the_first_joint_is_detected() {
     let bodies: String =
         (0..5).map(|i| format!("[[body]]\nname = \"b{i}\"\nmass = 1\ninertia = [1, 1, 1]\n")).collect();
     let joints: String = [("b1", "b0"), ("b2", "b1"), ("b3", "b2"), ("b1", "b3")]
@@ -722,11 +721,11 @@ fn a_circle_that_does_not_hold_the_first_joint_is_found() {
         .collect();
     let error = refusal(&format!("step = 1\nduration = 1\n{bodies}{joints}"));
     assert_eq!((error.line, error.key.as_str()), (31, "joint[2].parent"));
-    assert!(error.message.contains("here they do: b1 -> b2 -> b3 -> b1"), "{error}");
+    assert!(error.message.contains("without a cycle; found b1 -> b2 -> b3 -> b1"), "{error}");
 }
 
 #[test]
-fn coordinates_that_contradict_themselves_are_refused() {
+fn coordinates_that_contradict_themselves_are_rejected() {
     let coordinate = |text: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", text);
     assert_eq!(
         coordinate("limits = { lower_deg = 30, upper_deg = -90 }"),
@@ -741,8 +740,8 @@ fn coordinates_that_contradict_themselves_are_refused() {
     );
     assert_eq!(
         coordinate("drive_deg = 5\nstart_deg = 5"),
-        "line 34, `joint[1].coordinate.start_deg`: found 5; expected no such key beside a drive. \
-         hint: the drive's own value and rate at time zero hold"
+        "line 34, `joint[1].coordinate.start_deg`: found 5; expected no such key together with a drive. \
+         hint: the drive determines value and rate at time zero"
     );
     assert!(coordinate("drive_max = 5").contains("`joint[1].coordinate.drive`: found no `drive`"));
     assert!(coordinate("motor = { target_deg = 5 }").contains("found no `stiffness`"));
@@ -751,24 +750,24 @@ fn coordinates_that_contradict_themselves_are_refused() {
     assert_eq!(
         error.to_string(),
         "line 34, `joint[1].coordinate.rate`: found 1; expected no rate, as body \"upper\" has its own velocity (line 13). \
-         hint: take one of them away"
+         hint: remove one of them"
     );
     let second = said("[joint.coordinate]", "[[joint.coordinate]]\n[[joint.coordinate]]");
     assert_eq!(
         second,
         "line 33, `joint[1].coordinate[2]`: found coordinate 2; expected at most 1. \
-         hint: docs/SCENES.md tells which motions each kind of joint leaves"
+         hint: docs/SCENES.md lists the free motions of each kind of joint"
     );
     let sliding = GOOD.replace("kind = \"revolute\"", "kind = \"prismatic\"");
     assert_eq!(
         refusal(&sliding).to_string(),
         "line 33, `joint[1].coordinate.limits.lower_deg`: found -30; expected `lower` in metres. \
-         hint: this coordinate slides, it does not turn"
+         hint: this coordinate is a translation"
     );
 }
 
 #[test]
-fn functions_that_are_none_are_refused() {
+fn functions_that_are_none_are_rejected() {
     let drive =
         |function: &str| said("limits = { lower_deg = -30, upper_deg = 90 }", &format!("drive_deg = {function}"));
     assert_eq!(
@@ -789,17 +788,15 @@ fn functions_that_are_none_are_refused() {
     assert!(drive("{ stops = [] }").contains("expected a list of at least 1 [time, value]"));
     assert_eq!(
         drive("{ points = [[0, 0], [1, 5]] }"),
-        "line 33, `joint[1].coordinate.drive_deg.points`: found [[0, 0], [1, 5]]; expected points from 0 s or before to 2 \
-         s (`duration`) or after; these go from 0 s to 1 s. hint: `stops` rests before its first and after its last instant"
+        "line 33, `joint[1].coordinate.drive_deg.points`: found [[0, 0], [1, 5]]; expected points that cover 0 s to \
+         2 s (`duration`); these cover 0 s to 1 s. hint: `stops` is constant before its first and after its last time"
     );
-    assert!(
-        drive("{ motion = \"a.mot\", column = \"b\" }").contains("hint: the file itself says whether its angles are")
-    );
+    assert!(drive("{ motion = \"a.mot\", column = \"b\" }").contains("hint: the file states whether its angles are"));
     assert!(drive("{ motion = \"a.mot\" }").contains("expected a recording under the key without `_deg`"));
 }
 
 #[test]
-fn shapes_that_are_none_are_refused() {
+fn shapes_that_are_none_are_rejected() {
     let shape = |shape: &str| said("{ kind = \"box\", size = [0.1, 0.4, 0.1] }", shape);
     assert_eq!(
         shape("{ kind = \"sphere\", radius = 0 }"),
@@ -812,7 +809,7 @@ fn shapes_that_are_none_are_refused() {
     let flat = "{ kind = \"convex\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]] }";
     assert!(shape(flat).contains("expected at least four points [x, y, z], not all in one plane"));
     let solid = "{ kind = \"convex\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }";
-    assert!(shape(solid).ends_with("hint: that of a convex shape is not worked out"));
+    assert!(shape(solid).ends_with("hint: the inertia of a convex shape is not computed"));
     let ground = "[[obstacle]]\nname = \"hill\"\nkind = \"height-field\"\nsize = [1, 1]\nheights = [[0, 1], [0]]\n";
     assert!(
         said_with(ground).starts_with("line 56, `obstacle[2].heights`: found [[0, 1], [0]]; expected at least two")
@@ -820,11 +817,11 @@ fn shapes_that_are_none_are_refused() {
 }
 
 #[test]
-fn materials_that_are_none_are_refused() {
+fn materials_that_are_none_are_rejected() {
     let rubber = |text: &str| said("friction = 0.9", text);
     assert_eq!(
         rubber("friction = 0.9\nrestitution = 1.5"),
-        "line 7, `material.rubber.restitution`: found 1.5; expected a share of the approach speed from 0 to 1"
+        "line 7, `material.rubber.restitution`: found 1.5; expected a coefficient of restitution from 0 to 1"
     );
     assert!(
         rubber("friction = -1").starts_with("line 6, `material.rubber.friction`: found -1; expected a number, zero")
@@ -835,11 +832,11 @@ fn materials_that_are_none_are_refused() {
 }
 
 #[test]
-fn closures_that_are_open_are_refused() {
+fn closures_that_are_open_are_rejected() {
     let string = |text: &str| said("at = [0, 0.4, 0]", text);
     assert_eq!(
         string("on_first = [0, -0.2, 0]\non_second = [0, 0.5, 0]"),
-        "line 48, `closure[1].on_second`: found [0, 0.5, 0]; expected points that meet at the start, within 1 mm; they are \
+        "line 48, `closure[1].on_second`: found [0, 0.5, 0]; expected points that coincide at the start, within 1 mm; they are \
          0.1000 m apart. hint: move the bodies, or set active = false and add the closure by an [[event]]"
     );
     parse(&GOOD.replace("at = [0, 0.4, 0]", "on_first = [0, -0.2, 0]\non_second = [0, 0.4, 0]"));
@@ -847,14 +844,11 @@ fn closures_that_are_open_are_refused() {
     assert!(string("at = [0, 0, 0]\non_first = [0, 0, 0]").contains("expected either `at`, or `on_first` and"));
     assert!(said("second = \"world\"", "second = \"lower\"").contains("expected another body than `first`"));
     let free = said("kind = \"ball\"\nfirst", "kind = \"free\"\nfirst");
-    assert_eq!(
-        free,
-        "line 44, `closure[1].kind`: found \"free\"; expected a kind that holds something; free holds nothing"
-    );
+    assert_eq!(free, "line 44, `closure[1].kind`: found \"free\"; expected a kind with a constraint; `free` has none");
 }
 
 #[test]
-fn events_that_change_nothing_are_refused() {
+fn events_that_change_nothing_are_rejected() {
     assert_eq!(
         said("time = 1.0", "time = 2.5"),
         "line 50, `event[1].time`: found 2.5; expected an instant from 0 to 2 s, the duration"
@@ -862,16 +856,19 @@ fn events_that_change_nothing_are_refused() {
     assert_eq!(
         said("remove = \"string\"", "add = \"string\""),
         "line 51, `event[1].add`: found \"string\"; expected a closure that is not active at 1 s already. \
-         hint: active = false keeps a closure away until an event adds it"
+         hint: with active = false a closure is inactive until an event adds it"
     );
     let again = said_with("[[event]]\ntime = 1.5\nremove = \"string\"\n");
-    assert_eq!(again, "line 54, `event[2].remove`: found \"string\"; expected one that is still there at 1.5 s");
+    assert_eq!(
+        again,
+        "line 54, `event[2].remove`: found \"string\"; expected a closure or joint that is active at 1.5 s"
+    );
     assert!(said("time = 1.0", "time = 1.0\nadd = \"knee\"").contains("expected either `add` or `remove`"));
     parse(&format!("{GOOD}[[event]]\ntime = 1.5\nadd = \"string\"\n[[event]]\ntime = 1.5\nremove = \"knee\"\n"));
 }
 
 #[test]
-fn figures_and_pairs_that_make_no_sense_are_refused() {
+fn figures_and_pairs_that_make_no_sense_are_rejected() {
     let figure = |text: &str| said_with(&format!("[[figure]]\nname = \"walker\"\n{text}\n"));
     assert_eq!(
         figure(""),
@@ -884,7 +881,7 @@ fn figures_and_pairs_that_make_no_sense_are_refused() {
     let ignore = |pair: &str| said_with(&format!("[[ignore]]\npair = {pair}\n"));
     assert_eq!(ignore("[\"upper\"]"), "line 53, `ignore[1].pair`: found [\"upper\"]; expected two names");
     assert!(ignore("[\"upper\", \"upper\"]").contains("expected two different names"));
-    assert!(ignore("[\"upper\", \"flor\"]").ends_with("hint: is \"floor\" meant?"));
+    assert!(ignore("[\"upper\", \"flor\"]").ends_with("hint: did you mean \"floor\"?"));
 }
 
 #[test]
@@ -897,7 +894,7 @@ fn an_error_from_later_reads_the_same_way() {
     );
 }
 
-/// A figure that the program builds; the text of `build` stands in line 4.
+/// A built-in figure; `build` is in line 4.
 fn person(build: &str, more: &str) -> String {
     format!("step = 1\nduration = 1\n[[figure]]\nbuild = {build}\nname = \"ann\"\n{more}\n")
 }
@@ -934,7 +931,7 @@ fn built_figures_read_as_they_say() {
 }
 
 #[test]
-fn built_figures_that_make_no_sense_are_refused() {
+fn built_figures_that_make_no_sense_are_rejected() {
     let said = |build: &str, more: &str| refusal(&person(build, more)).to_string();
     let cases = [
         ("60", "", "line 4, `figure[1].build`: found 60; expected { table = …, mass = …, height = … }"),
@@ -953,7 +950,11 @@ fn built_figures_that_make_no_sense_are_refused() {
         (ANN, "walk = { gait = \"trot\" }", "line 6, `figure[1].walk.gait`: found \"trot\"; expected a path that ends"),
         (ANN, "walk = { speed = 0 }", "`figure[1].walk.speed`: found 0; expected a number above zero"),
         (ANN, "walk = { phase = 1 }", "`figure[1].walk.phase`: found 1; expected a share of the cycle"),
-        (ANN, "walk = { mode = \"curve\" }", "expected one of \"corrected\", \"curves\". hint: is \"curves\" meant?"),
+        (
+            ANN,
+            "walk = { mode = \"curve\" }",
+            "expected one of \"corrected\", \"curves\". hint: did you mean \"curves\"?",
+        ),
         (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
         (
             ANN,
@@ -974,12 +975,12 @@ fn built_figures_that_make_no_sense_are_refused() {
         (
             ANN,
             "walk = {}\n[[figure.coordinate]]\nname = \"arm_flex_l\"\ndrive = 0\nfollow = { stiffness = 1 }",
-            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key beside a drive or a motor",
+            "`figure[1].coordinate[1].follow`: found { stiffness = 1 }; expected no such key together with a drive or a motor",
         ),
         (
             ANN,
             "[[figure.coordinate]]\nname = \"arm_flex_l\"\n[[figure.coordinate]]\nname = \"arm_flex_l\"",
-            "`figure[1].coordinate[2].name`: found \"arm_flex_l\" again; it stands in line 6 already",
+            "`figure[1].coordinate[2].name`: found \"arm_flex_l\" twice; the first one is in line 6",
         ),
         (ANN, "[[figure.coordinate]]\nname = \"pelvis_tx\"\nstart_deg = 1", "expected `start` in metres"),
     ];
@@ -1074,7 +1075,7 @@ fn seeds() -> Vec<String> {
     examples().into_iter().map(|(_, text)| text).chain([GOOD.to_owned()]).collect()
 }
 
-/// Whatever is said of a text points into it.
+/// The line of every error is in the text.
 fn survives(text: &str) -> Result<(), TestCaseError> {
     if let Err(error) = SceneFile::parse(text) {
         prop_assert!(error.line >= 1 && error.line <= text.matches('\n').count() + 1, "{}", error);

@@ -1,11 +1,11 @@
-//! Scenes run: each example does what its comment says, and what a scene asks of joints, closures and figures holds.
+//! Simulated scenes: the examples agree with their comments; joints, closures and figures follow the scene.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the figures are shown with --nocapture")]
 
 mod shared_data;
 
-use ambulo::analysis::{Settings, analyse};
+use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
@@ -45,7 +45,7 @@ fn example(name: &str, duration_s: f64) -> Scene {
     build_in(&folder(), &text, changes).unwrap_or_else(|e| panic!("{name}: {e}")).0
 }
 
-/// Runs to the end; the findings.
+/// Simulates to the end; returns the findings.
 fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) -> Findings {
     let mut findings = Findings::default();
     scene.run(&mut findings, visit).unwrap();
@@ -110,7 +110,7 @@ fn the_top_precesses_and_nods_as_lagranges_equations_have_it() {
 }
 
 #[test]
-fn of_two_blocks_on_a_slope_one_stays_and_one_slides_with_coulombs_acceleration() {
+fn of_two_blocks_on_a_slope_one_rests_and_one_slides_with_coulombs_acceleration() {
     let mut scene = example("slope.toml", 0.5);
     let starts = [place(&scene, "staying block"), place(&scene, "sliding block")];
     run(&mut scene, |_| {});
@@ -139,7 +139,7 @@ fn ten_balls_come_to_rest_in_the_bin_without_gaining_energy() {
 }
 
 #[test]
-fn the_crank_goes_round_and_the_rocker_to_and_fro() {
+fn the_crank_makes_full_turns_and_the_rocker_swings() {
     let mut scene = example("four-bar.toml", 2.1);
     let (crank, rocker) = (joint(&scene, "motor"), joint(&scene, "rocker pivot"));
     let (mut angles, mut gap) = ((f64::MAX, f64::MIN), 0.0_f64);
@@ -182,7 +182,7 @@ fn the_arm_pushes_the_box_along_the_floor() {
 }
 
 #[test]
-fn friction_alone_lifts_the_box_and_holds_it() {
+fn friction_lifts_and_holds_the_box() {
     let mut scene = example("grasp.toml", 2.8);
     let slide = joint(&scene, "left slide");
     let mut pressed = Vec::new();
@@ -464,7 +464,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
     let motion = coordinates_from_table(&model, &table, "recording", &mut findings).unwrap();
     let rate_hz = Some(2000.0);
     let window = Window { from_s: Some(1.0), to_s: Some(1.7) };
-    let asked = Settings { smoother: Smoother::Off, force_filter: None, window, rate_hz, instrumented: None };
+    let asked = AnalysisSettings { smoother: Smoother::Off, force_filter: None, window, rate_hz, instrumented: None };
     let analysis = analyse(&model, &motion, &[], asked, &mut findings).unwrap();
     let grid = analysis.trajectory.grid();
     let step_s = scene.settings().step_s;
@@ -487,7 +487,7 @@ fn against_inverse_dynamics(folder: &Path, figure: &str, settings: &str) -> Vec<
 }
 
 #[test]
-fn a_driven_figure_needs_the_efforts_that_inverse_dynamics_finds() {
+fn a_driven_figure_needs_the_efforts_of_inverse_dynamics() {
     let Some(data) = data() else { return };
     let folder = data.join("opensim-gait2392-subject01");
     let moved = "at = [1, 0.5, -2]\nrotation = { axis = [0, 1, 0], angle_deg = 40 }\n";

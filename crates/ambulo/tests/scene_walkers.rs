@@ -63,7 +63,7 @@ fn alone(more: &str, duration_s: f64) -> String {
 }
 
 #[test]
-fn a_walker_goes_as_its_consistent_walk_does() {
+fn a_walker_follows_its_consistent_walk() {
     let mut scene = scene(&alone("", 1.2));
     let start = place(&scene, "ann/pelvis").x;
     let (root, mut trunk) = (joint(&scene, "ann/ground_pelvis"), 0.0_f64);
@@ -138,7 +138,7 @@ fn a_walk_that_hits_a_kerb_is_infeasible_from_then_on_and_feasible_without_it() 
     assert!(reasons.iter().all(|r| r.time_s[0] > hit_s - 0.0015), "{reasons:#?}");
     assert!(reasons[0].time_s[0] < hit_s + 0.05);
     let knee = reasons.iter().find(|r| r.check == Check::Strength && r.quantity == "knee_angle_l_moment").unwrap();
-    assert!(knee.value.abs() > 5.0 * knee.limit.abs() && knee.message.contains("the muscles give"));
+    assert!(knee.value.abs() > 5.0 * knee.limit.abs() && knee.message.contains("the muscles can supply"));
 }
 
 /// Forces on the first body of a closure, at its point.
@@ -174,7 +174,7 @@ fn two_walk_hand_in_hand() {
     assert!(verdict.feasible && verdict.figures.len() == 2, "{verdict:#?}");
 }
 
-/// Mirror images of each other, half a cycle apart: what one does forwards and upwards the other does too.
+/// Mirror images of each other, half a cycle apart: forward and upward motions are equal.
 #[test]
 fn the_hands_of_mirror_images_push_only_sideways() {
     let person = |name: &str, side: &str, phase: f64, z: f64| {
@@ -236,7 +236,7 @@ fn a_walker_carries_a_box_in_both_hands() {
 }
 
 #[test]
-fn a_figure_without_a_walk_stands_and_its_arms_can_hang_free() {
+fn a_figure_without_a_walk_stands_and_its_arms_can_hang_freely() {
     let text = "step = 0.001\nduration = 0.5\n[[obstacle]]\nname = \"floor\"\nkind = \"plane\"\n[[figure]]\nname = \"guard\"\n\
                 build = { table = \"faure-1997\", mass = 80, height = 1.80, toe_joint = false }\n\
                 [[figure.coordinate]]\nname = \"arm_flex_r\"\nstart_deg = 10\n";
@@ -251,7 +251,7 @@ fn a_figure_without_a_walk_stands_and_its_arms_can_hang_free() {
 }
 
 #[test]
-fn a_figure_that_follows_its_walk_by_motors_stays_near_it() {
+fn a_figure_with_motors_stays_near_its_walk() {
     let text =
         alone("", 0.6) + "[[figure.coordinate]]\nname = \"arm_flex_r\"\nfollow = { stiffness = 100, damping = 5 }\n";
     let mut scene = scene(&text);
@@ -272,7 +272,7 @@ fn a_figure_that_follows_its_walk_by_motors_stays_near_it() {
 }
 
 #[test]
-fn what_only_other_files_show_is_refused_with_its_place() {
+fn errors_in_other_files_are_reported_with_their_place() {
     let refusal = |text: &str| built(text).err().map_or_else(|| panic!("a bad scene"), |e| e.to_string());
     let text = alone("", 0.1).replace("\"free\"", "\"none.toml\"");
     assert!(refusal(&text).starts_with("line 10, `figure[1].walk`: none.toml"), "{}", refusal(&text));

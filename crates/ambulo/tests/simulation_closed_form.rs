@@ -162,10 +162,10 @@ fn a_symmetric_top_precesses_steadily() {
     assert!(precessed(1e-4, -1.0).norm() > 0.5, "a top that spins the other way precesses the other way");
 }
 
-// ---- what joints hold, and what they leave ----
+// ---- constraints and free motions of joints ----
 
-/// How far a child is from what its joint allows, and how far its free coordinates have gone, both read off T = P⁻¹ C.
-fn held_and_gone(kind: JointKind, t: &Pose) -> (f64, f64) {
+/// Constraint error of a child and motion of its free coordinates, both from T = P⁻¹ C.
+fn error_and_motion(kind: JointKind, t: &Pose) -> (f64, f64) {
     let (r, p) = (t.rotation, t.translation);
     let tilt = r.column(2).xy().norm();
     let turned = (r - Mat3::identity()).norm();
@@ -209,7 +209,7 @@ fn joined(kind: JointKind, closing: bool, r: &mut Random) -> (World, [Pose; 2]) 
     (world, frames)
 }
 
-fn joint_is_honest(closing: bool, held_to: f64) {
+fn assert_joint(closing: bool, tolerance: f64) {
     for kind in KINDS {
         for seed in 0..4 {
             let (world, frames) = joined(kind, closing, &mut Random::new(seed));
@@ -218,8 +218,8 @@ fn joint_is_honest(closing: bool, held_to: f64) {
             run.to(0.3);
             let [parent, child] = [0, 1].map(|b| run.state.poses[b]);
             let t = (parent * frames[0]).inverse() * (child * frames[1]);
-            let (held, gone) = held_and_gone(kind, &t);
-            assert!(held < held_to, "{kind:?} (closing: {closing}), seed {seed}: held directions gave by {held:e}");
+            let (held, gone) = error_and_motion(kind, &t);
+            assert!(held < tolerance, "{kind:?} (closing: {closing}), seed {seed}: held directions gave by {held:e}");
             assert!(gone > 1e-3, "{kind:?} (closing: {closing}), seed {seed}: free directions moved by {gone:e} only");
             // Whatever acts between the two leaves the sum of momenta to the loads.
             let gained = run.momentum().0 - pull * 0.3;
@@ -229,16 +229,16 @@ fn joint_is_honest(closing: bool, held_to: f64) {
 }
 
 #[test]
-fn every_kind_of_tree_joint_holds_what_it_must_and_leaves_the_rest() {
+fn every_kind_of_tree_joint_has_its_constraints_and_free_motions() {
     // Children are seated by their coordinates: only rounding of the poses, 1e-15, remains.
-    joint_is_honest(false, 1e-12);
+    assert_joint(false, 1e-12);
 }
 
 #[test]
-fn every_kind_of_closure_holds_what_it_must_and_leaves_the_rest() {
+fn every_kind_of_closure_has_its_constraints_and_free_motions() {
     // A step turns bodies by h ω < 0.03 rad and leaves (h ω)² r/2 of drift, of which the linearised projection leaves the
     // square again: 2e-7.
-    joint_is_honest(true, 2e-7);
+    assert_joint(true, 2e-7);
 }
 
 #[test]
@@ -280,7 +280,7 @@ fn rotation_vectors_of_driven_balls_grow_beyond_half_a_turn() {
     }
 }
 
-/// T of coordinates as the documentation of the joints has it.
+/// T of coordinates as in the documentation of the joints.
 fn placed(kind: JointKind, q: &[f64]) -> Pose {
     let vector = |w: Vec3| if w.norm() > 0.0 { turn(w, w.norm()) } else { Mat3::identity() };
     let at = |rotation: Mat3, translation: Vec3| Pose { rotation, translation };
@@ -500,7 +500,7 @@ impl FourBar {
         world
     }
 
-    /// Energy at an instant of a crank angle given as a function of time, by geometry alone.
+    /// Energy at an instant of a crank angle given as a function of time, from geometry.
     fn energy(&self, crank: &impl Fn(f64) -> f64, gravity: f64, t: f64) -> f64 {
         let flat = |t: f64| self.places(crank(t)).iter().flat_map(|(m, a)| [m.x, m.y, *a]).collect::<Vec<f64>>();
         let (x, (rates, _)) = (flat(t), derivatives(flat, t, 1e-3, 1e-15));

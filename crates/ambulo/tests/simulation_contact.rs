@@ -326,7 +326,7 @@ fn collisions_keep_momentum() {
 
 // ---- at rest ----
 
-/// Lets a solid settle on whatever the world has, and checks that it rests there with its weight.
+/// Lets a solid settle in a world, and checks that it rests with its weight.
 fn rests(mut world: World, shape: Shape, pose: Pose, what: &str) {
     let body = add_solid(&mut world, 2.5, shape, pose);
     let surface = world.surfaces.len() - 1;
@@ -455,7 +455,7 @@ fn a_stack_of_two_bears_its_weight_at_a_mass_ratio_of_a_thousand_both_ways() {
 }
 
 #[test]
-fn each_floor_of_a_tower_bears_what_is_above_it() {
+fn each_storey_of_a_tower_carries_the_weight_above_it() {
     let mut world = of_rigid(0.5, 0.0);
     add_floor(&mut world, Pose::IDENTITY);
     for k in 0..10 {
@@ -642,7 +642,7 @@ fn figure(hip: [Signal; 2], knee: Signal, ankle: [Signal; 2]) -> World {
     world
 }
 
-/// Largest departures from the laws in a step, forces over the weight, velocities over g h.
+/// Largest violations of the contact laws in a step: forces over the weight, velocities over g h.
 #[derive(Debug, Clone, Copy, Default)]
 struct Departures {
     newton: f64,

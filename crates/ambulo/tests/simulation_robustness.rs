@@ -1,4 +1,4 @@
-//! The simulator under what nobody would ask of it: long runs, resumed runs, random scenes, drives that cannot be obeyed.
+//! Robustness of the simulator: long runs, resumed runs, random scenes, impossible drives.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
@@ -20,7 +20,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 // ---- drift ----
 
-/// Links of 0.2 m and 1 kg, their hinges across and across, let go from the horizontal with a whirl.
+/// Links of 0.2 m and 1 kg with alternating hinge axes, released from the horizontal with an initial spin.
 fn chain(links: usize) -> World {
     let mut world = empty();
     for i in 0..links {
@@ -34,7 +34,7 @@ fn chain(links: usize) -> World {
     world
 }
 
-/// Largest distance of two neighbours' ends, by the poses alone.
+/// Largest distance of the ends of two neighbours, from the poses.
 fn gap_of_chain(run: &Run) -> f64 {
     let end = |body: usize, x: f64| run.state.poses[body].place(v(x, 0.0, 0.0));
     (1..run.world.bodies.len()).map(|b| (end(b - 1, 0.1) - end(b, -0.1)).norm()).fold(end(0, -0.1).norm(), f64::max)
@@ -325,7 +325,7 @@ fn a_thousand_random_scenes_stay_finite_and_in_balance() {
 
 // ---- drives that cannot be obeyed ----
 
-/// Runs, watching that everything stays finite and forces bounded by `most` [N, N.m]; the messages found.
+/// Simulates and checks that everything is finite and forces are below `most` [N, N.m]; returns the messages.
 fn endured(world: World, seconds: f64, most: f64) -> (Run, Vec<String>) {
     let mut run = Run::new(world, 1e-3);
     run.watch(seconds, |run| {

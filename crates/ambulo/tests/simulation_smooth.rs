@@ -36,7 +36,7 @@ fn elliptic(k: f64) -> f64 {
     std::f64::consts::FRAC_PI_2 / a
 }
 
-/// How far from upright down a rod stands, let go level, after a quarter of its period: one step ends there.
+/// Angle from hanging of a rod released horizontally, after a quarter of its period, where one step ends.
 fn quarter_period_error(steps: u32) -> f64 {
     // Compound pendulum: T/4 = K(sin(θ₀/2)) √(I/(m g l)), θ₀ = 90 degrees.
     let (inertia, arm) = (0.004 + 0.1 * 0.1, 0.1);

@@ -52,7 +52,7 @@ fn worst_moment(walk: &SyntheticWalk, analysis: &Analysis) -> (f64, String) {
 }
 
 #[test]
-fn inverse_dynamics_finds_the_efforts_of_the_simulator() {
+fn inverse_dynamics_gives_the_efforts_of_the_simulator() {
     for toe_joint in [true, false] {
         let (walk, _) = made("free", Build { toe_joint, ..MAN }, SyntheticMode::Corrected);
         let analysis = analysed(&walk);
@@ -101,7 +101,7 @@ fn every_cycle_is_whole_and_like_the_one_before() {
         for cycle in cycles {
             let duration = cycle.end_s - cycle.start_s;
             assert!((duration - walk.walk.cycle_s()).abs() < 2e-3, "{side}: {duration} s");
-            assert!(cycle.toe_off_s.is_some());
+            assert!(cycle.foot_off_s.is_some());
         }
     }
     let grid = analysis.trajectory.grid();
@@ -155,14 +155,14 @@ fn the_correction_is_reported() {
 }
 
 #[test]
-fn a_gait_that_no_small_change_makes_consistent_is_said_to_be_so() {
+fn a_gait_that_cannot_be_made_consistent_gives_a_warning() {
     let (_, findings) = made("goose", MAN, SyntheticMode::Corrected);
     let found = findings.as_slice().iter().find(|finding| finding.code == Code::WalkNotConsistent);
     assert!(found.is_some_and(|finding| finding.message.contains("no small change")), "{findings:?}");
 }
 
 #[test]
-fn the_papers_mode_holds_the_trunk_and_keeps_its_blows_apart() {
+fn the_papers_mode_holds_the_trunk_and_lists_impacts_separately() {
     let build = Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.8, toe_joint: false };
     let (walk, _) = made("standard", build, SyntheticMode::Paper);
     assert!(walk.report.correction.is_none() && walk.report.impacts.0 > 0 && walk.report.impacts.1 > 0.0);
@@ -190,7 +190,7 @@ fn the_papers_mode_is_the_one_whose_claims_are_judged() {
 }
 
 #[test]
-fn orders_that_make_no_walk_are_refused() {
+fn invalid_settings_are_rejected() {
     let gait = Gait::named("free").unwrap();
     let refused =
         |order: SyntheticWalkSettings<'_>| synthesise(&order, &mut Findings::default()).unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! Walking figures: forces against inverse dynamics, momentum, symmetry, the laws of contact, and what is refused.
+//! Walking figures: forces compared with inverse dynamics, momentum, symmetry, contact laws, and invalid figures.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
@@ -7,7 +7,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::kinematics::each_body_motion;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
+use ambulo::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, WalkingError, gait_signals};
 use ambulo::simulation::{ImpactLaw, Signal, StepSettings};
 use ambulo::spatial::{Vec3, Wrench};
 
@@ -17,17 +17,17 @@ fn human() -> Human {
     Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: false }.human().unwrap()
 }
 
-fn ground(friction: f64) -> Ground {
-    Ground { friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
+fn ground(friction: f64) -> GroundContact {
+    GroundContact { friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
 }
 
-fn walker(gait: &str, human: &Human, ground: &Ground) -> (Walker, f64) {
+fn walker(gait: &str, human: &Human, ground: &GroundContact) -> (Walker, f64) {
     let gait = Gait::named(gait).unwrap();
     let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
     (Walker::new(human, gait_signals(&walk, &human.model), ground, walk.speed()).unwrap(), walk.cycle_s())
 }
 
-fn walked(gait: &str, ground: &Ground, step_s: f64, cycles: f64) -> WalkRecording {
+fn walked(gait: &str, ground: &GroundContact, step_s: f64, cycles: f64) -> WalkRecording {
     let (walker, cycle_s) = walker(gait, &human(), ground);
     let settings = StepSettings { step_s, ..StepSettings::default() };
     walker.walk(&settings, cycles * cycle_s, &mut Findings::default()).unwrap()
@@ -161,7 +161,7 @@ fn the_same_walk_has_the_same_bits() {
 }
 
 #[test]
-fn figures_that_cannot_walk_are_refused() {
+fn invalid_figures_are_rejected() {
     let human = human();
     let none = Walker::new(&human, vec![Signal::Constant(0.0)], &ground(1.0), 1.0);
     assert_eq!(none.unwrap_err(), WalkingError::Signals { found: 1, expected: human.model.coordinates().len() });

@@ -1,4 +1,4 @@
-//! What `World::check` finds wrong with a description, and says of it.
+//! Errors of `World::check` for invalid descriptions.
 
 mod common;
 
@@ -17,7 +17,7 @@ fn sound() -> World {
     world
 }
 
-/// What is said after this change.
+/// The error after a change.
 fn complaint(change: impl FnOnce(&mut World)) -> String {
     let mut world = sound();
     change(&mut world);

@@ -1,13 +1,12 @@
-//! How long our inverse dynamics, synthetic walks, ground forces without plates, the stages of the main job and the `ambulo` command
-//! take: `cargo xtask bench`.
+//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo` command:
+//! `cargo xtask bench`.
 //!
-//! Before anything is timed, the torques of the reference human are compared with those of another engine; a time of a
-//! wrong answer is worth nothing. Where other engines are installed (see `peers`) they run right after ours, and the
-//! ratios are printed: between runs the same program moves by up to 30 %, within a run by a few percent.
+//! First, the torques of the reference human are compared with those of another engine, because the time of a wrong result is
+//! meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are printed: between runs, times
+//! of the same program vary by up to 30 %, within a run by a few percent.
 //!
-//! Times of our own code are CPU time of the thread, as the peers' programs measure it, so that other work on the
-//! machine does not count. The `ambulo` command is timed by the clock on the wall, as its user does. Everything is also
-//! written to `target/bench.csv`.
+//! Times of our own code are CPU time of the thread, as in the peers' programs, so that other work on the machine does not count. The
+//! `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
 mod gait;
 mod human;
@@ -27,9 +26,9 @@ use std::process::Command;
 use timing::Timing;
 
 /// Our time over MuJoCo's least calls, at most: one frame at a time, many frames side by side (0.7 us over 3.5 us).
-const ASKED_OF_MUJOCO: [f64; 2] = [0.43, 0.20];
+const REQUIRED_OF_MUJOCO: [f64; 2] = [0.43, 0.20];
 /// The whole `ambulo forces` command takes at most this long [ms].
-const ASKED_OF_PROGRAM_MS: f64 = 100.0;
+const REQUIRED_OF_PROGRAM_MS: f64 = 100.0;
 /// Ends of the names of the peers' rows that ours are divided by.
 const MUJOCO: &str = "mj_rne and what it needs";
 const PINOCCHIO: &str = "rnea";
@@ -83,7 +82,7 @@ fn bench_human(human: &human::Human) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// Times the stages of the main job, then the command.
+/// Times the stages of an analysis, then the command.
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
     let mut rows = walk::stages(walk)?;
@@ -92,7 +91,7 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
     println!();
     match walk::program(walk) {
         Ok(program) => {
-            let met = verdict(program.wall_ms.median, ASKED_OF_PROGRAM_MS);
+            let met = verdict(program.wall_ms.median, REQUIRED_OF_PROGRAM_MS);
             rows.push(Row { quantity: "ambulo forces, wall time".to_owned(), unit: "ms", timing: program.wall_ms });
             if let Some(peak_mb) = program.peak_mb {
                 let timing = Timing::single(peak_mb);
@@ -100,28 +99,28 @@ fn bench_walk(walk: &workspace::Walk) -> Result<Vec<Row>, String> {
             }
             let own = rows.iter().position(|r| r.quantity.starts_with("ambulo")).unwrap_or_default();
             print!("{}", table(&rows[own..]));
-            println!("asked: at most {ASKED_OF_PROGRAM_MS} ms: {met}");
+            println!("required: at most {REQUIRED_OF_PROGRAM_MS} ms: {met}");
         }
         Err(reason) => println!("`ambulo forces` was not timed: {reason}"),
     }
     Ok(rows)
 }
 
-/// Ours divided by a peer's, both from this run.
+/// Our time divided by a peer's, both from this run.
 struct Ratio {
     row: Row,
-    asked: Option<f64>,
+    required: Option<f64>,
 }
 
 fn ratios(ours: &[Row], peers: &[PeerTiming]) -> Vec<Ratio> {
     let mut ratios = Vec::new();
-    for (peer, asked) in [(MUJOCO, Some(ASKED_OF_MUJOCO)), (PINOCCHIO, None)] {
+    for (peer, required) in [(MUJOCO, Some(REQUIRED_OF_MUJOCO)), (PINOCCHIO, None)] {
         let found = peers.iter().find(|p| p.name.ends_with(peer));
         let Some((name, theirs)) = found.and_then(|p| Some((p.name.as_str(), p.median_us()?))) else { continue };
         for (i, row) in ours.iter().enumerate() {
             let quantity = format!("{} / {name}", row.quantity.trim_start_matches("inverse dynamics, "));
             let row = Row { quantity, unit: "1", timing: Timing::single(row.timing.median / theirs) };
-            ratios.push(Ratio { row, asked: asked.map(|limits| limits[i]) });
+            ratios.push(Ratio { row, required: required.map(|limits| limits[i]) });
         }
     }
     ratios
@@ -132,9 +131,9 @@ fn ratios_table(ratios: &[Ratio]) -> String {
         return "no ratio: peers not installed or not running, see the hints above\n".to_owned();
     }
     let mut text = format!("\n{:<62} {:>7}\n", "ours : theirs", "ratio");
-    for Ratio { row, asked } in ratios {
-        let asked = asked.map(|limit| format!("  asked {limit:.2}: {}", verdict(row.timing.median, limit)));
-        let _ = writeln!(text, "{:<62} {:7.3}{}", row.quantity, row.timing.median, asked.unwrap_or_default());
+    for Ratio { row, required } in ratios {
+        let required = required.map(|limit| format!("  required {limit:.2}: {}", verdict(row.timing.median, limit)));
+        let _ = writeln!(text, "{:<62} {:7.3}{}", row.quantity, row.timing.median, required.unwrap_or_default());
     }
     text
 }

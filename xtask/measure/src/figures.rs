@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const PAUSE: Duration = Duration::from_millis(20);
 /// Window size for the report page [CSS pixels].
 const PAGE: [u32; 2] = [1400, 1000];
-/// Quiet, offline, no sandbox (containers forbid it), three dimensions in software, time to draw a page, two picture points for each unit.
+/// Options: quiet, offline, no sandbox (containers forbid it), 3-D rendering in software, time to draw a page, two pixels per CSS pixel.
 const FLAGS: [&str; 10] = [
     "--headless=new",
     "--no-sandbox",
@@ -46,7 +46,7 @@ pub(crate) fn run() -> Result<(), String> {
         Some(walk) => walk.command(&program, &folder),
         None => demo(&program, &folder),
     };
-    // 1 is a finished run whose findings refuse the motion; its figures are there.
+    // Exit code 1: the run ended with an infeasible verdict; its figures exist.
     let status =
         command.stdout(Stdio::null()).status().map_err(|e| format!("{}: cannot start: {e}", program.display()))?;
     if !matches!(status.code(), Some(0 | 1)) {
@@ -89,7 +89,7 @@ fn draw_svg(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
 /// Takes a screenshot of a file in a browser window of this size, as PNG.
 fn draw(browser: &str, file: &Path, [width, height]: [u32; 2], png: &Path) -> Result<(), String> {
     let address = file_address(file)?;
-    // A profile of its own: a running Chromium would otherwise take the request and draw nothing.
+    // A separate profile: otherwise a running Chromium would take the request and draw nothing.
     let profile = std::env::temp_dir().join(format!("ambulo-figures-{}", std::process::id()));
     let written_before = modified(png);
     let mut command = Command::new(browser);
@@ -97,7 +97,7 @@ fn draw(browser: &str, file: &Path, [width, height]: [u32; 2], png: &Path) -> Re
     command.arg(format!("--window-size={width},{height}"));
     command.arg(format!("--screenshot={}", png.display())).arg(address);
     let done = run_with_patience(command.stdout(Stdio::null()).stderr(Stdio::null()), browser);
-    // A profile left in the temporary files harms nobody.
+    // A temporary profile that cannot be removed does no harm.
     let _ = fs::remove_dir_all(&profile);
     done?;
     let written = modified(png);

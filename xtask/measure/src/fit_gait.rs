@@ -14,7 +14,7 @@ mod write;
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, SPEEDS, Sheet};
 use crate::workspace;
-use ambulo::gait::{Joint, Laws, Style};
+use ambulo::gait::{Laws, LegJoint, Style};
 use errors::CurveError;
 use ground_forces::Forces;
 use recipe::RECIPES;
@@ -167,7 +167,7 @@ fn error_table(style: Style, tables: &[Curves]) -> Result<String, String> {
 }
 
 fn error(laws: &Laws, joint: usize, curves: &Curves, speed: usize) -> CurveError {
-    errors::of(laws.legs.of(Joint::ALL[joint]), &laws.range, curves, speed)
+    errors::of(laws.legs.of(LegJoint::ALL[joint]), &laws.range, curves, speed)
 }
 
 fn curves_of(style: Style, tables: &[Curves], used: &[usize]) -> Result<Laws, String> {

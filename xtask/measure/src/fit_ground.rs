@@ -1,9 +1,9 @@
-//! The numbers of the ground-force estimator, fitted anew: `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
+//! Fits the parameters of the ground-force estimator: `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
 //!
-//! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and says whether the file was another. Fits
-//! `ambulo::ground::predict::Weights` to the recordings with plates, on all subjects and with each left out, calibrates the standard
-//! deviations, and prints what came out; with `--write` it goes to docs/measured/GROUND_FIT.md. The numbers themselves are printed as the
-//! `Default` to paste: this command changes no source.
+//! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has changed. Fits
+//! `ambulo::ground::predict::Weights` to the recordings with plates, on all subjects and leave-one-out, calibrates the standard
+//! deviations, and prints the results; with `--write` they go to docs/measured/GROUND_FIT.md. The parameters are printed as the `Default`
+//! to paste: this command changes no source.
 
 mod calibration;
 mod cases;
@@ -20,17 +20,17 @@ use numbers::{NUMBERS, rounded, weights};
 use std::fs;
 use std::time::Instant;
 
-/// Evaluations a fit: two to five minutes for all six fits on one core; more hardly change the cost.
+/// Evaluations per fit: two to five minutes for all six fits on one core; more hardly change the cost.
 const EVALUATIONS: usize = 700;
 /// Seed of the search.
 const SEED: u64 = 1;
-/// How strongly the numbers are drawn to the middle of their ranges: one at an end costs a quarter of this more.
+/// Penalty of parameters away from the middle of their ranges: one at an end adds a quarter of this to the cost.
 /// Cost of left-out subjects with 0, 0.15, 0.6: 5.37, 5.36, 5.20; a later estimator with 0.6, 1.5: 5.20, 5.18, and better forces with 0.6.
 const PULL: f64 = 0.6;
 /// The page, relative to the workspace root.
 const PAGE: &str = "docs/measured/GROUND_FIT.md";
 
-/// What was asked for.
+/// Settings of the fit.
 #[derive(Debug, Clone, Copy)]
 struct Order {
     evaluations: usize,
@@ -39,7 +39,7 @@ struct Order {
     write: bool,
 }
 
-/// A subject, judged with what was fitted on all and on the others.
+/// Results of a subject, with parameters fitted on all subjects and on the others.
 struct Fold {
     subject: &'static str,
     importance: f64,
@@ -49,11 +49,11 @@ struct Fold {
     left_out_cost: f64,
     own_figures: [f64; 11],
     left_out_figures: [f64; 11],
-    /// One entry a component.
+    /// One entry per component.
     bands: [Option<Band>; 6],
 }
 
-/// All that came out.
+/// The results of the fit.
 struct Outcome {
     /// Fitted and calibrated on all subjects.
     weights: Weights,
@@ -66,7 +66,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Subjects with markers on the trunk: they make the means.
+    /// Subjects with markers on the trunk, who determine the means.
     fn with_trunk(&self) -> impl Iterator<Item = &Fold> {
         self.folds.iter().filter(|fold| fold.importance >= 1.0)
     }
@@ -78,7 +78,7 @@ impl Outcome {
     }
 }
 
-/// Runs the verb.
+/// Runs the command.
 #[expect(clippy::print_stdout, reason = "the tables are the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let order = order(words)?;
@@ -145,7 +145,7 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
     let subjects = cases::subjects(cases);
     let mut own = fitted(cases, &subjects, order, order.seed, "all");
     let without: Vec<Weights> = (0..subjects.len()).map(|i| without(cases, &subjects, i, order)).collect();
-    // Every subject as a stranger: predicted by what was fitted on the others.
+    // Leave-one-out: every subject is predicted with the parameters fitted on the others.
     let judged = Judged::new(cases, &subjects, &without);
     own.calibration = judged.calibration(|_| true);
     let cost = |weights: &Weights| cases::cost(cases, &subjects, weights);

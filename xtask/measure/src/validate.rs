@@ -1,8 +1,8 @@
-//! Predicted ground forces against plates: `cargo xtask validate [--write]`.
+//! Compares predicted with measured ground forces: `cargo xtask validate [--write]`.
 //!
-//! Every recording with plates beside the workspace goes through the library as `ambulo forces --predict` takes it: body, fit, 6 Hz,
+//! Every recording with plates next to the workspace is processed as by `ambulo forces --predict`: body, marker fit, 6 Hz filter,
 //! prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the page goes to
-//! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is no error.
+//! docs/measured/VALIDATION.md. A failed criterion is listed as missed and is not an error.
 
 mod means;
 mod page;
@@ -15,7 +15,7 @@ use std::fs;
 use std::process::Command;
 use trial::Trial;
 
-/// Runs the verb.
+/// Runs the command.
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "the page is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let mut write = false;

@@ -1,6 +1,6 @@
-//! `ambulo convert` and `ambulo events`: what may be typed.
+//! Options of `ambulo convert` and `ambulo events`.
 
-use super::Voice;
+use super::PrintArgs;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -12,40 +12,45 @@ use std::path::PathBuf;
   ambulo convert demo walk.glb
   ambulo convert demo results.csv
 
-From .c3d to .trc (markers), .csv (--what markers, analog or forces), .mot or .sto (ground forces by foot, with external loads as .xml
-beside it); from .trc to .c3d or .csv; from .mot or .sto to each other and to .csv, with --model to .bvh (a skeleton) and .glb (an animated glTF file); from .csv to .mot or .sto; from .bvh
-to .trc (joint centres) or .csv (channels); from a folder of results to .glb (figure or scene, with ground forces as arrows), .bvh (the figure) or
-.csv (time, quantity, unit, value: all results over time). What the new format cannot hold is said. Positions are metres in .csv, millimetres in .trc and
-.c3d. An output that is there already is only written over with --force, the input never.")]
+Conversions:
+  .c3d         to .trc (markers), .csv (--what markers, analog or forces), .mot or .sto (ground forces per foot, with external loads in .xml)
+  .trc         to .c3d or .csv
+  .mot, .sto   to each other or .csv; with --model to .bvh (skeleton) or .glb (animated glTF)
+  .csv         to .mot or .sto
+  .bvh         to .trc (joint centres) or .csv (channels)
+  folder       of results to .glb (figure or scene, ground forces as arrows), .bvh (figure) or .csv (time, quantity, unit, value)
+
+Data that the new format cannot hold are reported. Positions are in metres in .csv, in millimetres in .trc and .c3d. An existing output
+is only overwritten with --force, the input never.")]
 pub(crate) struct ConvertArgs {
     /// The file to read, or a folder of results.
     pub(crate) input: PathBuf,
-    /// The file to write; its ending says the format.
+    /// The file to write; its extension selects the format.
     pub(crate) output: PathBuf,
-    /// What of a C3D goes into a .csv [default: markers].
+    /// The part of a C3D that is written to .csv [default: markers].
     #[arg(long, value_enum)]
-    pub(crate) what: Option<What>,
-    /// Turn markers to x forward, y up, z right (ground forces always are).
+    pub(crate) what: Option<C3dPart>,
+    /// Rotate markers to x forward, y up, z right (ground forces always are in these axes).
     #[arg(long)]
     pub(crate) world: bool,
-    /// The body whose coordinates a .mot or .sto holds: .osim; for .bvh and .glb.
+    /// The OpenSim model (.osim) of the coordinates in a .mot or .sto; needed for .bvh and .glb.
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// Write over an output that is there already.
+    /// Overwrite an existing output.
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }
 
 /// A part of a C3D.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum What {
-    /// Paths of the markers [m].
+pub(crate) enum C3dPart {
+    /// Marker positions [m].
     Markers,
     /// Analog channels, in their own units.
     Analog,
-    /// Ground forces by foot, in world axes.
+    /// Ground forces per foot, in world axes.
     Forces,
 }
 
@@ -53,15 +58,15 @@ pub(crate) enum What {
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo events demo/input/walk.c3d
 
-Foot strikes and toe-offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from the
-file's own list, and how far they agree. Reads .c3d (all three), .trc and .bvh (motion), .mot and .sto (ground forces). Events of feet that
-left a plate before the ground, or shared one, are left out.")]
+Lists foot strikes and foot offs from force plates (20 N), from the motion of the feet (the median of four published methods) and from
+the file's own list, and compares the sources. Reads .c3d (all three), .trc and .bvh (motion), .mot and .sto (ground forces). Plate events
+are left out where a foot was only partly on a plate or shared it with the other foot.")]
 pub(crate) struct EventsArgs {
     /// The recording.
     pub(crate) input: PathBuf,
-    /// Also write them: .csv with side, event, time and source.
+    /// Also write the events to a .csv with side, event, time and source.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }

@@ -1,7 +1,7 @@
-//! `ambulo forces`: what may be typed.
+//! Options of `ambulo forces`.
 
-use super::Voice;
-use super::values::{CarriedMass, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
+use super::PrintArgs;
+use super::values::{AddedMassArg, Cutoff, FootColumns, PlateFoot, order, seconds, zero_or_more_seconds};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::study::Settings;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -14,86 +14,86 @@ use std::path::PathBuf;
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim -o out
   ambulo forces demo/input/walk.mot --model demo/input/figure.osim --grf demo/input/walk_grf.mot --right calcn_r:ground_force_r_ --left calcn_l:ground_force_l_ --cutoff 6 --force-cutoff off --from 0.5 -o out
 
-Markers (.c3d, .trc) are fitted with the built-in body, calibrated from --static or, without one, from the trial itself, or with an
-OpenSim model, which --static scales. Plates inside a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names.
-Without measured ground forces they are predicted from the motion; with --predict they are predicted and compared.
+Markers (.c3d, .trc) are fitted with the built-in body, which is calibrated from --static or else from the trial itself, or with an OpenSim
+model, which --static scales. Force plates in a C3D are used unless --grf is given. docs/MARKERS.md lists the marker names. If ground forces
+were not measured, they are predicted from the motion; with --predict, the prediction is compared with the measurement.
 
-Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, report.html (`ambulo view DIR` opens it), figures/*.svg, subject.osim (the body that was used);
-with --device moments_biological.sto; with predicted forces grf_sd.mot and, with --predict beside plates, grf_measured.mot. Results of an earlier run in DIR are removed. docs/OUTPUTS.md describes them.
+Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
+clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body
+used); with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict and force plates grf_measured.mot. Results of
+an earlier run in DIR are removed. docs/OUTPUTS.md describes the files.
 
-Exit code 0 if a person could do this, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
-forces that nothing supplies; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
+Exit code: 0 if a person could make this motion, 1 if not (strength, joint ranges, power, friction, centre of pressure, sliding, flight,
+residual forces; docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct ForcesArgs {
     /// The recording: markers (.c3d, .trc), coordinates (.mot, .sto) or a skeleton (.bvh).
     pub(crate) input: PathBuf,
-    /// The body: an OpenSim model (.osim); coordinates need one [default for markers and skeletons: the built-in body].
+    /// The body as an OpenSim model (.osim); required for coordinates [default for markers and skeletons: the built-in body].
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
-    /// Measured ground forces: .mot, .sto or .csv [default: the file that --loads names; the columns by their usual names if neither --loads nor --right and --left are given].
+    /// Measured ground forces: .mot, .sto or .csv [default: the file named in --loads]. Columns are recognised by their usual names unless --loads or --right and --left are given.
     #[arg(long, value_name = "FILE")]
     pub(crate) grf: Option<PathBuf>,
-    /// Which columns act on which body: OpenSim's external loads (.xml).
+    /// OpenSim external loads (.xml): which columns act on which body.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["right", "left"])]
     pub(crate) loads: Option<PathBuf>,
-    /// Right foot: body and column prefix, such as calcn_r:ground_force_
+    /// Body and column prefix of the right foot, such as calcn_r:ground_force_
     #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
     pub(crate) right: Option<FootColumns>,
-    /// Left foot: body and column prefix, such as calcn_l:1_ground_force_
+    /// Body and column prefix of the left foot, such as calcn_l:1_ground_force_
     #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
     pub(crate) left: Option<FootColumns>,
-    /// Predict the ground forces from the motion even if they were measured, and compare [default where none were measured].
+    /// Predict the ground forces from the motion even if they were measured, and compare both [default without measured forces].
     #[arg(long, conflicts_with = "no_ground")]
     pub(crate) predict: bool,
-    /// Compute without ground forces (a swinging leg, a flight); the whole weight then stands in the root's residual.
+    /// Compute without ground forces (a swinging leg, a flight); the residual force at the root then contains the whole weight.
     #[arg(long, conflicts_with_all = ["grf", "loads"])]
     pub(crate) no_ground: bool,
-    /// How clinical.csv and the page measure angles of pelvis and hips: clinical, from the line through the iliac spines; opensim, the model's own.
+    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = AngleConvention::Clinical)]
     pub(crate) convention: AngleConvention,
-    /// First instant to analyse [s].
+    /// Start of the analysed time range [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
-    /// Last instant to analyse [s].
+    /// End of the analysed time range [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
-    /// Frames a second of the results [default: as recorded].
+    /// Frame rate of the results [default: as recorded].
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f64>,
-    /// Low-pass of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
+    /// Low-pass filter of the motion: cut-off in Hz of one pass of the zero-phase Butterworth filter, or off.
     #[arg(long, value_name = "HZ|off", default_value_t = Cutoff(Some(Settings::LOW_PASS.cutoff_hz)), allow_hyphen_values = true)]
     pub(crate) cutoff: Cutoff,
-    /// Low-pass of the measured forces [default: the same as the motion's; beside a prediction 20 Hz, order 2].
+    /// Low-pass filter of the measured forces [default: as for the motion; 20 Hz, order 2 when compared with a prediction].
     #[arg(long, value_name = "HZ|off", allow_hyphen_values = true)]
     pub(crate) force_cutoff: Option<Cutoff>,
     /// Order of one pass of the Butterworth filters (1 to 8).
     #[arg(long, value_name = "N", default_value_t = Settings::LOW_PASS.order, value_parser = order)]
     pub(crate) order: usize,
-    /// How the motion is smoothed; spline: quintic, stiffness by generalised cross-validation, --cutoff then goes for the forces only.
+    /// How the motion is smoothed. `spline`: quintic, stiffness by generalised cross-validation; --cutoff then applies to the forces only.
     #[arg(long, value_enum, default_value_t = Filter::Butterworth)]
     pub(crate) filter: Filter,
-    /// Change the motion within its noise until it obeys the measured forces (docs/CONSISTENCY.md): `motion` alone, or with the `body`'s mass and the trunk's mass centre [without a value: body].
+    /// Residual reduction: change the motion within its noise until it agrees with the measured forces (docs/CONSISTENCY.md). `motion`: the motion only; `body`: also the body mass and the mass centre of the trunk [without a value: body].
     #[arg(long, value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "body", conflicts_with = "no_ground")]
-    pub(crate) consistent: Option<Consistency>,
-    /// What a worn device contributes: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
+    pub(crate) consistent: Option<Adjusted>,
+    /// Joint moments of a worn device: .sto or .csv with columns as in moments.sto; adds moments_biological.sto.
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
-    /// A point mass fixed to a body, place in the body's frame in metres; may be repeated.
+    /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
-    pub(crate) add_mass: Vec<CarriedMass>,
-    /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
+    pub(crate) add_mass: Vec<AddedMassArg>,
+    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }
 
-/// What may change to make motion and forces agree.
 /// How angles of pelvis and hips are measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AngleConvention {
@@ -111,9 +111,10 @@ impl From<AngleConvention> for ambulo_results::Convention {
     }
 }
 
+/// What residual reduction may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Consistency {
-    /// The motion alone.
+pub(crate) enum Adjusted {
+    /// The motion only.
     Motion,
     /// The motion, the body's mass and the trunk's mass centre.
     Body,
@@ -128,44 +129,44 @@ pub(crate) enum Filter {
     Spline,
 }
 
-/// Who was recorded, and how markers are read.
+/// The recorded person, and how markers are processed.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SubjectArgs {
-    /// Markers of the same person standing still: .c3d or .trc.
+    /// Standing trial of the same person: .c3d or .trc.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
-    /// Body mass [kg]; a standing trial on plates that comes within 5 % of it is believed instead [default: what the plates carry or the
-    /// recording states; with --model the model's own].
+    /// Body mass [kg]; a standing trial on force plates that differs by less than 5 % is used instead [default: as measured by the force
+    /// plates or stated in the recording; with --model the model's].
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass: Option<f64>,
-    /// Stature [m] [default: what the recording states, or an estimate from the markers].
+    /// Stature [m] [default: as stated in the recording, or estimated from the markers].
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) height: Option<f64>,
-    /// Table of body segments of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = SubjectArgs::USUAL_FIGURE)]
+    /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
+    #[arg(long, value_name = "NAME", default_value = SubjectArgs::DEFAULT_FIGURE)]
     pub(crate) figure: String,
-    /// The marker set: a name of docs/MARKERS.md or a .toml [default: the one whose names are found].
+    /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
-    /// Which foot stands on a plate of the C3D, such as 1=r; `off` leaves a plate out; may be repeated [default: found].
+    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default: detected].
     #[arg(long, value_name = "N=r|l|off")]
     pub(crate) plate: Vec<PlateFoot>,
-    /// How markers become coordinates: frame by frame, or all frames together with a prior on acceleration.
+    /// Marker fit: frame by frame, or all frames together with a prior on acceleration.
     #[arg(long, value_enum, default_value_t = MarkerFitting::Frames)]
     pub(crate) fit: MarkerFitting,
-    /// Gaps of markers up to this long are bridged [s]; longer ones stay gaps.
+    /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s, value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
     pub(crate) max_gap: f64,
 }
 
 impl SubjectArgs {
-    pub(crate) const USUAL_FIGURE: &'static str = "de-leva-male";
+    pub(crate) const DEFAULT_FIGURE: &'static str = "de-leva-male";
 }
 
-/// How markers become coordinates.
+/// How coordinates are fitted to markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MarkerFitting {
-    /// Each frame by itself.
+    /// Each frame separately.
     Frames,
     /// All frames together.
     Trajectory,

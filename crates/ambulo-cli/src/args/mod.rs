@@ -1,4 +1,4 @@
-//! What the user may type, one file a verb where it is long.
+//! The command line: subcommands and their options.
 
 mod exchange;
 mod forces;
@@ -7,7 +7,7 @@ mod tools;
 mod values;
 mod walk;
 
-pub(crate) use exchange::{ConvertArgs, EventsArgs, What};
+pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub(crate) use forces::{Consistency, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
@@ -26,33 +26,33 @@ pub(crate) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// A recording in, joint moments, powers, reactions and ground forces out.
+    /// Compute joint moments, powers, reactions and ground forces of a recording.
     Forces(Box<ForcesArgs>),
-    /// A figure that walks, at any speed and in any style: the same outputs as `forces`, no file needed.
+    /// Synthesise a walk at any speed and in any style; same outputs as `forces`, no file needed.
     Walk(Box<WalkArgs>),
-    /// The main job without any input: a free walk and the forces behind it.
+    /// Compute the forces of a built-in walk; also writes it as a recording to try the other commands on.
     Demo(DemoArgs),
-    /// A scene file stepped through time: poses, joint efforts, contact forces, energies.
+    /// Simulate a scene file: poses, joint efforts, contact forces, energies.
     Simulate(SimulateArgs),
-    /// Every figure and claim of the 1997 paper, recomputed.
+    /// Recompute every figure and claim of the 1997 paper.
     Reproduce(ReproduceArgs),
-    /// The report page of a result folder, made anew; two or three runs compared.
+    /// Write the report page of a result folder again, or compare two or three runs on one page.
     Report(ReportArgs),
-    /// The report page of a result folder, in the browser.
+    /// Open the report page of a result folder in the browser.
     View(ViewArgs),
-    /// What a file holds.
+    /// Describe the content of a file.
     Info(InfoArgs),
-    /// From one format to another: c3d, trc, mot, sto, csv, bvh.
+    /// Convert between formats: c3d, trc, mot, sto, csv, bvh, glb.
     Convert(ConvertArgs),
-    /// When feet meet and leave the ground: from plates, from the motion, from the file.
+    /// Detect foot strikes and foot offs: from force plates, from the motion, from the file.
     Events(EventsArgs),
-    /// How far two tables agree, column by column.
+    /// Compare two tables column by column.
     Compare(CompareArgs),
 }
 
-/// How much a command says, and in which form.
+/// How much a command prints, and in which form.
 #[derive(Debug, Clone, Copy, ClapArgs)]
-pub(crate) struct Voice {
+pub(crate) struct PrintArgs {
     /// Print JSON on standard output instead of text.
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,6 @@
-//! `ambulo report` and `ambulo view`: what may be typed.
+//! Options of `ambulo report` and `ambulo view`.
 
-use super::Voice;
+use super::PrintArgs;
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -9,31 +9,31 @@ use std::path::PathBuf;
   ambulo report demo
   ambulo report demo --compare slow -o demo_and_slow.html
 
-Makes report.html anew from the files of a result folder, as `ambulo forces`, `walk`, `demo` and `simulate` do. One file, nothing is loaded
-from elsewhere. With --compare the curves, tables and figures of up to two other folders stand beside. docs/REPORT.md describes the page.")]
+Writes report.html again from the files of a result folder, as `ambulo forces`, `walk`, `demo` and `simulate` do. The page is one file and
+loads nothing from elsewhere. --compare adds the curves, tables and figures of up to two other folders. docs/REPORT.md describes the page.")]
 pub(crate) struct ReportArgs {
-    /// The folder of a run.
+    /// The result folder.
     pub(crate) folder: PathBuf,
-    /// Another folder to compare it with; may be given twice.
+    /// Another result folder to compare with; may be given twice.
     #[arg(long, value_name = "DIR")]
     pub(crate) compare: Vec<PathBuf>,
-    /// The page [default: report.html in the folder].
+    /// The page to write [default: report.html in the folder].
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }
 
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo view demo
 
-Opens report.html of a result folder, or the page itself, in the browser; where there is none, or BROWSER=none is set, says where the page is.
-A folder without a page gets one.")]
+Opens a page, or report.html of a result folder, in the browser. Without a browser, or if BROWSER=none is set, prints the path of the page.
+Writes the page first if the folder has none.")]
 pub(crate) struct ViewArgs {
-    /// The folder of a run, or a page: .html.
+    /// A result folder, or a page (.html).
     #[arg(value_name = "DIR_OR_FILE")]
     pub(crate) page: PathBuf,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }

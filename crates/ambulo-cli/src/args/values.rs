@@ -1,4 +1,4 @@
-//! Numbers and names as they are typed.
+//! Parsers of option values.
 
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
@@ -82,27 +82,27 @@ impl FromStr for FootColumns {
                 Ok(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() })
             }
             _ => Err(
-                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; its columns are \
-                      PREFIX + vx vy vz and px py pz, and the torque's have `torque` for `force`"
+                "expected BODY:PREFIX with `force` in the prefix, such as calcn_r:ground_force_r_; the columns are \
+                      PREFIX + vx vy vz and px py pz, with `torque` instead of `force` for the free moment"
                     .into(),
             ),
         }
     }
 }
 
-/// Which foot stands on a force plate.
+/// Which foot is on a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlateFoot {
     /// The plate, counted from 1.
     pub(crate) plate: usize,
-    /// The foot; `None` leaves the plate out.
+    /// The foot; `None` ignores the plate.
     pub(crate) side: Option<Side>,
 }
 
 impl FromStr for PlateFoot {
     type Err = String;
     fn from_str(text: &str) -> Result<PlateFoot, String> {
-        let expected = "expected PLATE=FOOT, plates counted from 1, the foot r, l or off, such as 1=r";
+        let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot";
         let (plate, foot) = text.split_once('=').ok_or(expected)?;
         let side = match foot.trim().to_ascii_lowercase().as_str() {
             "r" | "right" => Some(Side::Right),
@@ -117,21 +117,21 @@ impl FromStr for PlateFoot {
     }
 }
 
-/// A mass that the person carries.
+/// A mass carried by the person.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CarriedMass(pub(crate) AddedMass);
+pub(crate) struct AddedMassArg(pub(crate) AddedMass);
 
-impl fmt::Display for CarriedMass {
+impl fmt::Display for AddedMassArg {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let CarriedMass(AddedMass { body, mass_kg, position_m }) = self;
+        let AddedMassArg(AddedMass { body, mass_kg, position_m }) = self;
         let [x, y, z]: [f64; 3] = (*position_m).into();
         write!(f, "{body}:{mass_kg}:{x},{y},{z}")
     }
 }
 
-impl FromStr for CarriedMass {
+impl FromStr for AddedMassArg {
     type Err = String;
-    fn from_str(text: &str) -> Result<CarriedMass, String> {
+    fn from_str(text: &str) -> Result<AddedMassArg, String> {
         let expected = || "expected BODY:KG or BODY:KG:X,Y,Z, such as torso:2.5:-0.1,0.3,0".to_owned();
         let mut parts = text.split(':');
         let (body, mass) = (parts.next().unwrap_or_default(), parts.next().ok_or_else(expected)?);
@@ -144,7 +144,7 @@ impl FromStr for CarriedMass {
         };
         match (position[..].try_into(), parts.next()) {
             (Ok::<[f64; 3], _>(position), None) if !body.is_empty() => {
-                Ok(CarriedMass(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
+                Ok(AddedMassArg(AddedMass { body: body.to_owned(), mass_kg, position_m: Vec3::from(position) }))
             }
             _ => Err(expected()),
         }

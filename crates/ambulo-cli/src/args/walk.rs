@@ -1,6 +1,6 @@
-//! `ambulo walk` and `ambulo demo`: what may be typed.
+//! Options of `ambulo walk` and `ambulo demo`.
 
-use super::Voice;
+use super::PrintArgs;
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
@@ -9,14 +9,14 @@ use std::path::PathBuf;
 #[command(after_help = "Example:
   ambulo demo -o demo
 
-The same as `ambulo walk -o demo`. The walk is also written to DIR/input as a recording would be, so that the run can be repeated with
-`ambulo forces` (`ambulo forces --help`).")]
+The same as `ambulo walk -o demo`, and the walk is also written to DIR/input as a recording (C3D, TRC, BVH, coordinates), which the
+examples of the other commands use (`ambulo forces --help`).")]
 pub(crate) struct DemoArgs {
     /// Folder for the results.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -26,76 +26,76 @@ pub(crate) struct DemoArgs {
   ambulo walk --gait goose --mode paper -o out
   ambulo walk --gait slow --states
 
-Modes: `corrected` changes the gait by a few degrees until its forces come from the ground alone, and steps it on soft shoes;
-`paper` drives the joints as the gait has them, holds the trunk upright and lets rigid soles strike, as Faure, Debunne, Cani and Multon
-did in 1997. Both take every gait and style; standard, long, short and goose are the paper's own: of style 1997 in its mode, of
-style knots in the corrected one, unless --style says otherwise. A gait that no small change makes consistent is said to be so, and the verdict judges what comes out.
+Modes: `corrected` changes the gait by a few degrees until it has no residual forces, and simulates it on soft shoes; `paper` drives the
+joints with the unchanged curves, holds the trunk upright and has rigid soles, as Faure, Debunne, Cani and Multon did in 1997. Both modes
+take every gait and style. The gaits standard, long, short and goose are from the paper; without --style they use style 1997 in the mode
+`paper` and style knots in the mode `corrected`. If no small change makes a gait dynamically consistent, a warning says so.
 
-Of --speed, --step-length and --cadence two make the third; with one, the others follow from how people share speed between the two
-(docs/GAITS.md, which also describes gait files); the gait's own count no more.
+Two of --speed, --step-length and --cadence determine the third. With one of them, the others follow from the usual relation of step length
+and cadence to speed (docs/GAITS.md, which also describes gait files). In both cases the gait's own values are ignored.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml, events.csv, cycles.csv,
-clinical.csv, times_and_distances.csv, summary.json, report.html (`ambulo view DIR` opens it), figure.osim, figures/*.svg. Results of an earlier run in DIR are removed. docs/OUTPUTS.md
-describes them.
+clinical.csv, times_and_distances.csv, summary.json, report.html (open it with `ambulo view DIR`), figure.osim, figures/*.svg. Results of an
+earlier run in DIR are removed. docs/OUTPUTS.md describes the files.
 
-Exit code 0 if a person could do this, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
+Exit code: 0 if a person could make this motion, 1 if not (docs/FEASIBILITY.md), 2 if nothing could be computed.")]
 pub(crate) struct WalkArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
-    /// How the walk is made.
+    /// How the walk is computed.
     #[arg(long, value_enum, default_value_t = WalkMode::Corrected)]
     pub(crate) mode: WalkMode,
-    /// How clinical.csv and the page measure angles of pelvis and hips: clinical, from the line through the iliac spines; opensim, the model's own.
+    /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
     pub(crate) convention: super::forces::AngleConvention,
-    /// Whole gait cycles of each foot.
+    /// Whole gait cycles per foot.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) cycles: usize,
-    /// Frames a second of the results.
+    /// Frame rate of the results.
     #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true)]
     pub(crate) rate: f64,
-    /// Print the state machine of the gait, and walk no step.
+    /// Only print the state machine of the gait.
     #[arg(long)]
     pub(crate) states: bool,
-    /// What a person can do, by which the verdict is given: .toml (docs/FEASIBILITY.md) [default: built in].
+    /// Limits of what a person can do, used for the verdict: .toml (docs/FEASIBILITY.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
-    /// Folder for the results [default: out]; with --states for the figure of the gait, if given.
+    /// Folder for the results [default: out]; with --states, for the figure of the gait [default: none].
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) voice: Voice,
+    pub(crate) print: PrintArgs,
 }
 
-/// Which gait.
+/// The gait to synthesise.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct GaitArgs {
-    /// A gait by name (standard, long, short, goose, slow, free, fast) or from a file (docs/GAITS.md).
+    /// Name of a gait (standard, long, short, goose, slow, free, fast) or a gait file (docs/GAITS.md).
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "free")]
     pub(crate) gait: String,
-    /// Walking speed [m/s] [default: the gait's own].
+    /// Walking speed [m/s] [default: the gait's].
     #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
-    /// Contact of one foot to contact of the other [m] [default: the gait's own].
+    /// Step length, foot strike to opposite foot strike [m] [default: the gait's].
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) step_length: Option<f64>,
-    /// Steps a minute [default: the gait's own].
+    /// Steps per minute [default: the gait's].
     #[arg(long, value_name = "STEPS/MIN", allow_negative_numbers = true)]
     pub(crate) cadence: Option<f64>,
-    /// How high feet are lifted, against the natural height [default: the gait's own].
+    /// Foot clearance as a multiple of the natural one [default: the gait's].
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub(crate) step_height: Option<f64>,
-    /// How joint curves run between their knots: 1997 or knots [default: the gait's own].
+    /// How joint curves are interpolated between their knots: 1997 or knots [default: the gait's].
     #[arg(long, value_name = "1997|knots")]
     pub(crate) style: Option<String>,
 }
 
-/// Who walks.
+/// The body that walks.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct FigureArgs {
-    /// Table of body segments: de-leva-male, de-leva-female, dempster-winter or faure-1997.
+    /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
     pub(crate) figure: String,
     /// Body mass [kg] [default: 75, de-leva-female 60, faure-1997 80].
@@ -104,17 +104,17 @@ pub(crate) struct FigureArgs {
     /// Stature [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) height: Option<f64>,
-    /// Feet in one piece, without a joint at the toes.
+    /// Use feet of one segment, without a toe joint.
     #[arg(long)]
     pub(crate) no_toe_joint: bool,
 }
 
-/// How a walk is made.
+/// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WalkMode {
-    /// Made consistent, on soft shoes.
+    /// Dynamically consistent, on soft shoes.
     Corrected,
-    /// As in 1997: rigid soles, the trunk held.
+    /// As in the 1997 paper: rigid soles, the trunk held upright.
     Paper,
 }
 

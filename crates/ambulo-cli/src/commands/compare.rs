@@ -1,20 +1,20 @@
-//! `ambulo compare`: how far two tables agree, column by column.
+//! `ambulo compare`: differences of two tables, column by column.
 
 use crate::args::CompareArgs;
 use crate::printer::ComparedColumn;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::{Curve, compare};
 use ambulo_formats::table::Table;
 use anyhow::{Context, Result, bail};
 
-pub(crate) fn run(args: &CompareArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &CompareArgs) -> Result<Completion> {
     let (a, _) = files::read_table(&args.a)?;
     let (b, _) = files::read_table(&args.b)?;
     let columns = columns(args, &a, &b)?;
     let rows = columns.iter().map(|name| row(args, &a, &b, name)).collect::<Result<Vec<_>>>()?;
-    printer::compare(&rows, args.limit, args.voice)?;
+    printer::compare(&rows, args.limit, args.print)?;
     let refused = rows.iter().any(|row| row.within_limit == Some(false));
-    Ok(if refused { Verdict::Refused } else { Verdict::Accepted })
+    Ok(if refused { Completion::Failed } else { Completion::Passed })
 }
 
 fn columns(args: &CompareArgs, a: &Table, b: &Table) -> Result<Vec<String>> {
@@ -43,14 +43,14 @@ fn columns(args: &CompareArgs, a: &Table, b: &Table) -> Result<Vec<String>> {
 }
 
 fn row(args: &CompareArgs, a: &Table, b: &Table, name: &str) -> Result<ComparedColumn> {
-    let no_time = "no column `time`; expected it first";
+    let no_time = "no column `time`; expected it as the first column";
     let a_times = a.times().with_context(|| format!("{}: {no_time}", args.a.display()))?;
     let b_times = b.times().with_context(|| format!("{}: {no_time}", args.b.display()))?;
     let inside = |t: f64| args.from.is_none_or(|from| t >= from) && args.to.is_none_or(|to| t <= to);
     let kept: Vec<usize> = (0..b_times.len()).filter(|&i| inside(b_times[i])).collect();
     if kept.is_empty() {
         let (first, last) = (b_times.first().unwrap_or(&f64::NAN), b_times.last().unwrap_or(&f64::NAN));
-        bail!("{}: no row between --from and --to; it runs from {first} s to {last} s", args.b.display());
+        bail!("{}: no row between --from and --to; the table covers {first} s to {last} s", args.b.display());
     }
     let pick = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
     let (times, values) = (pick(b_times), pick(b.column(name).unwrap_or_default()));

@@ -1,9 +1,9 @@
-//! `ambulo demo`: the main job without any input: a free walk of the default figure, put right, and the forces behind it.
+//! `ambulo demo`: the forces of a built-in walk, which is also written as a recording.
 
 use super::stopwatch::Stopwatch;
-use super::walk::{Made, default_build};
+use super::walk::{SyntheticRun, default_build};
 use crate::args::DemoArgs;
-use crate::{Verdict, files};
+use crate::{Completion, files};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
@@ -14,33 +14,33 @@ use ambulo_results::Convention;
 use anyhow::Result;
 use std::path::Path;
 
-pub(crate) fn run(args: &DemoArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let gait = Gait::named("free")?;
-    let order = SyntheticWalkSettings {
+    let settings = SyntheticWalkSettings {
         gait: &gait,
         build: default_build(),
         mode: SyntheticMode::Corrected,
         cycles: 3,
         rate_hz: 100.0,
     };
-    let walk = synthesise(&order, &mut findings)?;
+    let walk = synthesise(&settings, &mut findings)?;
     clock.lap("walk");
-    let made = Made {
+    let run = SyntheticRun {
         walk: &walk,
-        order: &order,
+        walk_settings: &settings,
         thresholds: Thresholds::default(),
         convention: Convention::default(),
         read: &[],
     };
-    let verdict = made.analyse_and_write(findings, clock, &args.output, args.voice)?;
+    let verdict = run.analyse_and_write(findings, clock, &args.output, args.print)?;
     write_input(&args.output)?;
     write_recording(&walk, &args.output)?;
     Ok(verdict)
 }
 
-/// The results again as a recording: model, motion, ground forces and their description.
+/// Writes the results as recorded coordinates: model, motion, ground forces and external loads.
 fn write_input(output: &Path) -> Result<()> {
     for (result, name) in [("figure.osim", "figure.osim"), ("kinematics.mot", "walk.mot"), ("grf.mot", "walk_grf.mot")]
     {
@@ -51,7 +51,7 @@ fn write_input(output: &Path) -> Result<()> {
     files::write(&output.join("input/walk_grf.xml"), &loads.write())
 }
 
-/// The walk as a laboratory would have recorded it, with markers and plates; the figure standing; its own markers; its skeleton.
+/// Writes the walk as a laboratory recording (markers and force plates) with a standing trial, as markers of the model and as a skeleton.
 fn write_recording(walk: &SyntheticWalk, output: &Path) -> Result<()> {
     let SyntheticWalk { human, trajectory, loads, .. } = walk;
     let recording = laboratory_recording(human, trajectory, loads)?;

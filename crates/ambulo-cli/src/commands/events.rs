@@ -1,8 +1,8 @@
-//! `ambulo events`: foot strikes and toe-offs, from every source that a recording has.
+//! `ambulo events`: foot strikes and foot offs from every source in a recording.
 
 use crate::args::EventsArgs;
 use crate::printer::{EventSource, SourceAgreement};
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::{LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
@@ -18,7 +18,7 @@ use anyhow::{Context, Result, bail};
 use std::fmt::Write;
 use std::fs;
 
-pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &EventsArgs) -> Result<Completion> {
     let bytes = files::read(&args.input)?;
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();
@@ -27,17 +27,17 @@ pub(crate) fn run(args: &EventsArgs) -> Result<Verdict> {
         "trc" => from_trc(&bytes, &shown, &mut findings),
         "bvh" => from_bvh(&bytes, &shown, &mut findings),
         "mot" | "sto" => from_forces(&bytes, &shown, &mut findings),
-        ending => bail!("{shown}: `.{ending}` holds no gait; expected .c3d, .trc, .bvh, .mot or .sto"),
+        ending => bail!("{shown}: `.{ending}` contains no gait; expected .c3d, .trc, .bvh, .mot or .sto"),
     };
     let sources = read.with_context(|| shown.clone())?;
     if let Some(output) = &args.output {
         if fs::canonicalize(output).is_ok_and(|path| fs::canonicalize(&args.input).is_ok_and(|input| input == path)) {
-            bail!("{}: this file was read and would be written over. hint: choose another name", output.display());
+            bail!("{}: this input file would be overwritten. hint: choose another name", output.display());
         }
         files::write(output, csv(&sources).as_bytes())?;
     }
-    printer::events(&sources, &agreements(&sources), &findings, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::events(&sources, &agreements(&sources), &findings, args.print)?;
+    Ok(Completion::Passed)
 }
 
 fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
@@ -68,7 +68,7 @@ fn from_bvh(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Ev
     let (bvh, remarks) = Bvh::read(bytes)?;
     files::note_remarks(shown, &remarks, findings);
     let skeleton = skeleton_from_bvh(&bvh, shown, None, findings)?;
-    // Figures of animation walk wherever they like.
+    // Animated figures may walk along a curve.
     let straight = straightened(&skeleton.markers).unwrap_or(skeleton.markers);
     Ok(markers_alone(&straight, findings))
 }
@@ -77,21 +77,22 @@ fn markers_alone(markers: &MarkerRecording, findings: &mut Findings) -> Vec<Even
     vec![of_motion(foot_motion(markers, findings))]
 }
 
-/// Ground forces by their usual columns: what stands before `vy`, with a side in its name or the usual order of the two feet.
+/// Events from ground forces in columns with the usual names.
 fn from_forces(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<EventSource>> {
     let (table, remarks) = Table::read_storage(bytes)?;
     files::note_remarks(shown, &remarks, findings);
-    let times = table.times().context("no column `time`; expected it first")?;
+    let times = table.times().context("no column `time`; expected it as the first column")?;
     let columns = vertical_columns(&table);
     if columns.is_empty() {
         bail!(
-            "no columns of ground forces among {}; expected ground_force_r_vy and ground_force_l_vy, or their like. hint: `ambulo info` lists what a table holds",
+            "no ground-force columns among {}; expected ground_force_r_vy and ground_force_l_vy, or similar. hint: `ambulo info` lists the columns",
             table.names().join(", ")
         );
     }
     let mut events = Vec::new();
     for (side, column) in columns {
-        findings.report(Code::EventsColumns, format!("the {side} foot's upward force is `{column}`"));
+        findings
+            .report(Code::EventsColumns, format!("column `{column}` is used as the upward force on the {side} foot"));
         for contact in contacts_from_force(times, table.column(&column).unwrap_or_default()) {
             push(&mut events, side, contact.strike_s, contact.off_s);
         }
@@ -112,7 +113,7 @@ fn vertical_columns(table: &Table) -> Vec<(Side, String)> {
     found.map_or(vec![], |names| Side::BOTH.into_iter().zip(names.map(str::to_owned)).collect())
 }
 
-/// Edges of contacts of which a plate saw all; the ends of the recording are no edges.
+/// Begin and end of contacts that were entirely on one plate; the ends of the recording are no events.
 fn of_plates(feet: &FeetOnPlates, plates: &[PlateRecording]) -> Vec<Event> {
     let mut events = Vec::new();
     for contact in &feet.contacts {
@@ -140,16 +141,16 @@ fn sorted(mut events: Vec<Event>) -> Vec<Event> {
     events
 }
 
-/// Each source against the ones before it that have events.
+/// Compares each source that has events with the ones before it.
 fn agreements(sources: &[EventSource]) -> Vec<SourceAgreement> {
     let filled: Vec<&EventSource> = sources.iter().filter(|source| !source.events.is_empty()).collect();
     let pairs = (0..filled.len()).flat_map(|k| (k + 1..filled.len()).map(move |later| (k, later)));
-    let agreed = |(reference, found): (usize, usize)| SourceAgreement {
+    let agreement = |(reference, found): (usize, usize)| SourceAgreement {
         found: filled[found].word,
         reference: filled[reference].word,
         kinds: event_agreement(&filled[reference].events, &filled[found].events),
     };
-    pairs.map(agreed).collect()
+    pairs.map(agreement).collect()
 }
 
 fn csv(sources: &[EventSource]) -> String {

@@ -1,4 +1,4 @@
-//! One file a verb.
+//! The subcommands, one module each.
 
 pub(crate) mod compare;
 pub(crate) mod convert;

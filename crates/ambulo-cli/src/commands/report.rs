@@ -1,8 +1,8 @@
-//! `ambulo report`: the page of a result folder; and the page that other verbs write.
+//! `ambulo report`: the page of a result folder, and the page that the other commands write.
 
 use super::result_folder::{ResultFolder, last};
 use crate::args::ReportArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Finding};
 use ambulo_report::page::report_page;
 use ambulo_results::{Folder, OutputFile, RunSummary};
@@ -12,21 +12,21 @@ use std::path::{Path, PathBuf};
 /// Name of the page in a result folder.
 pub(super) const PAGE: &str = "report.html";
 
-/// Folders beside the first that a page can tell apart.
+/// Further folders that a page can show.
 const MOST_COMPARED: usize = 2;
 
-pub(crate) fn run(args: &ReportArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ReportArgs) -> Result<Completion> {
     let folders: Vec<&Path> = std::iter::once(&args.folder).chain(&args.compare).map(PathBuf::as_path).collect();
     if args.compare.len() > MOST_COMPARED {
-        bail!("--compare: found {} folders; expected {MOST_COMPARED} at most", args.compare.len());
+        bail!("--compare: found {} folders; expected at most {MOST_COMPARED}", args.compare.len());
     }
     let output = args.output.clone().unwrap_or_else(|| args.folder.join(PAGE));
     if !matches!(files::ending(&output).as_str(), "html" | "htm") {
         bail!("{}: expected a name that ends in .html for the page", output.display());
     }
     files::write(&output, page_of_folders(&folders)?.as_bytes())?;
-    printer::report(&output, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::report(&output, args.print)?;
+    Ok(Completion::Passed)
 }
 
 /// The page of result folders, from their files.
@@ -41,12 +41,12 @@ pub(super) fn page_of_folders(paths: &[&Path]) -> Result<String> {
         })
         .collect();
     let page = report_page(&folders);
-    // What could not be read is the cause of whatever came of it.
+    // An unreadable file is the cause of any later error, so it is reported first.
     opened.iter().try_for_each(ResultFolder::check)?;
     Ok(page?)
 }
 
-/// A run whose page cannot be made keeps its other results.
+/// The finding of a run whose page could not be written; its other results are kept.
 pub(super) fn page_not_written(reason: &anyhow::Error) -> Finding {
     let message = format!("{PAGE} was not written: {reason:#}");
     Finding { code: Code::ReportNotWritten, message, count: 1 }

@@ -1,7 +1,7 @@
-//! `ambulo reproduce`: the claims and figures of the 1997 paper.
+//! `ambulo reproduce`: recomputes the claims and figures of the 1997 paper.
 
 use crate::args::ReproduceArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::reproduction::{
     Claim, CorrectedMode, Evidence, Mode, Scope, TrialSettings, claims, paper_walk, sensitivities,
 };
@@ -9,7 +9,7 @@ use ambulo_report::{reproduction_files, reproduction_page};
 use anyhow::Result;
 use std::time::Instant;
 
-pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
     let mut mode = |trial: &TrialSettings<'_>| paper_walk(trial);
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let others = if args.brief {
         Vec::new()
     } else {
-        printer::progress("other values for what the paper leaves open", args.voice);
+        printer::progress("sensitivity to values that the paper does not give", args.print);
         sensitivities()?
     };
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &others)?;
@@ -29,11 +29,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Verdict> {
     let mut json = serde_json::to_vec_pretty(&claims)?;
     json.push(b'\n');
     files::write(&args.output.join("claims.json"), &json)?;
-    printer::reproduce(&claims, &others, &args.output, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::reproduce(&claims, &others, &args.output, args.print)?;
+    Ok(Completion::Passed)
 }
 
 fn gather(name: &str, mode: &mut Mode<'_>, clock: &dyn Fn() -> f64, args: &ReproduceArgs) -> Result<Evidence> {
-    printer::progress(name, args.voice);
+    printer::progress(name, args.print);
     Ok(Evidence::gather(mode, Scope::Full, Some(clock))?)
 }

@@ -1,33 +1,33 @@
-//! A folder that a run wrote, as the library asks for it.
+//! A result folder on disk, for functions that read its files by name.
 
 use crate::files;
 use anyhow::{Error, Result, bail};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-/// A result folder. A file that is there and cannot be read is remembered until [`ResultFolder::check`].
+/// A result folder. The error of an existing file that cannot be read is kept for [`ResultFolder::check`].
 pub(super) struct ResultFolder {
     path: PathBuf,
     failure: RefCell<Option<Error>>,
 }
 
 impl ResultFolder {
-    /// A folder with a `summary.json`; anything else is refused with a hint.
+    /// Opens a folder with a `summary.json`; anything else is an error with a hint.
     pub(super) fn open(path: &Path) -> Result<ResultFolder> {
         let shown = path.display();
-        let hint = "hint: `ambulo demo -o demo` makes one";
+        let hint = "hint: `ambulo demo -o demo` writes one";
         if path.is_file() {
             let folder = path.parent().filter(|folder| folder.join(SUMMARY).is_file());
             let hint =
                 folder.map_or_else(|| hint.to_owned(), |folder| format!("hint: its folder is {}", folder.display()));
-            bail!("{shown}: this is a file; expected the folder of a run. {hint}");
+            bail!("{shown}: this is a file; expected a result folder. {hint}");
         }
         if !path.is_dir() {
-            bail!("{shown}: there is no such folder; expected the folder of a run. {hint}");
+            bail!("{shown}: there is no such folder; expected a result folder. {hint}");
         }
         if !path.join(SUMMARY).is_file() {
             let other = if path.join("claims.json").is_file() {
-                "; `ambulo reproduce` wrote it, and its report.html stays as it is"
+                "; `ambulo reproduce` wrote this folder, and its report.html cannot be written again"
             } else {
                 ""
             };
@@ -38,12 +38,11 @@ impl ResultFolder {
         Ok(ResultFolder { path: path.to_owned(), failure: RefCell::new(None) })
     }
 
-    /// Whether a file is there.
     pub(super) fn has(&self, name: &str) -> bool {
         self.path.join(name).is_file()
     }
 
-    /// The bytes of a file of the folder, if it is there.
+    /// The content of a file of the folder, if it exists.
     pub(super) fn read(&self, name: &str) -> Option<Vec<u8>> {
         let path = self.path.join(name);
         if !path.exists() {
@@ -52,7 +51,7 @@ impl ResultFolder {
         files::read(&path).map_err(|error| self.failure.borrow_mut().get_or_insert(error).to_string()).ok()
     }
 
-    /// The way to the folder as it was typed.
+    /// The path as it was typed.
     pub(super) fn shown(&self) -> String {
         self.path.display().to_string()
     }
@@ -62,7 +61,7 @@ impl ResultFolder {
         last(&self.path)
     }
 
-    /// The first file that could not be read.
+    /// Returns the error of the first file that could not be read.
     pub(super) fn check(&self) -> Result<()> {
         self.failure.take().map_or(Ok(()), Err)
     }
@@ -70,7 +69,7 @@ impl ResultFolder {
 
 const SUMMARY: &str = "summary.json";
 
-/// Name of a folder without the way to it.
+/// Name of a folder without its path.
 pub(super) fn last(folder: &Path) -> String {
     folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned()
 }

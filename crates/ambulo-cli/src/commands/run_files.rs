@@ -1,9 +1,9 @@
-//! The files and words of a run: what recordings and synthetic walks share.
+//! Writes the files of a run and prints its outcome, for recordings and synthetic walks.
 
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
-use crate::args::Voice;
-use crate::{Verdict, files, printer};
+use crate::args::PrintArgs;
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::study::Outcome;
@@ -14,25 +14,25 @@ use ambulo_results::{
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
-/// An outcome, and what goes with it into the files.
+/// An outcome with everything else that is written to the result folder.
 pub(super) struct RunFiles<'a> {
     pub(super) outcome: &'a Outcome,
     pub(super) input: Input,
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
-    /// How a synthetic walk was made.
+    /// How a synthetic walk was computed.
     pub(super) walk: Option<WalkSummary>,
     /// Files that only this kind of run has.
     pub(super) files: Vec<OutputFile>,
-    /// Every file that was read; none of them is written over.
+    /// Every file that was read; none of them is overwritten.
     pub(super) read: &'a [PathBuf],
     pub(super) findings: Findings,
     pub(super) clock: Stopwatch,
 }
 
 impl RunFiles<'_> {
-    /// Writes all files and reports.
-    pub(super) fn write(self, output: &Path, voice: Voice) -> Result<Verdict> {
+    /// Writes all files and prints the outcome.
+    pub(super) fn write(self, output: &Path, print: PrintArgs) -> Result<Completion> {
         let RunFiles { outcome, input, convention, walk, files, read, findings, mut clock } = self;
         let mut written = outcome_tables(outcome)?;
         let figures = outcome_figures(outcome, convention)?;
@@ -51,8 +51,8 @@ impl RunFiles<'_> {
         }
         summary.timing_ms = clock.into_laps();
         files::write(&output.join("summary.json"), &summary_json(&summary)?)?;
-        printer::forces(&summary, output, voice)?;
-        Ok(if outcome.verdict.feasible { Verdict::Accepted } else { Verdict::Refused })
+        printer::forces(&summary, output, print)?;
+        Ok(if outcome.verdict.feasible { Completion::Passed } else { Completion::Failed })
     }
 }
 

@@ -1,9 +1,9 @@
-//! `ambulo simulate`: a scene file stepped through time.
+//! `ambulo simulate`: simulates a scene file.
 
 use super::report::{page_not_written, page_of_run};
 use super::stopwatch::Stopwatch;
 use crate::args::SimulateArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::analysis::scene_verdict;
 use ambulo::findings::Findings;
@@ -13,10 +13,10 @@ use ambulo_results::{RunSummary, SceneExtremes, SceneInput, SceneTables, summary
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
-/// More steps than this are a slip.
+/// More steps than this are a mistake of the user.
 const MOST_STEPS: f64 = 1e9;
 
-pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let mut input = SceneInput { scene: args.scene.display().to_string(), ..SceneInput::default() };
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
         inputs.push(path.clone());
         input.resumed = Some(path.display().to_string());
     }
-    refuse_to_write_over(args.save.as_deref(), &inputs)?;
+    refuse_to_overwrite(args.save.as_deref(), &inputs)?;
     clock.lap("read");
 
     let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
@@ -69,11 +69,11 @@ pub(crate) fn run(args: &SimulateArgs) -> Result<Verdict> {
         Err(reason) => summary.findings.push(page_not_written(&reason)),
     }
     write_json(&args.output.join("summary.json"), &summary)?;
-    printer::simulate(&summary, &args.output, args.voice)?;
-    Ok(if feasible { Verdict::Accepted } else { Verdict::Refused })
+    printer::simulate(&summary, &args.output, args.print)?;
+    Ok(if feasible { Completion::Passed } else { Completion::Failed })
 }
 
-/// The scene, with every file that it names; their paths are added to `inputs`.
+/// Builds the scene and reads every file that it names; adds their paths to `inputs`.
 fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
     let shown = || args.scene.display().to_string();
     let bytes = files::read(&args.scene)?;
@@ -84,7 +84,7 @@ fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings
     let changes = SceneSettings { step_s: args.step, duration_s: args.duration };
     let (step_s, end_s) = (args.step.unwrap_or(file.step_s), args.duration.unwrap_or(file.duration_s));
     if step_s > end_s || end_s / step_s > MOST_STEPS {
-        bail!("{}: steps of {step_s} s over {end_s} s; expected one step at least and 1e9 at most", shown());
+        bail!("{}: the time step is {step_s} s, the duration {end_s} s; expected 1 to 1e9 time steps", shown());
     }
     let folder = args.scene.parent().unwrap_or(Path::new(""));
     let mut load = |path: &str| {
@@ -99,11 +99,11 @@ fn build(args: &SimulateArgs, inputs: &mut Vec<PathBuf>, findings: &mut Findings
 fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
     let shown = || path.display().to_string();
     let saved: SavedState = serde_json::from_slice(&files::read(path)?)
-        .with_context(|| format!("{}: this is no state that `ambulo simulate --save` wrote", shown()))?;
+        .with_context(|| format!("{}: this file was not written by `ambulo simulate --save`", shown()))?;
     scene.resume(&saved).with_context(shown)?;
     if scene.steps_made() >= scene.steps_in_all() {
         bail!(
-            "{}: the state is that of {} s, and the scene ends at {} s. hint: --duration sets the instant of its end",
+            "{}: the state is at {} s, but the scene ends at {} s. hint: --duration sets a later end",
             shown(),
             scene.state().time_s,
             scene.duration_s()
@@ -112,11 +112,11 @@ fn resume(scene: &mut Scene, path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn refuse_to_write_over(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
+fn refuse_to_overwrite(save: Option<&Path>, inputs: &[PathBuf]) -> Result<()> {
     let Some(save) = save else { return Ok(()) };
     let same = |path: &PathBuf| path.canonicalize().is_ok_and(|path| save.canonicalize().is_ok_and(|s| s == path));
     if inputs.iter().any(same) {
-        bail!("{}: this file was read and would be written over. hint: another name for --save", save.display());
+        bail!("{}: this input file would be overwritten. hint: choose another name for --save", save.display());
     }
     Ok(())
 }

@@ -1,9 +1,8 @@
-//! How long the stages of a run took.
+//! Measures how long each stage of a run takes.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Measures how long each stage took.
 pub(super) struct Stopwatch {
     last: Instant,
     laps: Vec<(String, f64)>,
@@ -14,7 +13,7 @@ impl Stopwatch {
         Stopwatch { last: Instant::now(), laps: Vec::new() }
     }
 
-    /// What each stage took [ms].
+    /// Duration of each stage [ms].
     pub(super) fn into_laps(self) -> BTreeMap<String, f64> {
         self.laps.into_iter().collect()
     }

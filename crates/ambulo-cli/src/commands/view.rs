@@ -1,43 +1,43 @@
-//! `ambulo view`: the page of a result folder in the browser.
+//! `ambulo view`: opens the page of a result folder in the browser.
 
 use super::report::{PAGE, page_of_folders};
 use crate::args::ViewArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &ViewArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ViewArgs) -> Result<Completion> {
     let page = page(&args.page)?;
-    // What a browser is given must not depend on the folder that it runs in.
+    // The browser may run in another folder.
     let page = page.canonicalize().unwrap_or(page);
     let opened = has_screen() && open::that_detached(&page).is_ok();
-    printer::view(&page, opened, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::view(&page, opened, args.print)?;
+    Ok(Completion::Passed)
 }
 
-/// The page to be shown; a folder without one gets it.
-fn page(asked: &Path) -> Result<PathBuf> {
-    let shown = asked.display();
-    if asked.is_dir() {
-        let page = asked.join(PAGE);
+/// The page to open; it is written if a result folder has none.
+fn page(path: &Path) -> Result<PathBuf> {
+    let shown = path.display();
+    if path.is_dir() {
+        let page = path.join(PAGE);
         if !page.is_file() {
-            files::write(&page, page_of_folders(&[asked])?.as_bytes())?;
+            files::write(&page, page_of_folders(&[path])?.as_bytes())?;
         }
         return Ok(page);
     }
-    match files::ending(asked).as_str() {
-        _ if !asked.exists() => {
+    match files::ending(path).as_str() {
+        _ if !path.exists() => {
             bail!("{shown}: there is no such file or folder. hint: `ambulo demo -o demo`, then `ambulo view demo`")
         }
-        "html" | "htm" => Ok(asked.to_owned()),
+        "html" | "htm" => Ok(path.to_owned()),
         "c3d" | "trc" | "bvh" => bail!(
-            "{shown}: this is a recording and no page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
+            "{shown}: this is a recording, not a page; expected a result folder or .html. hint: `ambulo forces {shown} -o out`, then `ambulo view out`"
         ),
-        _ => bail!("{shown}: this is no page; expected a result folder or .html"),
+        _ => bail!("{shown}: this is not a page; expected a result folder or .html"),
     }
 }
 
-/// Whether a browser could show anything: on Linux a terminal may have no screen, and would get a text browser in its place.
+/// Whether a browser could show a page. On Linux without a display, a text browser would open in the terminal.
 fn has_screen() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let declined = std::env::var_os("BROWSER").is_some_and(|browser| browser == "none");

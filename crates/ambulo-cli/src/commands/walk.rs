@@ -1,9 +1,9 @@
-//! `ambulo walk`: synthetic walking, and the forces behind it.
+//! `ambulo walk`: synthesises a walk and computes its forces.
 
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{FigureArgs, GaitArgs, Voice, WalkArgs, WalkMode};
-use crate::{Verdict, files, printer};
+use crate::args::{FigureArgs, GaitArgs, PrintArgs, WalkArgs, WalkMode};
+use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::state_table;
@@ -17,7 +17,7 @@ use anyhow::{Context, Result};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &WalkArgs) -> Result<Completion> {
     let mut clock = Stopwatch::new();
     let mut findings = Findings::default();
     let (gait, mut read) = gait(&args.gait)?;
@@ -29,42 +29,47 @@ pub(crate) fn run(args: &WalkArgs) -> Result<Verdict> {
             let file = gait_file(&walk)?;
             files::write(&output.join(&file.name), &file.bytes)?;
         }
-        return printer::states(&state_table(&walk), &findings, args.voice).map(|()| Verdict::Accepted);
+        return printer::states(&state_table(&walk), &findings, args.print).map(|()| Completion::Passed);
     }
     let thresholds = read_thresholds(args.thresholds.as_deref())?;
     read.extend(args.thresholds.clone());
-    let gait = if args.mode == WalkMode::Corrected { put_right(gait, &args.gait) } else { gait };
-    let order =
+    let gait = if args.mode == WalkMode::Corrected { style_for_correction(gait, &args.gait) } else { gait };
+    let walk_settings =
         SyntheticWalkSettings { gait: &gait, build, mode: args.mode.mode(), cycles: args.cycles, rate_hz: args.rate };
-    let walk = synthesise(&order, &mut findings)?;
+    let walk = synthesise(&walk_settings, &mut findings)?;
     clock.lap("walk");
-    let made = Made { walk: &walk, order: &order, thresholds, convention: args.convention.into(), read: &read };
+    let run = SyntheticRun {
+        walk: &walk,
+        walk_settings: &walk_settings,
+        thresholds,
+        convention: args.convention.into(),
+        read: &read,
+    };
     let output = args.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
-    made.analyse_and_write(findings, clock, output, args.voice)
+    run.analyse_and_write(findings, clock, output, args.print)
 }
 
-/// Folder for the results, if none is named.
 const DEFAULT_OUTPUT: &str = "out";
 
-/// A walk that was made, and what it is judged by.
-pub(super) struct Made<'a> {
+/// A synthesised walk with everything that its analysis and its files need.
+pub(super) struct SyntheticRun<'a> {
     pub(super) walk: &'a SyntheticWalk,
-    pub(super) order: &'a SyntheticWalkSettings<'a>,
+    pub(super) walk_settings: &'a SyntheticWalkSettings<'a>,
     pub(super) thresholds: Thresholds,
     /// How angles of pelvis and hips are measured.
     pub(super) convention: Convention,
     pub(super) read: &'a [PathBuf],
 }
 
-impl Made<'_> {
-    /// Takes the same road as a recording, from a complete motion on.
+impl SyntheticRun<'_> {
+    /// Computes the forces as for a recording, beginning with a complete motion, and writes all files.
     pub(super) fn analyse_and_write(
         self,
         mut findings: Findings,
         mut clock: Stopwatch,
         output: &Path,
-        voice: Voice,
-    ) -> Result<Verdict> {
+        print: PrintArgs,
+    ) -> Result<Completion> {
         let settings = Settings { thresholds: self.thresholds.clone(), ..Settings::default() };
         let mut watch = |stage: Stage| {
             clock.lap(stage.word());
@@ -73,7 +78,7 @@ impl Made<'_> {
         let outcome = study::run_observed(&self.source(), &settings, &mut findings, &mut watch)?;
         let files = RunFiles {
             outcome: &outcome,
-            input: input(self.order),
+            input: input(self.walk_settings),
             convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
@@ -81,10 +86,10 @@ impl Made<'_> {
             findings,
             clock,
         };
-        files.write(output, voice)
+        files.write(output, print)
     }
 
-    /// The walk with the forces that its simulation or correction gives.
+    /// The walk with the ground forces of its simulation or correction.
     fn source(&self) -> Source {
         let SyntheticWalk { human, trajectory, loads, .. } = self.walk;
         let made = CompleteMotion {
@@ -92,34 +97,34 @@ impl Made<'_> {
             person: Person::of_human(human),
             trajectory: trajectory.clone(),
             loads: loads.clone(),
-            rule: rule(self.order),
+            rule: rule(self.walk_settings),
         };
         Source::new(Recording::Complete(Box::new(made)))
     }
 
-    /// The figure as a model that `ambulo forces` and OpenSim read, and the gait as a picture.
+    /// The figure as an OpenSim model, and the picture of the gait.
     fn files(&self) -> Result<Vec<OutputFile>> {
         Ok(vec![OutputFile::body("figure.osim", &self.walk.human.model)?, gait_file(&self.walk.walk)?])
     }
 }
 
-/// The figure of a gait as a file.
+/// The picture of a gait.
 fn gait_file(walk: &Walk) -> Result<OutputFile> {
     Ok(OutputFile::new("figures/gait.svg", gait_figure(walk)?.into_bytes()))
 }
 
-/// How the forces were divided between the feet in double support.
-fn rule(order: &SyntheticWalkSettings<'_>) -> &'static str {
-    match order.mode {
+/// How the ground forces were determined, also in double support.
+fn rule(walk_settings: &SyntheticWalkSettings<'_>) -> &'static str {
+    match walk_settings.mode {
         SyntheticMode::Corrected => "soft shoes",
         SyntheticMode::Paper => "rigid soles",
     }
 }
 
-fn input(order: &SyntheticWalkSettings<'_>) -> Input {
+fn input(walk_settings: &SyntheticWalkSettings<'_>) -> Input {
     Input {
-        motion: format!("gait {}", order.gait.name),
-        model: format!("figure {}", order.build.table),
+        motion: format!("gait {}", walk_settings.gait.name),
+        model: format!("figure {}", walk_settings.build.table),
         standing: None,
         ground: None,
         loads: None,
@@ -129,9 +134,9 @@ fn input(order: &SyntheticWalkSettings<'_>) -> Input {
     }
 }
 
-/// Mass [kg] and stature [m] of a figure when nothing is said: de Leva's and Winter's as round numbers near the means of the people
-/// measured, the paper's 80 kg at the stature that completes its table.
-fn usual_size(table: SegmentTable) -> [f64; 2] {
+/// Default mass [kg] and stature [m]: for de Leva's and Winter's tables round numbers near the means of their subjects, for the 1997 paper
+/// 80 kg with the stature that completes its table.
+fn default_size(table: SegmentTable) -> [f64; 2] {
     match table {
         SegmentTable::DeLevaMale | SegmentTable::DempsterWinter => [75.0, 1.75],
         SegmentTable::DeLevaFemale => [60.0, 1.65],
@@ -139,24 +144,23 @@ fn usual_size(table: SegmentTable) -> [f64; 2] {
     }
 }
 
-/// The figure when nothing is said.
 pub(super) fn default_build() -> Build {
     let table = SegmentTable::DeLevaMale;
-    let [mass, height] = usual_size(table);
+    let [mass, height] = default_size(table);
     Build { table, mass, height, toe_joint: true }
 }
 
 fn build(args: &FigureArgs) -> Result<Build> {
     let table = args.figure.parse().context("--figure")?;
-    let [mass, height] = usual_size(table);
+    let [mass, height] = default_size(table);
     let (mass, height) = (args.mass.unwrap_or(mass), args.height.unwrap_or(height));
     let build = Build { table, mass, height, toe_joint: !args.no_toe_joint };
-    // Refused before anything is computed.
+    // Reject an impossible size before anything is computed.
     build.human()?;
     Ok(build)
 }
 
-/// The gait as asked for, and the file that it was read from.
+/// The gait with the user's changes, and the file that it was read from.
 fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
     let path = Path::new(&args.gait);
     let is_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.components().count() > 1;
@@ -170,15 +174,16 @@ fn gait(args: &GaitArgs) -> Result<(Gait, Vec<PathBuf>)> {
     if let Some(word) = &args.style {
         gait = gait.in_style(style(word)?);
     }
-    gait.pace = paced(gait.pace, args);
+    gait.pace = with_pace(gait.pace, args);
     if let Some(height) = args.step_height {
         gait.step_height = height;
     }
     Ok((gait, read))
 }
 
-/// Built-in gaits of style 1997 have curves without acceleration at their knots; put right, they get some, unless a style was asked for.
-fn put_right(gait: Gait, args: &GaitArgs) -> Gait {
+/// Built-in gaits of style 1997 have zero acceleration at their knots; to be corrected, they take style knots unless the user chose a
+/// style.
+fn style_for_correction(gait: Gait, args: &GaitArgs) -> Gait {
     if args.style.is_none() && Gait::NAMES.contains(&args.gait.as_str()) { gait.in_style(Style::Knots) } else { gait }
 }
 
@@ -188,9 +193,9 @@ fn style(word: &str) -> Result<Style> {
     known.map(|(_, style)| style).with_context(|| format!("--style: found `{word}`; expected one of {names}"))
 }
 
-/// As in gait files: where one of speed, step length and cadence is given, the gait's own count no more, its factors do; so that what
-/// was asked for comes out, it is taken before them.
-fn paced(own: Pace, args: &GaitArgs) -> Pace {
+/// Replaces the gait's speed, step length and cadence if one of them is given, as in gait files. The gait's scale factors remain in force,
+/// so the given values are divided by them.
+fn with_pace(own: Pace, args: &GaitArgs) -> Pace {
     if args.speed.is_none() && args.step_length.is_none() && args.cadence.is_none() {
         return own;
     }

@@ -1,36 +1,40 @@
-//! Predicted forces against plates, as a table.
+//! Prints the comparison of predicted with measured ground forces.
 
-use super::say;
+use super::print_line;
 use ambulo::analysis::{CenterAgreement, EventAgreement, FootAgreement, GroundAgreement, MomentAgreement};
 use anyhow::Result;
 
 pub(super) fn print(comparison: &GroundAgreement) -> Result<()> {
     let window =
-        comparison.window_s.map_or(String::new(), |[from, to]| format!("; all feet on plates {from:.3} to {to:.3} s"));
-    say(&format!("  against plates, {:.2} kg{window}", comparison.mass_kg))?;
+        comparison.window_s.map_or(String::new(), |[from, to]| format!("; instrumented window {from:.3} to {to:.3} s"));
+    print_line(&format!("  compared with plates, {:.2} kg{window}", comparison.mass_kg))?;
     if !comparison.feet.is_empty() {
-        say("    ground force          RMSE %BW   rRMSE %        r   in 90 % band %   half-width/RMSE")?;
+        print_line("    ground force          RMSE %BW   rRMSE %        r   in 90 % band %   half-width/RMSE")?;
     }
     for foot in &comparison.feet {
         print_foot(foot)?;
     }
     if !comparison.feet.is_empty() {
-        say("    centre of pressure    fore-aft mm   weighted   lateral mm   weighted")?;
+        print_line("    centre of pressure    fore-aft mm   weighted   lateral mm   weighted")?;
     }
     for foot in &comparison.feet {
-        say(&format!("      {}", center(foot)))?;
+        print_line(&format!("      {}", center(foot)))?;
     }
     if !comparison.moments.is_empty() {
-        say("    joint moment                  RMSE N.m/kg        N.m        r")?;
+        print_line("    joint moment                  RMSE N.m/kg        N.m        r")?;
     }
-    comparison.moments.iter().try_for_each(|moment| say(&format!("      {}", self::moment(moment))))?;
-    comparison.events.iter().filter(|e| e.pairs + e.missed > 0).try_for_each(|e| say(&format!("    {}", events(e))))
+    comparison.moments.iter().try_for_each(|moment| print_line(&format!("      {}", self::moment(moment))))?;
+    comparison
+        .events
+        .iter()
+        .filter(|e| e.pairs + e.missed > 0)
+        .try_for_each(|e| print_line(&format!("    {}", events(e))))
 }
 
 fn print_foot(foot: &FootAgreement) -> Result<()> {
     let components = [("vertical", foot.vertical), ("fore-aft", foot.fore_aft), ("lateral", foot.lateral)];
     for (name, force) in components {
-        say(&format!(
+        print_line(&format!(
             "      {:<6}{:<12}{:>10.2}{:>10.1}{:>9}{:>18.1}{:>18.2}",
             foot.side.to_string(),
             name,
@@ -48,7 +52,7 @@ fn center(foot: &FootAgreement) -> String {
     let CenterAgreement { fore_aft_mm, lateral_mm, fore_aft_weighted_mm, lateral_weighted_mm, missing, samples } =
         foot.center_of_pressure;
     let gap =
-        if missing > 0 { format!("   {missing} of {} samples have none", missing + samples) } else { String::new() };
+        if missing > 0 { format!("   missing in {missing} of {} samples", missing + samples) } else { String::new() };
     format!(
         "{:<18}{fore_aft_mm:>13.1}{fore_aft_weighted_mm:>11.1}{lateral_mm:>13.1}{lateral_weighted_mm:>11.1}{gap}",
         foot.side.to_string()
@@ -63,11 +67,11 @@ fn moment(moment: &MomentAgreement) -> String {
 fn events(agreement: &EventAgreement) -> String {
     let EventAgreement { kind, pairs, missed, extra, mean_absolute_ms, bias_ms } = agreement;
     if *pairs == 0 {
-        return format!("{kind}: none in common, {missed} missed");
+        return format!("{kind}: none matched, {missed} missed");
     }
     let direction = if *bias_ms < 0.0 { "early" } else { "late" };
     format!(
-        "{kind}: {pairs} in common, {mean_absolute_ms:.1} ms apart, {:.1} ms {direction} on average; {missed} missed, {extra} more",
+        "{kind}: {pairs} matched, {mean_absolute_ms:.1} ms apart, {:.1} ms {direction} on average; {missed} missed, {extra} extra",
         bias_ms.abs()
     )
 }

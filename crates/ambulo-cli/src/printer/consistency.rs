@@ -1,32 +1,32 @@
-//! How a motion was changed to obey the forces.
+//! Prints the outcome of residual reduction.
 
-use super::say;
+use super::print_line;
 use ambulo_results::{ChangeUnit, ConsistencySummary, CoordinateSize, ResidualSize};
 use anyhow::Result;
 
-/// Coordinates shown of each unit, those that changed most.
+/// Coordinates printed per unit: those that changed most.
 const SHOWN: usize = 4;
 
-/// What remains, and what was changed.
+/// Prints the residuals before and after, and the changes.
 pub(super) fn print(summary: &ConsistencySummary) -> Result<()> {
     let [from, to] = summary.window_s;
-    say(&format!("  agreed    motion and forces from {from:.3} to {to:.3} s    rms            peak"))?;
+    print_line(&format!("  residual reduction, {from:.3} to {to:.3} s              rms            peak"))?;
     for (when, residual) in [("before", &summary.residual_before), ("after", &summary.residual_after)] {
-        say(&residual_line(when, residual))?;
+        print_line(&residual_line(when, residual))?;
     }
-    say("    changed                           rms          largest")?;
+    print_line("    changed                           rms          largest")?;
     for unit in [ChangeUnit::Degree, ChangeUnit::Millimetre] {
         for (name, size) in largest(summary, unit) {
-            say(&format!("    {name:<28} {:>8.2} {:>16.2} {unit}", size.rms, size.max))?;
+            print_line(&format!("    {name:<28} {:>8.2} {:>16.2} {unit}", size.rms, size.max))?;
         }
     }
     for (body, size) in &summary.feet_mm {
-        say(&format!("    {body:<28} {:>8.2} {:>16.2} mm", size.rms, size.max))?;
+        print_line(&format!("    {body:<28} {:>8.2} {:>16.2} mm", size.rms, size.max))?;
     }
     let [x, y, z] = summary.trunk_center_mm;
     if summary.mass_percent.abs() + x.abs() + y.abs() + z.abs() > 0.0 {
-        say(&format!(
-            "    mass {:+.2} %, mass centre of `{}` {x:+.1} {y:+.1} {z:+.1} mm; subject.osim is the body with them",
+        print_line(&format!(
+            "    mass {:+.2} %, mass centre of `{}` {x:+.1} {y:+.1} {z:+.1} mm; subject.osim is the changed body",
             summary.mass_percent, summary.trunk
         ))?;
     }
@@ -43,7 +43,7 @@ fn residual_line(when: &str, residual: &ResidualSize) -> String {
     )
 }
 
-/// Coordinates of a unit, the one that changed most first.
+/// Coordinates in this unit, the largest change first.
 fn largest(summary: &ConsistencySummary, unit: ChangeUnit) -> Vec<(&String, &CoordinateSize)> {
     let mut list: Vec<_> = summary.changes.iter().filter(|(_, size)| size.unit == unit).collect();
     list.sort_by(|a, b| b.1.max.total_cmp(&a.1.max));

@@ -1,43 +1,42 @@
-//! The outcome of `forces`, `walk` and `demo`.
+//! Prints the outcome of `forces`, `walk` and `demo`.
 
-use super::{comparison, consistency, print_findings, print_verdict, say, subject};
-use crate::args::Voice;
+use super::{comparison, consistency, print_findings, print_line, print_verdict, subject};
+use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
 use ambulo_results::{FilterSummary, ForceUnit, Ground, GroundOrigin, MassKnowledge, Summary, WalkSummary};
 use anyhow::Result;
 use std::path::Path;
 
-/// The outcome of `forces` and `demo`.
-pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<()> {
-    if voice.quiet {
+pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Result<()> {
+    if print.quiet {
         return Ok(());
     }
     print_findings(&summary.findings);
-    if voice.json {
-        say(&serde_json::to_string_pretty(summary)?)?;
+    if print.json {
+        print_line(&serde_json::to_string_pretty(summary)?)?;
         return Ok(());
     }
-    say(&format!("{}, {}", summary.model, summary.input.motion))?;
+    print_line(&format!("{}, {}", summary.model, summary.input.motion))?;
     let known = match summary.mass {
         MassKnowledge::Unverified if summary.ground.source == GroundOrigin::Predicted => ", unverified",
-        MassKnowledge::Contradicted => ", but plates carry another",
+        MassKnowledge::Contradicted => ", but the force plates measured another",
         MassKnowledge::Verified | MassKnowledge::Unverified => "",
     };
-    say(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
+    print_line(&format!("  mass      {:.2} kg ({}{known})", summary.mass_kg, summary.mass_source.word()))?;
     if let Some(subject) = &summary.subject {
         subject::print(subject)?;
     }
     if let Some(speed) = summary.speed_m_s {
-        say(&format!("  speed     {speed:.2} m/s"))?;
+        print_line(&format!("  speed     {speed:.2} m/s"))?;
     }
     let [from, to] = summary.window_s;
-    say(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
+    print_line(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
     print_ground(summary)?;
     if let Some(walk) = &summary.walk {
         print_walk(walk)?;
     }
     if let Some(r) = &summary.residual {
-        say(&format!(
+        print_line(&format!(
             "  residual  {:.1} N rms ({:.1} %BW), {:.1} N peak; {:.1} N.m rms, {:.1} N.m peak",
             r.force_rms_n,
             100.0 * r.force_rms_bw,
@@ -59,14 +58,14 @@ pub(crate) fn forces(summary: &Summary, output: &Path, voice: Voice) -> Result<(
     if let Some(verdict) = &summary.verdict {
         print_verdict(verdict)?;
     }
-    say(&format!("  written   {}", output.display()))?;
+    print_line(&format!("  written   {}", output.display()))?;
     Ok(())
 }
 
-/// How a walk was made.
+/// Prints how a synthetic walk was computed.
 fn print_walk(walk: &WalkSummary) -> Result<()> {
-    say(&format!(
-        "  walk      {}, style {}, {} mode: {:.2} m/s, steps of {:.3} m, {:.1} a minute",
+    print_line(&format!(
+        "  walk      {}, style {}, {} mode: {:.2} m/s, steps of {:.3} m, {:.1} per minute",
         walk.gait, walk.style, walk.mode, walk.speed_asked_m_s, walk.step_length_m, walk.cadence_steps_min
     ))?;
     if let (Some(count), Some(degrees), Some(path)) =
@@ -74,21 +73,21 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
     {
         let angles: Vec<String> =
             degrees.iter().map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();
-        say(&format!("  changed   by {count} numbers: {} deg rms", angles.join(", ")))?;
-        say(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
+        print_line(&format!("  changed   {} deg rms, by {count} parameters", angles.join(", ")))?;
+        print_line(&format!("            pelvis {:.1} mm rms forwards, {:.1} mm up", path.forward.rms, path.up.rms))?;
     }
     let slip = match (walk.foot_slip_mm, walk.foot_slip_path_mm) {
         (Some(distance), Some(path)) => {
-            format!("; feet get {distance:.1} mm from where they stood, by a way of {path:.1} mm")
+            format!("; stance feet slip {distance:.1} mm at most, along a path of {path:.1} mm")
         }
         _ => String::new(),
     };
-    say(&format!(
-        "  trunk     held with {:.1} N.m rms, {:.1} N.m peak{slip}",
+    print_line(&format!(
+        "  trunk     held upright with {:.1} N.m rms, {:.1} N.m peak{slip}",
         walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest
     ))?;
     if walk.blows > 0 {
-        say(&format!("  blows     {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;
+        print_line(&format!("  impacts   {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;
     }
     Ok(())
 }
@@ -97,19 +96,19 @@ fn print_ground(summary: &Summary) -> Result<()> {
     let motion = filter(&summary.filter.motion);
     let Ground { source, ref rule, threshold_n } = summary.ground;
     if source == GroundOrigin::None {
-        return say(&format!("  filter    motion {motion}\n  ground    none"));
+        return print_line(&format!("  filter    motion {motion}\n  ground    none"));
     }
-    say(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
+    print_line(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
     let rule = rule.as_ref().filter(|_| source == GroundOrigin::Predicted);
     let rule = rule.map_or(String::new(), |rule| format!(", {rule}"));
-    say(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
+    print_line(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
 }
 
-/// Which checks of a prediction passed; values of those that did not.
+/// Prints which checks of a prediction passed, with the values of those that failed.
 fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
     let names = |passed: Option<bool>| of(passed).map(|check| &*check.name).collect::<Vec<_>>().join(", ");
-    let off = |check: &PredictionCheck| {
+    let failure = |check: &PredictionCheck| {
         let unit = if check.unit == "1" { String::new() } else { format!(" {}", check.unit) };
         let allowed = match check.allowed {
             [low, high] if low.is_finite() && high.is_finite() => format!("{low:.3} to {high:.3}"),
@@ -118,20 +117,20 @@ fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
         };
         format!("{} {:.3}{unit} (allowed {allowed})", check.name, check.value.unwrap_or(f64::NAN))
     };
-    let failed: Vec<String> = of(Some(false)).map(off).collect();
+    let failed: Vec<String> = of(Some(false)).map(failure).collect();
     let lines = [("passed", names(Some(true))), ("failed", failed.join(", ")), ("not judged", names(None))];
     let mut head = "checks";
     for (what, list) in lines.iter().filter(|(_, list)| !list.is_empty()) {
-        say(&format!("  {head:<10}{what}: {list}"))?;
+        print_line(&format!("  {head:<10}{what}: {list}"))?;
         head = "";
     }
     Ok(())
 }
 
 fn print_peaks(summary: &Summary) -> Result<()> {
-    say("  peaks                               min          max")?;
+    print_line("  peaks                               min          max")?;
     for peak in summary.peaks.iter().filter(|p| p.unit == ForceUnit::NewtonMetre) {
-        say(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+        print_line(&format!("    {:<28} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
     Ok(())
 }

@@ -1,43 +1,42 @@
-//! The outcome of `simulate`.
+//! Prints the outcome of `simulate`.
 
-use super::{print_findings, print_verdict, say};
-use crate::args::Voice;
+use super::{print_findings, print_line, print_verdict};
+use crate::args::PrintArgs;
 use ambulo_results::{ContactSummary, SceneSummary, WorldSummary};
 use anyhow::Result;
 use std::path::Path;
 
-/// The outcome of `simulate`.
-pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> Result<()> {
-    if voice.quiet {
+pub(crate) fn simulate(summary: &SceneSummary, output: &Path, print: PrintArgs) -> Result<()> {
+    if print.quiet {
         return Ok(());
     }
     print_findings(&summary.findings);
-    if voice.json {
-        return say(&serde_json::to_string_pretty(summary)?);
+    if print.json {
+        return print_line(&serde_json::to_string_pretty(summary)?);
     }
     let (world, energy, convergence) = (&summary.world, &summary.energy, &summary.convergence);
-    say(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
+    print_line(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
     print_world(world)?;
     let [from, to] = summary.window_s;
     let each_us = 1e3 * summary.timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
-    say(&format!(
+    print_line(&format!(
         "  time        {from} to {to} s, {} steps of {} s ({}), {each_us:.1} us each",
         summary.steps,
         summary.step_s,
         summary.integrator.word()
     ))?;
-    say(&format!(
+    print_line(&format!(
         "  energy      {:.6} J at the start, {:.6} J at the end; between {:.6} and {:.6} J",
         energy.start_j, energy.end_j, energy.lowest_j, energy.highest_j
     ))?;
     if world.joints + world.closures > 0 {
-        say(&format!("  joint error {:.1e} m at most", summary.joint_error_max_m))?;
+        print_line(&format!("  joint error {:.1e} m at most", summary.joint_error_max_m))?;
     }
     if world.surfaces > 0 {
         print_contacts(&summary.contacts)?;
     }
-    say(&format!(
-        "  iterations  {:.1} a step, {} at most; residual {:.1e} at most, {} step{} not converged",
+    print_line(&format!(
+        "  iterations  {:.1} per step, {} at most; residual {:.1e} at most, {} step{} not converged",
         convergence.iterations_mean,
         convergence.iterations_max,
         convergence.residual_max,
@@ -46,15 +45,15 @@ pub(crate) fn simulate(summary: &SceneSummary, output: &Path, voice: Voice) -> R
     ))?;
     print_efforts(summary)?;
     for judged in summary.verdict.iter().flat_map(|verdict| &verdict.figures) {
-        say(&format!("  {}", judged.figure))?;
+        print_line(&format!("  {}", judged.figure))?;
         print_verdict(&judged.verdict)?;
     }
-    say(&format!("  written     {}", output.display()))
+    print_line(&format!("  written     {}", output.display()))
 }
 
 /// Bodies, masses and joints of the world.
 fn print_world(world: &WorldSummary) -> Result<()> {
-    say(&format!(
+    print_line(&format!(
         "  world       {} bod{}, {:.2} kg{}{}{}{}",
         world.bodies,
         if world.bodies == 1 { "y" } else { "ies" },
@@ -68,7 +67,7 @@ fn print_world(world: &WorldSummary) -> Result<()> {
 
 /// Largest contact force and overlap.
 fn print_contacts(contacts: &ContactSummary) -> Result<()> {
-    say(&format!(
+    print_line(&format!(
         "  contacts    {} points at most, {:.2} N at one of them, overlap {:.1e} m{}",
         contacts.points_max,
         contacts.normal_force_max_n,
@@ -77,7 +76,7 @@ fn print_contacts(contacts: &ContactSummary) -> Result<()> {
     ))
 }
 
-/// `, 2 joints`; nothing for none.
+/// `, 2 joints`; empty for zero.
 fn counted(count: usize, one: &str, many: &str) -> String {
     match count {
         0 => String::new(),
@@ -86,7 +85,7 @@ fn counted(count: usize, one: &str, many: &str) -> String {
     }
 }
 
-/// Efforts of the coordinates that have some.
+/// Prints the efforts of coordinates that are not zero.
 fn print_efforts(summary: &SceneSummary) -> Result<()> {
     /// Longer lists are in summary.json.
     const MOST: usize = 12;
@@ -94,12 +93,12 @@ fn print_efforts(summary: &SceneSummary) -> Result<()> {
     if acting.is_empty() {
         return Ok(());
     }
-    say("  efforts                                   min          max")?;
+    print_line("  efforts                                   min          max")?;
     for peak in acting.iter().take(MOST) {
-        say(&format!("    {:<34} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
+        print_line(&format!("    {:<34} {:>9.2}    {:>9.2} {}", peak.quantity, peak.min, peak.max, peak.unit))?;
     }
     if acting.len() > MOST {
-        say(&format!("    and {} more in summary.json", acting.len() - MOST))?;
+        print_line(&format!("    and {} more in summary.json", acting.len() - MOST))?;
     }
     Ok(())
 }

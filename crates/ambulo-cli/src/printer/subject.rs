@@ -1,23 +1,23 @@
-//! How markers became a body in motion.
+//! Prints how the body and its motion were obtained from markers.
 
-use super::say;
+use super::print_line;
 use ambulo_results::{EventAgreementSummary, MarkerErrorSummary, PlateContactSummary, SubjectSummary};
 use anyhow::Result;
 
-/// Markers that stay furthest from the body are named.
+/// Markers listed: those with the largest errors.
 const NAMED: usize = 4;
 
 pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
-    say(&format!("  axes      {}", subject.axes))?;
-    say(&format!("  markers   {}", markers(subject)))?;
+    print_line(&format!("  axes      {}", subject.axes))?;
+    print_line(&format!("  markers   {}", markers(subject)))?;
     for contact in &subject.plates {
-        say(&format!("  {:9} {}", contact.plate, on_plate(contact)))?;
+        print_line(&format!("  {:9} {}", contact.plate, on_plate(contact)))?;
     }
     if let Some([from, to]) = subject.instrumented_windows_s.first() {
-        say(&format!("  measured  {from:.3} to {to:.3} s: every foot on the ground stands on a plate"))?;
+        print_line(&format!("  measured  {from:.3} to {to:.3} s: every loaded foot is on a force plate"))?;
     }
     for agreement in &subject.events {
-        say(&format!("  events    {}", events(agreement)))?;
+        print_line(&format!("  events    {}", events(agreement)))?;
     }
     Ok(())
 }
@@ -31,24 +31,24 @@ fn markers(subject: &SubjectSummary) -> String {
     let sets =
         if subject.marker_sets.is_empty() { String::new() } else { format!(" ({})", subject.marker_sets.join(", ")) };
     let rms = subject.markers.rms_mm.map_or("-".to_owned(), |mm| format!("{mm:.1} mm"));
-    format!("{}{sets}, {rms} rms from the body; furthest {} mm", errors.len(), far.join(", "))
+    format!("{}{sets}, {rms} rms from the body; largest {} mm", errors.len(), far.join(", "))
 }
 
 fn on_plate(contact: &PlateContactSummary) -> String {
     let PlateContactSummary { side, start_s, end_s, peak_n, quality, .. } = contact;
     format!(
         "{} {start_s:.3} to {end_s:.3} s, peak {peak_n:.0} N, {}",
-        side.map_or("nobody", ambulo::model::Side::letter),
+        side.map_or("unknown foot", ambulo::model::Side::letter),
         quality.word()
     )
 }
 
 fn events(agreement: &EventAgreementSummary) -> String {
     let kinds = agreement.kinds.iter().map(|kind| match kind.pairs {
-        0 => format!("no {} in common", kind.kind),
+        0 => format!("no {} matched", kind.kind),
         pairs => {
             format!("{pairs} {}{} {:.0} ms apart", kind.kind, if pairs > 1 { "s" } else { "" }, kind.mean_absolute_ms)
         }
     });
-    format!("{} against {}: {}", agreement.found, agreement.reference, kinds.collect::<Vec<_>>().join(", "))
+    format!("{} compared with {}: {}", agreement.found, agreement.reference, kinds.collect::<Vec<_>>().join(", "))
 }

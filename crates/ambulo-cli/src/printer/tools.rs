@@ -1,7 +1,7 @@
-//! The outcomes of the small tools.
+//! Prints the outcomes of `compare`, `info`, `convert` and `events`.
 
-use super::{print_findings, say};
-use crate::args::Voice;
+use super::{print_findings, print_line};
+use crate::args::PrintArgs;
 use crate::commands::info::Sheet;
 use ambulo::analysis::{Agreement, EventAgreement};
 use ambulo::findings::Findings;
@@ -21,7 +21,7 @@ pub(crate) struct ComparedColumn {
     pub(crate) r: Option<f64>,
     pub(crate) max_difference: f64,
     pub(crate) samples: usize,
-    /// Whether the limit was kept; `null` without a limit.
+    /// Whether the RMSE is within the limit; `null` without a limit.
     pub(crate) within_limit: Option<bool>,
 }
 
@@ -40,16 +40,15 @@ impl ComparedColumn {
     }
 }
 
-/// The outcome of `compare`.
-pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice) -> Result<()> {
-    if voice.json {
-        say(&serde_json::to_string_pretty(rows)?)?;
+pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, print: PrintArgs) -> Result<()> {
+    if print.json {
+        print_line(&serde_json::to_string_pretty(rows)?)?;
     }
-    if voice.json || voice.quiet {
+    if print.json || print.quiet {
         return Ok(());
     }
     let width = rows.iter().map(|r| r.column.len()).max().unwrap_or(0).max(6);
-    say(&format!("{:<width$}  {:>12}  {:>8}  {:>8}  {:>12}  samples", "column", "RMSE", "rRMSE", "r", "max"))?;
+    print_line(&format!("{:<width$}  {:>12}  {:>8}  {:>8}  {:>12}  samples", "column", "RMSE", "rRMSE", "r", "max"))?;
     for row in rows {
         let share = row.rrmse.map_or("-".into(), |x| format!("{x:.4}"));
         let r = row.r.map_or("-".into(), |x| format!("{x:.5}"));
@@ -57,47 +56,45 @@ pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, voice: Voice)
             Some(false) => "  over the limit",
             _ => "",
         };
-        say(&format!(
+        print_line(&format!(
             "{:<width$}  {:>12.6}  {share:>8}  {r:>8}  {:>12.6}  {}{verdict}",
             row.column, row.rmse, row.max_difference, row.samples
         ))?;
     }
     if let Some(limit) = limit {
         let over = rows.iter().filter(|r| r.within_limit == Some(false)).count();
-        say(&format!("{over} of {} columns over the limit of {limit}", rows.len()))?;
+        print_line(&format!("{over} of {} columns over the limit of {limit}", rows.len()))?;
     }
     Ok(())
 }
 
-/// The outcome of `info`.
-pub(crate) fn info(sheet: &Sheet, voice: Voice) -> Result<()> {
-    if voice.json {
-        say(&serde_json::to_string_pretty(&sheet.json())?)?;
+pub(crate) fn info(sheet: &Sheet, print: PrintArgs) -> Result<()> {
+    if print.json {
+        print_line(&serde_json::to_string_pretty(&sheet.json())?)?;
     }
-    if voice.json || voice.quiet {
+    if print.json || print.quiet {
         return Ok(());
     }
-    sheet.lines().iter().try_for_each(|line| say(line))
+    sheet.lines().iter().try_for_each(|line| print_line(line))
 }
 
-/// The outcome of `convert`.
-pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, voice: Voice) -> Result<()> {
-    if voice.quiet {
+pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, print: PrintArgs) -> Result<()> {
+    if print.quiet {
         return Ok(());
     }
     print_findings(findings.as_slice());
-    if voice.json {
+    if print.json {
         let value = serde_json::json!({ "input": input, "written": written, "findings": findings.as_slice() });
-        return say(&serde_json::to_string_pretty(&value)?);
+        return print_line(&serde_json::to_string_pretty(&value)?);
     }
-    written.iter().try_for_each(|path| say(&format!("written: {path}")))
+    written.iter().try_for_each(|path| print_line(&format!("written: {path}")))
 }
 
 /// Events from one source, in order of time.
 pub(crate) struct EventSource {
-    /// One word, for tables.
+    /// One word, for tables and JSON.
     pub(crate) word: &'static str,
-    /// For people.
+    /// Heading in the text output.
     pub(crate) title: String,
     pub(crate) events: Vec<Event>,
 }
@@ -109,30 +106,29 @@ pub(crate) struct SourceAgreement {
     pub(crate) kinds: [EventAgreement; 2],
 }
 
-/// The outcome of `events`.
 pub(crate) fn events(
     sources: &[EventSource],
     agreements: &[SourceAgreement],
     findings: &Findings,
-    voice: Voice,
+    print: PrintArgs,
 ) -> Result<()> {
-    if voice.quiet {
+    if print.quiet {
         return Ok(());
     }
     print_findings(findings.as_slice());
-    if voice.json {
-        return say(&serde_json::to_string_pretty(&events_json(sources, agreements, findings))?);
+    if print.json {
+        return print_line(&serde_json::to_string_pretty(&events_json(sources, agreements, findings))?);
     }
     for source in sources {
-        say(&format!("{}: {}", source.title, source.events.len()))?;
+        print_line(&format!("{}: {}", source.title, source.events.len()))?;
         for event in &source.events {
-            say(&format!("  {:8.3} s  {:5}  {}", event.time_s, event.side.to_string(), event.kind.word()))?;
+            print_line(&format!("  {:8.3} s  {:5}  {}", event.time_s, event.side.to_string(), event.kind.word()))?;
         }
     }
     for SourceAgreement { found, reference, kinds } in agreements {
         for kind in kinds.iter().filter(|kind| kind.pairs > 0) {
-            say(&format!(
-                "{found} against {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} more",
+            print_line(&format!(
+                "{found} compared with {reference}, {}: {} pair{}, {:.1} ms apart, {:.1} ms {} on average; {} missed, {} extra",
                 kind.kind,
                 kind.pairs,
                 if kind.pairs == 1 { "" } else { "s" },

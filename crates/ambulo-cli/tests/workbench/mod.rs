@@ -1,4 +1,4 @@
-//! A folder of its own for each test, holding the demo's input, and the program run in it with a limit of time.
+//! Runs the program with a time limit in a folder of its own, which contains an input for `forces`.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
@@ -14,10 +14,10 @@ use std::time::{Duration, Instant};
 /// The built-in input.
 pub(crate) const INPUT: [&str; 4] = ["figure.osim", "walk.mot", "walk_grf.mot", "walk_grf.xml"];
 
-/// What the built-in walk is not judged by.
+/// Leaves out the checks that the built-in walk fails.
 const THRESHOLDS: &str = "thresholds.toml";
 
-/// What `forces` is given to read, as a rule.
+/// The usual arguments of `forces`.
 pub(crate) const FORCES: [&str; 10] = [
     "forces",
     "walk.mot",
@@ -31,11 +31,11 @@ pub(crate) const FORCES: [&str; 10] = [
     THRESHOLDS,
 ];
 
-/// No filter: what comes out is what went in.
+/// Options for a run without filters.
 pub(crate) const RAW: [&str; 4] = ["--cutoff", "off", "--force-cutoff", "off"];
 
-/// A run that takes longer than this hangs. The slowest, on 100 MB, takes a second or two.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Time limit of a run. The slowest, on 100 MB, takes one or two seconds.
+const TIME_LIMIT: Duration = Duration::from_secs(120);
 
 /// A fresh folder.
 pub(crate) struct Workbench {
@@ -53,7 +53,7 @@ impl Drop for Workbench {
     }
 }
 
-/// What a run left behind.
+/// The outcome of a run.
 pub(crate) struct Run {
     pub(crate) code: Option<i32>,
     pub(crate) stdout: String,
@@ -85,7 +85,7 @@ impl Workbench {
         Workbench { folder, runs: AtomicUsize::new(0), removed_at_the_end: false }
     }
 
-    /// Large files do not outlive the test, whether it fails or not.
+    /// Removes the folder after the test, also if the test fails; for large files.
     pub(crate) fn removed_at_the_end(mut self) -> Workbench {
         self.removed_at_the_end = true;
         self
@@ -115,7 +115,7 @@ impl Workbench {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
-    /// Replaces text in a file; what is replaced must be there.
+    /// Replaces text in a file, which must contain the old text.
     pub(crate) fn edit(&self, name: &str, old: &str, new: &str) {
         let text = self.text(name);
         assert!(text.contains(old), "`{old}` is not in {name}");
@@ -157,7 +157,7 @@ impl Workbench {
             if let Some(status) = child.try_wait().unwrap() {
                 break status;
             }
-            if start.elapsed() > PATIENCE {
+            if start.elapsed() > TIME_LIMIT {
                 child.kill().unwrap();
                 child.wait().unwrap();
                 panic!("`ambulo {}` hangs", args.join(" "));
@@ -173,46 +173,46 @@ impl Workbench {
         run
     }
 
-    /// Runs `forces` on the input as it stands, with more options, into `out`.
+    /// Runs `forces` on the input with further options; results go to `out`.
     pub(crate) fn forces(&self, more: &[&str]) -> Run {
         self.run(&[&FORCES[..], more].concat())
     }
 }
 
 impl Run {
-    /// Asserts that the run went through, and hands it on.
+    /// Asserts exit code 0 and returns the run.
     #[track_caller]
     pub(crate) fn done(self) -> Run {
         assert_eq!(self.code, Some(0), "{}", self.stderr);
         self
     }
 
-    /// Asserts that the run went through to a verdict against the motion, exit code 1, and hands it on.
+    /// Asserts exit code 1, for an infeasible motion, and returns the run.
     #[track_caller]
     pub(crate) fn infeasible(self) -> Run {
         assert_eq!(self.code, Some(1), "{}", self.stderr);
         self
     }
 
-    /// Asserts an error, exit code 2, with these words, and nothing on standard output.
+    /// Asserts an error (exit code 2) with these words and nothing on standard output.
     #[track_caller]
     pub(crate) fn refused(&self, words: &[&str]) {
         assert_eq!(self.code, Some(2), "{}{}", self.stdout, self.stderr);
         assert!(self.stderr.starts_with("error: "), "{}", self.stderr);
         assert!(self.stdout.is_empty(), "{}", self.stdout);
-        self.says(words);
+        self.reports(words);
     }
 
-    /// Asserts that the run went through, whatever the verdict, with a warning of these words.
+    /// Asserts a warning with these words, whatever the verdict.
     #[track_caller]
     pub(crate) fn warned(&self, words: &[&str]) {
         assert!(matches!(self.code, Some(0 | 1)), "{}", self.stderr);
         assert!(self.stderr.contains("warning: "), "{}", self.stderr);
-        self.says(words);
+        self.reports(words);
     }
 
     #[track_caller]
-    pub(crate) fn says(&self, words: &[&str]) {
+    pub(crate) fn reports(&self, words: &[&str]) {
         for word in words {
             assert!(self.stderr.contains(word), "`{word}` is missing in: {}", self.stderr);
         }

@@ -1,4 +1,4 @@
-//! How far two curves agree.
+//! Agreement of two curves.
 //!
 //!   RMSE  = √(mean (a - b)²)
 //!   rRMSE = RMSE / ((range a + range b) / 2)          Ren, Jones, Howard 2008 (unverified page)
@@ -8,16 +8,16 @@
 
 use crate::motion::interpolate;
 
-/// A named curve: rising instants [s] and values.
+/// A curve over time.
 #[derive(Debug, Clone, Copy)]
 pub struct Curve<'a> {
-    /// Instants [s], rising.
+    /// Times [s], strictly increasing.
     pub times: &'a [f64],
-    /// Values, as many.
+    /// One value per time.
     pub values: &'a [f64],
 }
 
-/// Agreement of two curves over the instants of the second that both cover.
+/// Agreement of two curves at the times of the second that the first covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
     /// Root-mean-square difference, in the curves' unit.
@@ -28,7 +28,7 @@ pub struct Agreement {
     pub r: f64,
     /// Largest difference, in the curves' unit.
     pub max_difference: f64,
-    /// Number of instants.
+    /// Number of times compared.
     pub samples: usize,
 }
 
@@ -36,9 +36,9 @@ pub struct Agreement {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// They do not overlap.
+    /// The curves do not overlap in time.
     #[error(
-        "no common time: one runs from {first_from} s to {first_to} s, the other from {second_from} s to {second_to} s; expected an overlap"
+        "no common time: one curve covers {first_from} s to {first_to} s, the other {second_from} s to {second_to} s; expected an overlap"
     )]
     NoOverlap {
         /// Start of the first [s].
@@ -50,28 +50,28 @@ pub enum ComparisonError {
         /// End of the second [s].
         second_to: f64,
     },
-    /// Time that runs backwards or stands still.
-    #[error("time {later} s comes after {earlier} s; expected rising times in both")]
+    /// Times that do not increase.
+    #[error("time {later} s follows {earlier} s; expected strictly increasing times in both curves")]
     TimeNotRising {
-        /// The instant before.
+        /// The earlier entry [s].
         earlier: f64,
-        /// The instant that follows it.
+        /// The entry that follows it [s].
         later: f64,
     },
-    /// A value that is no number.
+    /// A value that is not finite.
     #[error(
-        "a value that is not a finite number at {time_s:.4} s; expected finite curves. hint: choose a range without this instant"
+        "a value is not a finite number at {time_s:.4} s; expected finite curves. hint: choose a time range without this sample"
     )]
     NotFinite {
-        /// The instant [s].
+        /// Its time [s].
         time_s: f64,
     },
 }
 
-/// Compares `a` with `b` at the instants of `b`; `a` is read on straight lines between its samples.
+/// Compares `a` with `b` at the times of `b`; `a` is interpolated linearly.
 ///
 /// # Errors
-/// Times that do not rise, no common instants, values that are not finite.
+/// Times that do not increase, no common times, values that are not finite.
 pub fn compare(a: Curve<'_>, b: Curve<'_>) -> Result<Agreement, ComparisonError> {
     for times in [a.times, b.times] {
         if let Some(pair) = times.windows(2).find(|w| w[0] >= w[1] || w[0].is_nan() || w[1].is_nan()) {
@@ -96,7 +96,7 @@ pub fn compare(a: Curve<'_>, b: Curve<'_>) -> Result<Agreement, ComparisonError>
     Ok(agreement(&pairs))
 }
 
-/// Agreement of values in pairs.
+/// Agreement of pairs of values.
 pub(super) fn agreement(pairs: &[(f64, f64)]) -> Agreement {
     let n = pairs.len() as f64;
     let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;

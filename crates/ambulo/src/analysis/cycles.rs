@@ -1,28 +1,28 @@
-//! Gait cycles: from a foot's strike to its next, 0 to 100 %, 101 samples.
+//! Gait cycles: from a foot strike to the next one of the same foot, time-normalised to 101 samples (0 to 100 %).
 
 use super::events::{Event, EventKind};
 use crate::model::Side;
 use crate::motion::{TimeGrid, interpolate};
 
-/// Samples of a cycle: every per cent from 0 to 100.
+/// Samples of a time-normalised cycle: one per per cent from 0 to 100.
 pub const CYCLE_SAMPLES: usize = 101;
 
 /// One gait cycle of one foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cycle {
-    /// Which foot.
+    /// The foot.
     pub side: Side,
-    /// Number of the cycle of this foot, from 1.
+    /// Number of the cycle among those of this foot, from 1.
     pub number: usize,
     /// Foot strike [s].
     pub start_s: f64,
-    /// Next strike of the same foot [s].
+    /// Next foot strike of the same foot [s].
     pub end_s: f64,
-    /// Toe-off in between [s], where it was seen.
-    pub toe_off_s: Option<f64>,
+    /// Foot off in between [s], if detected.
+    pub foot_off_s: Option<f64>,
 }
 
-/// The cycles that lie wholly on the grid, right foot first.
+/// The cycles that lie entirely within the grid, right foot first.
 #[must_use]
 pub fn cycles(events: &[Event], grid: TimeGrid) -> Vec<Cycle> {
     let slack = 1e-6 * grid.step_s;
@@ -32,14 +32,14 @@ pub fn cycles(events: &[Event], grid: TimeGrid) -> Vec<Cycle> {
         let strikes: Vec<f64> = times(EventKind::Strike).collect();
         let whole = strikes.windows(2).filter(|w| w[0] >= grid.start_s - slack && w[1] <= grid.end_s() + slack);
         for (i, pair) in whole.enumerate() {
-            let toe_off_s = times(EventKind::Off).find(|&t| t > pair[0] && t < pair[1]);
-            list.push(Cycle { side, number: i + 1, start_s: pair[0], end_s: pair[1], toe_off_s });
+            let foot_off_s = times(EventKind::Off).find(|&t| t > pair[0] && t < pair[1]);
+            list.push(Cycle { side, number: i + 1, start_s: pair[0], end_s: pair[1], foot_off_s });
         }
     }
     list
 }
 
-/// A series on the grid, read at 0, 1, ... 100 % of a cycle on straight lines between samples.
+/// Time-normalises a series: values at 0, 1, ... 100 % of a cycle by linear interpolation.
 #[must_use]
 pub fn over_cycle(grid: TimeGrid, series: &[f64], cycle: &Cycle) -> Vec<f64> {
     let times = grid.times();

@@ -1,13 +1,13 @@
-//! How well two lists of events agree: from plates, from motion, from the file.
+//! Agreement of two lists of events, such as events from force plates, from the motion or from the file.
 //!
-//! Events of one side and kind are paired from the closest pair on, up to 0.15 s apart.
+//! Events of the same side and kind are paired, the closest pair first, up to 0.15 s apart.
 //! Pinned by: tests/foot_motion.rs
 
 use super::events::{Event, EventKind};
 use crate::numerics::or_nan;
 use serde::{Deserialize, Serialize};
 
-/// Events further apart than this are not the same [s]: a third of a fast step.
+/// Events further apart than this are different events [s]: a third of a fast step.
 const FARTHEST_S: f64 = 0.15;
 
 /// Agreement of the events of one kind.
@@ -18,9 +18,9 @@ pub struct EventAgreement {
     pub kind: EventKind,
     /// Pairs.
     pub pairs: usize,
-    /// Events of the reference without a partner.
+    /// Unpaired events of the reference.
     pub missed: usize,
-    /// Events found without a partner, among those inside the span that the reference covers.
+    /// Unpaired events found within the time that the reference covers.
     pub extra: usize,
     /// Mean of |found - reference| over the pairs [ms]; not a number without pairs.
     #[serde(deserialize_with = "or_nan")]
@@ -30,8 +30,8 @@ pub struct EventAgreement {
     pub bias_ms: f64,
 }
 
-/// Strikes, then offs. Events beyond the first and last of the reference by more than 0.15 s are not counted:
-/// nobody knows whether they are right.
+/// Agreement of foot strikes, then of foot offs. Found events more than 0.15 s before the first or after the last one of the reference are
+/// not counted, because the reference does not show whether they are right.
 #[must_use]
 pub fn event_agreement(reference: &[Event], found: &[Event]) -> [EventAgreement; 2] {
     [EventKind::Strike, EventKind::Off].map(|kind| of_kind(reference, found, kind))

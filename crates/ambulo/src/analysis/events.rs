@@ -1,4 +1,4 @@
-//! Foot strikes and toe-offs, named and counted: from the times during which feet were loaded.
+//! Foot strikes and foot offs from the times during which feet were loaded.
 
 pub use crate::ground::phases::{Contact, SHORTEST_CONTACT_S, contacts_from_force};
 use crate::model::Side;

@@ -1,15 +1,15 @@
-//! Predicted forces against plates.
+//! Comparison of predicted with measured ground forces.
 //!
-//! | what | over which samples |
+//! | quantity | samples |
 //! |---|---|
-//! | force of a foot: RMSE in body weights, rRMSE, r | its whole stances: the plate's vertical force above 20 N |
-//! | centre of pressure: RMS distance, plain and weighted by the vertical force | of those, where the plate's vertical force exceeds 5 % of body weight |
-//! | sagittal moments of a leg: RMSE, r | the time in which plates measured every foot, swing included, and that leg's whole stances |
-//! | foot strikes and toe-offs: mean absolute error | those that plates saw |
+//! | force on a foot: RMSE in body weights, rRMSE, r | whole stances, where the measured vertical force exceeds 20 N |
+//! | centre of pressure: RMS distance, unweighted and weighted by the vertical force | as above, where the measured vertical force exceeds 5 % of body weight |
+//! | sagittal moments of a leg: RMSE, r | the instrumented window, swing included, and whole stances of that leg |
+//! | foot strikes and foot offs: mean absolute error | events detected by force plates |
 //!
 //! Stances shorter than 0.2 s are left out. Vertical is against gravity; fore-aft and lateral follow [`super::walking_direction`].
-//! rRMSE and r: [`super::comparison`]. Bands: how many samples lie within 1.645 standard deviations, which would be 90 % of a normal
-//! distribution, and how wide that band is over the RMSE.
+//! rRMSE and r: [`super::comparison`]. Bands: the share of samples within 1.645 standard deviations, which would be 90 % for a normal
+//! distribution, and the width of the band relative to the RMSE.
 //! Pinned by: tests/ground_agreement.rs
 
 use super::comparison::agreement;
@@ -30,23 +30,23 @@ use serde::{Deserialize, Serialize};
 
 /// Shorter stances are left out [s].
 const SHORTEST_STANCE_S: f64 = 0.2;
-/// A centre of pressure counts above this share of body weight.
+/// Centres of pressure are compared above this share of body weight.
 const CENTER_LOAD_BW: f64 = 0.05;
-/// Standard deviations on either side that hold 90 % of a normal distribution.
+/// Standard deviations on either side that contain 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
 /// Movements whose moments are compared.
 const MOMENTS: [Movement; 3] = [Movement::HipFlexion, Movement::KneeFlexion, Movement::AnkleDorsiflexion];
-/// A stance that motion sees is measured if plates saw at least this share of it.
+/// A stance detected in the motion counts as measured if a foot's sensor was loaded for at least this share of it.
 const MEASURED_SHARE: f64 = 0.5;
 
-/// What plates saw in full.
+/// Stances, time and events that force plates measured completely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateCoverage {
-    /// Whole stances of feet that stood wholly on their own plates [s].
+    /// Whole stances of feet that were entirely on a plate of their own [s].
     pub stances: Vec<(Side, [f64; 2])>,
-    /// The longest time in which every foot on the ground stood on a plate [s].
+    /// The longest instrumented window [s].
     pub window: Option<[f64; 2]>,
-    /// Foot strikes and toe-offs.
+    /// Foot strikes and foot offs.
     pub events: Vec<Event>,
 }
 
@@ -54,15 +54,15 @@ pub struct PlateCoverage {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GroundAgreement {
-    /// Body mass that body weights are made of [kg].
+    /// Body mass for the normalisation to body weight [kg].
     pub mass_kg: f64,
-    /// The time in which plates measured every foot [s].
+    /// The instrumented window [s].
     pub window_s: Option<[f64; 2]>,
-    /// Each foot that stood wholly on its own plate.
+    /// Each foot with a whole stance on a plate of its own.
     pub feet: Vec<FootAgreement>,
     /// Sagittal moments of the legs.
     pub moments: Vec<MomentAgreement>,
-    /// Strikes, then offs.
+    /// Foot strikes, then foot offs.
     pub events: [EventAgreement; 2],
 }
 
@@ -72,15 +72,15 @@ pub struct GroundAgreement {
 pub struct FootAgreement {
     /// `r` or `l`.
     pub side: Side,
-    /// From strike to off [s].
+    /// From foot strike to foot off [s].
     pub stances_s: Vec<[f64; 2]>,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
     /// Against gravity.
     pub vertical: ForceAgreement,
     /// Along the walking direction.
     pub fore_aft: ForceAgreement,
-    /// Across it.
+    /// Across the walking direction.
     pub lateral: ForceAgreement,
     /// Centre of pressure.
     pub center_of_pressure: CenterAgreement,
@@ -99,7 +99,7 @@ pub struct ForceAgreement {
     /// Pearson's correlation.
     #[serde(deserialize_with = "or_nan")]
     pub r: f64,
-    /// How honest the standard deviations are.
+    /// Agreement of the predicted standard deviation with the error.
     pub band: BandAgreement,
 }
 
@@ -107,10 +107,10 @@ pub struct ForceAgreement {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BandAgreement {
-    /// Share of the measured samples inside it.
+    /// Share of the measured samples inside the band.
     #[serde(deserialize_with = "or_nan")]
     pub holds: f64,
-    /// Its mean half-width over the RMSE.
+    /// Mean half-width of the band over the RMSE.
     #[serde(deserialize_with = "or_nan")]
     pub half_width_over_rmse: f64,
 }
@@ -119,20 +119,20 @@ pub struct BandAgreement {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CenterAgreement {
-    /// Samples in which both have one.
+    /// Samples with a predicted and a measured centre of pressure.
     pub samples: usize,
-    /// Samples in which the plate has one and the prediction does not.
+    /// Samples with a measured but no predicted centre of pressure.
     pub missing: usize,
     /// RMS along the walking direction.
     #[serde(deserialize_with = "or_nan")]
     pub fore_aft_mm: f64,
-    /// RMS across it.
+    /// RMS across the walking direction.
     #[serde(deserialize_with = "or_nan")]
     pub lateral_mm: f64,
     /// RMS along the walking direction, samples weighted by the measured vertical force.
     #[serde(deserialize_with = "or_nan")]
     pub fore_aft_weighted_mm: f64,
-    /// RMS across it, weighted likewise.
+    /// RMS across the walking direction, with the same weights.
     #[serde(deserialize_with = "or_nan")]
     pub lateral_weighted_mm: f64,
 }
@@ -145,12 +145,12 @@ pub struct MomentAgreement {
     pub quantity: String,
     /// `r` or `l`.
     pub side: Side,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
     /// Root-mean-square difference [N.m].
     #[serde(deserialize_with = "or_nan")]
     pub rmse_nm: f64,
-    /// The same over body mass [N.m/kg].
+    /// RMSE over body mass [N.m/kg].
     #[serde(deserialize_with = "or_nan")]
     pub rmse_nm_kg: f64,
     /// Pearson's correlation.
@@ -159,8 +159,8 @@ pub struct MomentAgreement {
 }
 
 impl PlateCoverage {
-    /// What plates saw of a motion that has no markers to say whose foot stood where: stances are the times in which a foot's sensor was
-    /// loaded; a stance that the motion sees and no sensor bars its time from the window.
+    /// Coverage without markers to tell which foot was on which plate: stances are the times in which a foot's sensor was loaded, and
+    /// stances that are detected in the motion but not by a sensor are excluded from the window.
     #[must_use]
     pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> PlateCoverage {
         let grid = measured.trajectory.grid();
@@ -169,11 +169,11 @@ impl PlateCoverage {
         let whole = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
         let both = plates.iter().fold(whole, |window, plate| window.overlap(ends(plate)));
         let [from, to] = [both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN)];
-        let mut seen = PlateCoverage { stances: Vec::new(), window: None, events: measured.events.clone() };
+        let mut coverage = PlateCoverage { stances: Vec::new(), window: None, events: measured.events.clone() };
         let mut free = if to > from { vec![[from, to]] } else { Vec::new() };
         for side in Side::BOTH {
             let contacts = contacts_from_events(&measured.events, side);
-            seen.stances.extend(contacts.iter().filter_map(|c| Some((side, [c.strike_s?, c.off_s?]))));
+            coverage.stances.extend(contacts.iter().filter_map(|c| Some((side, [c.strike_s?, c.off_s?]))));
             let spans: Vec<[f64; 2]> = contacts.iter().map(|c: &Contact| c.span(from, to)).collect();
             for fall in footfalls.of(side) {
                 let span = [fall.strike_s.unwrap_or(from).max(from), fall.off_s.unwrap_or(to).min(to)];
@@ -183,53 +183,57 @@ impl PlateCoverage {
                 }
             }
         }
-        seen.window = free.into_iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-        seen
+        coverage.window = free.into_iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        coverage
     }
 }
 
-/// What is left of a stretch of time.
-fn without([from, to]: [f64; 2], bar: [f64; 2]) -> Vec<[f64; 2]> {
-    let parts = [[from, to.min(bar[0])], [from.max(bar[1]), to]];
-    if bar[1] <= from || bar[0] >= to { vec![[from, to]] } else { parts.into_iter().filter(|s| s[1] > s[0]).collect() }
+/// A time span without another one: up to two parts.
+fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
+    let parts = [[from, to.min(removed[0])], [from.max(removed[1]), to]];
+    if removed[1] <= from || removed[0] >= to {
+        vec![[from, to]]
+    } else {
+        parts.into_iter().filter(|s| s[1] > s[0]).collect()
+    }
 }
 
-/// Two analyses of one motion, by predicted and by measured forces.
+/// Two analyses of one motion, with predicted and with measured forces.
 #[derive(Debug, Clone, Copy)]
-pub struct Compared<'a> {
+pub struct ComparedAnalyses<'a> {
     /// The body.
     pub model: &'a Model,
-    /// By prediction.
+    /// With predicted forces.
     pub predicted: &'a Analysis,
     /// The prediction.
     pub prediction: &'a Prediction,
-    /// By plates.
+    /// With measured forces.
     pub measured: &'a Analysis,
 }
 
 impl PredictedAnalysis {
-    /// How prediction and plates agree; `None` without plates, or if they saw nothing in full.
+    /// Agreement of predicted with measured forces; `None` without plates, or if they measured nothing completely.
     #[must_use]
-    pub fn agreement(&self, model: &Model, seen: &PlateCoverage) -> Option<GroundAgreement> {
+    pub fn agreement(&self, model: &Model, coverage: &PlateCoverage) -> Option<GroundAgreement> {
         let PredictedAnalysis { analysis, prediction, measured } = self;
-        Compared { model, predicted: analysis, prediction, measured: measured.as_ref()? }.agreement(seen)
+        ComparedAnalyses { model, predicted: analysis, prediction, measured: measured.as_ref()? }.agreement(coverage)
     }
 }
 
-impl Compared<'_> {
-    /// How both agree; `None` if the plates measured nothing completely.
+impl ComparedAnalyses<'_> {
+    /// Agreement of both; `None` if the plates measured nothing completely.
     pub(crate) fn agreement(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
         let found = ground_agreement(self, coverage);
         (!found.feet.is_empty() || !found.moments.is_empty()).then_some(found)
     }
 }
 
-/// How prediction and plates agree on what plates saw in full.
+/// Compares predicted with measured forces wherever the measurement is complete.
 #[must_use]
-pub fn ground_agreement(compared: &Compared<'_>, seen: &PlateCoverage) -> GroundAgreement {
-    let Compared { model, predicted, prediction, measured } = *compared;
+pub fn ground_agreement(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverage) -> GroundAgreement {
+    let ComparedAnalyses { model, predicted, prediction, measured } = *compared;
     let Mass { kg, .. } = measured.mass;
-    let judge = Judge {
+    let comparison = Comparison {
         grid: predicted.trajectory.grid(),
         up: upward(model),
         weight: kg * model.gravity().norm(),
@@ -240,54 +244,59 @@ pub fn ground_agreement(compared: &Compared<'_>, seen: &PlateCoverage) -> Ground
     let of_foot = |side: Side| {
         let (found, truth) = (&found[of(&found, side)?].1, &truth[of(&truth, side)?].1);
         let deviation = prediction.deviations.iter().find(|deviation| deviation.side == side);
-        judge.foot(side, found, truth, deviation, &stances(seen, side, judge.grid))
+        comparison.foot(side, found, truth, deviation, &stances(coverage, side, comparison.grid))
     };
     let feet = Side::BOTH.into_iter().filter_map(of_foot).collect();
     let moments = Side::BOTH.into_iter().flat_map(|side| {
-        let frames = judge.measured_frames(side, seen, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| f));
+        let frames = comparison.measured_frames(side, coverage, truth.iter().find(|(s, _)| *s == side).map(|(_, f)| f));
         MOMENTS.into_iter().filter_map(move |movement| moment(compared, side, movement, &frames)).collect::<Vec<_>>()
     });
-    let grid = judge.grid;
+    let grid = comparison.grid;
     let inside = |event: &&Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
-    let events: Vec<Event> = seen.events.iter().filter(inside).copied().collect();
+    let events: Vec<Event> = coverage.events.iter().filter(inside).copied().collect();
     GroundAgreement {
         mass_kg: kg,
-        window_s: seen.window,
+        window_s: coverage.window,
         feet,
         moments: moments.collect(),
         events: event_agreement(&events, &prediction.footfalls.events()),
     }
 }
 
-/// Stances of a side that are long enough and lie wholly in the motion, give or take a frame.
-fn stances(seen: &PlateCoverage, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
+/// Stances of a side that are long enough and lie entirely in the motion, with a tolerance of one frame.
+fn stances(coverage: &PlateCoverage, side: Side, grid: TimeGrid) -> Vec<[f64; 2]> {
     let long = |s: &[f64; 2]| s[1] - s[0] >= SHORTEST_STANCE_S;
     let inside = |s: &[f64; 2]| s[0] >= grid.start_s - grid.step_s && s[1] <= grid.end_s() + grid.step_s;
-    let of_side = seen.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s);
+    let of_side = coverage.stances.iter().filter(|(of, _)| *of == side).map(|(_, s)| *s);
     of_side.filter(long).filter(inside).collect()
 }
 
-fn moment(compared: &Compared<'_>, side: Side, movement: Movement, frames: &[usize]) -> Option<MomentAgreement> {
-    let Compared { model, predicted, measured, .. } = *compared;
+fn moment(
+    compared: &ComparedAnalyses<'_>,
+    side: Side,
+    movement: Movement,
+    frames: &[usize],
+) -> Option<MomentAgreement> {
+    let ComparedAnalyses { model, predicted, measured, .. } = *compared;
     let id = model.anatomy().coordinate(movement, Some(side))?.0.index();
     let (found, truth) = (&predicted.forces.generalized[id], &measured.forces.generalized[id]);
     let pairs: Vec<(f64, f64)> = frames.iter().map(|&i| (found[i], truth[i])).collect();
     if pairs.is_empty() {
         return None;
     }
-    let agreed = agreement(&pairs);
+    let agreement = agreement(&pairs);
     Some(MomentAgreement {
         quantity: model.force_names()[id].clone(),
         side,
-        samples: agreed.samples,
-        rmse_nm: agreed.rmse,
-        rmse_nm_kg: agreed.rmse / measured.mass.kg,
-        r: agreed.r,
+        samples: agreement.samples,
+        rmse_nm: agreement.rmse,
+        rmse_nm_kg: agreement.rmse / measured.mass.kg,
+        r: agreement.r,
     })
 }
 
-/// What all feet are judged with.
-struct Judge {
+/// Data shared by the comparisons of both feet.
+struct Comparison {
     grid: TimeGrid,
     up: Vec3,
     /// Body weight [N].
@@ -302,7 +311,7 @@ struct Sample {
     axes: [Vec3; 3],
 }
 
-impl Judge {
+impl Comparison {
     /// Frames of a stance in which the plate is loaded.
     fn frames(&self, truth: &BodyForces, [from_s, to_s]: [f64; 2]) -> Vec<usize> {
         let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
@@ -310,15 +319,15 @@ impl Judge {
         (first..first + count).filter(loaded).collect()
     }
 
-    /// Frames in which all that acts on a leg was measured.
-    fn measured_frames(&self, side: Side, seen: &PlateCoverage, truth: Option<&BodyForces>) -> Vec<usize> {
+    /// Frames in which all forces on a leg were measured.
+    fn measured_frames(&self, side: Side, coverage: &PlateCoverage, truth: Option<&BodyForces>) -> Vec<usize> {
         let mut known = vec![false; self.grid.frames];
-        if let Some([from_s, to_s]) = seen.window {
+        if let Some([from_s, to_s]) = coverage.window {
             let (first, count) = self.grid.inside(Window { from_s: Some(from_s), to_s: Some(to_s) });
             known[first..first + count].fill(true);
         }
         if let Some(truth) = truth {
-            let frames = stances(seen, side, self.grid).into_iter().flat_map(|stance| self.frames(truth, stance));
+            let frames = stances(coverage, side, self.grid).into_iter().flat_map(|stance| self.frames(truth, stance));
             frames.for_each(|i| known[i] = true);
         }
         (0..known.len()).filter(|&i| known[i]).collect()
@@ -363,18 +372,18 @@ impl Judge {
     ) -> ForceAgreement {
         let along = |series: &[Vec3], sample: &Sample| series[sample.frame].dot(&sample.axes[axis]);
         let pairs: Vec<(f64, f64)> = samples.iter().map(|s| (along(&found.force, s), along(&truth.force, s))).collect();
-        let agreed = agreement(&pairs);
+        let agreement = agreement(&pairs);
         let half_width =
             |s: &Sample| deviation.map_or(0.0, |d| BAND_90 * d.force[s.frame].component_mul(&s.axes[axis]).norm());
         let inside = samples.iter().zip(&pairs).filter(|(s, (a, b))| (a - b).abs() <= half_width(s)).count();
         let n = samples.len() as f64;
         ForceAgreement {
-            rmse_bw: agreed.rmse / self.weight,
-            rrmse: agreed.rrmse,
-            r: agreed.r,
+            rmse_bw: agreement.rmse / self.weight,
+            rrmse: agreement.rrmse,
+            r: agreement.r,
             band: BandAgreement {
                 holds: inside as f64 / n,
-                half_width_over_rmse: samples.iter().map(half_width).sum::<f64>() / n / agreed.rmse,
+                half_width_over_rmse: samples.iter().map(half_width).sum::<f64>() / n / agreement.rmse,
             },
         }
     }

@@ -1,7 +1,7 @@
-//! From a laboratory's markers and plates to a body in motion with forces under its feet, ready for [`super::analyse`].
+//! From the markers and force plates of a laboratory to a body in motion with ground forces, ready for [`super::analyse`].
 //!
-//! The axes are found ([`crate::motion::laboratory`]), the body is calibrated or scaled from a standing trial or taken as it is,
-//! its coordinates are fitted to the markers, and what plates measured is given to the feet that stood on them.
+//! Steps: detect the laboratory's axes ([`crate::motion::laboratory`]); calibrate or scale the body from a standing trial, or take it
+//! unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the plates.
 
 use super::feasibility::Person;
 use super::ground_agreement::PlateCoverage;
@@ -22,7 +22,7 @@ use crate::motion::{Laboratory, laboratory};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
-/// What one file of a laboratory holds, in its axes.
+/// The markers and force plates of one laboratory file, in the laboratory's axes.
 #[derive(Debug, Clone)]
 pub struct LaboratoryRecording {
     /// Markers [m].
@@ -34,7 +34,7 @@ pub struct LaboratoryRecording {
 }
 
 impl LaboratoryRecording {
-    /// How its axes lie, and the same recording in the world's.
+    /// Detects the laboratory's axes; returns them with the recording in world axes.
     #[must_use]
     pub fn in_world(&self, findings: &mut Findings) -> (Laboratory, LaboratoryRecording) {
         let axes = laboratory(&self.markers, &self.plates, &self.unit, findings);
@@ -44,75 +44,75 @@ impl LaboratoryRecording {
     }
 }
 
-/// Whose body is fitted.
+/// The body that is fitted to the markers.
 #[derive(Debug, Clone)]
-pub enum Body<'a> {
-    /// The built-in one, made to the person's measure. Without a set of markers the one whose names are found is taken.
+pub enum BodySource<'a> {
+    /// The built-in body, calibrated for the person.
     BuiltIn {
-        /// What is known of the person.
+        /// Known data of the person.
         person: &'a calibration::PersonMeasurements,
-        /// The set of markers.
+        /// The marker set; `None`: recognised from the marker names.
         set: Option<&'a MarkerSet>,
     },
-    /// A model as it is or, with a standing trial, brought to the person's size.
+    /// A model, scaled to the person if there is a standing trial.
     Model {
         /// The model.
         model: &'a Model,
         /// Body mass [kg]; `None` keeps the model's.
         mass: Option<f64>,
     },
-    /// A body that was calibrated before.
+    /// A body from an earlier calibration or scaling.
     Calibrated(&'a Subject),
 }
 
-/// A body that moves as the markers did.
+/// A body with the motion that was fitted to markers.
 #[derive(Debug, Clone)]
 pub struct BodyInMotion {
     /// The body.
     pub subject: Subject,
-    /// The walk's axes.
+    /// The axes of the laboratory.
     pub laboratory: Laboratory,
     /// Plates in world axes.
     pub plates: Vec<PlateRecording>,
-    /// Its coordinates, and how well the markers were followed.
+    /// The coordinates, and the errors of the fit.
     pub fit: MarkerFit,
-    /// When the feet met and left the ground, by the markers.
+    /// Foot strikes and foot offs from the markers.
     pub feet: FootMotion,
-    /// Which foot stood on which plate.
+    /// Which foot was on which plate.
     pub on_plates: FeetOnPlates,
 }
 
-/// A body that has markers.
+/// A body with the markers of the recorded person.
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// The body.
     pub model: Model,
     /// The person, for the verdict.
     pub person: Person,
-    /// How much each marker counts; 1 if not listed.
+    /// Weight of each marker in the fit; 1 if not listed.
     pub weights: BTreeMap<String, f64>,
-    /// How the built-in body was made.
+    /// How the built-in body was calibrated.
     pub calibration: Option<CalibrationReport>,
     /// How a given model was scaled: factors of each body along its axes.
     pub scaled: Vec<(String, Vec3)>,
-    /// The sets of markers that were recognised.
+    /// The recognised marker sets.
     pub sets: Vec<String>,
 }
 
-/// Why markers give no body in motion.
+/// Why no body could be fitted to markers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarkerTrialError {
-    /// The names of the markers.
+    /// The marker names were not recognised.
     #[error(transparent)]
     Names(#[from] RecognitionError),
-    /// The body.
+    /// The built-in body could not be calibrated.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
-    /// The size of a given model.
+    /// A given model could not be scaled.
     #[error(transparent)]
     Scaling(#[from] ScalingError),
-    /// The fit.
+    /// The coordinates could not be fitted.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// The observer stopped the computation.
@@ -124,52 +124,52 @@ pub enum MarkerTrialError {
 #[derive(Debug, Clone)]
 pub struct MarkerTrial<'a> {
     /// The trial.
-    pub walk: &'a LaboratoryRecording,
-    /// The same person standing still.
-    pub still: Option<&'a LaboratoryRecording>,
+    pub trial: &'a LaboratoryRecording,
+    /// The standing trial of the same person.
+    pub standing: Option<&'a LaboratoryRecording>,
     /// The body.
-    pub body: Body<'a>,
-    /// Plates (by index) of which the foot is known.
+    pub body: BodySource<'a>,
+    /// Plates (by index) whose foot is given.
     pub plate_feet: &'a [(usize, Side)],
 }
 
 /// Fits a body to a recording of markers.
 ///
 /// # Errors
-/// Markers that no set knows, that make no body, or that the body does not have: see [`MarkerTrialError`].
+/// Unknown markers, markers that do not suffice for a body, or that the body lacks: see [`MarkerTrialError`].
 pub fn body_in_motion(
     trial: &MarkerTrial<'_>,
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<BodyInMotion, MarkerTrialError> {
-    follow_markers(trial, settings, findings, &mut Progress::default())
+    fit_body_to_markers(trial, settings, findings, &mut Progress::default())
 }
 
-pub(crate) fn follow_markers(
+pub(crate) fn fit_body_to_markers(
     trial: &MarkerTrial<'_>,
     settings: &FitSettings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<BodyInMotion, MarkerTrialError> {
-    let MarkerTrial { walk, still, body, plate_feet } = trial;
-    let (axes, LaboratoryRecording { markers, plates, .. }) = walk.in_world(findings);
+    let MarkerTrial { trial, standing, body, plate_feet } = trial;
+    let (axes, LaboratoryRecording { markers, plates, .. }) = trial.in_world(findings);
     let markers = trimmed_to_visible(&markers, findings);
     progress.end(Stage::Axes)?;
-    let still = still.map(|still| still.in_world(findings).1.markers);
+    let standing = standing.map(|standing| standing.in_world(findings).1.markers);
     let subject = match body {
-        Body::Model { model, mass } => Subject::of_model(model, *mass, still.as_ref(), findings)?,
-        Body::Calibrated(subject) => (*subject).clone(),
-        Body::BuiltIn { person, set } => Subject::built_in(&markers, still.as_ref(), person, *set, findings)?,
+        BodySource::Model { model, mass } => Subject::of_model(model, *mass, standing.as_ref(), findings)?,
+        BodySource::Calibrated(subject) => (*subject).clone(),
+        BodySource::BuiltIn { person, set } => Subject::built_in(&markers, standing.as_ref(), person, *set, findings)?,
     };
     progress.end(Stage::Body)?;
-    // What a given model clamps is its author's word; the ranges of the built-in body keep arms from winding up.
+    // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm angles unique.
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let settings = FitSettings { weights: subject.weights.clone(), limits, ..settings.clone() };
     let mut fit = fit_markers(&subject.model, &markers, &settings, findings)?;
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
-    hold_what_no_marker_shows(&subject.model, &mut fit.motion, findings);
+    use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let feet = foot_motion(&fit.followed, findings);
     let on_plates = feet_on_plates(&fit.followed, &plates, &feet, plate_feet, findings);
@@ -177,44 +177,44 @@ pub(crate) fn follow_markers(
     Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates })
 }
 
-/// Gives joints beyond the last marker, such as toes, the value that the model has for them.
-fn hold_what_no_marker_shows(model: &Model, motion: &mut Motion, findings: &mut Findings) {
-    /// Names in a message at most.
+/// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
+fn use_defaults_without_markers(model: &Model, motion: &mut Motion, findings: &mut Findings) {
+    /// Most names in a message.
     const MOST: usize = 6;
-    let mut held = Vec::new();
+    let mut constant = Vec::new();
     let frames = motion.times.len();
     for (coordinate, column) in model.coordinates().iter().zip(&mut motion.columns) {
         if column.is_none() && matches!(coordinate.drive, Drive::Free) {
             *column = Some(vec![coordinate.default_value; frames]);
-            held.push(format!("`{}` ({})", coordinate.name, coordinate.default_value));
+            constant.push(format!("`{}` ({})", coordinate.name, coordinate.default_value));
         }
     }
-    if !held.is_empty() {
-        let more = if held.len() > MOST { format!(" and {} more", held.len() - MOST) } else { String::new() };
-        held.truncate(MOST);
-        let names = held.join(", ");
+    if !constant.is_empty() {
+        let more = if constant.len() > MOST { format!(" and {} more", constant.len() - MOST) } else { String::new() };
+        constant.truncate(MOST);
+        let names = constant.join(", ");
         findings.report(
             Code::MarkersHeld,
-            format!("no marker shows {names}{more}; the values in brackets are used throughout"),
+            format!("no marker determines {names}{more}; the values in brackets are used in every frame"),
         );
     }
 }
 
 impl BodyInMotion {
-    /// Foot strikes and toe-offs that plates saw.
+    /// Foot strikes and foot offs from force plates.
     #[must_use]
     pub fn measured_events(&self) -> Vec<Event> {
         self.on_plates.force_events(self.recorded_s())
     }
 
-    /// Those that plates saw and, elsewhere, those that were `seen`.
+    /// Events from force plates, complemented by `from_motion` where plates measured none.
     #[must_use]
-    pub fn events(&self, seen: &[Event]) -> Vec<Event> {
-        let seen = FootMotion { events: seen.to_vec(), ..self.feet.clone() };
-        self.on_plates.events(&seen, self.recorded_s())
+    pub fn events(&self, from_motion: &[Event]) -> Vec<Event> {
+        let from_motion = FootMotion { events: from_motion.to_vec(), ..self.feet.clone() };
+        self.on_plates.events(&from_motion, self.recorded_s())
     }
 
-    /// What plates saw in full: stances that the recording does not cut, and the longest time in which every foot stood on a plate.
+    /// What the plates measured completely: stances within the recording, and the longest instrumented window.
     #[must_use]
     pub fn coverage(&self) -> PlateCoverage {
         let [first, last] = self.recorded_s();
@@ -229,10 +229,9 @@ impl BodyInMotion {
         }
     }
 
-    /// The longest time without a gap in any coordinate that markers move: first and last instant [s]. `None` if there is none, or if no
-    /// coordinate has a gap.
+    /// The longest time without a gap in any fitted coordinate: start and end [s]. `None` if there is none, or if no coordinate has a gap.
     #[must_use]
-    pub fn longest_known_s(&self) -> Option<[f64; 2]> {
+    pub fn longest_without_gap_s(&self) -> Option<[f64; 2]> {
         let motion = &self.fit.motion;
         let is_known = |i: &usize| motion.columns.iter().flatten().all(|column| column[*i].is_finite());
         let frames: Vec<usize> = (0..motion.times.len()).collect();
@@ -242,13 +241,13 @@ impl BodyInMotion {
         (longest.len() < frames.len()).then(|| [motion.times[first], motion.times[last]])
     }
 
-    /// First and last instant of the plates [s].
+    /// Start and end of the force-plate recordings [s].
     fn recorded_s(&self) -> [f64; 2] {
         let ends = self.plates.iter().filter_map(|plate| Some([*plate.times.first()?, *plate.times.last()?]));
         ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [c, d]| [a.min(c), b.max(d)])
     }
 
-    /// What the plates did to the feet; nothing if the body has no feet.
+    /// The measured forces on the feet; empty if the body has no feet.
     #[must_use]
     pub fn plate_forces(&self) -> Vec<ForceRecording> {
         self.subject.model.anatomy().feet().map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
@@ -259,19 +258,19 @@ impl Subject {
     fn of_model(
         model: &Model,
         mass: Option<f64>,
-        still: Option<&MarkerRecording>,
+        standing: Option<&MarkerRecording>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
-        let (model, scaled) = match still {
-            Some(still) => {
-                let sized = fit_size(model, still, SizeSettings { mass }, findings)?;
+        let (model, scaled) = match standing {
+            Some(standing) => {
+                let sized = fit_size(model, standing, SizeSettings { mass }, findings)?;
                 findings.report(Code::ScalingFitted, scaling_message(&sized));
                 let names = sized.model.bodies().iter().map(|body| body.name.clone());
                 (sized.model.clone(), names.zip(sized.factors).collect())
             }
             None => {
-                let as_it_is = vec![Vec3::repeat(1.0); model.bodies().len()];
-                (model.scaled(&as_it_is, mass).map_err(ScalingError::from)?, Vec::new())
+                let unscaled = vec![Vec3::repeat(1.0); model.bodies().len()];
+                (model.scaled(&unscaled, mass).map_err(ScalingError::from)?, Vec::new())
             }
         };
         Ok(Subject {
@@ -284,15 +283,15 @@ impl Subject {
         })
     }
 
-    /// The built-in body, calibrated from the standing trial or, without one, from the walk.
+    /// The built-in body, calibrated from the standing trial or, without one, from the moving trial.
     fn built_in(
-        walk: &MarkerRecording,
-        still: Option<&MarkerRecording>,
+        moving: &MarkerRecording,
+        standing: Option<&MarkerRecording>,
         person: &calibration::PersonMeasurements,
         set: Option<&MarkerSet>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
-        let (recording, trial) = still.map_or((walk, Trial::Moving), |still| (still, Trial::Standing));
+        let (recording, trial) = standing.map_or((moving, Trial::Moving), |standing| (standing, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
             Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
@@ -311,18 +310,18 @@ impl Subject {
     }
 }
 
-/// The recording without ends in which hardly a marker was seen.
+/// The recording without beginning and end where less than half of the markers are visible.
 fn trimmed_to_visible(markers: &MarkerRecording, findings: &mut Findings) -> MarkerRecording {
-    let seen = markers.trimmed_to_visible();
-    if let (true, [first, .., last]) = (seen.frames() < markers.frames(), &seen.times[..]) {
+    let visible = markers.trimmed_to_visible();
+    if let (true, [first, .., last]) = (visible.frames() < markers.frames(), &visible.times[..]) {
         let message = format!(
-            "less than half of the markers were seen before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",
-            markers.frames() - seen.frames(),
+            "less than half of the markers are visible before {first:.3} s or after {last:.3} s; these {} of {} frames were left out",
+            markers.frames() - visible.frames(),
             markers.frames()
         );
         findings.report(Code::MarkersEnds, message);
     }
-    seen
+    visible
 }
 
 fn scaling_message(sized: &SizedModel) -> String {
@@ -330,7 +329,7 @@ fn scaling_message(sized: &SizedModel) -> String {
     let least = sized.factors.iter().map(size).fold(f64::INFINITY, f64::min);
     let most = sized.factors.iter().map(size).fold(0.0, f64::max);
     format!(
-        "the model was brought to the size of the standing trial: bodies by {least:.3} to {most:.3}, markers {:.1} mm off before, {:.1} mm after, then put where they are",
+        "the model was scaled to the standing trial: factors {least:.3} to {most:.3}, marker error {:.1} mm before and {:.1} mm after; then the markers were moved to their measured positions",
         1e3 * sized.rms_before_m,
         1e3 * sized.rms_m
     )

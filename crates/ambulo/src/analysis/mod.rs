@@ -1,4 +1,4 @@
-//! What a reader wants to know of a motion and its forces: events, cycles, peaks, agreement.
+//! Analysis of a motion and its forces: events, gait cycles, peaks, residuals, feasibility, and agreement of curves.
 
 mod comparison;
 mod cycles;
@@ -25,26 +25,30 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use ground_agreement::{
-    BandAgreement, CenterAgreement, Compared, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement,
+    BandAgreement, CenterAgreement, ComparedAnalyses, FootAgreement, ForceAgreement, GroundAgreement, MomentAgreement,
     PlateCoverage, ground_agreement,
 };
-pub(crate) use marker_trial::follow_markers;
+pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{
-    Body, BodyInMotion, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion,
+    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, MarkerTrialError, Subject, body_in_motion,
 };
 pub use peaks::{Peak, peak};
 pub use plausibility::LARGE_RESIDUAL_BW;
 pub(crate) use predicted::predict_and_analyse;
 pub use predicted::{PredictedAnalysis, PredictionInput, analyse_predicted, analyse_predicted_trajectory};
 pub use prediction_checks::{
-    CarriedBy, CarriedMass, CheckSettings, CheckedPrediction, PredictionCheck, PredictionChecks, prediction_checks,
+    CheckSettings, CheckedPrediction, PlateMass, PredictionCheck, PredictionChecks, Weighing, prediction_checks,
 };
 pub(crate) use progress::Progress;
 pub use progress::{Stage, Stopped};
-pub use recording::{Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, analyse, analyse_trajectory};
+pub use recording::{
+    Analysis, AnalysisError, AnalysisSettings, ForceSource, Mass, MassSource, analyse, analyse_trajectory,
+};
 pub(crate) use recording::{analyse_measured, analyse_with_progress};
 pub use residual::{Residual, residual, residual_sizes, residual_within};
 pub use residual_reduction::{Adjustable, reduce_residual};
 pub use scene_verdict::{FigureVerdict, SceneVerdict, scene_verdict};
-pub use times_and_distances::{Spread, Stride, StrideQuantity, TimesAndDistances, symmetry_index, times_and_distances};
+pub use times_and_distances::{
+    Stride, StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index, times_and_distances,
+};
 pub(crate) use weighing::{weighed_standing, weighed_within};

@@ -1,4 +1,4 @@
-//! Whether model, motion and forces belong together: mistakes that leave every number finite and wrong.
+//! Detects inputs that do not belong together: model, motion and forces that give finite but wrong results.
 
 use super::recording::Analysis;
 use crate::findings::{Code, Findings};
@@ -8,47 +8,47 @@ use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
 use crate::spatial::Vec3;
 
-/// A residual above this share of body weight is said. Walking data with every foot on a plate leave 4 to 7 % (the
-/// recordings that the tests use); plates of another person 47 to 98 %.
+/// Residual forces above this share of body weight give a warning. Walking data with every foot on a plate have 4 to 7 % (the recordings
+/// of the tests), with the plates of another person 47 to 98 %.
 pub const LARGE_RESIDUAL_BW: f64 = 0.15;
-/// A coordinate may leave its stated range by this much [rad] before it is said; ranges are often drawn tightly.
+/// Allowed excess over a coordinate's range before a warning [rad]; ranges of models are often narrow.
 const RANGE_SLACK_RAD: f64 = 0.35;
 
-/// A residual that is too large for the numbers to be trusted.
+/// Reports a residual force that is too large for reliable results.
 pub(super) fn report_residual(model: &Model, analysis: &Analysis, findings: &mut Findings) {
     let weight_n = analysis.mass.kg * model.gravity().norm();
     let Some(residual) = analysis.residual.filter(|_| weight_n > 0.0) else { return };
     let share = residual.force_rms_n / weight_n;
     if share > LARGE_RESIDUAL_BW {
         let message = format!(
-            "the residual at the root is {:.0} % of body weight (walking data with every foot on a plate: below 10 %): forces, motion and model do not belong together, a foot stood off the plates, or the motion is not filtered; the moments are not to be trusted. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
+            "the residual force at the root is {:.0} % of body weight (below 10 % in walking data with every foot on a plate): forces, motion and model do not belong together, a foot was outside the plates, or the motion is not filtered; the joint moments are not reliable. hint: check files, sides and time origin; choose the time in which every loaded foot is on a plate",
             100.0 * share
         );
         findings.report(Code::ResidualLarge, message);
     }
 }
 
-/// Loads with the wrong sign or under the wrong foot.
+/// Reports ground forces with the wrong sign or under the wrong foot.
 pub(super) fn report_loads(model: &Model, analysis: &Analysis, findings: &mut Findings) {
     report_downward(model, &analysis.ground, upward(model), findings);
     report_far_feet(model, &analysis.trajectory, &analysis.ground, findings);
 }
 
-/// Forces that pull a foot down: the force on the plate in place of the force on the foot.
+/// Reports forces that pull a foot down: forces on the plate instead of on the foot.
 fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
     for body in &ground.bodies {
         let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
         if mean < -CENTER_OF_PRESSURE_LOAD_N {
             let name = &model.bodies()[body.body.index()].name;
             let message = format!(
-                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it looks like the force on the plate. hint: change the sign of forces and torques"
+                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it is probably the force on the plate. hint: reverse the sign of forces and torques"
             );
             findings.report(Code::LoadsDownward, message);
         }
     }
 }
 
-/// Centres of pressure that lie nearer to the other foot: right and left exchanged.
+/// Reports centres of pressure that are nearer to the other foot: right and left exchanged.
 fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces, findings: &mut Findings) {
     let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
     let feet: Vec<_> = ground.bodies.iter().filter(|b| side_of(b).is_some()).collect();
@@ -57,13 +57,13 @@ fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces
     each_body_motion(model, trajectory, |frame, bodies| {
         for (k, foot) in feet.iter().enumerate() {
             let center = foot.center_of_pressure[frame];
-            let stands_on = |b: usize| (bodies[b].center - center).norm();
+            let distance = |b: usize| (bodies[b].center - center).norm();
             if center.x.is_nan() {
                 continue;
             }
             let opposite = feet.iter().filter(|f| side_of(f) != side_of(foot));
-            if let Some(nearest) = opposite.map(|f| stands_on(f.body.index())).min_by(f64::total_cmp) {
-                own[k].push(stands_on(foot.body.index()));
+            if let Some(nearest) = opposite.map(|f| distance(f.body.index())).min_by(f64::total_cmp) {
+                own[k].push(distance(foot.body.index()));
                 other[k].push(nearest);
             }
         }
@@ -81,7 +81,7 @@ fn report_far_feet(model: &Model, trajectory: &Trajectory, ground: &GroundForces
     }
 }
 
-/// Rotations far outside what the model allows: the motion of another model.
+/// Reports rotations far outside the range of the model: the motion of another model.
 pub(super) fn report_ranges(model: &Model, trajectory: &Trajectory, findings: &mut Findings) {
     for id in model.coordinate_ids() {
         let coordinate = &model.coordinates()[id.index()];
@@ -92,7 +92,7 @@ pub(super) fn report_ranges(model: &Model, trajectory: &Trajectory, findings: &m
         if largest > high + RANGE_SLACK_RAD || smallest < low - RANGE_SLACK_RAD {
             let [smallest, largest, low, high] = [smallest, largest, low, high].map(f64::to_degrees);
             let message = format!(
-                "`{}` runs from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0}. hint: is this the motion of another model? Some count knee flexion positive, some negative",
+                "`{}` ranges from {smallest:.0} to {largest:.0} deg; the model allows {low:.0} to {high:.0} deg. hint: is this the motion of another model? Knee flexion is positive in some models and negative in others",
                 coordinate.name
             );
             findings.report(Code::MotionOutOfRange, message);

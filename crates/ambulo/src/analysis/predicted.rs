@@ -1,4 +1,4 @@
-//! A recording whose ground forces are predicted from its motion; where plates measured them too, both stand side by side.
+//! Analysis of a recording with predicted ground forces, alongside one with measured forces if there are any.
 
 use super::cycles::cycles;
 use super::events::{Event, EventKind};
@@ -6,7 +6,7 @@ use super::feasibility::over_ground;
 use super::plausibility;
 use super::progress::{Progress, Stage};
 use super::recording::{
-    Analysis, AnalysisError, ForceSource, Mass, MassSource, Settings, trajectory_within, with_forces,
+    Analysis, AnalysisError, AnalysisSettings, ForceSource, Mass, MassSource, trajectory_within, with_forces,
 };
 use super::residual::residual;
 use crate::dynamics::{Workspace, inverse};
@@ -24,33 +24,33 @@ use crate::motion::{ForceRecording, Motion, Smoother, TimeGrid, Window};
 pub struct PredictionInput<'a> {
     /// Right and left sole.
     pub soles: &'a BySide<Option<Sole>>,
-    /// How forces are predicted.
+    /// AnalysisSettings of the prediction.
     pub settings: &'a PredictSettings,
-    /// Low-pass of the plates, where there are any; `None` leaves them as they are.
+    /// Low-pass filter of the measured forces, if any; `None` leaves them unfiltered.
     pub plates_filter: Option<LowPass>,
 }
 
 /// Everything that was computed from one recording with predicted forces.
 #[derive(Debug, Clone)]
 pub struct PredictedAnalysis {
-    /// Forces, events and cycles by the prediction.
+    /// The analysis with predicted forces.
     pub analysis: Analysis,
     /// The prediction.
     pub prediction: Prediction,
-    /// The same motion with the forces that plates measured; `None` without plates.
+    /// The same motion with measured forces; `None` without plates.
     pub measured: Option<Analysis>,
 }
 
-/// Analyses a recording with predicted ground forces: as [`super::analyse`], without plates. `plates`, if there are any, are only
-/// compared with.
+/// Analyses a recording with predicted ground forces, otherwise as [`super::analyse`]. Measured forces in `plates` are only used for
+/// comparison.
 ///
 /// # Errors
-/// Recordings that cannot be used, bodies that no forces can be predicted for: see [`AnalysisError`].
+/// Unusable recordings, bodies for which no forces can be predicted: see [`AnalysisError`].
 pub fn analyse_predicted(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: Settings,
+    settings: AnalysisSettings,
     input: &PredictionInput<'_>,
     findings: &mut Findings,
 ) -> Result<PredictedAnalysis, AnalysisError> {
@@ -61,7 +61,7 @@ pub(crate) fn predict_and_analyse(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: Settings,
+    settings: AnalysisSettings,
     input: &PredictionInput<'_>,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
@@ -76,25 +76,25 @@ pub(crate) fn predict_and_analyse(
     with_plates(model, trajectory, prediction, plates, settings.instrumented, input, findings, progress)
 }
 
-/// The prediction from all that was recorded around the window, behind the low-pass that the numbers of the estimator were fitted with
-/// ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the motion's own low-pass is. `None` where the recording around the window
-/// cannot be used, or parts of the answer are given.
+/// Predicts from the whole recording, also outside the window, and with the low-pass filter that was used to fit the parameters of the
+/// estimator ([`LowPass::MOTION`], docs/measured/GROUND_FIT.md), whatever the filter of the motion is. `None` if the recording outside the
+/// window cannot be used, or parts of the result are given.
 fn prediction_of_whole_motion(
     model: &Model,
     motion: &Motion,
-    settings: Settings,
+    settings: AnalysisSettings,
     grid: TimeGrid,
     input: &PredictionInput<'_>,
     findings: &mut Findings,
 ) -> Option<Result<Prediction, AnalysisError>> {
-    /// Frames are the same instants if they differ by less than this share of a step.
+    /// Frames are simultaneous if they differ by less than this share of a time step.
     const SAME_INSTANT: f64 = 1e-3;
     let is_the_same =
         settings.smoother == Smoother::Butterworth(LowPass::MOTION) && settings.window == Window::default();
     if is_the_same || input.settings.prescribed != Prescribed::default() {
         return None;
     }
-    let settings = Settings { smoother: Smoother::Butterworth(LowPass::MOTION), ..settings };
+    let settings = AnalysisSettings { smoother: Smoother::Butterworth(LowPass::MOTION), ..settings };
     let whole = trajectory_within(model, motion, &[], settings, Window::default(), &mut Findings::default()).ok()?;
     let offset = (grid.start_s - whole.grid().start_s) / grid.step_s;
     let first = offset.round().max(0.0) as usize;
@@ -107,10 +107,10 @@ fn prediction_of_whole_motion(
     Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }
 
-/// The same for a motion that is complete. `within` is the time in which plates measured everything, if that is known.
+/// The same for a complete motion. `within` is the instrumented window, if known.
 ///
 /// # Errors
-/// Bodies that no forces can be predicted for, plates that cannot be used: see [`AnalysisError`].
+/// Bodies for which no forces can be predicted, unusable plates: see [`AnalysisError`].
 pub fn analyse_predicted_trajectory(
     model: &Model,
     trajectory: Trajectory,
@@ -123,8 +123,8 @@ pub fn analyse_predicted_trajectory(
     with_plates(model, trajectory, prediction, plates, within, input, findings, &mut Progress::default())
 }
 
-/// Both analyses: with the prediction, and with plates if there are any.
-#[expect(clippy::too_many_arguments, reason = "the two ways to a prediction meet here")]
+/// Both analyses: with predicted forces, and with measured ones if there are any.
+#[expect(clippy::too_many_arguments, reason = "shared by both functions that predict")]
 fn with_plates(
     model: &Model,
     trajectory: Trajectory,
@@ -146,7 +146,7 @@ fn with_plates(
         report_plates(model, measured, within.is_some(), &mut of_plates);
     }
     for finding in of_plates.as_slice() {
-        let message = format!("plates beside the prediction: {}", finding.message);
+        let message = format!("measured forces alongside the prediction: {}", finding.message);
         findings.add(Finding { message, ..finding.clone() });
     }
     progress.end(Stage::Plates)?;
@@ -155,8 +155,8 @@ fn with_plates(
     Ok(PredictedAnalysis { analysis, prediction, measured })
 }
 
-/// Judges the plates that the prediction is compared with. Where it is not known when they measured every foot, a residual may be due
-/// to a foot off the plates and is not reported. The range of the motion is judged with the prediction.
+/// Checks the measured forces that the prediction is compared with. If the instrumented window is unknown, a residual may be due to a foot
+/// outside the plates and is not reported. The range of the motion is checked with the prediction.
 fn report_plates(model: &Model, measured: &Analysis, window_is_known: bool, findings: &mut Findings) {
     if window_is_known {
         plausibility::report_residual(model, measured, findings);
@@ -164,7 +164,7 @@ fn report_plates(model: &Model, measured: &Analysis, window_is_known: bool, find
     plausibility::report_loads(model, measured, findings);
 }
 
-/// Whether a sensor is fast enough for a filter.
+/// Whether the sampling rate of a plate is high enough for a filter.
 fn allows(plate: &ForceRecording, filter: LowPass) -> bool {
     TimeGrid::spanning(&plate.times).is_none_or(|grid| filter.cutoff_hz < 0.5 * grid.rate_hz())
 }
@@ -180,7 +180,7 @@ fn with_prediction(
     let inside = |event: &Event| (grid.start_s..=grid.end_s()).contains(&event.time_s);
     let events: Vec<Event> = prediction.footfalls.events().into_iter().filter(inside).collect();
     if !events.iter().any(|event| event.kind == EventKind::Strike) {
-        findings.report(Code::EventsNone, "no foot strike was found in the motion inside the window");
+        findings.report(Code::EventsNone, "no foot strike was detected in the motion inside the window");
     }
     plausibility::report_ranges(model, &trajectory, findings);
     Analysis {

@@ -1,4 +1,4 @@
-//! One recording, from observed coordinates and measured forces to joint forces, events and cycles.
+//! Analysis of one recording with measured forces: joint forces, events, gait cycles, body mass and residual.
 
 use super::cycles::{Cycle, cycles};
 use super::events::{Contact, Event, EventKind, contacts_from_force, events};
@@ -18,17 +18,17 @@ use crate::spatial::Vec3;
 
 /// How a recording is analysed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct AnalysisSettings {
     /// How the motion is smoothed.
     pub smoother: Smoother,
-    /// Low-pass of the measured forces; `None` leaves them as they are.
+    /// Low-pass filter of the measured forces; `None` leaves them unfiltered.
     pub force_filter: Option<LowPass>,
-    /// The range of time to analyse.
+    /// The time range to analyse.
     pub window: Window,
-    /// Frames a second of the results; `None` keeps the recording's own [Hz].
+    /// Frame rate of the results [Hz]; `None` keeps that of the recording.
     pub rate_hz: Option<f64>,
-    /// The time during which every foot on the ground stood on a plate, where that is known: outside of it forces are missing, and
-    /// the residual says nothing. `None` believes the plates throughout.
+    /// The instrumented window, if known: outside it forces may be missing and the residual is not evaluated. `None`: the measured forces are
+    /// complete at all times.
     pub instrumented: Option<Window>,
 }
 
@@ -37,23 +37,23 @@ pub struct Settings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether it was changed to agree with the forces ([`super::agree`]).
+    /// Whether residual reduction changed it ([`super::reduce_residual`]).
     pub adjusted: bool,
-    /// The measured ground forces on its instants.
+    /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
     /// Joint forces, powers and reactions.
     pub forces: Forces,
-    /// Strikes and toe-offs inside the trajectory, in order of time.
+    /// Foot strikes and foot offs inside the trajectory, in order of time.
     pub events: Vec<Event>,
     /// Whole gait cycles inside the trajectory.
     pub cycles: Vec<Cycle>,
     /// Body mass.
     pub mass: Mass,
-    /// Walking speed relative to the ground that the feet stand on [m/s], where a foot stood still on it.
+    /// Walking speed relative to the ground or belt [m/s], if a foot carried enough to determine it.
     pub speed_m_s: Option<f64>,
-    /// What motion and measured forces disagree by.
+    /// Residual force and moment.
     pub residual: Option<Residual>,
-    /// Whether a person could do this; `None` until someone asks [`super::feasibility::check`].
+    /// Whether a person could make the motion; `None` before [`super::feasibility::check`].
     pub verdict: Option<Verdict>,
 }
 
@@ -73,7 +73,7 @@ pub struct Mass {
 pub enum MassSource {
     /// Mean vertical force over whole gait cycles.
     Plates,
-    /// What plates carried while the person stood still.
+    /// Mean vertical force of a standing trial.
     Standing,
     /// The model's own mass.
     Model,
@@ -95,16 +95,16 @@ impl MassSource {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
-    /// The recorded motion.
+    /// The recorded motion is unusable.
     #[error(transparent)]
     Motion(MotionError),
-    /// The recorded forces.
+    /// The recorded forces are unusable.
     #[error(transparent)]
     Ground(MotionError),
-    /// Its completion to a trajectory.
+    /// The motion cannot be completed to a trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// Forces that no plate measured.
+    /// The ground forces cannot be predicted.
     #[error(transparent)]
     Prediction(#[from] PredictError),
     /// The observer stopped the computation.
@@ -112,23 +112,23 @@ pub enum AnalysisError {
     Stopped(#[from] Stopped),
 }
 
-/// A mean vertical force within this share of the model's weight is believed to be the whole body's.
+/// A mean vertical force within this share of the model's weight is accepted as the weight of the whole body.
 pub(super) const WHOLE_BODY_SHARE: f64 = 0.05;
-/// Above this difference between plates and model the reader is told (issue of scaling or of plates).
+/// A larger difference between plates and model gives a warning (an issue of scaling or of the plates).
 const MASS_MISMATCH: f64 = 0.03;
 
 /// Analyses recorded coordinates with measured forces: smoothing, inverse dynamics, events, cycles, body mass and residual. It is the
 /// inner step of [`crate::study::run`] for measured forces.
 ///
-/// The window is cut to the time that the force recordings cover, which is a finding.
+/// The window is limited to the time that the force recordings cover, with a finding.
 ///
 /// # Errors
-/// Recordings that cannot be used: see [`MotionError`], [`TrajectoryError`].
+/// Unusable recordings: see [`MotionError`], [`TrajectoryError`].
 pub fn analyse(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: Settings,
+    settings: AnalysisSettings,
     findings: &mut Findings,
 ) -> Result<Analysis, AnalysisError> {
     analyse_with_progress(model, motion, plates, settings, findings, &mut Progress::default())
@@ -138,7 +138,7 @@ pub(crate) fn analyse_with_progress(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: Settings,
+    settings: AnalysisSettings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, AnalysisError> {
@@ -149,39 +149,39 @@ pub(crate) fn analyse_with_progress(
     analyse_measured(model, trajectory, plates, source, findings, progress)
 }
 
-/// The motion smoothed and completed inside a window; `plates` bound what can be asked for.
+/// Smooths and completes the motion inside a window; `plates` only serve the error message.
 pub(super) fn trajectory_within(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
-    settings: Settings,
+    settings: AnalysisSettings,
     window: Window,
     findings: &mut Findings,
 ) -> Result<Trajectory, AnalysisError> {
     let smoothing = SmoothSettings { smoother: settings.smoother, window, rate_hz: settings.rate_hz };
     let smoothed = smooth(model, motion, smoothing, findings)
-        .map_err(|e| AnalysisError::Motion(in_the_users_words(e, settings.window, motion, plates)))?;
+        .map_err(|e| AnalysisError::Motion(with_requested_window(e, settings.window, motion, plates)))?;
     Ok(Trajectory::complete(model, &smoothed, findings)?)
 }
 
-/// How the forces under the feet are known.
+/// Where the ground forces come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceSource {
-    /// By plates. The body's mass is read off them where they saw whole cycles.
+    /// Force plates. They also give the body mass if they measured whole cycles.
     Measured {
-        /// Low-pass of what they measured; `None` leaves it as it is.
+        /// Low-pass filter of the forces; `None` leaves them unfiltered.
         filter: Option<LowPass>,
-        /// When they measured everything, if that is known.
+        /// The instrumented window, if known.
         within: Option<Window>,
     },
-    /// By a simulation of this very model, exactly; its mass is the model's.
+    /// An exact simulation of the same model; the mass is the model's.
     Simulated,
 }
 
-/// Analyses a motion that is complete, recorded or made, with the forces under its feet: what [`analyse`] does after smoothing.
+/// Analyses a complete recorded or synthetic motion with its ground forces: [`analyse`] without smoothing.
 ///
 /// # Errors
-/// Forces that cannot be used: see [`MotionError`].
+/// Unusable forces: see [`MotionError`].
 pub fn analyse_trajectory(
     model: &Model,
     trajectory: Trajectory,
@@ -210,7 +210,7 @@ pub(crate) fn analyse_measured(
     Ok(analysis)
 }
 
-/// The analysis itself, without any judgement of whether motion and forces belong together.
+/// The analysis itself, without the checks whether motion and forces belong together.
 pub(super) fn with_forces(
     model: &Model,
     trajectory: Trajectory,
@@ -237,10 +237,10 @@ pub(super) fn with_forces(
     let events: Vec<Event> = events(&contacts).into_iter().filter(inside).collect();
     let cycles = cycles(&events, grid);
     if !plates.is_empty() && !events.iter().any(|e| e.kind == EventKind::Strike) {
-        findings.report(Code::EventsNone, "no foot strike was found in the forces inside the window");
+        findings.report(Code::EventsNone, "no foot strike was detected in the forces inside the window");
     }
     let mass = match source {
-        ForceSource::Measured { .. } => mass(model, &vertical, &weighing(&cycles, &events, findings), findings),
+        ForceSource::Measured { .. } => mass(model, &vertical, &cycles_for_mass(&cycles, &events, findings), findings),
         ForceSource::Simulated => Mass { kg: model.mass(), source: MassSource::Model },
     };
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
@@ -260,13 +260,18 @@ pub(super) fn with_forces(
     })
 }
 
-/// A range that holds too little is named as the user gave it, beside what motion and forces cover together.
-fn in_the_users_words(error: MotionError, asked: Window, motion: &Motion, plates: &[ForceRecording]) -> MotionError {
+/// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both cover.
+fn with_requested_window(
+    error: MotionError,
+    requested: Window,
+    motion: &Motion,
+    plates: &[ForceRecording],
+) -> MotionError {
     let MotionError::TooShort { found, expected, .. } = error else { return error };
     let whole = Window { from_s: motion.times.first().copied(), to_s: motion.times.last().copied() };
     let both = plates.iter().fold(whole, |window, plate| window.overlap(recorded(plate)));
     let (first_s, last_s) = (both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN));
-    let (from_s, to_s) = (asked.from_s.unwrap_or(first_s), asked.to_s.unwrap_or(last_s));
+    let (from_s, to_s) = (requested.from_s.unwrap_or(first_s), requested.to_s.unwrap_or(last_s));
     MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
 }
 
@@ -274,19 +279,20 @@ pub(super) fn recorded(plate: &ForceRecording) -> Window {
     Window { from_s: plate.times.first().copied(), to_s: plate.times.last().copied() }
 }
 
-/// What `grf.mot`, which has one foot a side, cannot show as it was measured.
+/// Reports loads that `grf.mot`, which has one foot per side, cannot represent.
 fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
     let side_of = |b: &BodyForces| model.anatomy().body_side(b.body);
     let name = |b: &BodyForces| model.bodies()[b.body.index()].name.as_str();
     for name in ground.bodies.iter().filter(|b| side_of(b).is_none()).map(name) {
-        let message = format!("the load on `{name}`, which is of no side, is used but not written to grf.mot");
+        let message =
+            format!("the load on `{name}`, which belongs to neither side, is used but not written to grf.mot");
         findings.report(Code::LoadsNoSide, message);
     }
     for side in Side::BOTH {
         let bodies: Vec<&str> = ground.bodies.iter().filter(|b| side_of(b) == Some(side)).map(name).collect();
         if bodies.len() > 1 {
             let message = format!(
-                "{} are pushed on the {side}; grf.mot holds their sum, on the one that carried most",
+                "loads act on {} on the {side} side; grf.mot contains their sum, on the body with the largest load",
                 bodies.join(" and ")
             );
             findings.report(Code::LoadsSeveralBodies, message);
@@ -294,7 +300,7 @@ fn report_sides(model: &Model, ground: &GroundForces, findings: &mut Findings) {
     }
 }
 
-/// The window, cut to what the plates recorded.
+/// The window, limited to the time that the plates recorded.
 fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings: &mut Findings) -> Window {
     let mut covered = window;
     for plate in plates {
@@ -306,7 +312,7 @@ fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings:
     let motion_starts = motion.times.first().copied().unwrap_or(f64::NEG_INFINITY);
     if end(covered) < end(window).min(motion_ends) || start(covered) > start(window).max(motion_starts) {
         let message = format!(
-            "the forces were recorded from {:.3} s to {:.3} s only; the rest of the motion was left out",
+            "the forces were only recorded from {:.3} s to {:.3} s; the rest of the motion was left out",
             start(covered),
             end(covered)
         );
@@ -317,7 +323,7 @@ fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings:
 
 type TimedForce = (Vec<f64>, Vec<f64>);
 
-/// Instants and total vertical force [N] of each foot that was measured, as recorded.
+/// Times and total vertical force [N] of each measured foot, as recorded.
 fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
     let mut list = Vec::new();
     for side in Side::BOTH {
@@ -341,17 +347,16 @@ fn zero_if_unknown(x: f64) -> f64 {
     if x.is_finite() { x } else { 0.0 }
 }
 
-/// The cycles in which the other foot was seen to leave the ground and to meet it: in others it may have stood off the
-/// plates.
-fn weighing(cycles: &[Cycle], events: &[Event], findings: &mut Findings) -> Vec<Cycle> {
-    let seen = |cycle: &&Cycle| {
+/// The cycles with foot off and foot strike of the other foot; in other cycles it may have been outside the plates.
+fn cycles_for_mass(cycles: &[Cycle], events: &[Event], findings: &mut Findings) -> Vec<Cycle> {
+    let is_complete = |cycle: &&Cycle| {
         let other = |e: &&Event| e.side != cycle.side && e.time_s > cycle.start_s && e.time_s < cycle.end_s;
         [EventKind::Strike, EventKind::Off].iter().all(|kind| events.iter().filter(other).any(|e| e.kind == *kind))
     };
-    let (whole, partial): (Vec<&Cycle>, Vec<&Cycle>) = cycles.iter().partition(seen);
+    let (whole, partial): (Vec<&Cycle>, Vec<&Cycle>) = cycles.iter().partition(is_complete);
     for cycle in partial {
         let message = format!(
-            "{} cycle {} ({:.3} to {:.3} s): the other foot was not seen to leave and to meet the ground; it may have stood off the plates, so this cycle's forces are not the whole body's",
+            "{} cycle {} ({:.3} to {:.3} s): no foot off and foot strike of the other foot were measured; it may have been outside the plates, so this cycle does not give the body mass",
             cycle.side, cycle.number, cycle.start_s, cycle.end_s
         );
         findings.report(Code::CyclesOtherFootUnseen, message);
@@ -359,7 +364,7 @@ fn weighing(cycles: &[Cycle], events: &[Event], findings: &mut Findings) -> Vec<
     whole.into_iter().copied().collect()
 }
 
-/// m = mean vertical force / g over whole cycles, where that is near the model's mass; else the model's.
+/// m = mean vertical force / g over whole cycles, if this is near the model's mass; else the model's mass.
 fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findings: &mut Findings) -> Mass {
     let (stated, g) = (model.mass(), model.gravity().norm());
     let weighed: Vec<f64> = cycles.iter().filter_map(|c| cycle_mean(vertical, c)).map(|f| f / g).collect();
@@ -369,21 +374,21 @@ fn mass(model: &Model, vertical: &[(Side, TimedForce)], cycles: &[Cycle], findin
     let mean = weighed.iter().sum::<f64>() / weighed.len() as f64;
     if (mean / stated - 1.0).abs() > WHOLE_BODY_SHARE {
         let message = format!(
-            "the mean vertical force over whole cycles carries {mean:.1} kg, the model has {stated:.1} kg; a foot was off the plates, or the model is not scaled to this person. The model's mass was used"
+            "the mean vertical force over whole cycles corresponds to {mean:.1} kg, the model has {stated:.1} kg; a foot was outside the plates, or the model is not scaled to this person. The model's mass was used"
         );
         findings.report(Code::MassNotWholeBody, message);
         return Mass { kg: stated, source: MassSource::Model };
     }
     if (mean / stated - 1.0).abs() > MASS_MISMATCH {
         let message = format!(
-            "the plates carry {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are normalised by the plates' mass, the dynamics use the model's. hint: scale the model to this person"
+            "the force plates measure {mean:.1} kg over whole cycles, the model has {stated:.1} kg; results are normalised by the measured mass, the dynamics use the model's. hint: scale the model to this person"
         );
         findings.report(Code::MassMismatch, message);
     }
     Mass { kg: mean, source: MassSource::Plates }
 }
 
-/// Mean of the total vertical force over a cycle [N], by the trapezium rule on the recorded instants.
+/// Mean of the total vertical force over a cycle [N], by the trapezium rule on the recorded samples.
 fn cycle_mean(vertical: &[(Side, TimedForce)], cycle: &Cycle) -> Option<f64> {
     let mut mean = 0.0;
     for (_, (times, force)) in vertical {

@@ -1,4 +1,4 @@
-//! What the measured loads and the motion disagree by: the wrench at the root that nothing supplies.
+//! Residual force and moment: the wrench at the root that neither the ground nor muscles supply.
 
 use crate::dynamics::{Forces, Roots};
 use crate::model::Model;
@@ -17,10 +17,10 @@ pub struct Residual {
     pub moment_peak_nm: f64,
 }
 
-/// The residual: sum of the wrenches at the joints to ground, as far as they let move. `None` without frames.
+/// The residual: sum of the wrenches at the joints to ground along their free directions. `None` without frames.
 ///
-/// A figure that moves in a plane is held in it by its root's joint; what holds it there is no disagreement. For a body that is
-/// truly fastened to ground (a robot arm) this is the load on its foundation.
+/// The constraint forces that hold a planar figure in its plane are not part of the residual. For a body that is fixed to ground (a robot
+/// arm) the residual is the load on its foundation.
 #[must_use]
 pub fn residual(model: &Model, forces: &Forces) -> Option<Residual> {
     residual_within(model, forces, 0..forces.reactions.first()?.len())
@@ -41,7 +41,7 @@ fn sizes(model: &Model, forces: &Forces, frames: Range<usize>) -> impl Iterator<
     })
 }
 
-/// The residual over some of the frames: those in which all that the ground does was measured.
+/// The residual over some of the frames, such as the instrumented window.
 #[must_use]
 pub fn residual_within(model: &Model, forces: &Forces, frames: Range<usize>) -> Option<Residual> {
     let frames = frames.start..frames.end.min(forces.reactions.first()?.len());

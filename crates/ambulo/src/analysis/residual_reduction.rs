@@ -1,6 +1,6 @@
-//! Residual reduction: a motion that is changed within its noise so that it agrees with the ground forces.
+//! Residual reduction: changes a motion within its noise so that it agrees with the ground forces.
 
-use super::recording::{Analysis, Mass, MassSource, Settings};
+use super::recording::{Analysis, AnalysisSettings, Mass, MassSource};
 use super::residual::residual_within;
 use crate::dynamics::residual_reduction::{
     ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
@@ -11,39 +11,39 @@ use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, TimeGrid, Window};
 
-/// What may change.
+/// What residual reduction may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Adjustable {
-    /// The motion alone.
+    /// The motion only.
     Motion,
-    /// The motion, the body's mass and the trunk's mass centre.
+    /// The motion, the body mass and the mass centre of the trunk.
     MotionAndBody,
 }
 
-/// A filter with this cut-off mixes what lies within half its period, so laws hold only so far inside of the window.
+/// A filter mixes samples within half a period of its cut-off frequency, so the equations of motion only hold this far inside the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
-/// Changes the motion of an analysis within its noise until it agrees with the ground forces, in the time in which these are complete.
-/// Returns the analysis of the changed motion and body, and how they were changed.
+/// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented window. Returns the
+/// analysis of the changed motion and body, and the changes.
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
 pub fn reduce_residual(
     model: &Model,
     analysis: Analysis,
-    settings: &Settings,
+    settings: &AnalysisSettings,
     adjustable: Adjustable,
     findings: &mut Findings,
 ) -> Result<(Analysis, ReducedMotion), ResidualReductionError> {
     let loads = analysis.ground.loads();
     let body = adjustable == Adjustable::MotionAndBody;
-    let asked = ResidualReductionSettings {
+    let reduction = ResidualReductionSettings {
         within: inside(analysis.trajectory.grid(), settings),
         adjust_mass: body,
         adjust_trunk_center: body,
         ..ResidualReductionSettings::default()
     };
-    let done = reduce_residuals(model, &analysis.trajectory, &loads, &asked, findings)?;
+    let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, findings)?;
     let [from, to] = done.window_s;
     let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
     let forces = inverse(&mut Workspace::new(&done.model), &done.trajectory, &loads);
@@ -57,8 +57,8 @@ pub fn reduce_residual(
     Ok((analysis, done))
 }
 
-/// The time in which plates saw every foot, or else all of it, without the ends in which the filters mix in what was not measured.
-fn inside(grid: TimeGrid, settings: &Settings) -> Window {
+/// The instrumented window (or the whole motion if it is unknown) without its ends, where the filters mix in unmeasured forces.
+fn inside(grid: TimeGrid, settings: &AnalysisSettings) -> Window {
     let cutoff = |filter: LowPass| filter.cutoff_hz;
     let of_motion = match settings.smoother {
         Smoother::Butterworth(filter) => Some(cutoff(filter)),
@@ -67,6 +67,6 @@ fn inside(grid: TimeGrid, settings: &Settings) -> Window {
     let lowest = of_motion.into_iter().chain(settings.force_filter.map(cutoff)).fold(f64::INFINITY, f64::min);
     let reach_s = FILTER_REACH_PERIODS / lowest;
     let whole = Window { from_s: Some(grid.start_s), to_s: Some(grid.end_s()) };
-    let seen = whole.overlap(settings.instrumented.unwrap_or_default());
-    Window { from_s: seen.from_s.map(|t| t + reach_s), to_s: seen.to_s.map(|t| t - reach_s) }
+    let measured = whole.overlap(settings.instrumented.unwrap_or_default());
+    Window { from_s: measured.from_s.map(|t| t + reach_s), to_s: measured.to_s.map(|t| t - reach_s) }
 }

@@ -1,6 +1,6 @@
-//! Whether a person could do what the walking figures of a scene do.
+//! The verdict on the walking figures of a scene.
 
-use crate::analysis::feasibility::{Evidence, Person, Thresholds, Verdict, check};
+use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, check};
 use crate::dynamics::{Forces, JointReaction};
 use crate::findings::Findings;
 use crate::ground::{BodyForces, GroundForces, upward};
@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneVerdict {
-    /// Nothing was found against any of them.
+    /// Whether all figures are feasible.
     pub feasible: bool,
-    /// One entry a figure, in the order of the file.
+    /// One entry per figure, in the order of the file.
     pub figures: Vec<FigureVerdict>,
 }
 
@@ -25,9 +25,9 @@ pub struct SceneVerdict {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FigureVerdict {
-    /// Its name.
+    /// Name of the figure.
     pub figure: String,
-    /// What was found.
+    /// Its verdict.
     #[serde(flatten)]
     pub verdict: Verdict,
 }
@@ -54,7 +54,7 @@ fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -
     let recording = &walk.recording;
     let forces = forces(recording);
     let ground = ground(recording);
-    let evidence = Evidence {
+    let evidence = MotionAndForces {
         model: &recording.model,
         trajectory: &recording.trajectory,
         forces: &forces,
@@ -64,7 +64,7 @@ fn judged(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findings) -
     check(&evidence, &Person::of_human(&walk.human), thresholds, findings)
 }
 
-/// What the ground does to the feet; points do not twist, so it has no moment about the centre of pressure.
+/// The ground forces on the feet. Contact points transmit no moment, so the free moment is zero.
 fn ground(recording: &WalkRecording) -> GroundForces {
     let up = upward(&recording.model);
     let bodies = recording.feet.iter().map(|foot| {
@@ -74,8 +74,8 @@ fn ground(recording: &WalkRecording) -> GroundForces {
     GroundForces { bodies: bodies.collect() }
 }
 
-/// Drives as generalised forces. Of the root's reaction only what holds the trunk's turn counts: the rest keeps the figure in its
-/// plane, which is no part of a planar walk; nothing holds its slides.
+/// The joint drives as generalised forces. Of the root's reaction only the moment that holds the trunk upright is a residual; the other
+/// components keep the figure in its plane, and its translations are free.
 fn forces(recording: &WalkRecording) -> Forces {
     let WalkRecording { model, trajectory, efforts, .. } = recording;
     let powers = model.coordinate_ids().map(|id| {
@@ -84,17 +84,18 @@ fn forces(recording: &WalkRecording) -> Forces {
     });
     let mut reactions = vec![Vec::new(); model.bodies().len()];
     each_body_motion(model, trajectory, |frame, bodies| {
-        for (body, about) in model.bodies().iter().enumerate() {
-            let center = bodies[body].pose.place(about.joint.child_from_joint.translation);
-            let held = if about.joint.parent.is_none() { turn(model, efforts, body, frame) } else { Vec3::zeros() };
-            reactions[body].push(JointReaction { center, wrench: Wrench { moment: held, force: Vec3::zeros() } });
+        for (index, body) in model.bodies().iter().enumerate() {
+            let center = bodies[index].pose.place(body.joint.child_from_joint.translation);
+            let is_root = body.joint.parent.is_none();
+            let moment = if is_root { root_moment(model, efforts, index, frame) } else { Vec3::zeros() };
+            reactions[index].push(JointReaction { center, wrench: Wrench { moment, force: Vec3::zeros() } });
         }
     });
     Forces { generalized: efforts.clone(), powers: powers.collect(), reactions }
 }
 
-/// Moment that turns the root, world axes [N.m].
-fn turn(model: &Model, efforts: &[Vec<f64>], root: usize, frame: usize) -> Vec3 {
+/// Moment about the rotation axis of the root, world axes [N.m].
+fn root_moment(model: &Model, efforts: &[Vec<f64>], root: usize, frame: usize) -> Vec3 {
     let joint = &model.bodies()[root].joint;
     let turning = |id: &crate::model::CoordinateId| model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
     let moment: f64 = joint.coordinates().iter().filter(|id| turning(id)).map(|id| efforts[id.index()][frame]).sum();

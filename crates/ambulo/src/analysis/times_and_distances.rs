@@ -1,17 +1,17 @@
-//! Times and distances of walking: speed, cadence, step and stride length, step width, stance, swing and support, stride by stride.
+//! Times and distances of walking for every stride: speed, cadence, step and stride length, step width, stance, swing and support.
 //!
-//! | quantity              | from                                                                                              |
+//! | quantity              | definition                                                                                        |
 //! |-----------------------|---------------------------------------------------------------------------------------------------|
-//! | cycle time            | strike to next strike of a foot in which the foot leaves the ground once                           |
-//! | stance, swing         | strike to foot off, foot off to strike, as shares of the cycle                                     |
-//! | single support        | foot off to strike of the other foot inside the stance                                             |
-//! | double support        | initial: strike to the other foot's off; terminal: the other foot's strike to the off              |
-//! | step time             | strike of the other foot to the strike that ends the stride                                        |
-//! | stride length         | way of the heel (the rear point of the sole) over the floor, from strike to strike                 |
-//! | step length and width | from the other heel at its strike to this heel at its own, along and across the direction of both feet |
+//! | cycle time            | foot strike to next foot strike of the same foot, with one foot off in between                     |
+//! | stance, swing         | foot strike to foot off, foot off to foot strike, as shares of the cycle                           |
+//! | single support        | foot off to foot strike of the other foot within the stance                                        |
+//! | double support        | initial: foot strike to foot off of the other foot; terminal: foot strike of the other foot to foot off |
+//! | step time             | foot strike of the other foot to the foot strike that ends the stride                              |
+//! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike             |
+//! | step length and width | from the other heel at its strike to this heel at its strike, along and across the walking direction |
 //!
-//! The floor of a treadmill moves with the feet that carry the body; places are then those on the belt. A direction is that of the
-//! strides around the step, so that a turn makes no step wide or narrow. The path is that of the pelvis along the same floor.
+//! On a treadmill, positions are relative to the belt, whose velocity is that of the loaded feet. The walking direction is that of the
+//! strides around the step, so that turning does not change the step width. The path is that of the pelvis relative to the same floor.
 //! Pinned by: its own tests, tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};
@@ -24,9 +24,9 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, interpolate};
 use crate::spatial::Vec3;
 
-/// A floor that moves slower than this share of the walking speed stands still.
+/// A floor velocity below this share of the walking speed is taken as zero.
 const MOVING_FLOOR: f64 = 0.2;
-/// Between two strikes of a foot that are this many strides apart, one was missed.
+/// If two strikes of a foot are this many median strides apart, a strike in between was not detected.
 const MISSED: f64 = 1.5;
 
 /// The pelvis moves at least this far in a stride that has a direction [m].
@@ -64,19 +64,19 @@ pub struct Stride {
     pub cycle_s: f64,
     /// Share of the stance.
     pub stance: f64,
-    /// Share of single support, where the events of the other foot are known.
+    /// Share of single support, if the events of the other foot are known.
     pub single_support: Option<f64>,
-    /// Share from the strike to the other foot's off, likewise.
+    /// Share from foot strike to foot off of the other foot, if known.
     pub initial_double_support: Option<f64>,
-    /// Share from the other foot's strike to the off, likewise.
+    /// Share from foot strike of the other foot to foot off, if known.
     pub terminal_double_support: Option<f64>,
-    /// From the other foot's strike to the end of the stride [s].
+    /// From foot strike of the other foot to the end of the stride [s].
     pub step_time_s: Option<f64>,
-    /// Way of the heel over the floor [m], where the soles are known.
+    /// Displacement of the heel over the floor [m], if the soles are known.
     pub stride_length_m: Option<f64>,
-    /// From the other heel to this one at the end of the stride, forwards [m].
+    /// Forward distance from the other heel to this one at the end of the stride [m].
     pub step_length_m: Option<f64>,
-    /// The same sideways, positive if the feet are not crossed [m].
+    /// Lateral distance of the heels [m], positive if the feet are not crossed.
     pub step_width_m: Option<f64>,
 }
 
@@ -107,9 +107,9 @@ pub enum StrideQuantity {
     SingleSupport,
     /// Share of double support.
     DoubleSupport,
-    /// Share of double support after the strike.
+    /// Share of double support after foot strike.
     InitialDoubleSupport,
-    /// Share of double support before the foot off.
+    /// Share of double support before foot off.
     TerminalDoubleSupport,
     /// Step length over cadence [m s].
     WalkRatio,
@@ -117,7 +117,7 @@ pub enum StrideQuantity {
 
 /// Mean and spread of a quantity over strides.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spread {
+pub struct StrideStatistics {
     /// Mean.
     pub mean: f64,
     /// Standard deviation; `None` for a single stride.
@@ -127,7 +127,7 @@ pub struct Spread {
 }
 
 impl StrideQuantity {
-    /// All of them, in the order of tables.
+    /// All quantities, in the order of tables.
     pub const ALL: [StrideQuantity; 15] = [
         StrideQuantity::Cadence,
         StrideQuantity::StrideLength,
@@ -168,7 +168,7 @@ impl StrideQuantity {
         }
     }
 
-    /// Its value for a stride, in SI units.
+    /// The value for a stride, in SI units.
     #[must_use]
     pub fn of(self, stride: &Stride) -> Option<f64> {
         match self {
@@ -192,20 +192,20 @@ impl StrideQuantity {
 }
 
 impl TimesAndDistances {
-    /// Mean and standard deviation of a quantity over the strides of one foot or of both; `None` where it is not known.
+    /// Mean and standard deviation of a quantity over the strides of one foot or of both; `None` if it is unknown.
     #[must_use]
-    pub fn spread(&self, quantity: StrideQuantity, side: Option<Side>) -> Option<Spread> {
+    pub fn spread(&self, quantity: StrideQuantity, side: Option<Side>) -> Option<StrideStatistics> {
         let chosen = self.strides.iter().filter(|stride| side.is_none_or(|side| stride.side == side));
         let values: Vec<f64> = chosen.filter_map(|stride| quantity.of(stride)).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
         let standard_deviation = (values.len() > 1).then(|| variance.sqrt());
-        (!values.is_empty()).then_some(Spread { mean, standard_deviation, strides: values.len() })
+        (!values.is_empty()).then_some(StrideStatistics { mean, standard_deviation, strides: values.len() })
     }
 
-    /// Symmetry index: (right - left) over the mean of both, of the means of each foot; 0 is symmetric, positive where the right one is
-    /// larger. `None` for values with different signs or near zero, whose ratio means nothing.
+    /// Symmetry index of the means of both feet: (right - left) over their mean. 0 is symmetric, positive if the right one is larger. `None`
+    /// for values with different signs or near zero, whose ratio has no meaning.
     #[must_use]
     pub fn symmetry(&self, quantity: StrideQuantity) -> Option<f64> {
         let [right, left] = [Side::Right, Side::Left].map(|side| Some(self.spread(quantity, Some(side))?.mean));
@@ -220,7 +220,7 @@ pub fn symmetry_index(right: f64, left: f64) -> Option<f64> {
     (right * left > 0.0).then(|| 2.0 * (right.abs() - left.abs()) / sum)
 }
 
-/// Times and distances of an analysed walk. Without soles there are no distances.
+/// Computes times and distances of an analysed walk; without soles there are no distances.
 #[must_use]
 pub fn times_and_distances(model: &Model, soles: &BySide<Option<Sole>>, analysis: &Analysis) -> TimesAndDistances {
     let floor = Floor::of(model, analysis);
@@ -280,14 +280,14 @@ fn stride(events: &[Event], places: &Places, side: Side, span: [f64; 2]) -> Opti
     })
 }
 
-/// The only instant inside a span, if there is just one.
+/// The only time inside a span; `None` if there are none or several.
 fn only(times: &[f64], [from, to]: [f64; 2]) -> Option<f64> {
     let mut inside = times.iter().copied().filter(|t| *t > from && *t < to);
     let first = inside.next()?;
     inside.next().is_none().then_some(first)
 }
 
-/// A strike, and the place of its heel on a floor that stands still.
+/// A foot strike with the position of the heel relative to the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Strike {
     side: Side,
@@ -411,9 +411,9 @@ impl Places {
         Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
     }
 
-    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. The line of a stride
-    /// has the direction in its middle: this foot's that of half a step before, the other foot's next stride that of half a step after.
-    /// The other foot's last stride, one and a half steps before, serves where there is no next one.
+    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. A stride has the walking
+    /// direction of its middle: this foot's stride that of half a step before, the other foot's next stride that of half a step after. If
+    /// there is no next one, the other foot's last stride is used, one and a half steps before.
     fn heading(&self, line: Vec3, other: &Strike, stride_s: f64) -> Vec3 {
         let of_other = |from_s: f64, to_s: f64| {
             let same_foot = |s: &&Strike| s.side == other.side && s.time_s > from_s && s.time_s < to_s;
@@ -434,7 +434,7 @@ impl Places {
     }
 }
 
-/// A path at an instant, on straight lines between frames.
+/// A path at a time, linearly interpolated between frames.
 fn at(grid: TimeGrid, path: &[Vec3], time_s: f64) -> Option<Vec3> {
     let times = grid.times();
     let along = |axis: usize| interpolate(&times, &path.iter().map(|p| p[axis]).collect::<Vec<f64>>(), time_s);
@@ -462,7 +462,7 @@ mod tests {
     }
 
     #[test]
-    fn means_deviations_and_symmetry_are_those_of_the_strides() {
+    fn means_standard_deviations_and_symmetry_are_computed_over_strides() {
         let strides = vec![
             stride_of(Side::Right, 1.0, 0.62),
             stride_of(Side::Right, 1.2, 0.58),
@@ -483,14 +483,14 @@ mod tests {
     }
 
     #[test]
-    fn symmetry_has_the_sign_of_the_larger_side() {
+    fn symmetry_is_positive_if_the_right_side_is_larger() {
         assert!((symmetry_index(1.1, 0.9).unwrap() - 0.2).abs() < 1e-12);
         assert!((symmetry_index(-0.9, -1.1).unwrap() + 0.2).abs() < 1e-12, "sizes of negative peaks");
         assert_eq!(symmetry_index(0.1, -0.1), None);
     }
 
     #[test]
-    fn a_step_round_a_bend_is_measured_along_the_bend() {
+    fn steps_in_a_turn_are_measured_along_the_curve() {
         // Feet 0.2 m apart on a circle of 2 m, 20 degrees from strike to strike.
         let on_circle = |i: usize| {
             let (angle, side) =

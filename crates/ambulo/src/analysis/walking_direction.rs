@@ -1,7 +1,7 @@
-//! Where a person walks to, stance by stance.
+//! The walking direction of each stance.
 //!
-//! Fore-aft is along world x, where straight walking goes. In a turn it is the way that the pelvis makes over the floor from strike
-//! to off of that stance, once this differs from x by more than 20 degrees: a pelvis that sways does not turn.
+//! Fore-aft is along world x, the direction of straight walking. In a turn it is the displacement of the pelvis over the floor from foot
+//! strike to foot off of that stance, if this differs from x by more than 20 degrees; a smaller angle may be sway of the pelvis.
 //! Pinned by: its own tests, tests/ground_agreement.rs
 
 use crate::ground::footfalls::Footfalls;
@@ -10,12 +10,12 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
 use crate::spatial::Vec3;
 
-/// Less than this is swaying, not turning [rad]: 20 degrees.
+/// A smaller angle is sway, not a turn [rad]: 20 degrees.
 const STRAIGHT_RAD: f64 = 0.349;
-/// A pelvis that makes less way over the floor than this stands [m].
+/// With a smaller displacement of the pelvis the person stands [m].
 const STANDING_M: f64 = 0.1;
 
-/// The pelvis over time, on what the feet stand on.
+/// Path of the pelvis relative to the floor.
 pub(super) struct WalkingDirection {
     up: Vec3,
     floor_velocity: Vec3,
@@ -34,7 +34,7 @@ impl WalkingDirection {
         WalkingDirection { up: upward(model), floor_velocity, times: trajectory.grid().times(), pelvis }
     }
 
-    /// Unit vectors forwards and to the right during some time.
+    /// Unit vectors forwards and to the right during a time span.
     pub(super) fn during(&self, [from_s, to_s]: [f64; 2]) -> [Vec3; 2] {
         let straight = [Vec3::x(), Vec3::x().cross(&self.up)];
         let first = self.times.partition_point(|t| *t < from_s);
@@ -43,12 +43,12 @@ impl WalkingDirection {
         else {
             return straight;
         };
-        let way = b - a - self.floor_velocity * (self.times[end - 1] - self.times[first]);
-        let way = way - self.up * way.dot(&self.up);
-        if way.norm() < STANDING_M || way.angle(&Vec3::x()) < STRAIGHT_RAD {
+        let displacement = b - a - self.floor_velocity * (self.times[end - 1] - self.times[first]);
+        let displacement = displacement - self.up * displacement.dot(&self.up);
+        if displacement.norm() < STANDING_M || displacement.angle(&Vec3::x()) < STRAIGHT_RAD {
             return straight;
         }
-        [way.normalize(), way.normalize().cross(&self.up)]
+        [displacement.normalize(), displacement.normalize().cross(&self.up)]
     }
 }
 
@@ -56,7 +56,7 @@ impl WalkingDirection {
 mod tests {
     use super::*;
 
-    /// A pelvis that goes straight at some angle to world x, for a second.
+    /// A pelvis that moves along a line at an angle to world x for 1 s.
     fn going(angle_rad: f64, speed_m_s: f64, floor_velocity: Vec3) -> WalkingDirection {
         let along = Vec3::new(angle_rad.cos(), 0.0, angle_rad.sin()) * speed_m_s + floor_velocity;
         let times: Vec<f64> = (0..=100).map(|i| f64::from(i) * 0.01).collect();
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_walk_has_its_own_axes_and_a_swaying_one_the_worlds() {
+    fn a_turn_has_its_own_axes_and_sway_keeps_the_world_axes() {
         let axes = |angle_deg: f64, speed| going(f64::to_radians(angle_deg), speed, Vec3::zeros()).during([0.2, 0.8]);
         let [forward, right] = axes(45.0, 1.2);
         assert!((forward - Vec3::new(0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt())).norm() < 1e-12, "{forward}");
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_counts_over_the_belt() {
+    fn the_displacement_is_relative_to_the_belt() {
         let belt = going(std::f64::consts::FRAC_PI_2, 1.0, Vec3::new(0.0, 0.0, -1.0)).during([0.0, 1.0]);
         assert!((belt[0] - Vec3::z()).norm() < 1e-12, "{}", belt[0]);
     }

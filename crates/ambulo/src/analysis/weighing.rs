@@ -1,4 +1,4 @@
-//! Body mass from what plates carried over a gait cycle or in a standing trial.
+//! Body mass from the mean vertical force over a gait cycle or in a standing trial.
 
 use super::events::{Event, EventKind};
 use super::predicted::PredictedAnalysis;
@@ -7,21 +7,21 @@ use crate::ground::upward;
 use crate::model::{Model, Side};
 use crate::motion::Window;
 
-/// An analysis whose body is weighed over one gait cycle anywhere inside the `instrumented` window, where no cycle from strike to strike
-/// was weighed: walking repeats itself, so that the mean vertical force is m g from any instant on.
+/// Sets the body mass from one gait cycle anywhere inside the `instrumented` window, if no cycle from strike to strike gave it: walking is
+/// periodic, so the mean vertical force over a cycle is m g from any instant on.
 pub(crate) fn weighed_within(analysis: Analysis, model: &Model, instrumented: Window) -> Analysis {
     let mass = cycle_mass_kg(&analysis, model, instrumented).map(|kg| Mass { kg, source: MassSource::Plates });
     with_mass(analysis, mass)
 }
 
-/// An analysis whose mass is that of the standing trial [kg], where no whole gait cycle was weighed.
+/// Sets the body mass of the standing trial [kg], if no whole gait cycle gave it.
 pub(crate) fn weighed_standing(analysis: Analysis, standing_kg: Option<f64>) -> Analysis {
     with_mass(analysis, standing_kg.map(|kg| Mass { kg, source: MassSource::Standing }))
 }
 
 impl PredictedAnalysis {
-    /// The same with a body that is weighed by what plates carried: over a whole gait cycle inside the instrumented window [s], otherwise
-    /// in a standing trial [kg]. Without either the mass of the model stays.
+    /// Sets the body mass from the force plates: over a whole gait cycle inside the instrumented window [s], otherwise in a standing trial
+    /// [kg]. Without either, the mass of the model remains.
     #[must_use]
     pub fn weighed(self, model: &Model, window_s: Option<[f64; 2]>, standing_kg: Option<f64>) -> PredictedAnalysis {
         let PredictedAnalysis { mut analysis, prediction, measured } = self;
@@ -65,10 +65,11 @@ fn cycle_mass_kg(analysis: &Analysis, model: &Model, window: Window) -> Option<f
     Some(mean / model.gravity().norm())
 }
 
-/// Takes a mass in place of the model's. One that is more than 5 % off the model's is not the whole body's, or not this person's.
+/// Replaces the model's mass. A mass that differs by more than 5 % is rejected: part of the weight was not on the plates, or the model is of
+/// another person.
 fn with_mass(analysis: Analysis, mass: Option<Mass>) -> Analysis {
-    let believed = mass.filter(|mass| {
+    let accepted = mass.filter(|mass| {
         analysis.mass.source == MassSource::Model && (mass.kg / analysis.mass.kg - 1.0).abs() <= WHOLE_BODY_SHARE
     });
-    Analysis { mass: believed.unwrap_or(analysis.mass), ..analysis }
+    Analysis { mass: accepted.unwrap_or(analysis.mass), ..analysis }
 }

@@ -3,7 +3,7 @@
 
 use super::cyclic_curve::CyclicCurve;
 use super::jet::Jet;
-use super::joint::Joint;
+use super::joint::LegJoint;
 
 /// Smallest distance of knots [cycles]; closer knots cause excessive accelerations.
 const CLOSEST_KNOTS: f64 = 0.005;
@@ -22,7 +22,7 @@ pub(super) struct CurveFault {
 }
 
 /// Checks a curve at some dimensionless speeds.
-pub(super) fn check(curve: &CyclicCurve, joint: Joint, speeds: &[f64]) -> Result<(), CurveFault> {
+pub(super) fn check(curve: &CyclicCurve, joint: LegJoint, speeds: &[f64]) -> Result<(), CurveFault> {
     for speed in speeds {
         check_order(curve, *speed)?;
         check_angles(curve, joint, *speed)?;
@@ -46,7 +46,7 @@ fn check_order(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
     Ok(())
 }
 
-fn check_angles(curve: &CyclicCurve, joint: Joint, speed: f64) -> Result<(), CurveFault> {
+fn check_angles(curve: &CyclicCurve, joint: LegJoint, speed: f64) -> Result<(), CurveFault> {
     let [low, high] = joint.plausible();
     for i in 0..SAMPLES {
         let phase = i as f64 / SAMPLES as f64;

@@ -6,7 +6,7 @@
 use super::curve_check::{check, check_senses};
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::gait_settings::Style;
-use super::joint::Joint;
+use super::joint::LegJoint;
 use super::speed_law::SpeedLaw;
 use crate::toml_reader::{Place, Table, TomlError, Value};
 
@@ -18,7 +18,7 @@ const PERCENT: f64 = 0.01;
 /// The curve of a joint, if the file has one, checked at these dimensionless speeds.
 pub(super) fn read_curve(
     root: &Table<'_>,
-    joint: Joint,
+    joint: LegJoint,
     style: Style,
     speeds: &[f64],
 ) -> Result<Option<CyclicCurve>, TomlError> {

@@ -4,7 +4,7 @@ use super::curve_check::check;
 use super::curve_table::read_curve;
 use super::error::GaitError;
 use super::gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
-use super::joint::Joint;
+use super::joint::LegJoint;
 use super::laws::{DOCUMENT, Laws, checked_speeds};
 use super::pace::AGREEMENT;
 use super::walk::changed;
@@ -52,7 +52,7 @@ impl Gait {
         gait.step_height = scale_or(&root, "step_height", gait.step_height)?;
         let laws = Laws::built_in(gait.style)?;
         let speeds = checked_speeds(&laws.range);
-        for (own, joint) in gait.curves.iter_mut().zip(Joint::ALL) {
+        for (own, joint) in gait.curves.iter_mut().zip(LegJoint::ALL) {
             *own = read_curve(&root, joint, gait.style, &speeds)?;
         }
         read_changes(&root, &mut gait, &laws)?;
@@ -150,7 +150,7 @@ fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), Ga
         gait.changes.push(change);
         last[index] = Some(table);
     }
-    for (joint, table) in Joint::ALL.into_iter().zip(last) {
+    for (joint, table) in LegJoint::ALL.into_iter().zip(last) {
         let Some(table) = table else { continue };
         let curve = changed(curve_of(gait, laws, joint), joint, &gait.changes)?;
         check(&curve, joint, &checked_speeds(&laws.range)).map_err(|fault| {
@@ -161,14 +161,14 @@ fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), Ga
     Ok(())
 }
 
-fn curve_of<'a>(gait: &'a Gait, laws: &'a Laws, joint: Joint) -> &'a super::CyclicCurve {
+fn curve_of<'a>(gait: &'a Gait, laws: &'a Laws, joint: LegJoint) -> &'a super::CyclicCurve {
     gait.curves[joint as usize].as_ref().unwrap_or_else(|| laws.legs.of(joint))
 }
 
 /// A change and the number of its joint.
 fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChange, usize), TomlError> {
     table.only(&[&["joint", "knot", "scale", "angle_deg", "slope_deg", "curvature_deg", "time_percent"]])?;
-    let words = Joint::ALL.map(|joint| (joint.name(), joint));
+    let words = LegJoint::ALL.map(|joint| (joint.name(), joint));
     let joint = table.need("joint", "the joint that changes")?.choice(&words)?;
     let value = table.need("knot", "the knot that changes")?;
     let knot = value.text()?;
@@ -177,7 +177,7 @@ fn read_change(table: &Table<'_>, gait: &Gait, laws: &Laws) -> Result<(KnotChang
         let quoted: Vec<String> = known().map(|name| format!("\"{name}\"")).collect();
         let error = value.wrong(&format!("one of the {}'s knots {}", joint.name(), quoted.join(", ")));
         return Err(match nearest(knot, known()) {
-            Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+            Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
             None => error,
         });
     }

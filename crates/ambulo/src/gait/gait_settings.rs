@@ -2,7 +2,7 @@
 
 use super::cyclic_curve::CyclicCurve;
 use super::error::GaitError;
-use super::joint::Joint;
+use super::joint::LegJoint;
 use super::stride::{ADULT_EXPONENT, EXPONENT_1997};
 use crate::toml_reader::nearest;
 
@@ -65,7 +65,7 @@ pub enum Pelvis {
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnotChange {
     /// Joint.
-    pub joint: Joint,
+    pub joint: LegJoint,
     /// Name of the knot; in style 1997, of the bound at which a sub-cycle ends.
     pub knot: String,
     /// Factor on slope, curvature and the distance of the angle from standing.
@@ -83,7 +83,7 @@ pub struct KnotChange {
 impl KnotChange {
     /// A change of nothing, to be completed.
     #[must_use]
-    pub fn of(joint: Joint, knot: &str) -> KnotChange {
+    pub fn of(joint: LegJoint, knot: &str) -> KnotChange {
         KnotChange { joint, knot: knot.to_owned(), scale: 1.0, angle: 0.0, slope: 0.0, curvature: 0.0, phase: 0.0 }
     }
 }
@@ -226,16 +226,16 @@ impl Gait {
 }
 
 fn goose_changes() -> Vec<KnotChange> {
-    let scaled = |joint: Joint, knot: &str, scale: f64| KnotChange { scale, ..KnotChange::of(joint, knot) };
+    let scaled = |joint: LegJoint, knot: &str, scale: f64| KnotChange { scale, ..KnotChange::of(joint, knot) };
     let knees = ["stance peak", "stance minimum", "swing peak", "terminal minimum"];
-    let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(Joint::Knee, knot, GOOSE_KNEE)).collect();
-    changes.push(KnotChange { phase: -GOOSE_EARLIER, ..scaled(Joint::Hip, "largest flexion", GOOSE_HIP) });
+    let mut changes: Vec<KnotChange> = knees.iter().map(|knot| scaled(LegJoint::Knee, knot, GOOSE_KNEE)).collect();
+    changes.push(KnotChange { phase: -GOOSE_EARLIER, ..scaled(LegJoint::Hip, "largest flexion", GOOSE_HIP) });
     changes
 }
 
 fn unknown_gait(name: &str) -> GaitError {
     let hint = match nearest(name, Gait::NAMES.into_iter()) {
-        Some(near) => format!(". hint: is `{near}` meant?"),
+        Some(near) => format!(". hint: did you mean `{near}`?"),
         None => String::from(", or a TOML file (docs/GAITS.md)"),
     };
     GaitError::UnknownGait { name: name.to_owned(), known: Gait::NAMES.join(", "), hint }

@@ -7,7 +7,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// A joint of the leg in the sagittal plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Joint {
+pub enum LegJoint {
     /// Hip; flexion +, thigh relative to pelvis.
     Hip,
     /// Knee; flexion +.
@@ -16,17 +16,17 @@ pub enum Joint {
     Ankle,
 }
 
-impl Joint {
+impl LegJoint {
     /// All joints, from the pelvis down.
-    pub const ALL: [Joint; 3] = [Joint::Hip, Joint::Knee, Joint::Ankle];
+    pub const ALL: [LegJoint; 3] = [LegJoint::Hip, LegJoint::Knee, LegJoint::Ankle];
 
     /// Name in files and tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Joint::Hip => "hip",
-            Joint::Knee => "knee",
-            Joint::Ankle => "ankle",
+            LegJoint::Hip => "hip",
+            LegJoint::Knee => "knee",
+            LegJoint::Ankle => "ankle",
         }
     }
 
@@ -34,8 +34,8 @@ impl Joint {
     #[must_use]
     pub fn neutral(self) -> f64 {
         match self {
-            Joint::Hip => STANDING_TILT,
-            Joint::Knee | Joint::Ankle => 0.0,
+            LegJoint::Hip => STANDING_TILT,
+            LegJoint::Knee | LegJoint::Ankle => 0.0,
         }
     }
 
@@ -44,9 +44,9 @@ impl Joint {
     #[must_use]
     pub fn plausible(self) -> [f64; 2] {
         match self {
-            Joint::Hip => [-45.0, 130.0],
-            Joint::Knee => [-15.0, 160.0],
-            Joint::Ankle => [-60.0, 50.0],
+            LegJoint::Hip => [-45.0, 130.0],
+            LegJoint::Knee => [-15.0, 160.0],
+            LegJoint::Ankle => [-60.0, 50.0],
         }
         .map(|degrees| degrees * DEGREE)
     }

@@ -6,7 +6,7 @@
 use super::curve_table::{law_of, read_curve};
 use super::cyclic_curve::CyclicCurve;
 use super::gait_settings::Style;
-use super::joint::Joint;
+use super::joint::LegJoint;
 use super::speed_law::SpeedRange;
 use super::wave::{Harmonic, Wave};
 use crate::toml_reader::{Source, Table, TomlError};
@@ -36,19 +36,19 @@ pub struct LegCurves {
 impl LegCurves {
     /// The curve of a joint.
     #[must_use]
-    pub fn of(&self, joint: Joint) -> &CyclicCurve {
+    pub fn of(&self, joint: LegJoint) -> &CyclicCurve {
         match joint {
-            Joint::Hip => &self.hip,
-            Joint::Knee => &self.knee,
-            Joint::Ankle => &self.ankle,
+            LegJoint::Hip => &self.hip,
+            LegJoint::Knee => &self.knee,
+            LegJoint::Ankle => &self.ankle,
         }
     }
 
-    pub(super) fn of_mut(&mut self, joint: Joint) -> &mut CyclicCurve {
+    pub(super) fn of_mut(&mut self, joint: LegJoint) -> &mut CyclicCurve {
         match joint {
-            Joint::Hip => &mut self.hip,
-            Joint::Knee => &mut self.knee,
-            Joint::Ankle => &mut self.ankle,
+            LegJoint::Hip => &mut self.hip,
+            LegJoint::Knee => &mut self.knee,
+            LegJoint::Ankle => &mut self.ankle,
         }
     }
 }
@@ -153,10 +153,10 @@ fn read_range(root: &Table<'_>) -> Result<SpeedRange, TomlError> {
 }
 
 fn read_legs(root: &Table<'_>, style: Style, speeds: &[f64]) -> Result<LegCurves, TomlError> {
-    let curve = |joint: Joint| {
+    let curve = |joint: LegJoint| {
         read_curve(root, joint, style, speeds)?.ok_or_else(|| root.missing(joint.name(), "the curve of this joint"))
     };
-    Ok(LegCurves { hip: curve(Joint::Hip)?, knee: curve(Joint::Knee)?, ankle: curve(Joint::Ankle)? })
+    Ok(LegCurves { hip: curve(LegJoint::Hip)?, knee: curve(LegJoint::Knee)?, ankle: curve(LegJoint::Ankle)? })
 }
 
 /// Keys of mean, cosine and sine of a wave in a file, and the unit of their numbers.

@@ -52,7 +52,7 @@ pub use error::GaitError;
 pub use gait_settings::{Gait, KnotChange, Pace, Pelvis, Speed, Style};
 pub use ground_force::GroundForceLaws;
 pub use jet::Jet;
-pub use joint::{Joint, STANDING_TILT};
+pub use joint::{LegJoint, STANDING_TILT};
 pub use laws::{Laws, LegCurves, SupportLaw};
 pub use quintic::{End, quintic};
 pub use speed_law::{GRAVITY, SpeedLaw, SpeedRange};

@@ -10,7 +10,7 @@ use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
 use super::gait_settings::{Gait, KnotChange, Pelvis, Style};
 use super::jet::Jet;
-use super::joint::{Joint, STANDING_TILT};
+use super::joint::{LegJoint, STANDING_TILT};
 use super::laws::{Laws, LegCurves, checked_speeds};
 use super::pace::{above_zero, number, resolve};
 use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
@@ -79,7 +79,7 @@ impl Walk {
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
         let (law, law_speed) = resolve(gait, leg_length)?;
         let mut laws = Laws::built_in(gait.style)?;
-        for (joint, own) in Joint::ALL.into_iter().zip(&gait.curves) {
+        for (joint, own) in LegJoint::ALL.into_iter().zip(&gait.curves) {
             if let Some(curve) = own {
                 *laws.legs.of_mut(joint) = curve.clone();
             }
@@ -281,7 +281,7 @@ impl Walk {
 }
 
 /// A curve with the changes for its joint.
-pub(super) fn changed(curve: &CyclicCurve, joint: Joint, changes: &[KnotChange]) -> Result<CyclicCurve, GaitError> {
+pub(super) fn changed(curve: &CyclicCurve, joint: LegJoint, changes: &[KnotChange]) -> Result<CyclicCurve, GaitError> {
     let mut curve = curve.clone();
     for change in changes.iter().filter(|change| change.joint == joint) {
         if !curve.knots().iter().any(|knot| knot.name == change.knot) {
@@ -306,14 +306,14 @@ fn moved(knot: &Knot, change: &KnotChange) -> Knot {
 }
 
 /// Scales a curve: step length acts on all knots alike, step height according to the share of each knot.
-fn scaled(curve: &CyclicCurve, joint: Joint, length: f64, height: f64) -> CyclicCurve {
+fn scaled(curve: &CyclicCurve, joint: LegJoint, length: f64, height: f64) -> CyclicCurve {
     curve.mapped(|knot| {
         let factor = length * (1.0 + knot.height_share * (height - 1.0));
         knot.scaled_about(joint.neutral(), factor)
     })
 }
 
-fn refuse_faults(curve: &CyclicCurve, joint: Joint, laws: &Laws) -> Result<(), GaitError> {
+fn refuse_faults(curve: &CyclicCurve, joint: LegJoint, laws: &Laws) -> Result<(), GaitError> {
     check(curve, joint, &checked_speeds(&laws.range)).map_err(|fault| GaitError::Curve {
         joint: joint.name(),
         knot: curve.knots()[fault.knot].name.clone(),

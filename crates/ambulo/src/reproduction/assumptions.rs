@@ -35,9 +35,9 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Claims whose judgement differs from that with the values used.
+    /// Claims whose judgement is the reverse of that with the values used.
     #[must_use]
-    pub fn turned<'a>(&'a self, claims: &'a [Claim]) -> Vec<&'static str> {
+    pub fn reversed<'a>(&'a self, claims: &'a [Claim]) -> Vec<&'static str> {
         let judged = |id: &str| claims.iter().find(|claim| claim.id == id).map(|claim| claim.pass);
         let own = self.outcome.iter().flatten();
         own.filter(|judgement| judged(judgement.id).is_some_and(|pass| pass != judgement.pass)).map(|v| v.id).collect()
@@ -91,10 +91,10 @@ fn about_the_figure() -> Vec<Assumption> {
             ],
         ),
         with(
-            "places of the spheres under the feet",
+            "positions of the spheres under the feet",
             "heel, ball and tip of the toes",
             "foot length of Drillis and Contini; the 8.9 % of stature in Table 1 are not a foot length",
-            vec![("heel and ball alone", PaperSettings { toe_spheres: false, ..taken })],
+            vec![("heel and ball only", PaperSettings { toe_spheres: false, ..taken })],
         ),
         with(
             "laws of the arms",

@@ -95,9 +95,9 @@ fn distance(run: &Run, reference: &Run, coordinate: &str) -> Distance {
     let (mut off, mut off_sum, mut true_sums) = (Vec::new(), Vec::new(), Vec::new());
     for row in rows {
         let t = row as f64 * step;
-        let blows = |run: &Run| impacts_until(run, coordinate, start_s, t);
-        off_sum.push(sum + blows(run) - true_sum - blows(reference));
-        true_sums.push(true_sum + blows(reference));
+        let impulses = |run: &Run| impacts_until(run, coordinate, start_s, t);
+        off_sum.push(sum + impulses(run) - true_sum - impulses(reference));
+        true_sums.push(true_sum + impulses(reference));
         if !coarse.near_impact(t) && !fine.near_impact(t) {
             off.push(torque[row] - truth[at(t)]);
         }

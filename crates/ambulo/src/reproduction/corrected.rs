@@ -9,7 +9,7 @@ use crate::findings::Findings;
 use crate::gait::{Gait, Style, Walk};
 use crate::model::anthropometry::{Build, Human};
 use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::walking::{Ground, Shoes};
+use crate::simulation::walking::{GroundContact, Shoes};
 use crate::simulation::{ImpactLaw, Integrator, StepSettings};
 
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
@@ -37,12 +37,14 @@ impl CorrectedMode {
         let number = self.find_or_make(trial)?;
         let CachedWalk { human, walk, .. } = &self.cache[number];
         let ground = match trial.shoes {
-            Footwear::Own | Footwear::Soft => Ground {
+            Footwear::Own | Footwear::Soft => GroundContact {
                 friction: self.settings.shoes.dynamic_friction,
                 shoes: Shoes::HuntCrossley(self.settings.shoes),
                 impact: ImpactLaw::Coulomb,
             },
-            Footwear::Rigid => Ground { friction: trial.friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking },
+            Footwear::Rigid => {
+                GroundContact { friction: trial.friction, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking }
+            }
         };
         let steps =
             StepSettings { step_s: 1.0 / trial.rate_hz, integrator: Integrator::Impulse, ..StepSettings::default() };

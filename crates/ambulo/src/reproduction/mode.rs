@@ -5,7 +5,7 @@ use super::paper_settings::PaperSettings;
 use crate::findings::Findings;
 use crate::gait::{Gait, Walk};
 use crate::model::anthropometry::{ContactSphere, Human};
-use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker};
+use crate::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker};
 use crate::simulation::{ImpactLaw, StepSettings};
 
 /// The settings of a walk that a claim needs.
@@ -82,7 +82,7 @@ pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> R
         Footwear::Own | Footwear::Rigid => (Shoes::Rigid, settings.impact),
         Footwear::Soft => (Shoes::HuntCrossley(settings.soft_shoes), ImpactLaw::Coulomb),
     };
-    let ground = Ground { friction: trial.friction, shoes, impact };
+    let ground = GroundContact { friction: trial.friction, shoes, impact };
     let walker = Walker::new(&human, settings.signals(&walk, &human.model), &ground, walk.speed())?;
     let steps = StepSettings { step_s: 1.0 / trial.rate_hz, ..StepSettings::default() };
     let duration_s = walk.cycle_s() * trial.cycles as f64;

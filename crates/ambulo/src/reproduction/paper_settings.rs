@@ -32,7 +32,7 @@ pub struct PaperSettings {
     pub step_height: f64,
     /// Step length of one gait relative to the standard gait, instead of its own.
     pub own_length: Option<(&'static str, f64)>,
-    /// What becomes of the velocity of what strikes.
+    /// Impact law of the soles.
     pub impact: ImpactLaw,
     /// Soft shoes.
     pub soft_shoes: HuntCrossley,

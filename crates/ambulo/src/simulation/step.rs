@@ -10,7 +10,7 @@ use super::impulse::impulse_step;
 use super::joint::JointKind;
 use super::smooth::{self, Stage, runge_kutta};
 use super::state::WorldState;
-use super::touch::{ObstacleMotion, obstacle_motion};
+use super::touch::{ObstaclePoses, obstacle_motion};
 use super::workspace::{Integrator, StepSettings, StepWorkspace};
 use super::world::{ContactLaw, JointCoordinate, World};
 use crate::dynamics::{Convergence, LinkError, SolverSettings};
@@ -173,7 +173,7 @@ impl StepWorkspace {
 
     /// Smallest distance of surfaces that may touch [m]; infinite if none are near.
     fn least_gap(&mut self, world: &World, state: &WorldState) -> f64 {
-        let mut obstacles = ObstacleMotion::new();
+        let mut obstacles = ObstaclePoses::new();
         obstacle_motion(world, state.time_s, 1e-9, &mut obstacles);
         let mut probe = std::mem::take(&mut self.touch);
         probe.detect(world, state, &obstacles, 0.0);

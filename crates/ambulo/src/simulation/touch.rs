@@ -82,10 +82,10 @@ pub(crate) struct TouchWorkspace {
 }
 
 /// Poses and twists of obstacles at an instant.
-pub(crate) type ObstacleMotion = Vec<(Pose, Twist)>;
+pub(crate) type ObstaclePoses = Vec<(Pose, Twist)>;
 
 /// Computes the poses of obstacles at the start of a step, with their mean twists over it.
-pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut ObstacleMotion) {
+pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut ObstaclePoses) {
     let over_step = |obstacle: &Obstacle| {
         let (now, _) = obstacle.at(time_s);
         if obstacle.path.is_none() {
@@ -101,7 +101,7 @@ pub(super) fn obstacle_motion(world: &World, time_s: f64, h: f64, motion: &mut O
 
 impl TouchWorkspace {
     /// Finds all points where surfaces touch, or could touch within the step.
-    pub(crate) fn detect(&mut self, world: &World, state: &WorldState, obstacles: &ObstacleMotion, step_s: f64) {
+    pub(crate) fn detect(&mut self, world: &World, state: &WorldState, obstacles: &ObstaclePoses, step_s: f64) {
         self.touches.clear();
         if world.surfaces.is_empty() {
             return;
@@ -169,7 +169,7 @@ impl TouchWorkspace {
         &self,
         world: &World,
         state: &WorldState,
-        obstacles: &ObstacleMotion,
+        obstacles: &ObstaclePoses,
         touching: f64,
     ) -> bool {
         self.touches
@@ -193,7 +193,7 @@ impl TouchWorkspace {
     }
 
     /// The point that struck first, judged by its overlap and speed.
-    pub(crate) fn next_striker(&self, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> Option<usize> {
+    pub(crate) fn next_striker(&self, world: &World, state: &WorldState, obstacles: &ObstaclePoses) -> Option<usize> {
         let mut first: Option<(usize, f64)> = None;
         for (number, touch) in self.touches.iter().enumerate().filter(|(_, touch)| !touch.known) {
             let speed = -parting_speed(touch, world, state, obstacles);
@@ -212,7 +212,7 @@ impl TouchWorkspace {
         &mut self,
         world: &World,
         state: &WorldState,
-        obstacles: &ObstacleMotion,
+        obstacles: &ObstaclePoses,
         step_s: f64,
         graph: &mut ConstraintGraph,
         keys: &mut Vec<RowKey>,
@@ -228,7 +228,7 @@ impl TouchWorkspace {
 struct RowWriter<'a> {
     world: &'a World,
     state: &'a WorldState,
-    obstacles: &'a ObstacleMotion,
+    obstacles: &'a ObstaclePoses,
     step_s: f64,
     graph: &'a mut ConstraintGraph,
     keys: &'a mut Vec<RowKey>,
@@ -393,7 +393,7 @@ impl RowWriter<'_> {
 }
 
 /// Speed at which the surfaces of a contact point separate [m/s].
-fn parting_speed(touch: &Touch, world: &World, state: &WorldState, obstacles: &ObstacleMotion) -> f64 {
+fn parting_speed(touch: &Touch, world: &World, state: &WorldState, obstacles: &ObstaclePoses) -> f64 {
     let velocity = |surface: usize| match world.surfaces[surface].owner {
         Owner::Body(body) => state.twists[body].velocity_at(touch.at.point - state.poses[body].translation),
         Owner::Obstacle(o) => obstacles[o].1.velocity_at(touch.at.point - obstacles[o].0.translation),
@@ -408,7 +408,7 @@ fn open(gap: f64) -> f64 {
 }
 
 /// Pose of a surface's owner, and an upper bound on the speed of the surface's points [m/s].
-fn owner_motion(state: &WorldState, obstacles: &ObstacleMotion, surface: &Surface) -> (Pose, f64) {
+fn owner_motion(state: &WorldState, obstacles: &ObstaclePoses, surface: &Surface) -> (Pose, f64) {
     let (pose, twist) = match surface.owner {
         Owner::Body(body) => (state.poses[body], state.twists[body]),
         Owner::Obstacle(obstacle) => obstacles[obstacle],

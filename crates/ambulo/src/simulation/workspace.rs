@@ -3,7 +3,7 @@
 use super::assemble::{Assembly, Prescribed};
 use super::forces::{ContactForce, Impact, StepForces};
 use super::state::RowKey;
-use super::touch::{ObstacleMotion, Touch, TouchWorkspace};
+use super::touch::{ObstaclePoses, Touch, TouchWorkspace};
 use super::world::World;
 use crate::dynamics::{ConstraintGroup, GraphSolution, GraphWorkspace, Six, SolverSettings, undetermined_rows};
 use crate::spatial::{Twist, Vec3, Wrench};
@@ -71,7 +71,7 @@ pub struct StepWorkspace {
     pub(crate) targets: Vec<f64>,
     pub(crate) displacements: Vec<Six>,
     pub(crate) shifts: Vec<f64>,
-    pub(crate) obstacles: ObstacleMotion,
+    pub(crate) obstacles: ObstaclePoses,
     pub(crate) prescribed: Prescribed,
     /// Contact points before any is dropped.
     pub(crate) found: Vec<Touch>,

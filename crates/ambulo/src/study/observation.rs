@@ -8,7 +8,9 @@ use super::outcome::Tracking;
 use super::settings::{GroundSettings, Settings};
 use super::source::{MarkerBody, MarkerSource, MeasuredForces, PlateAssignment, PlateUse, Recording, Source};
 use crate::analysis::feasibility::Person;
-use crate::analysis::{Body, BodyInMotion, LaboratoryRecording, MarkerTrial, Progress, Stage, follow_markers};
+use crate::analysis::{
+    BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
+};
 use crate::findings::{Code, Findings};
 use crate::ground::plates::PlateContact;
 use crate::kinematics::Trajectory;
@@ -226,13 +228,13 @@ impl Source {
         let body = match &markers.body {
             MarkerBody::Model { model: given, mass_kg } => {
                 model = self.loaded(given)?;
-                Body::Model { model: &model, mass: *mass_kg }
+                BodySource::Model { model: &model, mass: *mass_kg }
             }
             MarkerBody::BuiltIn { set, .. } => {
                 person = markers.person(findings)?;
-                Body::BuiltIn { person: &person, set: set.as_ref() }
+                BodySource::BuiltIn { person: &person, set: set.as_ref() }
             }
-            MarkerBody::Calibrated(subject) => Body::Calibrated(subject),
+            MarkerBody::Calibrated(subject) => BodySource::Calibrated(subject),
         };
         let of_foot = |used: PlateUse| match used {
             PlateUse::Foot(side) => Some(side),
@@ -241,8 +243,8 @@ impl Source {
         let plate_feet: Vec<(usize, Side)> =
             markers.plates.iter().filter_map(|known| Some((known.plate, of_foot(known.used)?))).collect();
         let still = markers.standing.as_ref().map(|standing| &standing.recording);
-        let trial = MarkerTrial { walk: &trial, still, body, plate_feet: &plate_feet };
-        Ok(follow_markers(&trial, &settings.marker_fit, findings, progress)?)
+        let trial = MarkerTrial { trial: &trial, standing: still, body, plate_feet: &plate_feet };
+        Ok(fit_body_to_markers(&trial, &settings.marker_fit, findings, progress)?)
     }
 }
 

@@ -3,7 +3,8 @@
 use super::mass::MassKnowledge;
 use crate::analysis::feasibility::{Person, Verdict};
 use crate::analysis::{
-    Analysis, BodyInMotion, Compared, Event, GroundAgreement, PlateCoverage, PredictionChecks, TimesAndDistances,
+    Analysis, BodyInMotion, ComparedAnalyses, Event, GroundAgreement, PlateCoverage, PredictionChecks,
+    TimesAndDistances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::predict::Prediction;
@@ -119,7 +120,7 @@ impl Outcome {
     pub fn agreement_over(&self, coverage: &PlateCoverage) -> Option<GroundAgreement> {
         let PredictedGround { prediction, measured, .. } = self.prediction.as_ref()?;
         let measured = measured.as_ref()?;
-        let compared = Compared { model: &self.body, predicted: &self.analysis, prediction, measured };
+        let compared = ComparedAnalyses { model: &self.body, predicted: &self.analysis, prediction, measured };
         compared.agreement(coverage)
     }
 

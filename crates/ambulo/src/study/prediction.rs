@@ -27,7 +27,7 @@ pub(super) struct Found {
 pub(super) fn predicted(
     observation: &Observation,
     motion: &Motion,
-    processing: analysis::Settings,
+    processing: analysis::AnalysisSettings,
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,

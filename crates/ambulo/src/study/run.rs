@@ -7,7 +7,7 @@ use super::outcome::{ForceOrigin, Outcome, PredictedGround, Processing, TrackedM
 use super::prediction::{Found, predicted, with_markers};
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use crate::analysis::feasibility::{self, Evidence, Person, Thresholds, Verdict};
+use crate::analysis::feasibility::{self, MotionAndForces, Person, Thresholds, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, AnalysisError, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
     analyse_with_progress, reduce_residual, times_and_distances,
@@ -106,17 +106,17 @@ impl Judged<'_> {
     /// Whether a person could do this, and whether predicted forces can be right.
     fn verdict(&self, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
         let Analysis { trajectory, forces, ground, .. } = self.analysis;
-        let evidence = Evidence { model: self.model, trajectory, forces, ground, device: self.device };
+        let evidence = MotionAndForces { model: self.model, trajectory, forces, ground, device: self.device };
         let mut verdict = feasibility::check(&evidence, self.person, thresholds, findings);
-        verdict.oppose(self.checks.map_or(&[], |checks| &checks.reasons));
+        verdict.add_reasons(self.checks.map_or(&[], |checks| &checks.reasons));
         verdict
     }
 }
 
 /// Filters and time range for this recording.
-fn processing(observation: &Observation, settings: &Settings, findings: &mut Findings) -> analysis::Settings {
+fn processing(observation: &Observation, settings: &Settings, findings: &mut Findings) -> analysis::AnalysisSettings {
     let whole = Window::default();
-    let as_it_is = analysis::Settings {
+    let as_it_is = analysis::AnalysisSettings {
         smoother: Smoother::Off,
         force_filter: None,
         window: whole,
@@ -131,7 +131,7 @@ fn processing(observation: &Observation, settings: &Settings, findings: &mut Fin
         false => settings.force_filter,
     };
     let window = if settings.window == whole { known_window(&observation.origin, findings) } else { settings.window };
-    analysis::Settings {
+    analysis::AnalysisSettings {
         smoother: settings.smoother,
         force_filter,
         window,
@@ -142,7 +142,7 @@ fn processing(observation: &Observation, settings: &Settings, findings: &mut Fin
 
 /// The time to analyse if none is asked for: all of it, or the longest time without a gap in what the markers show.
 fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
-    let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_known_s()) else {
+    let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_without_gap_s()) else {
         return Window::default();
     };
     let message =
@@ -154,7 +154,7 @@ fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
 /// Ground forces and joint forces.
 fn forces(
     observation: &Observation,
-    processing: analysis::Settings,
+    processing: analysis::AnalysisSettings,
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
@@ -189,7 +189,7 @@ fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings:
 fn residual_reduced(
     model: &Model,
     analysis: Analysis,
-    processing: analysis::Settings,
+    processing: analysis::AnalysisSettings,
     settings: &Settings,
     force_origin: &ForceOrigin,
     findings: &mut Findings,
@@ -199,7 +199,7 @@ fn residual_reduced(
         ForceOrigin::Predicted { .. } => (Adjustable::Motion, None),
         _ => (adjustable, processing.instrumented),
     };
-    let processing = analysis::Settings { instrumented, ..processing };
+    let processing = analysis::AnalysisSettings { instrumented, ..processing };
     let (analysis, reduced) = reduce_residual(model, analysis, &processing, adjustable, findings)?;
     Ok((analysis, Some(reduced)))
 }

@@ -140,7 +140,7 @@ impl<'t> Value<'t> {
         }
         let error = self.wrong(&expected);
         Err(match nearest(found, words.iter().map(|(word, _)| *word)) {
-            Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+            Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
             None => error,
         })
     }
@@ -228,7 +228,7 @@ impl<'t> Table<'t> {
         let shown_name = self.source.shown(first.span());
         let error = TomlError::new(self.source.line(first.span().start), self.path_of(&shown_name), message);
         Err(match nearest(name, keys()) {
-            Some(near) => error.hint(&format!("is `{near}` meant?")),
+            Some(near) => error.hint(&format!("did you mean `{near}`?")),
             None => error,
         })
     }

@@ -10,7 +10,7 @@
 #[path = "../gait_files/mod.rs"]
 mod gait_files;
 
-use ambulo::analysis::{Body, LaboratoryRecording, MarkerTrial, body_in_motion};
+use ambulo::analysis::{BodySource, LaboratoryRecording, MarkerTrial, body_in_motion};
 use ambulo::findings::Findings;
 use ambulo::ground::phases::contacts_from_force;
 use ambulo::kinematics::Trajectory;
@@ -85,7 +85,7 @@ fn read() -> Vec<Recorded> {
 }
 
 fn of_c3d(subject: &Subject, name: &'static str, told: &[(Side, f64, f64)]) -> Recorded {
-    let body = Body::BuiltIn { person: &subject.person, set: None };
+    let body = BodySource::BuiltIn { person: &subject.person, set: None };
     let event = |side, kind, time_s| Event { side, kind, time_s };
     let both = |t: &(Side, f64, f64)| [event(t.0, EventKind::Strike, t.1), event(t.0, EventKind::Off, t.2)];
     let plates = told.iter().flat_map(both).filter(|e| e.time_s.is_finite()).collect();
@@ -137,11 +137,11 @@ fn fitted(
     subject: &'static str,
     walk: &LaboratoryRecording,
     still: Option<&LaboratoryRecording>,
-    body: &Body<'_>,
+    body: &BodySource<'_>,
     Plates { events: plates, forces, all_seen }: Plates<'_>,
 ) -> Recorded {
     let settings = FitSettings::default();
-    let trial = MarkerTrial { walk, still, body: body.clone(), plate_feet: &[] };
+    let trial = MarkerTrial { trial: walk, standing: still, body: body.clone(), plate_feet: &[] };
     let body = body_in_motion(&trial, &settings, &mut Findings::default()).unwrap();
     let forces = forces.map_or_else(
         || body.plate_forces(),
@@ -192,7 +192,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
     let of_angles = events(&by_angles, [0.55, 3.95]);
     let of_walk = events(&by_walk, [0.1, 2.3]);
     let of_run = events(&by_run, [0.3, 5.25]);
-    let body = |model| Body::Model { model, mass: None };
+    let body = |model| BodySource::Model { model, mass: None };
     let table = Table::read_storage(&std::fs::read(data.join(gait).join("subject01_walk1_ik.mot")).unwrap()).unwrap().0;
     let angles = Recorded {
         name: "gait2392 angles",

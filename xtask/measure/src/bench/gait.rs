@@ -1,4 +1,4 @@
-//! Synthetic walks: made, made consistent, walked by the simulator as put right and as in 1997.
+//! Times synthetic walks: one cycle of joint curves, the consistent walk, and the simulation in the corrected and in the paper's mode.
 
 use super::timing::{Timing, cpu_us};
 use super::{Row, table, verdict};
@@ -12,13 +12,13 @@ use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 
-/// Rate at which a cycle is made [Hz].
+/// Frame rate of a cycle [Hz].
 const RATE_HZ: f64 = 100.0;
 /// A cycle with its torques takes less than this [ms].
-const ASKED_OF_CYCLE_MS: f64 = 1.0;
+const REQUIRED_OF_CYCLE_MS: f64 = 1.0;
 /// A step of the paper's mode takes at most this [us]: 200 times real time at 1 kHz.
-const ASKED_OF_STEP_US: f64 = 5.0;
-/// Steps of the simulator [s], and how many cycles it walks.
+const REQUIRED_OF_STEP_US: f64 = 5.0;
+/// Time step of the simulator [s], and number of cycles.
 const STEP_S: f64 = 1e-3;
 const CYCLES: usize = 6;
 /// How often a walk is made consistent: a second each.
@@ -42,14 +42,17 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
     ];
     println!("\nsynthetic walks");
     print!("{}", table(&rows));
-    println!("asked of a cycle: less than {ASKED_OF_CYCLE_MS} ms: {}", verdict(cycle.median, ASKED_OF_CYCLE_MS));
+    println!(
+        "required of a cycle: less than {REQUIRED_OF_CYCLE_MS} ms: {}",
+        verdict(cycle.median, REQUIRED_OF_CYCLE_MS)
+    );
     let times = |us: f64| STEP_S * 1e6 / us;
     println!("corrected mode: {:.0} times real time", times(corrected.median));
     println!(
-        "paper mode: {:.0} times real time, asked {:.0}: {}",
+        "paper mode: {:.0} times real time, required {:.0}: {}",
         times(paper.median),
-        times(ASKED_OF_STEP_US),
-        verdict(paper.median, ASKED_OF_STEP_US)
+        times(REQUIRED_OF_STEP_US),
+        verdict(paper.median, REQUIRED_OF_STEP_US)
     );
     Ok(rows)
 }

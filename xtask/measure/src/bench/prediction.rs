@@ -1,4 +1,4 @@
-//! Ground forces without plates: predicted from a trajectory, behind a fit of markers, and frame by frame.
+//! Times the prediction of ground forces: from a trajectory, including the marker fit, and frame by frame.
 //!
 //! A synthetic walk needs no data; the recording with markers is that of `bench-markers`. No other engine installed here predicts ground
 //! forces, so there is no ratio. What a prediction holds in memory is counted by a test of the library
@@ -23,13 +23,13 @@ use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthe
 use std::hint::black_box;
 
 /// A prediction from a trajectory takes at most this a frame [us].
-const ASKED_OF_PREDICTION_US: f64 = 20.0;
+const REQUIRED_OF_PREDICTION_US: f64 = 20.0;
 /// With marker fitting included this many frames a second at least, so a frame takes this long at most [us].
-const ASKED_WITH_MARKERS_US: f64 = 1000.0;
+const REQUIRED_WITH_MARKERS_US: f64 = 1000.0;
 /// Frames of the synthetic walk, a second.
 const RATE_HZ: f64 = 100.0;
 /// A frame pushed at that rate must be done when the next one comes [us].
-const ASKED_OF_PUSH_US: f64 = 1e6 / RATE_HZ;
+const REQUIRED_OF_PUSH_US: f64 = 1e6 / RATE_HZ;
 /// Pushes of one measurement.
 const PUSHES: usize = 5;
 
@@ -49,15 +49,15 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
     }
     println!("\nground forces without plates");
     print!("{}", table(&rows));
-    for (start, asked) in [
-        ("prediction,", ASKED_OF_PREDICTION_US),
-        ("stream,", ASKED_OF_PUSH_US),
-        ("fit, smooth and predict,", ASKED_WITH_MARKERS_US),
+    for (start, required) in [
+        ("prediction,", REQUIRED_OF_PREDICTION_US),
+        ("stream,", REQUIRED_OF_PUSH_US),
+        ("fit, smooth and predict,", REQUIRED_WITH_MARKERS_US),
     ] {
         for row in rows.iter().filter(|row| row.quantity.starts_with(start)) {
             let per_second = 1e6 / row.timing.median;
-            let met = verdict(row.timing.median, asked);
-            println!("{}: {per_second:.0} frames a second; asked at most {asked} us: {met}", row.quantity);
+            let met = verdict(row.timing.median, required);
+            println!("{}: {per_second:.0} frames per second; required at most {required} us: {met}", row.quantity);
         }
     }
     Ok(rows)

@@ -8,15 +8,15 @@
 //! | `accuracy` | energy of a chain without damping, joints of a flailing one                             |
 //! | `peers`    | what `cargo xtask simulators` runs, right after ours                                    |
 //!
-//! What is printed is the page docs/measured/BENCHMARKS.md; with `--write` it is written there with its pictures. A missed time is
-//! told, a wrong answer fails the command.
+//! The output is the page docs/measured/BENCHMARKS.md; with `--write` it is written there with its pictures. A time above its limit is
+//! reported; a wrong result fails the command.
 
 mod accuracy;
-mod asked;
 mod figure;
 mod ladder;
 mod markdown;
 mod page;
+mod requirements;
 mod run;
 mod scaling;
 mod stance;
@@ -49,7 +49,7 @@ struct NamedSolver {
     solver: SolverSettings,
 }
 
-/// All that there are; the first is what a user gets.
+/// All methods; the first is the default.
 fn methods() -> Vec<NamedSolver> {
     vec![NamedSolver { name: "augmented Lagrangian", solver: SolverSettings::default() }]
 }
@@ -66,8 +66,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         }
     }
     let results = measure(with_peers)?;
-    let asked = asked::all(&results);
-    let page = page::text(&results, &asked);
+    let requirements = requirements::all(&results);
+    let page = page::text(&results, &requirements);
     println!("{page}");
     if write {
         let folder = workspace::root().join(DOCS);
@@ -80,8 +80,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         save("BENCHMARKS.md", &page)?;
         eprintln!("written: {}", folder.join("BENCHMARKS.md").display());
     }
-    let wrong = asked.iter().filter(|a| a.wrong()).count();
-    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} answers are not as exact as asked, see the table")) }
+    let wrong = requirements.iter().filter(|a| a.wrong()).count();
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} results are less accurate than required, see the table")) }
 }
 
 #[expect(clippy::print_stderr, reason = "minutes pass before the page is complete")]

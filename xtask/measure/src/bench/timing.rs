@@ -9,7 +9,7 @@ const BATCHES: usize = 41;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Timing {
     pub(super) median: f64,
-    /// Tenth and ninetieth percentile, smallest; `None` when it was measured once, or by somebody else.
+    /// Tenth and ninetieth percentile, smallest; `None` if it was measured once or by another program.
     pub(super) spread: Option<[f64; 3]>,
 }
 

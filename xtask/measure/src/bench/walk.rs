@@ -1,4 +1,4 @@
-//! The main job on a real recording: its stages inside this process, and the `ambulo` command as its user meets it.
+//! Times the analysis of a real recording: its stages in this process, and the whole `ambulo` command.
 
 use super::Row;
 use super::timing::{JobTiming, Timing, job_us};
@@ -92,7 +92,7 @@ pub(super) fn program(walk: &Walk) -> Result<Program, String> {
     let program = workspace::build_program()?;
     let folder = std::env::temp_dir().join(format!("ambulo-bench-{}", std::process::id()));
     let measured = measure(walk, &program, &folder);
-    // The measurement stands or falls without this; a folder left in the temporary files harms nobody.
+    // A temporary folder that cannot be removed does no harm.
     let _ = fs::remove_dir_all(&folder);
     measured
 }

@@ -8,7 +8,7 @@ use ambulo::simulation::{
 };
 use ambulo::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 
-/// What the peers use [m/s²].
+/// Gravity in the peers' scenes [m/s²].
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 /// A link of chain and ladder: length [m], mass [kg], moments of inertia about its middle [kg.m²].
 const LINK_M: f64 = 0.2;

@@ -1,4 +1,4 @@
-//! Which knots the curves have, and where each is looked for.
+//! The knots of the joint curves, and how each is located.
 
 /// What makes a time of the cycle a knot.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +17,7 @@ pub(crate) enum Mark {
     Between(usize, usize, f64),
 }
 
-/// A knot to look for.
+/// A knot to locate.
 pub(crate) struct Wanted {
     pub(crate) name: &'static str,
     /// The sub-cycle that is activated here.

@@ -1,22 +1,22 @@
-//! Factors and floors of the standard deviations, so that a band of 90 % holds 90 % of what plates measured.
+//! Factors and floors of the standard deviations, so that a 90 % band contains 90 % of the measured samples.
 //!
-//! Samples of a stance depend on each other, so every stance counts once, and so does every subject: shares are means over stances,
-//! then over subjects. For each floor the factor follows from the share; of these pairs the sharpest is taken.
+//! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means over stances, then over
+//! subjects. For each floor the factor follows from the share; of these pairs the one with the narrowest band is used.
 
 use super::cases::{Case, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
 use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, Weights};
 
-/// Standard deviations on either side that hold 90 % of a normal distribution.
+/// Standard deviations on either side that contain 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
-/// Share that the band is to hold.
+/// Share of samples that the band should contain.
 const HELD: f64 = 0.9;
 /// Floors that are tried, as shares of the RMSE.
 const FLOORS: [f64; 8] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9];
-/// Least and most multiple of what the equations say: a band must still widen where the motion tells less.
+/// Smallest and largest factor on the estimator's standard deviation: a band must still be wider where the motion is less informative.
 const FACTORS: [f64; 2] = [0.3, 30.0];
 
-/// How a band does on a subject, or on several.
+/// Coverage and width of a band for a subject, or for several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Band {
     /// Share of the samples inside it.
@@ -117,7 +117,7 @@ fn fitted(subjects: &[Vec<&[Sample]>]) -> DeviationScaling {
     sharpest.or_else(widest).map_or(DeviationScaling::UNSCALED, |(spread, _)| *spread)
 }
 
-/// The factor that holds enough beside a floor, by halving on a logarithmic scale: the share grows with the factor.
+/// The factor that gives the required share with a floor, by bisection on a logarithmic scale: the share grows with the factor.
 fn factor(subjects: &[Vec<&[Sample]>], floor: f64) -> f64 {
     let [mut low, mut high] = FACTORS;
     for _ in 0..30 {

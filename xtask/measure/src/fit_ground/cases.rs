@@ -1,7 +1,7 @@
-//! The recordings that the fit is judged on, ready to be predicted again and again.
+//! The recordings of the fit, prepared for repeated predictions.
 
 use crate::validate::recording::{self, Group};
-use ambulo::analysis::{Analysis, Compared, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
+use ambulo::analysis::{Analysis, ComparedAnalyses, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::feet;
 use ambulo::ground::predict::{PredictSettings, Prediction, Prescribed, Weights, predict};
@@ -11,11 +11,11 @@ use ambulo::spatial::Vec3;
 use ambulo::study::{Outcome, PredictedGround};
 use std::path::Path;
 
-/// A sample counts while the plate carries more than this [N].
+/// A sample is used while the measured vertical force exceeds this [N].
 const LOADED_N: f64 = 20.0;
-/// Its centre of pressure counts above this share of body weight.
+/// Its centre of pressure is used above this share of body weight.
 const CENTER_LOAD_BW: f64 = 0.05;
-/// What a subject without markers on the trunk counts.
+/// Weight of a subject without markers on the trunk.
 const WITHOUT_TRUNK: f64 = 0.5;
 
 /// A recording with its footfalls found.
@@ -39,24 +39,24 @@ pub(super) const COMPONENTS: [&str; 6] = [
     "centre of pressure across",
     "free moment",
 ];
-/// Those that a body without markers on the trunk is not judged on.
+/// Components that are not evaluated for subjects without markers on the trunk.
 pub(super) const NEEDS_TRUNK: [usize; 2] = [2, 4];
 
 /// One component in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
-    /// Prediction less plate.
+    /// Predicted minus measured value.
     pub(super) error: f64,
     /// Standard deviation of the prediction.
     pub(super) deviation: f64,
-    /// What a floor of 1 means in the unit of the error.
+    /// A floor of 1 in the unit of the error.
     pub(super) unit: f64,
 }
 
 /// Samples of a stance, component by component.
 pub(super) type StanceSamples = [Vec<Sample>; 6];
 
-/// All walking recordings beside the workspace; a run is another thing. `said` hears what is loaded.
+/// All walking recordings next to the workspace, without runs. `said` is called for each recording that is loaded.
 pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
     for recording in recording::all().into_iter().filter(|recording| recording.group != Group::Running) {
@@ -97,18 +97,18 @@ impl Case {
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }
 
-    /// How a prediction agrees with the plates; `None` where there is none.
+    /// Agreement of a prediction with the measured forces; `None` without a prediction.
     pub(super) fn agreement(&self, weights: &Weights) -> Option<GroundAgreement> {
         let prediction = self.predict(weights)?;
         let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
         let (model, measured) = (&self.outcome.body, &self.measured);
         Some(ground_agreement(
-            &Compared { model, predicted: &found, prediction: &prediction, measured },
+            &ComparedAnalyses { model, predicted: &found, prediction: &prediction, measured },
             &self.coverage,
         ))
     }
 
-    /// What the fit makes small: errors of the feet over what is asked of them, 1 each where all is just met.
+    /// The cost that the fit minimises: errors of the feet divided by their criteria, 1 if all are just met.
     fn cost(&self, agreement: &GroundAgreement) -> f64 {
         let of_foot = |foot: &FootAgreement| {
             let (up, forward, sideways) = (foot.vertical, foot.fore_aft, foot.lateral);
@@ -125,7 +125,7 @@ impl Case {
         mean(agreement.feet.iter().map(of_foot))
     }
 
-    /// Straight walking: turns are fitted, and judged apart.
+    /// Whether the recording is straight walking; turns are part of the fit but evaluated separately.
     pub(super) fn is_straight(&self) -> bool {
         self.group != Group::Turning
     }
@@ -177,7 +177,7 @@ impl Case {
     }
 }
 
-/// What a subject counts among the others.
+/// Weight of a subject.
 pub(super) fn importance(cases: &[Case], subject: &str) -> f64 {
     let without = cases.iter().any(|case| case.subject == subject && case.group == Group::NoTrunk);
     if without { WITHOUT_TRUNK } else { 1.0 }

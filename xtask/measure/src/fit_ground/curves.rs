@@ -23,7 +23,7 @@ const HEAD: &str = "\
 # of the cycle; its ends are brought to zero along a line. `foot_off`, `other_off`, `other_strike`: shares of the cycle.
 ";
 
-/// Where the curves stand.
+/// The columns of the curves in the tables.
 pub(super) fn path() -> PathBuf {
     workspace::root().join(FILE)
 }

@@ -1,4 +1,4 @@
-//! The numbers that are fitted, each with a range in which it is plausible, as places in the unit cube.
+//! The fitted parameters with their plausible ranges, mapped to the unit cube.
 
 use ambulo::ground::predict::{DeviationCalibration, Weights};
 
@@ -7,7 +7,7 @@ use ambulo::ground::predict::{DeviationCalibration, Weights};
 pub(super) struct Number {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
-    /// Least and most; on a logarithmic scale where both are positive.
+    /// Smallest and largest value; on a logarithmic scale if both are positive.
     pub(super) range: [f64; 2],
     field: fn(&mut Weights) -> &mut f64,
 }
@@ -63,7 +63,7 @@ impl Number {
     }
 }
 
-/// Weights at a place in the unit cube, with deviations as the equations give them.
+/// Weights at a point of the unit cube, with the estimator's own standard deviations.
 pub(super) fn weights(place: &[f64]) -> Weights {
     let mut weights = Weights { calibration: DeviationCalibration::UNSCALED, ..Weights::default() };
     for (number, place) in NUMBERS.iter().zip(place) {

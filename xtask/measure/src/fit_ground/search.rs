@@ -45,15 +45,15 @@ impl Random {
     }
 }
 
-/// The best place found, and its cost.
+/// The best point found, and its cost.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
     pub(super) place: Vec<f64>,
     pub(super) cost: f64,
 }
 
-/// Looks for the least cost in the unit cube from a start, with so many evaluations. A cost that is no number is worse than any.
-/// `better` hears of each improvement and of how many evaluations it took.
+/// Minimises a cost in the unit cube from a start with a number of evaluations. A NaN cost is worse than any other. `better` is called for
+/// each improvement with the number of evaluations.
 pub(super) fn least(
     start: Vec<f64>,
     evaluations: usize,
@@ -84,7 +84,7 @@ pub(super) fn least(
     best
 }
 
-/// A neighbour; what would leave the cube is turned back at its wall.
+/// A neighbouring point, reflected at the walls of the cube.
 fn stepped(place: &[f64], step: f64, random: &mut Random) -> Vec<f64> {
     let mut next = place.to_vec();
     for _ in 0..=random.below(MOST_CHANGED) {

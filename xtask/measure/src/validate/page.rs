@@ -6,11 +6,11 @@ use super::trial::Trial;
 use crate::table::Table;
 use ambulo::analysis::GroundAgreement;
 
-/// What is asked of a mean.
-struct Bar {
+/// A criterion for a mean over subjects.
+struct Criterion {
     what: String,
-    got: f64,
-    /// Least and most that is allowed.
+    result: f64,
+    /// Smallest and largest allowed value.
     allowed: [Option<f64>; 2],
     digits: usize,
 }
@@ -19,24 +19,24 @@ struct Bar {
 pub(super) fn text(trials: &[Trial]) -> String {
     let rule = trials.first().map_or("", |trial| trial.rule);
     let head = format!(
-        "# Predicted ground forces against plates\n\n\
+        "# Predicted compared with measured ground forces\n\n\
          Every recording with plates in the development data goes through the library as `ambulo forces --predict` takes it: \
          events and everything else from motion alone, the motion low-passed at 6 Hz (order 3, both ways), the plates at 20 Hz \
          (order 2, both ways). Rule in double support: {rule}. Failed criteria are listed as missed.\n\n\
          Per foot over its whole stances on plates (vertical above 20 N); RMSE in % of body weight, rRMSE over the mean of the two \
          ranges, Pearson's r. Fore-aft is along the walking direction, in turns that of the pelvis in that stance. Centres of \
-         pressure where the plate carries more than 5 % of body weight. Moments of a leg over the time in which plates measured every \
-         foot, and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
-         `walking` makes the means.\n"
+         pressure where the plate carries more than 5 % of body weight. Moments of a leg over the instrumented window \
+         and over its whole stances. Means: feet, then trials, then subjects; a subject with several files counts once. Only \
+         `walking` determines the means.\n"
     );
     let sections = [
-        ("What was asked, and what came out", asked(trials)),
+        ("Criteria", criteria(trials)),
         ("Forces of each foot", forces(trials)),
         ("Centres of pressure", centers(trials)),
         ("Sagittal moments: RMSE [N.m/kg], r", moments(trials)),
-        ("Foot strikes and toe-offs", events(trials)),
+        ("Foot strikes and foot offs", events(trials)),
         ("Vertical peaks and flight", peaks(trials)),
-        ("Error budget: each source replaced by what plates say", budget(trials)),
+        ("Error budget: each source replaced by its measured value", budget(trials)),
         ("Time of a prediction from a trajectory", times(trials)),
     ];
     sections.into_iter().fold(head, |page, (title, table)| format!("{page}\n## {title}\n\n{table}"))
@@ -47,26 +47,27 @@ fn number(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$}") } else { "-".to_owned() }
 }
 
-fn asked(trials: &[Trial]) -> String {
-    let mut table = Table::new(&["figure", "asked", "got", "verdict"]);
-    for bar in bars(trials) {
-        let Bar { what, got, allowed, digits } = bar;
-        let asked = match allowed {
+fn criteria(trials: &[Trial]) -> String {
+    let mut table = Table::new(&["quantity", "criterion", "result", "verdict"]);
+    for entry in all_criteria(trials) {
+        let Criterion { what, result, allowed, digits } = entry;
+        let criterion = match allowed {
             [Some(least), Some(most)] => format!("{} to {}", number(least, digits), number(most, digits)),
             [Some(least), None] => format!(">= {}", number(least, digits)),
             [None, Some(most)] => format!("<= {}", number(most, digits)),
             [None, None] => "-".to_owned(),
         };
-        let met = got.is_finite() && allowed[0].is_none_or(|x| got >= x) && allowed[1].is_none_or(|x| got <= x);
-        table.row([what, asked, number(got, digits), if met { "met" } else { "missed" }.to_owned()]);
+        let met =
+            result.is_finite() && allowed[0].is_none_or(|x| result >= x) && allowed[1].is_none_or(|x| result <= x);
+        table.row([what, criterion, number(result, digits), if met { "met" } else { "missed" }.to_owned()]);
     }
     table.text()
 }
 
-fn bars(trials: &[Trial]) -> Vec<Bar> {
+fn all_criteria(trials: &[Trial]) -> Vec<Criterion> {
     let mean = |figure| over_subjects(trials, figure, |trial| Some(&trial.agreement));
-    let mut bars = Vec::new();
-    let mut add = |what: String, got: f64, allowed, digits| bars.push(Bar { what, got, allowed, digits });
+    let mut list = Vec::new();
+    let mut add = |what: String, result: f64, allowed, digits| list.push(Criterion { what, result, allowed, digits });
     let of_forces = [(5.0, 4.0, 0.99), (2.8, 8.5, 0.97), (1.5, 12.0, 0.88)];
     for (k, (rmse, relative, r)) in of_forces.into_iter().enumerate() {
         let name = COMPONENTS[k];
@@ -108,7 +109,7 @@ fn bars(trials: &[Trial]) -> Vec<Bar> {
     }
     let slowest = trials.iter().map(|trial| trial.microseconds).fold(0.0, f64::max);
     add("prediction, microseconds a frame, slowest recording".to_owned(), slowest, [None, Some(20.0)], 1);
-    bars
+    list
 }
 
 fn forces(trials: &[Trial]) -> String {

@@ -14,10 +14,10 @@ use ambulo_formats::table::Table;
 use std::fs;
 use std::path::Path;
 
-/// How a recording counts.
+/// The kinds of trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Group {
-    /// Straight walking: these make the means.
+    /// Straight walking, which determines the means.
     Walking,
     /// Straight walking without markers on the trunk.
     NoTrunk,
@@ -38,18 +38,18 @@ impl Group {
     }
 }
 
-/// What the motion is recorded as; files below the recording's folder.
+/// The kind of recording; paths are relative to the recording's folder.
 #[derive(Debug, Clone, Copy)]
 enum Kind {
     /// Coordinates of a model.
     Coordinates { motion: &'static str, model: &'static str },
     /// Markers on a model.
     ModelMarkers { markers: &'static str, model: &'static str },
-    /// Markers on the built-in body, with a standing trial on plates or not; `mass` is what is stated.
+    /// Markers on the built-in body, possibly with a standing trial on plates; `mass` is the stated body mass.
     Markers { markers: &'static str, standing: &'static str, mass: f64, height: f64 },
 }
 
-/// Where measured forces stand; `None` is in the C3D itself.
+/// The source of measured forces; `None` is the C3D itself.
 type Grf = Option<(&'static str, [&'static str; 2])>;
 
 /// A recording.

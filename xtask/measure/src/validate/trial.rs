@@ -1,4 +1,4 @@
-//! One recording: its prediction against plates, and again with each source of error replaced by the truth.
+//! One recording: its prediction compared with measured forces, also with each source of error replaced by its measured value.
 
 use super::recording::{Group, Recording};
 use ambulo::analysis::{Analysis, GroundAgreement, MassSource, PlateCoverage};
@@ -15,7 +15,7 @@ use std::time::Instant;
 /// A foot is loaded above this vertical force [N].
 const LOADED_N: f64 = 20.0;
 
-/// A recording, judged.
+/// Results of a recording.
 pub(super) struct Trial {
     pub(super) label: &'static str,
     pub(super) subject: &'static str,
@@ -23,14 +23,14 @@ pub(super) struct Trial {
     pub(super) mass_source: &'static str,
     pub(super) rule: &'static str,
     pub(super) frames: usize,
-    /// Time of the prediction alone, a frame [µs].
+    /// Time of the prediction alone, per frame [µs].
     pub(super) microseconds: f64,
-    /// Vertical peak of each whole stance over the plate's, less one: side, time of strike [s], share.
+    /// Relative error of the vertical peak of each whole stance: side, time of foot strike [s], share.
     pub(super) peaks_off: Vec<(&'static str, f64, f64)>,
-    /// Time without a loaded foot while plates measured every foot: predicted, measured [s].
+    /// Time without a loaded foot in the instrumented window: predicted, measured [s].
     pub(super) flight_s: [f64; 2],
     pub(super) agreement: GroundAgreement,
-    /// The agreement while plates measured every foot, with something prescribed: what, how.
+    /// The agreement in the instrumented window with one source of error replaced: name, agreement.
     pub(super) budget: Vec<(&'static str, GroundAgreement)>,
 }
 
@@ -68,14 +68,14 @@ impl Trial {
     }
 }
 
-/// Only what happened while plates measured every foot: there each source of error can be replaced in full.
+/// Restricted to the instrumented window, where each source of error can be replaced completely.
 fn inside_window(seen: &PlateCoverage) -> PlateCoverage {
     let Some([from, to]) = seen.window else { return PlateCoverage { stances: Vec::new(), ..seen.clone() } };
     let clipped = seen.stances.iter().map(|(side, [start, end])| (*side, [start.max(from), end.min(to)]));
     PlateCoverage { stances: clipped.filter(|(_, [start, end])| end > start).collect(), ..seen.clone() }
 }
 
-/// What plates know of each source of error.
+/// The measured value of each source of error.
 fn truths(
     outcome: &Outcome,
     found: &Footfalls,
@@ -148,7 +148,7 @@ fn true_share(grid: TimeGrid, right: &BodyForces, left: &BodyForces, seen: &Plat
     (0..grid.frames).map(share).collect()
 }
 
-/// Time of a prediction, a frame [µs]: the best of a few.
+/// Time of a prediction per frame [µs]: the best of several.
 fn microseconds(outcome: &Outcome) -> Result<f64, String> {
     const RUNS: usize = 5;
     let trajectory = &outcome.analysis.trajectory;
@@ -163,7 +163,7 @@ fn microseconds(outcome: &Outcome) -> Result<f64, String> {
     Ok(1e6 * best / trajectory.grid().frames as f64)
 }
 
-/// Largest vertical force of each whole stance against the plate's.
+/// Largest vertical force of each whole stance compared with the measured one.
 fn peaks_off(outcome: &Outcome, truth: &Analysis, seen: &PlateCoverage) -> Vec<(&'static str, f64, f64)> {
     let grid = outcome.analysis.trajectory.grid();
     let sides = |analysis: &Analysis| feet(&outcome.body, &analysis.ground);

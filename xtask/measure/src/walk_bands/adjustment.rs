@@ -1,10 +1,10 @@
-//! How far a consistent walk departs from the gait that it was made of.
+//! Difference of a consistent walk from its original gait.
 
 use ambulo::gait::WalkCoordinates;
 use ambulo::model::anthropometry::Human;
 use ambulo::simulation::consistent_walk::ConsistentWalk;
 
-/// Instants of a cycle that are looked at.
+/// Instants per cycle that are evaluated.
 const INSTANTS: usize = 200;
 
 /// Departure of one coordinate over a cycle.
@@ -17,7 +17,7 @@ pub(super) struct Adjustment {
     pub(super) largest: f64,
 }
 
-/// Coordinate, what is said of it, and whether its mean is nobody's business: where the walk began, how high legs are.
+/// Coordinate, its name on the page, and whether its mean is removed because it has no meaning (start position, leg length).
 const COORDINATES: [(&str, &str, bool); 8] = [
     ("hip_flexion_r", "hip", false),
     ("knee_angle_r", "knee", false),

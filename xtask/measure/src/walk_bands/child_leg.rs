@@ -1,4 +1,4 @@
-//! How long the legs of the people behind the tables are: the tables do not say it; an estimate from themselves.
+//! Estimates the leg length of the subjects of the tables, which is not published, from the tables themselves.
 //!
 //! Power is moment times angular velocity, so the tables of moment M, angle θ (per cycle) and power P give the duration of a cycle,
 //!
@@ -8,16 +8,16 @@
 //!
 //! and with the tables' dimensionless step frequency f* = (2/T) √(L/g) the leg:  L = g (f* T / 2)².
 //!
-//! Means of products are not products of means, and the joints do not agree. The knee's lengths vary least over the speeds and are
-//! those of children; the ankle correlates better and gives a grown-up's leg. To use the knee is a judgement, so the page shows all
-//! three and what depends on the choice.
+//! Means of products are not products of means, so the joints give different lengths. The lengths from the knee vary least over the speeds
+//! and are plausible for children; the ankle correlates better and gives the leg of an adult. The choice of the knee is a judgement, so the
+//! page shows all three and the results that depend on the choice.
 
 use crate::harmonics::Harmonics;
 use crate::normative::{self, CADENCES, Curves, Sheet};
 use ambulo::reproduction::correlation;
 use ambulo::spatial::STANDARD_GRAVITY;
 
-/// The leg that one joint gives.
+/// The leg length from one joint.
 #[derive(Debug, Clone)]
 pub(super) struct FromJoint {
     pub(super) joint: &'static str,

@@ -156,7 +156,7 @@ mod tests {
         assert!(net.met && net.result == "0.00 %", "{}", net.result);
         assert!(
             !criterion("r", 0.897, Limit::AtLeast(0.9), 2, "").met,
-            "what rounds to the limit is below it all the same"
+            "a value that rounds to the limit is still below it"
         );
     }
 }

@@ -31,7 +31,7 @@ impl Quantity {
         }
     }
 
-    /// As pages call it, with its unit and what is positive.
+    /// Name on the page, with its unit and positive direction.
     pub(super) fn name(self) -> &'static str {
         const NAMES: [&str; 8] = [
             "hip angle",
@@ -46,7 +46,7 @@ impl Quantity {
         NAMES[self.index()]
     }
 
-    /// What stands beside its axis.
+    /// Label of its axis.
     pub(super) fn axis(self) -> &'static str {
         const AXES: [&str; 8] = [
             "deg, flexion +",
@@ -123,7 +123,7 @@ pub(super) fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
     f64::sqrt(square / a.len().min(b.len()) as f64)
 }
 
-/// What is read from the curves of a cycle, of ours and of people alike.
+/// Peaks of the curves of a cycle, for ours and normative ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Peaks {
     /// Extension in the first half of the cycle, flexion, larger of both over the whole cycle [N.m/kg].

@@ -1,4 +1,4 @@
-//! One cycle of a corrected walk, as the simulator walked it.
+//! One simulated cycle of a corrected walk.
 
 use super::adjustment::{Adjustment, adjustments};
 use super::curve::Peaks;
@@ -17,10 +17,10 @@ use cpu_time::ThreadTime;
 pub(super) const STEP_S: f64 = 1e-3;
 /// Cycles walked; the last one is judged.
 pub(super) const CYCLES: usize = 6;
-/// Samples of a cycle for whatever is no curve of the tables, one more at its end; a multiple of theirs.
+/// Intervals per cycle for quantities that are not in the tables; a multiple of the tables' number.
 const FINE: usize = 1000;
 
-/// A walk and what its last cycle has.
+/// A walk with the results of its last cycle.
 #[derive(Debug, Clone)]
 pub(super) struct Cycle {
     pub(super) walk: Pace,
@@ -28,15 +28,15 @@ pub(super) struct Cycle {
     /// the centre of mass [m/s].
     pub(super) curves: [Vec<f64>; 9],
     pub(super) peaks: Peaks,
-    /// Mean over the cycle of what both feet bear [body weights]: up, forward.
+    /// Mean force on both feet over the cycle [body weights]: up, forward.
     pub(super) mean_force: [f64; 2],
     /// Net fore-aft impulse over the propulsive one of both feet.
     pub(super) net_share: f64,
     /// Peak-to-peak forward speed of the centre of mass over its mean.
     pub(super) speed_range: f64,
-    /// The worst of the stances that the last two cycles hold whole.
+    /// The worst of the complete stances in the last two cycles.
     pub(super) slip: StanceSlip,
-    /// How long no foot is pressed in the cycle [s].
+    /// Time without a loaded foot in the cycle [s].
     pub(super) flight_s: f64,
     /// Torque that holds the trunk from outside [N.m]: root mean square, largest.
     pub(super) trunk: [f64; 2],
@@ -50,7 +50,7 @@ pub(super) struct Cycle {
     pub(super) unsolved_steps: usize,
 }
 
-/// How it walks.
+/// Speed and step of a walk.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
     /// Leg of the figure [m].
@@ -128,7 +128,7 @@ struct Last {
 }
 
 impl Last {
-    /// Where an instant stands among the rows [rows].
+    /// Position of a time among the rows [rows].
     fn row(&self, cycles: f64) -> f64 {
         cycles * self.cycle_s / STEP_S
     }
@@ -137,7 +137,7 @@ impl Last {
         self.row((CYCLES - 1) as f64).ceil() as usize..self.rows
     }
 
-    /// A quantity at the fine samples, by straight lines between rows; the last row stands for the part of a step beyond it.
+    /// A quantity at the fine samples, interpolated linearly between rows; beyond the last row its value is used.
     fn sampled(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let sample = |k: usize| {
             let place = self.row((CYCLES - 1) as f64 + k as f64 / FINE as f64).min((self.rows - 1) as f64);

@@ -270,7 +270,7 @@ fn legs(results: &Results) -> String {
 /// Free walking judged with other legs of the children.
 fn sensitivity(results: &Results) -> String {
     let mut table =
-        Table::new(&["children's leg [m]", "hip inside", "knee inside", "ankle inside", "people's ankle peak", "met"]);
+        Table::new(&["children's leg [m]", "hip inside", "knee inside", "ankle inside", "normative ankle peak", "met"]);
     let free = &results.man[FREE];
     for (name, length, people) in &results.other_legs {
         let [hip, knee, ankle] =

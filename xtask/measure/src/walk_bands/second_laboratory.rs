@@ -1,4 +1,4 @@
-//! Free walking against a second laboratory, whose curves no setting was chosen by.
+//! Compares free walking with a second laboratory, whose curves were not used to choose any setting.
 
 use super::curve::{QUANTITIES, rms_difference};
 use super::cycle::Cycle;

@@ -1,10 +1,10 @@
-//! How peaks change from speed to speed, ours and people's.
+//! Compares the change of peaks with speed to that of the normative curves.
 
 use super::Results;
 use super::curve::Peaks;
 use ambulo::reproduction::correlation;
 
-/// Correlation over the five speeds from which on peaks follow those of people.
+/// Smallest correlation over the five speeds for which peaks follow the normative ones.
 pub(super) const LEAST_R: f64 = 0.90;
 
 /// One peak at five speeds.
@@ -21,7 +21,7 @@ impl Trend {
         correlation(&self.ours, &self.people)
     }
 
-    /// Whether ours go where theirs go: r, and the same sign of the change from very slow to very fast.
+    /// Whether ours follow the normative ones: r, and the same sign of the change from very slow to very fast.
     pub(super) fn follows(&self) -> bool {
         let change = |peaks: &[f64; 5]| peaks[4] - peaks[0];
         self.r() >= LEAST_R && change(&self.ours) * change(&self.people) > 0.0

@@ -1,6 +1,6 @@
-//! Result folders: for animation programs, and as one long table.
+//! Conversion of result folders: for animation programs, and to one long table.
 
-use super::{Converted, lost};
+use super::{Converted, report_lost};
 use crate::args::ConvertArgs;
 use crate::commands::result_folder::ResultFolder;
 use ambulo::findings::{Code, Findings};
@@ -8,7 +8,7 @@ use ambulo_report::{bvh_of_folder, csv_of_folder, glb_of_folder};
 use ambulo_results::Folder;
 use anyhow::{Result, bail};
 
-/// What can be made of a folder.
+/// Formats to which a result folder can be converted.
 pub(super) const TARGETS: &[&str] = &["glb", "bvh", "csv"];
 
 pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
@@ -21,13 +21,13 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
     let mut findings = Findings::default();
     let made = match to {
         "glb" => glb_of_folder(&folder).map(|glb| {
-            lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
+            report_lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
             let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
             findings.report(Code::ConvertAxes, format!("lengths are in metres; x forward, y up, z right{arrows}"));
             glb.bytes
         }),
         "bvh" => {
-            lost(
+            report_lost(
                 &mut findings,
                 &["forces".to_owned(), "masses and inertias".to_owned(), "the time of the first frame".to_owned()],
             );
@@ -36,7 +36,7 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
         }
         _ => csv_of_folder(&folder).map(String::into_bytes),
     };
-    // What could not be read is the cause of whatever came of it.
+    // An unreadable file is the cause of any later error, so it is reported first.
     opened.check()?;
     Ok(Converted { files: vec![(args.output.clone(), made?)], findings })
 }

@@ -6,13 +6,13 @@ mod skeleton;
 mod table;
 
 use crate::args::ConvertArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo::findings::{Code, Findings};
 use anyhow::{Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What can be made of what.
+/// Each input format with its output formats.
 const PAIRS: [(&str, &[&str]); 6] = [
     ("c3d", &["trc", "csv", "mot", "sto"]),
     ("trc", &["c3d", "csv"]),
@@ -22,13 +22,13 @@ const PAIRS: [(&str, &[&str]); 6] = [
     ("bvh", &["trc", "csv"]),
 ];
 
-/// The files that a conversion makes, and what was said on the way.
+/// The files of a conversion, not yet written, and its findings.
 struct Converted {
     files: Vec<(PathBuf, Vec<u8>)>,
     findings: Findings,
 }
 
-pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ConvertArgs) -> Result<Completion> {
     let (from, to) = (files::ending(&args.input), files::ending(&args.output));
     let converted = if args.input.is_dir() { of_folder(args, &to) } else { of_file(args, &from, &to) }?;
     for (path, _) in &converted.files {
@@ -38,8 +38,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<Verdict> {
         files::write(path, bytes)?;
     }
     let written: Vec<String> = converted.files.iter().map(|(path, _)| path.display().to_string()).collect();
-    printer::convert(&args.input.display().to_string(), &written, &converted.findings, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::convert(&args.input.display().to_string(), &written, &converted.findings, args.print)?;
+    Ok(Completion::Passed)
 }
 
 fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
@@ -59,11 +59,11 @@ fn of_file(args: &ConvertArgs, from: &str, to: &str) -> Result<Converted> {
 
 fn of_folder(args: &ConvertArgs, to: &str) -> Result<Converted> {
     if !folder::TARGETS.contains(&to) {
-        let found = if to.is_empty() { "a name without an ending".to_owned() } else { format!("`.{to}`") };
-        bail!("a folder of results becomes .glb, .bvh or .csv; found {found} for the output");
+        let found = if to.is_empty() { "a name without an extension".to_owned() } else { format!("`.{to}`") };
+        bail!("a result folder is converted to .glb, .bvh or .csv; found {found} for the output");
     }
     if args.what.is_some() || args.world || args.model.is_some() {
-        bail!("--what, --world and --model are for files; a folder of results has its own body and axes");
+        bail!("--what, --world and --model are for files; a result folder has its own body and axes");
     }
     folder::convert(args, to)
 }
@@ -73,56 +73,56 @@ fn check_pair(from: &str, to: &str) -> Result<()> {
     match PAIRS.iter().find(|(known, _)| *known == from) {
         Some((_, targets)) if targets.contains(&to) => Ok(()),
         Some((_, targets)) if to.is_empty() => {
-            bail!("the output's name has no ending that says its format; expected one of {}", listed(targets))
+            bail!("the output's name has no extension; expected one of {}", listed(targets))
         }
-        Some((_, targets)) => bail!("there is no way from .{from} to .{to}; expected one of {}", listed(targets)),
+        Some((_, targets)) => bail!(".{from} cannot be converted to .{to}; expected one of {}", listed(targets)),
         None => {
             let known: Vec<&str> = PAIRS.iter().map(|(known, _)| *known).collect();
-            bail!("`.{from}` is not converted; expected an input that ends with one of {}", listed(&known))
+            bail!("`.{from}` cannot be converted; expected an input with the extension {}", listed(&known))
         }
     }
 }
 
-/// Options that say nothing for this pair are mistakes.
+/// Rejects options that have no effect for this pair of formats.
 fn check_options(args: &ConvertArgs, from: &str, to: &str) -> Result<()> {
     if args.what.is_some() && !(from == "c3d" && to == "csv") {
-        bail!("--what is for .c3d to .csv only; a .{to} has one content");
+        bail!("--what is for .c3d to .csv only; a .{to} has only one kind of content");
     }
     if args.world && !(["c3d", "trc", "bvh"].contains(&from) && ["trc", "c3d", "csv"].contains(&to)) {
-        bail!("--world is for markers and joint centres only, which .{from} to .{to} has none of");
+        bail!("--world is for markers and joint centres only; .{from} to .{to} has none");
     }
     let moves_a_body = ["bvh", "glb"].contains(&to);
     if args.model.is_some() && !moves_a_body {
         bail!("--model is for .bvh and .glb only");
     }
     if moves_a_body && args.model.is_none() {
-        bail!("a .{to} needs the body whose coordinates these are; expected --model FILE.osim");
+        bail!("a .{to} needs the model of these coordinates; expected --model FILE.osim");
     }
     Ok(())
 }
 
-/// Refuses to write over what was read, and over anything else without --force.
+/// Refuses to overwrite an input, and any other file without --force.
 fn check_target(path: &Path, args: &ConvertArgs) -> Result<()> {
     let inputs = [Some(&args.input), args.model.as_ref()].into_iter().flatten();
     let inputs: Vec<PathBuf> = inputs.filter_map(|path| fs::canonicalize(path).ok()).collect();
     let shown = path.display();
     if fs::canonicalize(path).is_ok_and(|path| inputs.contains(&path)) {
-        bail!("{shown}: this file was read and would be written over. hint: choose another name");
+        bail!("{shown}: this input file would be overwritten. hint: choose another name");
     }
     if path.exists() && !args.force {
-        bail!("{shown}: this file is there already. hint: --force writes over it");
+        bail!("{shown}: this file already exists. hint: --force overwrites it");
     }
     Ok(())
 }
 
-/// Says what the new format cannot hold.
-fn lost(findings: &mut Findings, what: &[String]) {
+/// Reports data that the new format cannot hold.
+fn report_lost(findings: &mut Findings, what: &[String]) {
     if !what.is_empty() {
         findings.report(Code::ConvertLost, format!("not carried over: {}", what.join(", ")));
     }
 }
 
-/// `3 channels`, `1 event`; nothing for none.
+/// `3 channels`, `1 event`; `None` for zero.
 fn counted(count: usize, one: &str) -> Option<String> {
     match count {
         0 => None,

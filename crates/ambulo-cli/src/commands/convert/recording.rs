@@ -1,7 +1,7 @@
-//! Recordings of a laboratory: C3D and TRC.
+//! Conversion of laboratory recordings: C3D and TRC.
 
-use super::{Converted, counted, lost};
-use crate::args::{ConvertArgs, What};
+use super::{Converted, counted, report_lost};
+use crate::args::{C3dPart, ConvertArgs};
 use crate::files;
 use ambulo::analysis::LaboratoryRecording;
 use ambulo::findings::{Code, Findings};
@@ -28,7 +28,7 @@ fn from_trc(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let mut findings = Findings::default();
     files::note_remarks(&args.input.display().to_string(), &remarks, &mut findings);
     let markers = markers_from_trc(&trc, &mut findings)?;
-    let markers = turned(args, markers, &[], trc.unit.symbol(), &mut findings);
+    let markers = in_requested_axes(args, markers, &[], trc.unit.symbol(), &mut findings);
     let bytes = marker_bytes(&markers, to)?;
     Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })
 }
@@ -37,10 +37,10 @@ fn from_c3d(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let (c3d, remarks) = C3d::read(bytes)?;
     let mut findings = Findings::default();
     files::note_remarks(&args.input.display().to_string(), &remarks, &mut findings);
-    match (to, args.what.unwrap_or(What::Markers)) {
-        ("mot" | "sto", _) | (_, What::Forces) => forces(args, &c3d, to, findings),
-        ("csv", What::Analog) => {
-            lost(&mut findings, &others(&c3d, &[counted(c3d.points.len(), "point")]));
+    match (to, args.what.unwrap_or(C3dPart::Markers)) {
+        ("mot" | "sto", _) | (_, C3dPart::Forces) => forces(args, &c3d, to, findings),
+        ("csv", C3dPart::Analog) => {
+            report_lost(&mut findings, &others(&c3d, &[counted(c3d.points.len(), "point")]));
             let table = analog_table(&c3d)?;
             Ok(Converted { files: vec![(args.output.clone(), table.write_csv())], findings })
         }
@@ -48,25 +48,25 @@ fn from_c3d(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
             let markers = markers_from_c3d(&c3d, &mut findings)?;
             let other = c3d.points.len().saturating_sub(markers.markers.len());
             let channels = counted(c3d.channels.len(), "analog channel");
-            lost(&mut findings, &others(&c3d, &[counted(other, "other point"), channels]));
+            report_lost(&mut findings, &others(&c3d, &[counted(other, "other point"), channels]));
             let plates =
                 if args.world { plates_from_c3d(&c3d, PlateSettings::default(), &mut findings)? } else { vec![] };
-            let markers = turned(args, markers, &plates, &c3d.point_unit, &mut findings);
+            let markers = in_requested_axes(args, markers, &plates, &c3d.point_unit, &mut findings);
             let bytes = marker_bytes(&markers, to)?;
             Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })
         }
     }
 }
 
-/// What else a C3D has, which no other format holds.
+/// Other content of a C3D, which no other format can hold.
 fn others(c3d: &C3d, first: &[Option<String>]) -> Vec<String> {
     let parameters: usize = c3d.parameters.groups.iter().map(|group| group.parameters.len()).sum();
     let rest = [counted(c3d.events.len(), "event"), counted(parameters, "parameter")];
     first.iter().cloned().chain(rest).flatten().collect()
 }
 
-/// Turned to the world's axes if asked for.
-fn turned(
+/// Rotates markers to world axes if `--world` is given.
+fn in_requested_axes(
     args: &ConvertArgs,
     markers: MarkerRecording,
     plates: &[PlateRecording],
@@ -89,7 +89,7 @@ fn marker_bytes(markers: &MarkerRecording, to: &str) -> Result<Vec<u8>> {
     })
 }
 
-/// `time` and a column a channel, with its unit in brackets; a name that stands twice is numbered.
+/// `time` and one column per channel with its unit in brackets; repeated names are numbered.
 fn analog_table(c3d: &C3d) -> Result<Table> {
     if c3d.channels.is_empty() {
         bail!("there are no analog channels; expected at least one");
@@ -106,7 +106,7 @@ fn analog_table(c3d: &C3d) -> Result<Table> {
     Ok(Table::new("analog", columns)?)
 }
 
-/// Ground forces by foot, and how OpenSim's tools apply them.
+/// Ground forces per foot, with OpenSim external loads.
 fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Result<Converted> {
     let (axes, recording) = LaboratoryFile::recording_of_c3d(c3d, &mut findings)?.in_world(&mut findings);
     findings.report(Code::ConvertAxes, axes.statement);
@@ -117,11 +117,11 @@ fn forces(args: &ConvertArgs, c3d: &C3d, to: &str, mut findings: Findings) -> Re
         bail!("there are no force plates; expected at least one");
     };
     if !is_level {
-        let message = "the plates have different heights; every centre of pressure was put at the first one's";
+        let message = "the force plates have different heights; every centre of pressure was moved to the height of the first plate";
         findings.report(Code::ConvertHeights, message);
     }
     let points = counted(c3d.points.len(), "point");
-    lost(&mut findings, &others(c3d, &[points, counted(c3d.channels.len(), "raw analog channel")]));
+    report_lost(&mut findings, &others(c3d, &[points, counted(c3d.channels.len(), "raw analog channel")]));
     if to == "csv" {
         return Ok(Converted { files: vec![(args.output.clone(), table.write_csv())], findings });
     }

@@ -1,6 +1,6 @@
-//! Skeletons in motion: from BVH, and from a model's coordinates to BVH.
+//! Conversion of skeletons: from BVH, and from a model's coordinates to BVH or glTF.
 
-use super::{Converted, lost};
+use super::{Converted, report_lost};
 use crate::args::ConvertArgs;
 use crate::files;
 use ambulo::findings::{Code, Findings};
@@ -21,11 +21,11 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Conv
     files::note_remarks(&shown, &remarks, &mut findings);
     let bytes = match to {
         "csv" => {
-            lost(&mut findings, &["offsets of the joints".to_owned(), "end sites".to_owned()]);
+            report_lost(&mut findings, &["offsets of the joints".to_owned(), "end sites".to_owned()]);
             channel_table(&bvh).with_context(|| shown.clone())?.write_csv()
         }
         _ => {
-            lost(&mut findings, &["rotations of the joints".to_owned(), "which joint carries which".to_owned()]);
+            report_lost(&mut findings, &["rotations of the joints".to_owned(), "hierarchy of the joints".to_owned()]);
             let markers = joint_markers(args, &bvh, &mut findings).with_context(|| shown.clone())?;
             trc_of_markers(&markers).with_context(|| shown.clone())?.write()
         }
@@ -33,7 +33,7 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Conv
     Ok(Converted { files: vec![(args.output.clone(), bytes)], findings })
 }
 
-/// The centres of all joints, in metres by the unit that goes with the legs.
+/// The centres of all joints in metres; the unit of length is inferred from the length of the legs.
 fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Result<MarkerRecording> {
     const CENTIMETRE: f64 = 0.01;
     let name = args.input.file_name().unwrap_or_default().to_string_lossy();
@@ -47,14 +47,14 @@ fn joint_markers(args: &ConvertArgs, bvh: &Bvh, findings: &mut Findings) -> Resu
         Err(error) => {
             findings.report(
                 Code::BvhUnit,
-                format!("lengths were taken as centimetres, for this is no person's skeleton: {error}"),
+                format!("lengths were read as centimetres, because this is not the skeleton of a person: {error}"),
             );
             Ok(joint_paths(bvh, &name, CENTIMETRE)?)
         }
     }
 }
 
-/// `time` and `<joint>.<channel>`, numbers as in the file.
+/// `time` and `<joint>.<channel>`, with the numbers of the file.
 fn channel_table(bvh: &Bvh) -> Result<Table> {
     let times = (0..bvh.frames()).map(|frame| frame as f64 * bvh.frame_time_s()).collect();
     let mut columns = vec![("time".to_owned(), times)];
@@ -67,7 +67,7 @@ fn channel_table(bvh: &Bvh) -> Result<Table> {
     Ok(Table::new("channels", columns)?)
 }
 
-/// A model's coordinates as a skeleton or an animation.
+/// Converts a model's coordinates to a skeleton or an animation.
 pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Converted> {
     let shown = args.input.display().to_string();
     let mut findings = Findings::default();
@@ -82,7 +82,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let smoothed = smooth(&model, &motion, settings, &mut findings).with_context(|| shown.clone())?;
     let trajectory = Trajectory::complete(&model, &smoothed, &mut findings).with_context(|| shown.clone())?;
     if to == "glb" {
-        lost(&mut findings, &["masses and inertias".to_owned()]);
+        report_lost(&mut findings, &["masses and inertias".to_owned()]);
         findings.report(Code::ConvertAxes, "lengths are in metres; x forward, y up, z right");
         let bytes = glb_of_motion(&model, &trajectory).with_context(|| shown.clone())?;
         return Ok(Converted { files: vec![(args.output.clone(), bytes)], findings });
@@ -90,7 +90,7 @@ pub(super) fn make(args: &ConvertArgs, bytes: &[u8], to: &str) -> Result<Convert
     let bvh = skeleton_of(&model, &trajectory).with_context(|| shown.clone())?;
     let masses =
         ["masses and inertias".to_owned(), "ranges of the joints".to_owned(), "the time of the first frame".to_owned()];
-    lost(&mut findings, &masses);
+    report_lost(&mut findings, &masses);
     findings.report(Code::ConvertAxes, "lengths are in centimetres; x forward, y up, z right");
     Ok(Converted { files: vec![(args.output.clone(), bvh.write())], findings })
 }

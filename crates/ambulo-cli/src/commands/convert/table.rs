@@ -1,4 +1,4 @@
-//! Tables: storage and CSV.
+//! Conversion of tables: OpenSim storage and CSV.
 
 use super::Converted;
 use crate::args::ConvertArgs;
@@ -15,11 +15,12 @@ pub(super) fn convert(args: &ConvertArgs, bytes: &[u8], from: &str, to: &str) ->
     files::note_remarks(&shown, &remarks, &mut findings);
     if to != "csv" && table.times().is_none() {
         let first = table.names().first().map_or("nothing", String::as_str);
-        bail!("{shown}: the first column is `{first}`; expected `time`, without which OpenSim loads no table");
+        bail!("{shown}: the first column is `{first}`; expected `time`, which OpenSim requires");
     }
     if to == "csv" && table.in_degrees.is_some() {
         let angles = if table.in_degrees == Some(true) { "degrees" } else { "radians" };
-        findings.report(Code::ConvertLost, format!("not carried over: the header's word that angles are in {angles}"));
+        findings
+            .report(Code::ConvertLost, format!("not carried over: the header's statement that angles are in {angles}"));
     }
     if from == "csv" {
         let message = "a CSV does not say whether angles are in degrees; the new header does not either";

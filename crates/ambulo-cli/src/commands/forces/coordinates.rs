@@ -1,4 +1,4 @@
-//! Recorded coordinates (`.mot`, `.sto`, `.csv`) of an OpenSim model.
+//! Reads recorded coordinates (`.mot`, `.sto`, `.csv`) of an OpenSim model.
 
 use super::{Reading, added_mass, ground_table, read_model};
 use crate::args::{ForcesArgs, MarkerFitting, SubjectArgs};
@@ -13,11 +13,11 @@ use std::path::Path;
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     let Some(model_path) = &args.model else {
         bail!(
-            "{}: recorded coordinates belong to a model; expected --model FILE.osim. hint: markers (.c3d, .trc) need none",
+            "{}: coordinates need their model; expected --model FILE.osim. hint: markers (.c3d, .trc) need no model",
             args.input.display()
         );
     };
-    refuse_what_is_for_markers(args)?;
+    reject_marker_options(args)?;
     let model = read_model(model_path, reading)?;
     reading.clock.lap("read_model");
     let motion = read_motion(&model, &args.input, &mut reading.findings)?;
@@ -27,19 +27,19 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     Ok(Source { forces, added_mass: added_mass(args), ..Source::coordinates(model, motion) })
 }
 
-fn refuse_what_is_for_markers(args: &ForcesArgs) -> Result<()> {
+fn reject_marker_options(args: &ForcesArgs) -> Result<()> {
     let given = [
         ("--static", args.subject.still.is_some()),
         ("--markers", args.subject.markers.is_some()),
         ("--plate", !args.subject.plate.is_empty()),
         ("--mass", args.subject.mass.is_some()),
         ("--height", args.subject.height.is_some()),
-        ("--figure", args.subject.figure != SubjectArgs::USUAL_FIGURE),
+        ("--figure", args.subject.figure != SubjectArgs::DEFAULT_FIGURE),
         ("--fit", args.subject.fit != MarkerFitting::Frames),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
-            "{}: {option} is for markers (.c3d, .trc); recorded coordinates are those of one model, whose size and mass they have",
+            "{}: {option} is for markers (.c3d, .trc); recorded coordinates use the size and mass of their model",
             args.input.display()
         ),
         None => Ok(()),

@@ -1,19 +1,19 @@
-//! What the user of the command reads when a study fails: the file in front, and the options that help.
+//! Adds the file concerned and the options that help to errors of the library.
 
 use crate::args::ForcesArgs;
 use ambulo::study::{Input, StudyError};
 use anyhow::{Error, anyhow};
 use std::path::Path;
 
-/// An error with the file that it is about; `ground` is the table of ground forces.
-pub(super) fn in_words(error: StudyError, args: &ForcesArgs, ground: Option<&Path>) -> Error {
+/// An error with the file concerned in front; `ground` is the table of ground forces.
+pub(super) fn with_file(error: StudyError, args: &ForcesArgs, ground: Option<&Path>) -> Error {
     let shown = |path: &Path| path.display().to_string();
     let motion = shown(&args.input);
     let ground_file = ground.map_or_else(|| motion.clone(), shown);
     match (error.input(), &error) {
         (_, StudyError::MassUnknown) => anyhow!("{error}; expected --mass KG").context(motion),
         (_, StudyError::NoSuchPlate { plate, count: 0 }) => {
-            anyhow!("--plate {}: {motion} has no force plates; expected a C3D with plates", plate + 1)
+            anyhow!("--plate {}: {motion} has no force plates; expected a C3D with force plates", plate + 1)
         }
         (_, StudyError::NoSuchPlate { plate, count }) => anyhow!(
             "--plate {}: {motion} has {count} force plates; expected a plate from 1 to {count}. hint: `ambulo info` lists them",

@@ -1,4 +1,4 @@
-//! Measured ground forces in a table of their own, from what the user typed.
+//! Reads measured ground forces from the table and the external loads that the options name.
 
 use super::Reading;
 use crate::args::{FootColumns, ForcesArgs};
@@ -9,7 +9,7 @@ use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 
-/// The forces of `--grf` or `--loads`; those of the recording if neither was given.
+/// The forces of `--grf` or `--loads`; the forces in the recording if neither was given.
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<MeasuredForces> {
     if args.no_ground || (args.grf.is_none() && args.loads.is_none()) {
         return Ok(MeasuredForces::InRecording);
@@ -35,7 +35,7 @@ fn read_loads(path: &Path, findings: &mut Findings) -> Result<ExternalLoads> {
     Ok(loads)
 }
 
-/// The data file that the loads name: relative to them, or a file of that name in the same folder.
+/// The data file named in the external loads: by its relative path, or a file of that name in the same folder.
 fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     let Some(named) = &loads.datafile else {
         bail!("the external loads name no <datafile>; expected --grf FILE");
@@ -47,7 +47,7 @@ fn data_file(xml: Option<&Path>, loads: &ExternalLoads) -> Result<PathBuf> {
     match candidates.into_iter().flatten().find(|path| path.is_file()) {
         Some(path) => Ok(path),
         None => bail!(
-            "the external loads name the data file `{}`, which is not there. hint: give it with --grf",
+            "the external loads name the data file `{}`, which does not exist. hint: give the file with --grf",
             named.display()
         ),
     }

@@ -1,4 +1,4 @@
-//! Markers (`.c3d`, `.trc`), with a standing trial or a model.
+//! Reads markers (`.c3d`, `.trc`), with a standing trial or a model.
 
 use super::{Reading, added_mass, ground_table, read_model};
 use crate::args::{ForcesArgs, PlateFoot, SubjectArgs};
@@ -10,13 +10,13 @@ use anyhow::{Context, Result, bail};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Bodies that can be made [kg].
+/// Accepted body masses [kg].
 const BODY_MASS_KG: RangeInclusive<f64> = 2.0..=300.0;
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     check_options(args)?;
     let trial = read_laboratory_file(&args.input, &mut reading.findings)?;
-    let standing = args.subject.still.as_deref().map(|path| read_still(path, reading)).transpose()?;
+    let standing = args.subject.still.as_deref().map(|path| read_standing_trial(path, reading)).transpose()?;
     reading.clock.lap("read_markers");
     let body = body(args, reading)?;
     let plates = args.subject.plate.iter().map(|PlateFoot { plate, side }| PlateAssignment {
@@ -28,7 +28,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     Ok(Source { forces, added_mass: added_mass(args), ..Source::markers(markers) })
 }
 
-/// The model that was given, or what is stated about the person for the built-in body.
+/// The given model, or the size and mass of the person for the built-in body.
 fn body(args: &ForcesArgs, reading: &mut Reading) -> Result<MarkerBody> {
     let SubjectArgs { mass, height, figure, markers, .. } = &args.subject;
     if let Some(path) = &args.model {
@@ -49,17 +49,17 @@ fn read_laboratory_file(path: &Path, findings: &mut Findings) -> Result<Laborato
     let read = match files::ending(path).as_str() {
         "c3d" => LaboratoryFile::from_c3d(&bytes, &shown, findings),
         "trc" => LaboratoryFile::from_trc(&bytes, &shown, findings),
-        _ => bail!("{shown}: expected markers, a .c3d or a .trc"),
+        _ => bail!("{shown}: expected markers (.c3d or .trc)"),
     };
     read.context(shown)
 }
 
-/// Refuses options that contradict each other or have no use with --model.
+/// Rejects options that contradict each other or have no effect with --model.
 fn check_options(args: &ForcesArgs) -> Result<()> {
     let SubjectArgs { plate, mass, height, markers, figure, .. } = &args.subject;
     for (i, given) in plate.iter().enumerate() {
         if plate[..i].iter().any(|before| before.plate == given.plate) {
-            bail!("--plate {} is given twice; expected one foot for a plate", given.plate);
+            bail!("--plate {} is given twice; expected one foot per plate", given.plate);
         }
     }
     if args.model.is_none() {
@@ -67,27 +67,27 @@ fn check_options(args: &ForcesArgs) -> Result<()> {
     }
     if let Some(mass) = mass.filter(|mass| !BODY_MASS_KG.contains(mass)) {
         let (least, most) = (BODY_MASS_KG.start(), BODY_MASS_KG.end());
-        bail!("--mass: the body mass is {mass} kg; expected {least} to {most} kg. hint: kilograms");
+        bail!("--mass: the body mass is {mass} kg; expected {least} to {most} kg. hint: the unit is kilograms");
     }
     let of_the_built_in_body = [
         ("--height", height.is_some()),
         ("--markers", markers.is_some()),
-        ("--figure", figure != SubjectArgs::USUAL_FIGURE),
+        ("--figure", figure != SubjectArgs::DEFAULT_FIGURE),
     ];
     match of_the_built_in_body.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
-            "{option} has no use with --model: it is for the built-in body; the model has its own size, segments and markers. hint: --static FILE brings a model to a person's size, --mass KG to a person's mass"
+            "{option} has no effect with --model, which has its own size, segments and markers; it is for the built-in body. hint: --static FILE scales the model to the person, --mass KG sets its mass"
         ),
         None => Ok(()),
     }
 }
 
-fn read_still(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
+fn read_standing_trial(path: &Path, reading: &mut Reading) -> Result<LaboratoryFile> {
     reading.read.push(path.to_owned());
     standing_trial(&mut reading.findings, |findings| read_laboratory_file(path, findings))
 }
 
-/// A set of markers by its name, or from a file.
+/// A marker set by its name, or from a file.
 fn read_set(name_or_file: &str) -> Result<MarkerSet> {
     let path = Path::new(name_or_file);
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {

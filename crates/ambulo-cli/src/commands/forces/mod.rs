@@ -1,4 +1,4 @@
-//! `ambulo forces`: a recording in, joint moments, powers, reactions and ground forces out.
+//! `ambulo forces`: joint moments, powers, reactions and ground forces of a recording.
 
 mod coordinates;
 mod errors;
@@ -8,8 +8,8 @@ mod skeleton;
 
 use super::run_files::{RunFiles, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{Consistency, Filter, ForcesArgs, MarkerFitting};
-use crate::{Verdict, files};
+use crate::args::{Adjusted, Filter, ForcesArgs, MarkerFitting};
+use crate::{Completion, files};
 use ambulo::analysis::Adjustable;
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, SmoothnessPrior};
@@ -24,11 +24,11 @@ use anyhow::{Context, Result, bail};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
     if let (Some(from), Some(to)) = (args.from, args.to)
         && from > to
     {
-        bail!("--from {from} is after --to {to}; expected a range of time that runs forwards");
+        bail!("--from {from} is after --to {to}; expected a start before the end");
     }
     let mut reading = Reading {
         findings: Findings::default(),
@@ -36,10 +36,10 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
         read: vec![args.input.clone()],
         ground: None,
     };
-    let source = match Kind::of(&args.input)? {
-        Kind::Coordinates => coordinates::read(args, &mut reading)?,
-        Kind::Markers => markers::read(args, &mut reading)?,
-        Kind::Skeleton => skeleton::read(args, &mut reading)?,
+    let source = match RecordingKind::of(&args.input)? {
+        RecordingKind::Coordinates => coordinates::read(args, &mut reading)?,
+        RecordingKind::Markers => markers::read(args, &mut reading)?,
+        RecordingKind::Skeleton => skeleton::read(args, &mut reading)?,
     };
     let source = Source { device: read_device(args, &mut reading)?, ..source };
     let settings = settings(args)?;
@@ -47,27 +47,27 @@ pub(crate) fn run(args: &ForcesArgs) -> Result<Verdict> {
     compute(args, &source, &settings, reading)
 }
 
-/// The kinds of recording, by the ending of the file's name.
+/// The kinds of recording, by the extension of the file name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum RecordingKind {
     Coordinates,
     Markers,
     Skeleton,
 }
 
-impl Kind {
-    fn of(input: &Path) -> Result<Kind> {
+impl RecordingKind {
+    fn of(input: &Path) -> Result<RecordingKind> {
         let ending = files::ending(input);
         let found = match ending.as_str() {
             _ if input.as_os_str() == "-" => "standard input is not read".to_owned(),
             _ if input.is_dir() => "this is a folder".to_owned(),
-            "" => "its name has no ending that says what it is".to_owned(),
+            "" => "its name has no extension".to_owned(),
             other => format!("unknown kind of recording `.{other}`"),
         };
         match ending.as_str() {
-            "mot" | "sto" | "csv" => Ok(Kind::Coordinates),
-            "c3d" | "trc" => Ok(Kind::Markers),
-            "bvh" => Ok(Kind::Skeleton),
+            "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
+            "c3d" | "trc" => Ok(RecordingKind::Markers),
+            "bvh" => Ok(RecordingKind::Skeleton),
             _ => bail!(
                 "{}: {found}; expected .c3d or .trc (markers), .mot, .sto or .csv (coordinates) or .bvh (a skeleton)",
                 input.display()
@@ -76,24 +76,24 @@ impl Kind {
     }
 }
 
-/// What accompanies the reading of files.
+/// Collected while the input files are read.
 struct Reading {
     findings: Findings,
     clock: Stopwatch,
-    /// Every file that was read; none of them is written over.
+    /// Every file that was read; none of them is overwritten.
     read: Vec<PathBuf>,
     /// The table of ground forces.
     ground: Option<PathBuf>,
 }
 
-fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Reading) -> Result<Verdict> {
+fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Reading) -> Result<Completion> {
     let Reading { mut findings, mut clock, read, ground } = reading;
     let mut watch = |stage: study::Stage| {
         clock.lap(stage.word());
         ControlFlow::Continue(())
     };
     let outcome = study::run_observed(source, settings, &mut findings, &mut watch)
-        .map_err(|error| errors::in_words(error, args, ground.as_deref()))?;
+        .map_err(|error| errors::with_file(error, args, ground.as_deref()))?;
     let body = body_file(&outcome.body, &mut findings);
     let files = RunFiles {
         outcome: &outcome,
@@ -105,10 +105,10 @@ fn compute(args: &ForcesArgs, source: &Source, settings: &Settings, reading: Rea
         findings,
         clock,
     };
-    files.write(&args.output, args.voice)
+    files.write(&args.output, args.print)
 }
 
-/// The body that was used, for OpenSim, for later runs and for pictures. A note if it cannot be written.
+/// The body that was used as an OpenSim model; a note if it cannot be written.
 fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
     match OutputFile::body("subject.osim", model) {
         Ok(file) => Some(file),
@@ -119,7 +119,7 @@ fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile> {
     }
 }
 
-/// What went in, for the summary.
+/// The input files and options, for the summary.
 fn input(args: &ForcesArgs, ground: Option<&Path>, outcome: &Outcome) -> Input {
     let shown = |path: &Path| path.display().to_string();
     let is_measured = outcome.force_origin == ForceOrigin::Measured
@@ -183,8 +183,8 @@ fn settings(args: &ForcesArgs) -> Result<Settings> {
             ..defaults.marker_fit
         },
         residual_reduction: args.consistent.map(|what| match what {
-            Consistency::Motion => Adjustable::Motion,
-            Consistency::Body => Adjustable::MotionAndBody,
+            Adjusted::Motion => Adjustable::Motion,
+            Adjusted::Body => Adjustable::MotionAndBody,
         }),
         thresholds: read_thresholds(args.thresholds.as_deref())?,
         ..defaults

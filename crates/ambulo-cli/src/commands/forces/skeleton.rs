@@ -1,4 +1,4 @@
-//! A skeleton in motion (`.bvh`), on the built-in body. No file of this kind has forces, a mass or a unit.
+//! Reads a skeleton in motion (`.bvh`) for the built-in body. The format has no forces, no mass and no unit of length.
 
 use super::{Reading, added_mass};
 use crate::args::ForcesArgs;
@@ -10,9 +10,9 @@ use anyhow::{Context, Result, bail};
 
 pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     let shown = args.input.display().to_string();
-    refuse_what_has_no_use(args)?;
+    reject_unused_options(args)?;
     let Some(mass_kg) = args.subject.mass else {
-        bail!("{shown}: a BVH states no body mass; expected --mass KG");
+        bail!("{shown}: a BVH contains no body mass; expected --mass KG");
     };
     let (bvh, remarks) = Bvh::read(&files::read(&args.input)?).with_context(|| shown.clone())?;
     files::note_remarks(&shown, &remarks, &mut reading.findings);
@@ -23,7 +23,7 @@ pub(super) fn read(args: &ForcesArgs, reading: &mut Reading) -> Result<Source> {
     Ok(Source { added_mass: added_mass(args), ..source })
 }
 
-fn refuse_what_has_no_use(args: &ForcesArgs) -> Result<()> {
+fn reject_unused_options(args: &ForcesArgs) -> Result<()> {
     let given = [
         ("--model", args.model.is_some()),
         ("--grf", args.grf.is_some()),
@@ -34,7 +34,7 @@ fn refuse_what_has_no_use(args: &ForcesArgs) -> Result<()> {
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => bail!(
-            "{}: {option} has no use for a .bvh, whose skeleton goes onto the built-in body and has no measured forces; expected --mass and --height",
+            "{}: {option} has no effect for a .bvh, which is fitted with the built-in body and has no measured forces; expected --mass and --height",
             args.input.display()
         ),
         None => Ok(()),

@@ -1,4 +1,4 @@
-//! Skeletons in motion.
+//! Description of skeletons in motion.
 
 use super::Sheet;
 use ambulo::findings::Findings;
@@ -19,13 +19,13 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     sheet.value("channels", bvh.channels());
     sheet.text("rotations", &rotation_orders(bvh.joints()));
     sheet.names("joints_that_slide", &sliding(bvh.joints()));
-    say_body(&mut sheet, &bvh, path);
+    add_body(&mut sheet, &bvh, path);
     sheet.remarks(&remarks);
     Ok(sheet)
 }
 
-/// What Ambulo takes the skeleton for.
-fn say_body(sheet: &mut Sheet, bvh: &Bvh, path: &Path) {
+/// Adds how Ambulo interprets the skeleton.
+fn add_body(sheet: &mut Sheet, bvh: &Bvh, path: &Path) {
     let mut findings = Findings::default();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     match skeleton_from_bvh(bvh, &name, None, &mut findings) {
@@ -36,11 +36,11 @@ fn say_body(sheet: &mut Sheet, bvh: &Bvh, path: &Path) {
             sheet.names("recognised", &centres);
             sheet.findings(&findings);
             sheet.next(format!(
-                "ambulo forces {} --mass KG --height M -o out (no mass and no unit are in the file; forces will be an estimate)",
+                "ambulo forces {} --mass KG --height M -o out (the file contains neither mass nor unit of length; forces will be estimates)",
                 path.display()
             ));
         }
-        Err(error) => sheet.said("axes", Value::Null, vec![format!("not known: {error}")]),
+        Err(error) => sheet.entry("axes", Value::Null, vec![format!("unknown: {error}")]),
     }
 }
 
@@ -63,7 +63,7 @@ fn rotation_orders(joints: &[Joint]) -> String {
     orders.iter().map(named).collect::<Vec<_>>().join(", ")
 }
 
-/// Joints that have channels of position.
+/// Joints with position channels.
 fn sliding(joints: &[Joint]) -> Vec<&str> {
     let slides = |joint: &&Joint| joint.channels.iter().any(|channel| channel.kind == ChannelKind::Position);
     joints.iter().filter(slides).map(|joint| joint.name.as_str()).collect()

@@ -1,4 +1,4 @@
-//! Recordings of a laboratory.
+//! Description of C3D recordings.
 
 use super::sheet::{short, wrapped};
 use super::{Sheet, markers};
@@ -14,7 +14,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// POINT parameters that list points which are no markers, and what to call them.
+/// POINT parameters that list points other than markers, and the words for these points.
 const GROUPS: [(&str, &str); 7] = [
     ("ANGLES", "angles"),
     ("MOMENTS", "moments"),
@@ -41,27 +41,27 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     let mut findings = Findings::default();
     let recording = markers_from_c3d(&c3d, &mut findings);
     let set = match &recording {
-        Ok(recording) => markers::say(&mut sheet, recording),
+        Ok(recording) => markers::add_markers(&mut sheet, recording),
         Err(error) => {
-            sheet.said("markers", Value::Null, vec![format!("none: {error}")]);
+            sheet.entry("markers", Value::Null, vec![format!("none: {error}")]);
             None
         }
     };
-    say_points(&mut sheet, &c3d, recording.as_ref().map_or(0, |recording| recording.markers.len()));
-    say_channels(&mut sheet, &c3d.channels);
+    add_points(&mut sheet, &c3d, recording.as_ref().map_or(0, |recording| recording.markers.len()));
+    add_channels(&mut sheet, &c3d.channels);
     let plates = plates_from_c3d(&c3d, PlateSettings::default(), &mut findings);
     match &plates {
-        Ok(plates) => say_plates(&mut sheet, plates),
-        Err(error) => sheet.said("plates", Value::Null, vec![format!("unusable: {error}")]),
+        Ok(plates) => add_plates(&mut sheet, plates),
+        Err(error) => sheet.entry("plates", Value::Null, vec![format!("unusable: {error}")]),
     }
-    say_events(&mut sheet, &c3d);
+    add_events(&mut sheet, &c3d);
     let subject = subject_from_c3d(&c3d);
-    say_subject(&mut sheet, &c3d, &subject);
+    add_subject(&mut sheet, &c3d, &subject);
     let plates = plates.unwrap_or_default();
     if let Ok(recording) = &recording {
         let axes = laboratory(recording, &plates, &c3d.point_unit, &mut findings);
         sheet.text("axes", &axes.statement);
-        say_feet(&mut sheet, recording, &plates, &axes, &mut findings);
+        add_feet(&mut sheet, recording, &plates, &axes, &mut findings);
     }
     sheet.remarks(&remarks);
     sheet.findings(&findings);
@@ -99,7 +99,7 @@ fn encoding(encoding: &Encoding) -> String {
     format!("{processor}, {storage}")
 }
 
-/// Company, software and version, as the file has them.
+/// Company, software and version as stated in the file.
 fn written_by(c3d: &C3d) -> Option<String> {
     let words = ["COMPANY", "SOFTWARE", "VERSION_LABEL", "VERSION"];
     let texts = words.into_iter().filter_map(|name| c3d.parameters.text("MANUFACTURER", name));
@@ -107,8 +107,8 @@ fn written_by(c3d: &C3d) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join(" "))
 }
 
-/// Points that are no markers, by their groups.
-fn say_points(sheet: &mut Sheet, c3d: &C3d, markers: usize) {
+/// Adds points that are not markers, by groups.
+fn add_points(sheet: &mut Sheet, c3d: &C3d, markers: usize) {
     let mut lines = vec![(c3d.points.len() - markers.min(c3d.points.len())).to_string()];
     let mut groups = serde_json::Map::new();
     for (parameter, word) in GROUPS {
@@ -125,11 +125,11 @@ fn say_points(sheet: &mut Sheet, c3d: &C3d, markers: usize) {
         lines.push(format!("without a label: {unlabelled}"));
     }
     if c3d.points.len() > markers {
-        sheet.said("other_points", groups, lines);
+        sheet.entry("other_points", groups, lines);
     }
 }
 
-fn say_channels(sheet: &mut Sheet, channels: &[Channel]) {
+fn add_channels(sheet: &mut Sheet, channels: &[Channel]) {
     let named = |channel: &Channel| match channel.unit.trim() {
         "" => channel.name.clone(),
         unit => format!("{} [{unit}]", channel.name),
@@ -138,7 +138,7 @@ fn say_channels(sheet: &mut Sheet, channels: &[Channel]) {
     sheet.names("analog_channels", &names.iter().map(String::as_str).collect::<Vec<_>>());
 }
 
-fn say_plates(sheet: &mut Sheet, plates: &[PlateRecording]) {
+fn add_plates(sheet: &mut Sheet, plates: &[PlateRecording]) {
     let values = plates.iter().map(|plate| {
         json!({
             "name": plate.name,
@@ -152,7 +152,7 @@ fn say_plates(sheet: &mut Sheet, plates: &[PlateRecording]) {
     });
     let values: Vec<Value> = values.collect();
     let lines = std::iter::once(plates.len().to_string()).chain(plates.iter().map(plate_line)).collect();
-    sheet.said("plates", values, lines);
+    sheet.entry("plates", values, lines);
 }
 
 fn plate_line(plate: &PlateRecording) -> String {
@@ -171,8 +171,8 @@ fn plate_line(plate: &PlateRecording) -> String {
     )
 }
 
-/// Whose foot stood on which plate.
-fn say_feet(
+/// Adds which foot was on which force plate.
+fn add_feet(
     sheet: &mut Sheet,
     recording: &MarkerRecording,
     plates: &[PlateRecording],
@@ -189,7 +189,7 @@ fn say_feet(
     let foot = |contact: &PlateContact| match (contact.quality, contact.side) {
         (ContactQuality::TwoFeet, _) => String::new(),
         (_, Some(side)) => format!("{side} foot, "),
-        (_, None) => "nobody's foot, ".to_owned(),
+        (_, None) => "unknown foot, ".to_owned(),
     };
     let values = feet.contacts.iter().map(|contact| {
         json!({
@@ -206,10 +206,10 @@ fn say_feet(
         format!("{plate}, {:.3}-{:.3} s: {}{quality}{reason}", contact.start_s, contact.end_s, foot(contact))
     };
     let lines = std::iter::once(feet.contacts.len().to_string()).chain(feet.contacts.iter().map(line)).collect();
-    sheet.said("feet_on_plates", values.collect::<Vec<_>>(), lines);
+    sheet.entry("feet_on_plates", values.collect::<Vec<_>>(), lines);
     let windows: Vec<String> = feet.windows.iter().map(|[from, to]| format!("{from:.3}-{to:.3} s")).collect();
     let shown = if windows.is_empty() { "never".to_owned() } else { windows.join(", ") };
-    sheet.said("every_foot_on_a_plate_s", json!(feet.windows), vec![shown]);
+    sheet.entry("every_foot_on_a_plate_s", json!(feet.windows), vec![shown]);
 }
 
 /// Lengths of the first two edges [m].
@@ -218,7 +218,7 @@ fn size(plate: &PlateRecording) -> [f64; 2] {
     [(b - a).norm(), (c - b).norm()]
 }
 
-/// Spans during which the plate carried a foot [s]; touches and breaks shorter than 0.05 s are noise.
+/// Times during which the plate was loaded [s]; contacts and gaps shorter than 0.05 s are noise.
 fn loaded(plate: &PlateRecording) -> Vec<[f64; 2]> {
     const SHORTEST: f64 = 0.05;
     let mut spans: Vec<[f64; 2]> = Vec::new();
@@ -233,7 +233,7 @@ fn loaded(plate: &PlateRecording) -> Vec<[f64; 2]> {
     spans
 }
 
-fn say_events(sheet: &mut Sheet, c3d: &C3d) {
+fn add_events(sheet: &mut Sheet, c3d: &C3d) {
     let mut events: Vec<_> = c3d.events.iter().collect();
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     let values: Vec<Value> = events
@@ -241,25 +241,25 @@ fn say_events(sheet: &mut Sheet, c3d: &C3d) {
         .map(|event| json!({ "time_s": event.time_s, "label": event.label, "context": event.context }))
         .collect();
     let lines = events.iter().map(|e| format!("{:.3} s {} {}", e.time_s, e.context, e.label).replace("  ", " "));
-    sheet.said("events", values, std::iter::once(events.len().to_string()).chain(lines).collect());
+    sheet.entry("events", values, std::iter::once(events.len().to_string()).chain(lines).collect());
 }
 
-fn say_subject(sheet: &mut Sheet, c3d: &C3d, subject: &SubjectParameters) {
+fn add_subject(sheet: &mut Sheet, c3d: &C3d, subject: &SubjectParameters) {
     let names: Vec<&str> = c3d.parameters.texts("SUBJECTS", "NAMES").into_iter().filter(|n| !n.is_empty()).collect();
     if !names.is_empty() {
         sheet.value("subject", names.join(", "));
     }
-    // Reals of 24 bits: two digits for the eye.
+    // C3D stores single precision; two decimals are enough to read.
     let rounded = |value: Option<f64>| value.map(|value| format!("{value:.2}")).into_iter().collect();
-    sheet.said("mass_kg", json!(subject.mass_kg), rounded(subject.mass_kg));
-    sheet.said("height_m", json!(subject.height_m), rounded(subject.height_m));
+    sheet.entry("mass_kg", json!(subject.mass_kg), rounded(subject.mass_kg));
+    sheet.entry("height_m", json!(subject.height_m), rounded(subject.height_m));
     if !subject.processing.is_empty() {
-        // Names with signs in front are a program's own memory; --json has them too.
+        // Names that begin with a sign are internal to a program; --json lists them too.
         let own = subject.processing.iter().filter(|(name, _)| name.starts_with(char::is_alphabetic));
         let lines: Vec<String> = own.map(|(name, value)| format!("{name} {}", short(*value))).collect();
         let lines = wrapped(&lines.iter().map(String::as_str).collect::<Vec<_>>());
         let value: serde_json::Map<String, Value> =
             subject.processing.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
-        sheet.said("processing", value, lines);
+        sheet.entry("processing", value, lines);
     }
 }

@@ -1,4 +1,4 @@
-//! Markers, of TRC files and of what else has markers.
+//! Description of markers, in TRC and other files.
 
 use super::Sheet;
 use super::sheet::wrapped;
@@ -10,7 +10,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Markers that stay within this stand still [m].
+/// Markers of a standing trial move less than this [m].
 const STILL: f64 = 0.1;
 
 pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
@@ -27,7 +27,7 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     let mut findings = Findings::default();
     match markers_from_trc(&trc, &mut findings) {
         Ok(recording) => {
-            let set = say(&mut sheet, &recording);
+            let set = add_markers(&mut sheet, &recording);
             let axes = laboratory(&recording, &[], trc.unit.symbol(), &mut findings);
             sheet.text("axes", &axes.statement);
             sheet.remarks(&remarks);
@@ -43,28 +43,28 @@ pub(super) fn describe_trc(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     Ok(sheet)
 }
 
-/// What to type next with markers.
+/// The command to type next with markers.
 pub(super) fn next(path: &Path, recording: &MarkerRecording, is_known: bool, subject: &str) -> String {
     let shown = path.display();
     let subject = if subject.is_empty() { String::new() } else { format!(" {subject}") };
     if !is_known {
         return format!(
-            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md tells how to name markers), or --model MODEL.osim if these are its markers"
+            "ambulo forces {shown} --markers SET.toml{subject} -o out (docs/MARKERS.md explains marker sets), or --model MODEL.osim if the model has these markers"
         );
     }
     if stands_still(recording) {
         return format!("a standing trial: ambulo forces WALK --static {shown}{subject} -o out");
     }
     format!(
-        "ambulo forces {shown} --static STANDING{subject} -o out (without --static the body is measured from the trial itself)"
+        "ambulo forces {shown} --static STANDING{subject} -o out (without --static the body is calibrated from this trial)"
     )
 }
 
-/// Says which markers there are, which of them have gaps and what set they are; gives the names of the sets if one is known.
-pub(super) fn say(sheet: &mut Sheet, recording: &MarkerRecording) -> Option<Vec<String>> {
+/// Adds the markers, their gaps and their marker set; returns the names of the sets if a body can be built from them.
+pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Option<Vec<String>> {
     let names: Vec<&str> = recording.markers.iter().map(|marker| marker.name.as_str()).collect();
     sheet.names("markers", &names);
-    say_gaps(sheet, recording);
+    add_gaps(sheet, recording);
     match MarkerSet::recognise(names.iter().copied()) {
         Ok(recognised) => {
             let known = recognised.markers.len();
@@ -76,31 +76,31 @@ pub(super) fn say(sheet: &mut Sheet, recording: &MarkerRecording) -> Option<Vec<
                     wrapped(&unknown)
                         .into_iter()
                         .enumerate()
-                        .map(|(k, line)| if k == 0 { format!("not known: {line}") } else { line }),
+                        .map(|(k, line)| if k == 0 { format!("unknown: {line}") } else { line }),
                 );
             }
-            sheet.said("marker_set", json!({ "sets": &recognised.sets, "known": known, "unknown": unknown }), lines);
-            // Names on no landmark make no body.
+            sheet.entry("marker_set", json!({ "sets": &recognised.sets, "known": known, "unknown": unknown }), lines);
+            // Without markers on landmarks no body can be built.
             recognised.markers.iter().any(|marker| marker.definition.landmark.is_some()).then_some(recognised.sets)
         }
         Err(error) => {
-            sheet.said("marker_set", Value::Null, vec![format!("none is known: {error}")]);
+            sheet.entry("marker_set", Value::Null, vec![format!("not recognised: {error}")]);
             None
         }
     }
 }
 
-fn say_gaps(sheet: &mut Sheet, recording: &MarkerRecording) {
+fn add_gaps(sheet: &mut Sheet, recording: &MarkerRecording) {
     let gaps: Vec<Gaps> = recording.markers.iter().filter_map(|marker| Gaps::of(marker, recording.rate_hz)).collect();
     let lines: Vec<String> = gaps.iter().map(|gap| gap.line(recording.frames())).collect();
     let values = gaps.iter().map(|gap| {
         json!({ "marker": gap.name, "gaps": gap.count, "missing_frames": gap.missing, "longest_s": gap.longest_s })
     });
     let head = if gaps.is_empty() { "none".to_owned() } else { gaps.len().to_string() };
-    sheet.said("markers_with_gaps", values.collect::<Vec<_>>(), std::iter::once(head).chain(lines).collect());
+    sheet.entry("markers_with_gaps", values.collect::<Vec<_>>(), std::iter::once(head).chain(lines).collect());
 }
 
-/// Where a marker was not seen.
+/// The gaps of a marker.
 struct Gaps<'m> {
     name: &'m str,
     count: usize,
@@ -127,7 +127,7 @@ impl Gaps<'_> {
     fn line(&self, frames: usize) -> String {
         let Gaps { name, count, missing, longest_s } = self;
         if *missing == frames {
-            return format!("{name}: never seen");
+            return format!("{name}: never visible");
         }
         let gaps = if *count == 1 { "gap" } else { "gaps" };
         let share = 100.0 * *missing as f64 / frames as f64;
@@ -135,7 +135,7 @@ impl Gaps<'_> {
     }
 }
 
-/// Whether no marker goes anywhere.
+/// Whether this is a standing trial: no marker moves by [`STILL`] or more.
 pub(super) fn stands_still(recording: &MarkerRecording) -> bool {
     let extent = |marker: &MarkerPath| {
         let seen = || (0..marker.positions.len()).filter(|&frame| marker.is_seen(frame)).map(|i| marker.positions[i]);

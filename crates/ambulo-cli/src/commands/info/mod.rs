@@ -1,4 +1,4 @@
-//! `ambulo info`: what a file holds.
+//! `ambulo info`: describes the content of a file.
 
 mod bvh;
 mod c3d;
@@ -10,16 +10,16 @@ mod table;
 pub(crate) use sheet::Sheet;
 
 use crate::args::InfoArgs;
-use crate::{Verdict, files, printer};
+use crate::{Completion, files, printer};
 use ambulo_formats::external_loads::ExternalLoads;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-pub(crate) fn run(args: &InfoArgs) -> Result<Verdict> {
+pub(crate) fn run(args: &InfoArgs) -> Result<Completion> {
     let bytes = files::read(&args.file)?;
     let sheet = describe(&args.file, &bytes).with_context(|| args.file.display().to_string())?;
-    printer::info(&sheet, args.voice)?;
-    Ok(Verdict::Accepted)
+    printer::info(&sheet, args.print)?;
+    Ok(Completion::Passed)
 }
 
 fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {

@@ -1,4 +1,4 @@
-//! OpenSim models.
+//! Description of OpenSim models.
 
 use super::Sheet;
 use ambulo::findings::Findings;

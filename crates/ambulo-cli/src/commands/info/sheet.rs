@@ -1,13 +1,13 @@
-//! What is said of a file: keys and values for programs, lines for people.
+//! The description of a file: keys and values for JSON, lines of text for the terminal.
 
 use ambulo::findings::Findings;
 use ambulo_formats::Remark;
 use serde_json::{Map, Value};
 
-/// Characters of a line of names.
+/// Longest line of names, in characters.
 const WIDTH: usize = 110;
 
-/// What a file holds, in the order in which it is said.
+/// The description of a file, in the order in which it is printed.
 #[derive(Debug)]
 pub(crate) struct Sheet {
     rows: Vec<Row>,
@@ -21,14 +21,14 @@ struct Row {
 }
 
 impl Sheet {
-    /// A file of this kind.
+    /// Begins the description of a file of this kind.
     pub(super) fn of(kind: &str) -> Sheet {
         let mut sheet = Sheet { rows: Vec::new() };
         sheet.text("kind", kind);
         sheet
     }
 
-    /// A value; people see it as programs do. `None` is said to programs only.
+    /// Adds a value with the same content in JSON and in text; null is omitted from the text.
     pub(super) fn value(&mut self, key: &'static str, value: impl Into<Value>) {
         let value = value.into();
         let lines = match &value {
@@ -38,67 +38,66 @@ impl Sheet {
             Value::Array(items) => vec![items.iter().map(shown).collect::<Vec<_>>().join(", ")],
             other => vec![other.to_string()],
         };
-        self.said(key, value, lines);
+        self.entry(key, value, lines);
     }
 
     pub(super) fn text(&mut self, key: &'static str, text: &str) {
         self.value(key, text);
     }
 
-    /// A value with its own lines for people; the first stands beside the key.
-    pub(super) fn said(&mut self, key: &'static str, value: impl Into<Value>, lines: Vec<String>) {
+    /// Adds a value for JSON with its own lines of text; the first line follows the key.
+    pub(super) fn entry(&mut self, key: &'static str, value: impl Into<Value>, lines: Vec<String>) {
         self.rows.push(Row { key, value: value.into(), lines });
     }
 
-    /// Things of which each has a line.
+    /// Adds a list with one line per item.
     pub(super) fn list(&mut self, key: &'static str, items: Vec<String>) {
         let lines = std::iter::once(items.len().to_string()).chain(items.iter().cloned()).collect();
-        self.said(key, items, lines);
+        self.entry(key, items, lines);
     }
 
-    /// Names, many on a line.
+    /// Adds a list of names, several per line.
     pub(super) fn names(&mut self, key: &'static str, names: &[&str]) {
         let lines = std::iter::once(names.len().to_string()).chain(wrapped(names)).collect();
-        self.said(key, names, lines);
+        self.entry(key, names, lines);
     }
 
-    /// What was odd in a file.
+    /// Adds the remarks of the reader.
     pub(super) fn remarks(&mut self, remarks: &[Remark]) {
         if !remarks.is_empty() {
             self.list("remarks", remarks.iter().map(ToString::to_string).collect());
         }
     }
 
-    /// What was odd in what was made of it.
+    /// Adds the warnings and notes about the content.
     pub(super) fn findings(&mut self, findings: &Findings) {
         if !findings.as_slice().is_empty() {
             self.list("findings", findings.as_slice().iter().map(ToString::to_string).collect());
         }
     }
 
-    /// The command to type next.
+    /// Adds the command to type next.
     pub(super) fn next(&mut self, command: String) {
         self.value("next", command);
     }
 
-    /// For programs.
     pub(crate) fn json(&self) -> Value {
         Value::Object(self.rows.iter().map(|row| (row.key.to_owned(), row.value.clone())).collect::<Map<_, _>>())
     }
 
-    /// For people.
+    /// The lines of text for the terminal.
     pub(crate) fn lines(&self) -> Vec<String> {
-        let said = |row: &Row| {
+        let text = |row: &Row| {
             let label = row.key.replace('_', " ");
             let (first, others) = row.lines.split_first()?;
             let others = others.iter().map(|line| format!("  {line}"));
             Some(std::iter::once(format!("{label}: {first}")).chain(others).collect::<Vec<_>>())
         };
-        self.rows.iter().filter_map(said).flatten().collect()
+        self.rows.iter().filter_map(text).flatten().collect()
     }
 }
 
-/// Six digits for the eye; --json has them all.
+/// A number with at most six decimals; --json has all digits.
 pub(super) fn short(number: f64) -> String {
     let rounded = format!("{number:.6}");
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -112,7 +111,7 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Names with commas between them, in lines that are not too long.
+/// Names separated by commas, in lines of at most [`WIDTH`] characters.
 pub(super) fn wrapped(names: &[&str]) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for (k, name) in names.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Tables: OpenSim storage and CSV.
+//! Description of tables: OpenSim storage and CSV.
 
 use super::Sheet;
 use ambulo_formats::table::{Table, coordinate_of_state_path};
@@ -55,7 +55,7 @@ fn rate(times: &[f64]) -> Option<f64> {
     (duration > 0.0).then(|| (times.len() - 1) as f64 / duration)
 }
 
-/// The beginnings of the columns of ground forces: what stands before `vx`, `vy`, `vz`.
+/// The prefixes of the ground-force columns, which precede `vx`, `vy`, `vz`.
 fn force_prefixes(table: &Table) -> Option<Vec<String>> {
     let has = |name: &str| table.column(name).is_some();
     let prefix = |name: &String| {

@@ -1,6 +1,6 @@
-//! One instant against its limits. Nothing is allocated here.
+//! Checks of one frame. Nothing is allocated here.
 //!
-//! Every check yields the share of what is allowed; above one the instant is infeasible.
+//! Every check returns the share of the limit that is used; above 1 the frame is infeasible.
 
 use super::person::Person;
 use super::strength::{Hill, StrengthCurve};
@@ -12,72 +12,72 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
 use crate::spatial::{Vec3, Wrench};
 
-/// A sole below this height above the ground [m] ...
+/// A sole point lower than this above the ground [m] ...
 const NEAR_GROUND_M: f64 = 0.06;
-/// ... and slower than this against it [m/s] may stand on it (AnyBody's prediction of ground forces takes 0.04 m and 0.8
-/// m/s for nodes of a fitted sole; ours is an estimate).
+/// ... and slower than this relative to it [m/s] may be in contact (AnyBody's prediction of ground forces uses 0.04 m and 0.8 m/s for nodes
+/// of a fitted sole; ours are estimates).
 const NEAR_GROUND_M_S: f64 = 0.8;
-/// Both feet together carry less than this share of body weight in flight.
+/// In flight both feet together carry less than this share of body weight.
 const FLIGHT_LOAD_BW: f64 = 0.05;
 
-/// Everything about a person and a model that stays the same from frame to frame.
+/// The limits of one model and one person, prepared for many frames.
 #[derive(Debug, Clone)]
-pub struct Judge {
+pub struct FeasibilityLimits {
     pub(super) thresholds: Thresholds,
     pub(super) person: Person,
     /// Upward unit vector.
     up: Vec3,
     /// Weight [N].
     weight: f64,
-    coordinates: Vec<Limits>,
+    coordinates: Vec<CoordinateLimits>,
 }
 
 /// Limits of one coordinate.
 #[derive(Debug, Clone)]
-struct Limits {
+struct CoordinateLimits {
     strength: Option<StrengthCurve>,
-    /// With slack [rad].
+    /// Range of motion with its slack [rad].
     range: Option<[f64; 2]>,
     is_judged: bool,
 }
 
-/// One instant.
+/// Motion and forces at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
     /// Coordinates [rad or m], in the model's order.
     pub q: &'a [f64],
     /// Their rates.
     pub qd: &'a [f64],
-    /// Generalised forces that the body must give [N.m or N].
+    /// Generalised forces that the muscles must supply [N.m or N].
     pub generalized: &'a [f64],
     /// Powers [W].
     pub powers: &'a [f64],
-    /// Bodies, in the model's order.
+    /// Motion of the bodies, in the model's order.
     pub bodies: &'a [BodyMotion],
-    /// What the ground does to each foot; `None` where it is not known.
+    /// Ground force on each foot; `None` if unknown.
     pub feet: BySide<Option<FootFrame>>,
-    /// What motion and loads disagree by: force [N] and moment about the root joint [N.m], world axes.
+    /// Residual force [N] and residual moment about the root joint [N.m], world axes.
     pub residual: Wrench,
-    /// Velocity of the ground [m/s]: the belt's on a treadmill.
+    /// Velocity of the ground [m/s]: the belt velocity on a treadmill.
     pub ground_velocity: Vec3,
     /// Height of the ground above the world's origin [m].
     pub ground_height: f64,
-    /// Whether the body walks: runners may fly.
+    /// Whether the person walks; flight is allowed in running.
     pub walking: bool,
 }
 
-/// What the ground does to a foot.
+/// Ground force on a foot at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct FootFrame {
     /// Force on the foot [N], world axes.
     pub force: Vec3,
-    /// Centre of pressure [m]; not a number while unloaded.
+    /// Centre of pressure [m]; NaN while unloaded.
     pub center_of_pressure: Vec3,
 }
 
-/// What a measurement belongs to.
+/// The part of the body that a check is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measured {
+pub enum CheckedPart {
     /// A coordinate.
     Coordinate(CoordinateId),
     /// A foot.
@@ -86,49 +86,49 @@ pub enum Measured {
     Body,
 }
 
-/// A value and what is allowed, in the unit of the check.
+/// The value of a check in one frame and its limit, in the unit of the check.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measurement {
-    /// Which check.
+pub struct CheckedValue {
+    /// The check.
     pub check: Check,
-    /// What was measured.
-    pub of: Measured,
-    /// What was found.
+    /// The part of the body.
+    pub of: CheckedPart,
+    /// The value.
     pub value: f64,
-    /// What is allowed.
+    /// The limit.
     pub limit: f64,
-    /// Share of the allowed that is used: above one is infeasible.
+    /// Share of the limit that is used; infeasible above 1.
     pub share: f64,
 }
 
-impl Judge {
+impl FeasibilityLimits {
     /// Prepares the limits of a model and a person.
     #[must_use]
-    pub fn new(model: &Model, person: &Person, thresholds: &Thresholds) -> Judge {
-        let limits = |id: CoordinateId| limits(model, id, person, thresholds);
-        Judge {
+    pub fn new(model: &Model, person: &Person, thresholds: &Thresholds) -> FeasibilityLimits {
+        let of_coordinate = |id: CoordinateId| coordinate_limits(model, id, person, thresholds);
+        FeasibilityLimits {
             thresholds: thresholds.clone(),
             person: person.clone(),
             up: crate::ground::upward(model),
             weight: person.mass_kg * model.gravity().norm(),
-            coordinates: model.coordinate_ids().map(limits).collect(),
+            coordinates: model.coordinate_ids().map(of_coordinate).collect(),
         }
     }
 
-    /// Whether a coordinate is judged at all: a rotation inside the body that nothing else decides.
+    /// Whether a coordinate is checked: a free rotation other than those of the root.
     #[must_use]
-    pub fn judges(&self, id: CoordinateId) -> bool {
+    pub fn covers(&self, id: CoordinateId) -> bool {
         self.coordinates[id.index()].is_judged
     }
 
-    /// Whether a coordinate's moment can be judged.
+    /// Whether the strength of a coordinate is known.
     #[must_use]
-    pub fn knows_strength(&self, id: CoordinateId) -> bool {
+    pub fn has_strength(&self, id: CoordinateId) -> bool {
         self.coordinates[id.index()].strength.is_some()
     }
 
-    /// Whether a foot is unloaded, near the ground and slow: it may stand where nothing measures.
-    fn may_stand_unseen(&self, frame: &Frame<'_>, side: Side) -> bool {
+    /// Whether a foot is unloaded, near the ground and slow: it may be in contact outside the force plates.
+    fn may_be_on_unmeasured_ground(&self, frame: &Frame<'_>, side: Side) -> bool {
         let carried = frame.feet[side].map_or(0.0, |foot| foot.force.dot(&self.up));
         if carried > CENTER_OF_PRESSURE_LOAD_N {
             return false;
@@ -143,7 +143,7 @@ impl Judge {
     }
 }
 
-fn limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds) -> Limits {
+fn coordinate_limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds) -> CoordinateLimits {
     let coordinate = &model.coordinates()[id.index()];
     let is_root = model.bodies().iter().any(|b| b.joint.parent.is_none() && b.joint.coordinates().contains(&id));
     let is_judged = coordinate.kind == CoordinateKind::Rotation && matches!(coordinate.drive, Drive::Free) && !is_root;
@@ -161,114 +161,120 @@ fn limits(model: &Model, id: CoordinateId, person: &Person, t: &Thresholds) -> L
         Some(if meaning.sign < 0.0 { curve.reversed() } else { curve })
     };
     let slack = t.range_slack_rad;
-    Limits {
+    CoordinateLimits {
         strength: given.or_else(built_in).filter(|_| is_judged),
         range: coordinate.range.map(|[low, high]| [low - slack, high + slack]).filter(|_| is_judged),
         is_judged,
     }
 }
 
-/// Measures one instant; `visit` receives every value with its limit, feasible or not. Allocates nothing.
+/// Checks one frame; `visit` receives every value with its limit, feasible or not. Allocates nothing.
 ///
-/// Returns false if the ground forces of the instant are not all there (a foot may stand where nothing measures): moments, powers,
-/// flight, support and balance are then not judged.
+/// Returns false if ground forces may be missing (a foot may be in contact outside the force plates): moments, powers, flight, support and
+/// balance are then not checked.
 ///
 /// # Panics
 /// If a slice of the frame is shorter than the model.
-pub fn check_frame(judge: &Judge, frame: &Frame<'_>, mut visit: impl FnMut(Measurement)) -> bool {
-    let t = &judge.thresholds;
-    let mut visit = |m: Measurement| {
+pub fn check_frame(limits: &FeasibilityLimits, frame: &Frame<'_>, mut visit: impl FnMut(CheckedValue)) -> bool {
+    let t = &limits.thresholds;
+    let mut visit = |m: CheckedValue| {
         if t.judges(m.check) {
             visit(m);
         }
     };
-    let unsupported = share(frame.residual.force.norm(), judge.weight);
+    let unsupported = share(frame.residual.force.norm(), limits.weight);
     let ground_known = frame.feet.values().any(Option::is_some);
     let whole = !ground_known
         || unsupported <= t.support_bw
-        || !Side::BOTH.into_iter().any(|side| judge.may_stand_unseen(frame, side));
-    for (index, limits) in judge.coordinates.iter().enumerate().filter(|(_, limits)| limits.is_judged) {
-        check_coordinate(judge, frame, CoordinateId(index), limits, whole, &mut visit);
+        || !Side::BOTH.into_iter().any(|side| limits.may_be_on_unmeasured_ground(frame, side));
+    for (index, coordinate) in limits.coordinates.iter().enumerate().filter(|(_, coordinate)| coordinate.is_judged) {
+        check_coordinate(limits, frame, CoordinateId(index), coordinate, whole, &mut visit);
     }
     for side in Side::BOTH {
         if let Some(foot) = &frame.feet[side] {
-            check_foot(judge, frame, side, foot, &mut visit);
+            check_foot(limits, frame, side, foot, &mut visit);
         }
     }
     if whole && ground_known {
-        let of = Measured::Body;
-        let mut say = |check: Check, value: f64, limit: f64| {
-            visit(Measurement { check, of, value, limit, share: share(value, limit) });
+        let of = CheckedPart::Body;
+        let mut add = |check: Check, value: f64, limit: f64| {
+            visit(CheckedValue { check, of, value, limit, share: share(value, limit) });
         };
-        say(Check::Support, unsupported, t.support_bw);
-        say(Check::Balance, frame.residual.moment.norm() / judge.person.mass_kg, t.balance_nm_kg);
-        let carried: f64 = frame.feet.values().flatten().map(|foot| foot.force.dot(&judge.up)).sum();
-        let flies = frame.walking && carried < FLIGHT_LOAD_BW * judge.weight;
+        add(Check::Support, unsupported, t.support_bw);
+        add(Check::Balance, frame.residual.moment.norm() / limits.person.mass_kg, t.balance_nm_kg);
+        let carried: f64 = frame.feet.values().flatten().map(|foot| foot.force.dot(&limits.up)).sum();
+        let flies = frame.walking && carried < FLIGHT_LOAD_BW * limits.weight;
         let [value, share] = if flies { [f64::INFINITY; 2] } else { [0.0, 0.0] };
-        visit(Measurement { check: Check::Flight, of, value, limit: t.flight_s, share });
+        visit(CheckedValue { check: Check::Flight, of, value, limit: t.flight_s, share });
     }
     whole
 }
 
 fn check_coordinate(
-    judge: &Judge,
+    limits: &FeasibilityLimits,
     frame: &Frame<'_>,
     id: CoordinateId,
-    limits: &Limits,
+    coordinate: &CoordinateLimits,
     whole: bool,
-    visit: &mut impl FnMut(Measurement),
+    visit: &mut impl FnMut(CheckedValue),
 ) {
-    let (t, i, of) = (&judge.thresholds, id.index(), Measured::Coordinate(id));
-    if let Some([low, high]) = limits.range {
+    let (t, i, of) = (&limits.thresholds, id.index(), CheckedPart::Coordinate(id));
+    if let Some([low, high]) = coordinate.range {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let bound = if frame.q[i] < middle { low } else { high };
         let share = share((frame.q[i] - middle).abs(), half);
         let [value, limit] = [frame.q[i], bound].map(f64::to_degrees);
-        visit(Measurement { check: Check::Range, of, value, limit, share });
+        visit(CheckedValue { check: Check::Range, of, value, limit, share });
     }
     if !whole {
         return;
     }
-    if let Some(strength) = &limits.strength {
+    if let Some(strength) = &coordinate.strength {
         let moment = frame.generalized[i];
         let available = strength.available(frame.q[i], frame.qd[i], moment, t.eccentric);
-        let allowed = t.strength_share * available + t.strength_tolerance_nm_kg * judge.person.mass_kg;
+        let allowed = t.strength_share * available + t.strength_tolerance_nm_kg * limits.person.mass_kg;
         let share = share(moment.abs(), allowed);
-        visit(Measurement { check: Check::Strength, of, value: moment, limit: allowed.copysign(moment), share });
+        visit(CheckedValue { check: Check::Strength, of, value: moment, limit: allowed.copysign(moment), share });
     }
-    let power = frame.powers[i] / judge.person.mass_kg;
+    let power = frame.powers[i] / limits.person.mass_kg;
     let allowed = if power >= 0.0 { t.generation_w_kg } else { t.absorption_w_kg };
     let share = share(power.abs(), allowed);
-    visit(Measurement { check: Check::Power, of, value: power, limit: allowed.copysign(power), share });
+    visit(CheckedValue { check: Check::Power, of, value: power, limit: allowed.copysign(power), share });
 }
 
-/// A foot is judged while it carries more than this [N]: a share of the weight, and never less than what has a centre of pressure.
+/// The load above which a foot is checked [N]: a share of the weight, and at least the load that defines a centre of pressure.
 #[must_use]
 pub fn least_load_n(load_bw: f64, weight_n: f64) -> f64 {
     (load_bw * weight_n).max(CENTER_OF_PRESSURE_LOAD_N)
 }
 
-fn check_foot(judge: &Judge, frame: &Frame<'_>, side: Side, foot: &FootFrame, visit: &mut impl FnMut(Measurement)) {
-    let (t, up, of) = (&judge.thresholds, judge.up, Measured::Foot(side));
+fn check_foot(
+    limits: &FeasibilityLimits,
+    frame: &Frame<'_>,
+    side: Side,
+    foot: &FootFrame,
+    visit: &mut impl FnMut(CheckedValue),
+) {
+    let (t, up, of) = (&limits.thresholds, limits.up, CheckedPart::Foot(side));
     let normal = foot.force.dot(&up);
-    let carries = |load_bw: f64| normal > least_load_n(load_bw, judge.weight);
-    let mut say = |check: Check, value: f64, limit: f64| {
-        visit(Measurement { check, of, value, limit, share: share(value, limit) });
+    let carries = |load_bw: f64| normal > least_load_n(load_bw, limits.weight);
+    let mut add = |check: Check, value: f64, limit: f64| {
+        visit(CheckedValue { check, of, value, limit, share: share(value, limit) });
     };
     if carries(t.friction_load_bw) {
-        say(Check::Friction, (foot.force - up * normal).norm() / normal, t.friction);
+        add(Check::Friction, (foot.force - up * normal).norm() / normal, t.friction);
     }
-    let Some(sole) = &judge.person.soles[side] else { return };
+    let Some(sole) = &limits.person.soles[side] else { return };
     if carries(t.sole_load_bw) {
-        let outside = distance_to_line(judge, frame, sole, foot.center_of_pressure) - sole.half_width;
-        say(Check::CenterOfPressure, outside.max(0.0), t.sole_margin_m);
+        let outside = distance_to_line(limits, frame, sole, foot.center_of_pressure) - sole.half_width;
+        add(Check::CenterOfPressure, outside.max(0.0), t.sole_margin_m);
     }
     if carries(t.sliding_load_bw) {
-        say(Check::Sliding, slip(judge, frame, sole, foot.center_of_pressure), t.sliding_m_s);
+        add(Check::Sliding, slip(limits, frame, sole, foot.center_of_pressure), t.sliding_m_s);
     }
 }
 
-/// Value over limit; a limit of zero allows nothing but zero.
+/// Value over limit; a limit of zero allows only zero.
 fn share(value: f64, limit: f64) -> f64 {
     if limit > 0.0 {
         value / limit
@@ -279,11 +285,11 @@ fn share(value: f64, limit: f64) -> f64 {
     }
 }
 
-/// Distance of a place from the line along the sole, seen from above [m].
-fn distance_to_line(judge: &Judge, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
-    let seen = |v: Vec3| v - judge.up * v.dot(&judge.up);
-    let points = sole.points.map(|p| seen(frame.bodies[p.body.index()].pose.place(p.place)));
-    let place = seen(place);
+/// Horizontal distance of a point from the line along the sole [m].
+fn distance_to_line(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
+    let level = |v: Vec3| v - limits.up * v.dot(&limits.up);
+    let points = sole.points.map(|p| level(frame.bodies[p.body.index()].pose.place(p.place)));
+    let place = level(place);
     let to_part = |a: Vec3, b: Vec3| {
         let along = b - a;
         let length = along.norm_squared();
@@ -293,8 +299,8 @@ fn distance_to_line(judge: &Judge, frame: &Frame<'_>, sole: &Sole, place: Vec3) 
     to_part(points[0], points[1]).min(to_part(points[1], points[2]))
 }
 
-/// Speed along the ground of the foot's material at a place [m/s]: of the toes if the tip is nearest, else of the foot.
-fn slip(judge: &Judge, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
+/// Horizontal speed of the foot's material at a point relative to the ground [m/s]: of the toes if the tip is nearest, else of the foot.
+fn slip(limits: &FeasibilityLimits, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
     let distance = |k: usize| {
         let point = &sole.points[k];
         (frame.bodies[point.body.index()].pose.place(point.place) - place).norm()
@@ -302,5 +308,5 @@ fn slip(judge: &Judge, frame: &Frame<'_>, sole: &Sole, place: Vec3) -> f64 {
     let nearest = if distance(2) < distance(1) { 2 } else { 0 };
     let body = &frame.bodies[sole.points[nearest].body.index()];
     let velocity = body.twist.velocity_at(place - body.center) - frame.ground_velocity;
-    (velocity - judge.up * velocity.dot(&judge.up)).norm()
+    (velocity - limits.up * velocity.dot(&limits.up)).norm()
 }

@@ -1,24 +1,24 @@
-//! How fast the ground goes by: zero on a floor, the belt's velocity on a treadmill.
+//! Velocity of the ground: zero on a floor, the belt velocity on a treadmill.
 
 use crate::ground::GroundForces;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
 use crate::spatial::Vec3;
 
-/// A foot carries enough to stand still on the ground above this share of the body's weight.
+/// A foot that carries more than this share of body weight moves with the ground.
 const STANDING_SHARE: f64 = 0.5;
 
-/// Velocity of the ground and of the body.
+/// Velocity of the ground, and walking speed over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::analysis) struct OverGround {
-    /// Median velocity of the feet that carry the body [m/s].
+    /// Median velocity of the loaded feet [m/s].
     pub(in crate::analysis) ground: Vec3,
-    /// Mean speed of the body's mass centre against it, along it [m/s].
+    /// Mean horizontal speed of the body's mass centre relative to the ground [m/s].
     pub(in crate::analysis) speed: f64,
 }
 
-/// Speed of the body's mass centre against the feet while they carry it, at their centres of pressure: on a treadmill the feet move
-/// back with the belt, so the speed over the belt comes out. `None` if no foot carries half the weight.
+/// Estimates the ground velocity from the loaded feet at their centres of pressure; on a treadmill they move back with the belt. `None` if
+/// no foot ever carries half the weight.
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,

@@ -1,6 +1,6 @@
-//! A whole motion against its limits.
+//! Checks of a whole motion.
 
-use super::frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame};
+use super::frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame};
 use super::ground_speed::over_ground;
 use super::person::Person;
 use super::spans::{Span, Track};
@@ -14,27 +14,32 @@ use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
 
-/// A motion and its forces, whoever made them.
+/// A recorded or synthetic motion with its forces.
 #[derive(Debug, Clone, Copy)]
-pub struct Evidence<'a> {
+pub struct MotionAndForces<'a> {
     /// The body.
     pub model: &'a Model,
     /// Its motion.
     pub trajectory: &'a Trajectory,
     /// The forces of inverse dynamics or of a simulation.
     pub forces: &'a Forces,
-    /// What the ground does; without bodies where it is not known.
+    /// The ground forces; without bodies if unknown.
     pub ground: &'a GroundForces,
-    /// What a worn device gives of the generalised forces: one column a coordinate [N.m or N].
+    /// Generalised forces of a worn device: one column per coordinate [N.m or N].
     pub device: Option<&'a [Vec<f64>]>,
 }
 
-/// Judges a whole motion.
+/// Decides whether a person could make a motion.
 #[must_use]
-pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
-    let Evidence { model, trajectory, .. } = *evidence;
-    let judge = Judge::new(model, person, thresholds);
-    let (tracks, frames_unmeasured) = measure(evidence, &judge, findings);
+pub fn check(
+    motion: &MotionAndForces<'_>,
+    person: &Person,
+    thresholds: &Thresholds,
+    findings: &mut Findings,
+) -> Verdict {
+    let MotionAndForces { model, trajectory, .. } = *motion;
+    let limits = FeasibilityLimits::new(model, person, thresholds);
+    let (tracks, frames_unmeasured) = measure(motion, &limits, findings);
     let grid = trajectory.grid();
     let (mut reasons, mut closest) = (Vec::new(), Vec::new());
     for (slot, track) in tracks.iter().enumerate() {
@@ -62,7 +67,7 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
         feasible: reasons.is_empty(),
         reasons,
         closest,
-        not_judged: not_judged(evidence, &judge),
+        not_judged: not_judged(motion, &limits),
         frames: grid.frames,
         frames_unmeasured,
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
@@ -70,18 +75,20 @@ pub fn check(evidence: &Evidence<'_>, person: &Person, thresholds: &Thresholds, 
     }
 }
 
-// A track for each check of each coordinate, then of each foot, then of the whole body.
+// One track per check of each coordinate, then of each foot, then of the whole body.
 const OF_COORDINATES: [Check; 3] = [Check::Strength, Check::Range, Check::Power];
 const OF_FEET: [Check; 3] = [Check::Friction, Check::CenterOfPressure, Check::Sliding];
 const OF_BODY: [Check; 3] = [Check::Flight, Check::Support, Check::Balance];
 
-fn slot(model: &Model, measurement: &Measurement) -> Option<usize> {
+fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     let among = |checks: &[Check]| checks.iter().position(|check| *check == measurement.check);
     let coordinates = OF_COORDINATES.len() * model.coordinates().len();
     match measurement.of {
-        Measured::Coordinate(id) => Some(OF_COORDINATES.len() * id.index() + among(&OF_COORDINATES)?),
-        Measured::Foot(side) => Some(coordinates + OF_FEET.len() * usize::from(side == Side::Left) + among(&OF_FEET)?),
-        Measured::Body => Some(coordinates + 2 * OF_FEET.len() + among(&OF_BODY)?),
+        CheckedPart::Coordinate(id) => Some(OF_COORDINATES.len() * id.index() + among(&OF_COORDINATES)?),
+        CheckedPart::Foot(side) => {
+            Some(coordinates + OF_FEET.len() * usize::from(side == Side::Left) + among(&OF_FEET)?)
+        }
+        CheckedPart::Body => Some(coordinates + 2 * OF_FEET.len() + among(&OF_BODY)?),
     }
 }
 
@@ -97,23 +104,23 @@ fn check_of(model: &Model, slot: usize) -> Check {
     }
 }
 
-/// Every frame, into tracks; and the number of frames in which a foot may stand where nothing measures.
-fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> (Vec<Track>, usize) {
-    let Evidence { model, trajectory, forces, ground, device } = *evidence;
+/// Checks every frame. Returns the tracks and the number of frames in which ground forces may be missing.
+fn measure(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits, findings: &mut Findings) -> (Vec<Track>, usize) {
+    let MotionAndForces { model, trajectory, forces, ground, device } = *motion;
     let up = upward(model);
     let count = OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len();
     let mut tracks = vec![Track::default(); count];
     let over = over_ground(model, trajectory, ground, up);
     let gravity = model.gravity().norm();
-    let froude = over.map(|o| o.speed * o.speed / (gravity * judge.person.leg_length_m));
+    let froude = over.map(|o| o.speed * o.speed / (gravity * limits.person.leg_length_m));
     let by_side = feet(model, ground);
     let feet = BySide::from_fn(|side| by_side.iter().find(|(s, _)| *s == side).map(|(_, forces)| forces));
     let roots = Roots::of(model);
     let n = model.coordinates().len();
     let [mut q, mut qd, mut tau, mut power] = [0; 4].map(|_| vec![0.0; n]);
     let height = ground_height(&feet, up);
-    let lasting = frames_that_last(judge.thresholds.shortest_s, trajectory.grid());
-    let (mut unseen, mut first_unseen) = (0, None);
+    let lasting = frames_that_last(limits.thresholds.shortest_s, trajectory.grid());
+    let (mut unmeasured, mut first_unmeasured) = (0, None);
     each_body_motion(model, trajectory, |i, bodies| {
         for (c, id) in model.coordinate_ids().enumerate() {
             (q[c], qd[c]) = (trajectory.values(id)[i], trajectory.rates(id)[i]);
@@ -132,30 +139,30 @@ fn measure(evidence: &Evidence<'_>, judge: &Judge, findings: &mut Findings) -> (
             residual: roots.residual(|body| forces.reactions[body.index()][i]),
             ground_velocity: over.map_or(Vec3::zeros(), |o| o.ground),
             ground_height: height,
-            walking: froude.is_none_or(|froude| froude < judge.thresholds.running_froude),
+            walking: froude.is_none_or(|froude| froude < limits.thresholds.running_froude),
         };
-        let whole = check_frame(judge, &frame, |m| {
+        let whole = check_frame(limits, &frame, |m| {
             if let Some(slot) = slot(model, &m) {
                 tracks[slot].add(i, m, lasting);
             }
         });
         if !whole {
-            unseen += 1;
-            first_unseen.get_or_insert(i);
+            unmeasured += 1;
+            first_unmeasured.get_or_insert(i);
         }
     });
-    if let Some(first) = first_unseen {
+    if let Some(first) = first_unmeasured {
         let message = format!(
-            "moments, powers, flight, support and balance were not judged in {unseen} of {} frames (the first at {:.3} s): a foot may stand there where nothing measures its force",
+            "moments, powers, flight, support and balance were not checked in {unmeasured} of {} frames (the first at {:.3} s), because a foot may be on the ground outside the force plates",
             trajectory.grid().frames,
             trajectory.grid().time(first)
         );
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
-    (tracks, unseen)
+    (tracks, unmeasured)
 }
 
-/// Least number of frames in a row that is no noise.
+/// Number of consecutive frames that is not noise.
 fn frames_that_last(shortest_s: f64, grid: TimeGrid) -> usize {
     ((shortest_s / grid.step_s - 1e-9).ceil().max(1.0) as usize).min(grid.frames.max(1))
 }
@@ -172,39 +179,39 @@ fn ground_height(feet: &BySide<Option<&BodyForces>>, up: Vec3) -> f64 {
     heights.get(heights.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn not_judged(evidence: &Evidence<'_>, judge: &Judge) -> Vec<NotJudged> {
-    let model = evidence.model;
+fn not_judged(motion: &MotionAndForces<'_>, limits: &FeasibilityLimits) -> Vec<NotJudged> {
+    let model = motion.model;
     let mut list = Vec::new();
     let mut add = |check: Check, why: String| list.push(NotJudged { check, why });
-    for check in Check::ALL.into_iter().filter(|check| !judge.thresholds.judges(*check)) {
-        add(check, "left out by the thresholds".to_owned());
+    for check in Check::ALL.into_iter().filter(|check| !limits.thresholds.judges(*check)) {
+        add(check, "skipped by the thresholds".to_owned());
     }
     let unknown: Vec<&str> = model
         .coordinate_ids()
-        .filter(|id| judge.judges(*id) && !judge.knows_strength(*id))
+        .filter(|id| limits.covers(*id) && !limits.has_strength(*id))
         .map(|id: CoordinateId| model.coordinates()[id.index()].name.as_str())
         .collect();
     if !unknown.is_empty() {
         add(Check::Strength, format!("no strength is known for {}", unknown.join(", ")));
     }
-    if evidence.ground.bodies.is_empty() {
+    if motion.ground.bodies.is_empty() {
         for check in OF_FEET.iter().chain(&OF_BODY) {
             add(*check, "no ground forces".to_owned());
         }
         return list;
     }
-    let unknown = |side: &Side| judge.person.soles[*side].is_none();
+    let unknown = |side: &Side| limits.person.soles[*side].is_none();
     for side in Side::BOTH.into_iter().filter(unknown) {
         for check in [Check::CenterOfPressure, Check::Sliding] {
-            add(check, format!("the {side} sole is not known: the model has no {side} foot"));
+            add(check, format!("unknown {side} sole: the model has no {side} foot"));
         }
     }
     list
 }
 
-fn quantity(model: &Model, m: &Measurement) -> String {
+fn quantity(model: &Model, m: &CheckedValue) -> String {
     match m.of {
-        Measured::Coordinate(id) => {
+        CheckedPart::Coordinate(id) => {
             let coordinate = &model.coordinates()[id.index()];
             match m.check {
                 Check::Strength => format!("{}_{}", coordinate.name, coordinate.kind.force_suffix()),
@@ -212,8 +219,8 @@ fn quantity(model: &Model, m: &Measurement) -> String {
                 _ => coordinate.name.clone(),
             }
         }
-        Measured::Foot(side) => format!("{}_{}", m.check, side.letter()),
-        Measured::Body => m.check.to_string(),
+        CheckedPart::Foot(side) => format!("{}_{}", m.check, side.letter()),
+        CheckedPart::Body => m.check.to_string(),
     }
 }
 
@@ -223,9 +230,9 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
         m.value = span.duration_s(grid.step_s);
     }
     let side = match m.of {
-        Measured::Coordinate(id) => model.anatomy().coordinate_side(id),
-        Measured::Foot(side) => Some(side),
-        Measured::Body => None,
+        CheckedPart::Coordinate(id) => model.anatomy().coordinate_side(id),
+        CheckedPart::Foot(side) => Some(side),
+        CheckedPart::Body => None,
     };
     let (time_s, at_s) = ([grid.time(span.first), grid.time(span.last)], grid.time(span.worst_at));
     let quantity = quantity(model, &m);
@@ -243,20 +250,24 @@ fn reason(model: &Model, grid: TimeGrid, span: &Span) -> Reason {
     }
 }
 
-fn message(m: &Measurement, quantity: &str, side: Option<Side>, [from, to]: [f64; 2], at: f64) -> String {
+fn message(m: &CheckedValue, quantity: &str, side: Option<Side>, [from, to]: [f64; 2], at: f64) -> String {
     let (value, limit) = (m.value, m.limit);
     let when = format!("from {from:.3} to {to:.3} s, worst at {at:.3} s");
     let foot = side.map_or_else(String::new, |side| side.to_string());
     match m.check {
         Check::Strength => {
-            format!("`{quantity}` is {value:.1} N.m; the muscles give {limit:.1} N.m at this angle and speed ({when})")
+            format!(
+                "`{quantity}` is {value:.1} N.m; the muscles can supply {limit:.1} N.m at this angle and speed ({when})"
+            )
         }
-        Check::Range => format!("`{quantity}` is {value:.1} deg; the joint goes to {limit:.1} deg with slack ({when})"),
+        Check::Range => format!("`{quantity}` is {value:.1} deg; the joint reaches {limit:.1} deg with slack ({when})"),
         Check::Power => format!("`{quantity}` is {value:.1} W/kg; at most {limit:.1} W/kg are plausible ({when})"),
-        Check::Friction => format!("the {foot} foot needs a friction of {value:.2}; {limit:.2} is there ({when})"),
-        Check::CenterOfPressure => format!(
-            "the centre of pressure lies {value:.3} m outside the {foot} sole; {limit:.3} m are allowed ({when})"
-        ),
+        Check::Friction => {
+            format!("the {foot} foot needs a coefficient of friction of {value:.2}; {limit:.2} is available ({when})")
+        }
+        Check::CenterOfPressure => {
+            format!("the centre of pressure is {value:.3} m outside the {foot} sole; {limit:.3} m are allowed ({when})")
+        }
         Check::Sliding => {
             format!("the loaded {foot} foot slides at {value:.2} m/s; {limit:.2} m/s are allowed ({when})")
         }
@@ -264,10 +275,10 @@ fn message(m: &Measurement, quantity: &str, side: Option<Side>, [from, to]: [f64
             "no foot is loaded for {value:.3} s while walking; {limit:.3} s are allowed (from {from:.3} to {to:.3} s)"
         ),
         Check::Support => format!(
-            "the motion needs {value:.2} body weights more than ground and muscles give; {limit:.2} are allowed ({when})"
+            "the residual force is {value:.2} body weights, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
         ),
         Check::Balance => format!(
-            "the motion needs {value:.2} N.m/kg about the root that ground and muscles do not give; {limit:.2} are allowed ({when})"
+            "the residual moment about the root is {value:.2} N.m/kg, which neither ground nor muscles supply; {limit:.2} are allowed ({when})"
         ),
     }
 }

@@ -1,9 +1,8 @@
-//! Whether a person could do this: joint moments against strength, friction, centre of pressure, flight, sliding, joint
-//! limits, power, and forces that nobody supplies.
+//! Decides whether a person could make a motion: checks of strength, joint range, power, friction, centre of pressure, sliding, flight, and
+//! residual force and moment.
 //!
-//! [`check`] judges a whole recording or synthetic walk, whoever made it, and yields a [`Verdict`]; [`check_frame`] measures
-//! one instant without allocating. An infeasible motion is a result, not an error. Defaults, their sources and the file
-//! format of [`Thresholds`]: docs/FEASIBILITY.md.
+//! [`check`] judges a whole recording or synthetic walk and returns a [`Verdict`]; [`check_frame`] checks one frame without allocating.
+//! An infeasible motion is a result, not an error. Defaults, their sources and the file format of [`Thresholds`]: docs/FEASIBILITY.md.
 
 mod frame;
 mod ground_speed;
@@ -14,8 +13,8 @@ mod strength;
 mod thresholds;
 mod verdict;
 
-pub use frame::{FootFrame, Frame, Judge, Measured, Measurement, check_frame, least_load_n};
-pub use judgement::{Evidence, check};
+pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame, check_frame, least_load_n};
+pub use judgement::{MotionAndForces, check};
 pub use person::Person;
 pub use strength::{Hill, StrengthCurve};
 pub use thresholds::Thresholds;

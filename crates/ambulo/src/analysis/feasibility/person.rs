@@ -1,19 +1,19 @@
-//! The size and the soles of the person who moves.
+//! The person for whom a motion is checked.
 
 use crate::model::anatomy::{Sole, Stature};
 use crate::model::anthropometry::Human;
 use crate::model::{BySide, Model};
 
-/// The person by whose strength, weight and soles a motion is judged.
+/// The size and the soles of a person, which determine the limits of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Person {
     /// Body mass [kg].
     pub mass_kg: f64,
-    /// Stature [m], as known or estimated.
+    /// Stature [m].
     pub height_m: f64,
     /// Hip to ground, standing [m].
     pub leg_length_m: f64,
-    /// The soles, where known or estimated.
+    /// The soles, if known or estimated.
     pub soles: BySide<Option<Sole>>,
     /// Whether height and soles are estimates from a model's joints.
     pub estimated: bool,
@@ -33,7 +33,7 @@ impl Person {
         }
     }
 
-    /// The person of any model with legs: stature from thigh and shank, soles from stature and the place of the ankle.
+    /// Estimates the person of any model with legs: stature from thigh and shank, soles from stature and the position of the ankle.
     #[must_use]
     pub fn of_model(model: &Model) -> Person {
         let Stature { height_m, leg_length_m } = model.stature();

@@ -1,30 +1,30 @@
-//! From instants beyond a limit to times beyond it.
+//! Joins frames beyond a limit to time spans.
 
-use super::frame::Measurement;
+use super::frame::CheckedValue;
 use std::collections::VecDeque;
 
-/// Frames in a row beyond a limit, and the worst of them.
+/// Consecutive frames beyond a limit, and the worst of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Span {
     pub(super) first: usize,
     pub(super) last: usize,
     pub(super) worst_at: usize,
-    pub(super) worst: Measurement,
+    pub(super) worst: CheckedValue,
 }
 
-/// What one measured thing did over time.
+/// One check of one part of the body over time.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Track {
     pub(super) spans: Vec<Span>,
-    /// Frame and value of the largest share that lasted.
-    pub(super) closest: Option<(usize, Measurement)>,
-    /// The latest frames in a row, at most as many as make a time that counts.
-    latest: VecDeque<(usize, Measurement)>,
+    /// Frame and value of the largest share that lasted long enough.
+    pub(super) closest: Option<(usize, CheckedValue)>,
+    /// The latest consecutive frames, at most `lasting` of them.
+    latest: VecDeque<(usize, CheckedValue)>,
 }
 
 impl Track {
-    /// Takes the measurement of a frame; frames come in order. Shorter than `lasting` frames in a row is noise.
-    pub(super) fn add(&mut self, frame: usize, measurement: Measurement, lasting: usize) {
+    /// Adds the value of the next frame. Fewer than `lasting` consecutive frames are noise.
+    pub(super) fn add(&mut self, frame: usize, measurement: CheckedValue, lasting: usize) {
         if self.latest.back().is_some_and(|(before, _)| before + 1 != frame) {
             self.latest.clear();
         }
@@ -47,7 +47,7 @@ impl Track {
         }
     }
 
-    /// Closes breaks shorter than `shortest_s` and drops spans that remain shorter. A span of one frame lasts one step.
+    /// Joins spans with gaps shorter than `shortest_s` and drops spans that remain shorter. A span of one frame lasts one time step.
     pub(super) fn settled(&self, step_s: f64, shortest_s: f64) -> Vec<Span> {
         let mut joined: Vec<Span> = Vec::new();
         for span in &self.spans {
@@ -58,14 +58,14 @@ impl Track {
                 _ => joined.push(*span),
             }
         }
-        // Rounding of a step must not decide.
+        // Tolerance for rounding of the time step.
         joined.retain(|span| span.duration_s(step_s) > shortest_s * (1.0 - 1e-9));
         joined
     }
 }
 
 impl Span {
-    fn extend(&mut self, last: usize, at: usize, measurement: Measurement) {
+    fn extend(&mut self, last: usize, at: usize, measurement: CheckedValue) {
         self.last = last;
         if measurement.share > self.worst.share {
             (self.worst, self.worst_at) = (measurement, at);

@@ -1,7 +1,7 @@
-//! How strong a joint is at an angle and a speed.
+//! Strength of a joint as a function of angle and speed.
 //!
-//! The isometric moment of `strength.csv` (its header names the source) goes with body mass times stature, as dynamometry normalises
-//! strength (Anderson 2007: share of body weight times height).
+//! The isometric moment of `strength.csv` (its header names the source) is scaled with body mass times stature, as is usual in
+//! dynamometry (Anderson 2007: share of body weight times height).
 //!
 //! Speed multiplies it by Hill's factor. With w > 0 the speed at which the muscles shorten:
 //!
@@ -9,9 +9,9 @@
 //!   f(-w) = 1 + (e - 1) w / (w + w_e)                               rising to e, with the slope of the other branch at w = 0
 //!
 //! | code        | symbol | unit  | meaning                                              |
-//! | `at_75`     | c₄     | rad/s | speed at which three quarters of the moment are left |
-//! | `at_50`     | c₅     | rad/s | speed at which half is left                          |
-//! | `eccentric` | e      | 1     | most that a muscle holds while it is stretched       |
+//! | `at_75`     | c₄     | rad/s | speed at which 3/4 of the isometric moment remain    |
+//! | `at_50`     | c₅     | rad/s | speed at which 1/2 of it remains                     |
+//! | `eccentric` | e      | 1     | largest moment while the muscle is stretched         |
 //!
 //! Source: Anderson, Madigan, Nussbaum 2007, J Biomech 40:3105, equation and table 3 (men of 18 to 25), the table as transcribed in
 //! RBDL's `Millard2016TorqueMuscle` (read). e = 1.4: Thelen 2003 (unverified). The stretching branch is ours.
@@ -25,12 +25,12 @@ const TABLE: &str = include_str!("strength.csv");
 /// Mass times stature of the man of the table [kg.m].
 const REFERENCE: f64 = 72.6 * 1.80;
 
-/// How a muscle group slows down.
+/// Decrease of a muscle group's moment with the speed of shortening.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hill {
-    /// Speed at which three quarters of the isometric moment are left [rad/s].
+    /// Speed at which three quarters of the isometric moment remain [rad/s].
     pub at_75: f64,
-    /// Speed at which half of it is left [rad/s].
+    /// Speed at which half of it remains [rad/s].
     pub at_50: f64,
 }
 
@@ -43,7 +43,7 @@ const DORSIFLEXORS: Hill = Hill { at_75: 0.699, at_50: 1.940 };
 const PLANTARFLEXORS: Hill = Hill { at_75: 0.987, at_50: 3.558 };
 
 impl Hill {
-    /// Share of the isometric moment at a speed of shortening [rad/s]; negative while stretched.
+    /// Share of the isometric moment at a speed of shortening [rad/s], which is negative while the muscles are stretched.
     #[must_use]
     pub fn factor(self, speed: f64, eccentric: f64) -> f64 {
         let product = 2.0 * self.at_75 * self.at_50;
@@ -58,7 +58,7 @@ impl Hill {
     }
 }
 
-/// Isometric moments of one coordinate over its angle, and how both directions slow down.
+/// Isometric moments of one coordinate as a function of its angle, with the effect of speed in both directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrengthCurve {
     /// Angles, rising [rad].
@@ -67,14 +67,12 @@ pub struct StrengthCurve {
     pub positive: Vec<f64>,
     /// Largest negative moment at each angle, as a number above zero [N.m].
     pub negative: Vec<f64>,
-    /// How the muscles of the positive moment slow down, and those of the negative one; `None`: as those of the joint that the curve
-    /// is used for.
+    /// Effect of speed on the positive and on the negative moment; `None`: as for the joint that the curve is used for.
     pub hill: Option<[Hill; 2]>,
 }
 
 impl StrengthCurve {
-    /// Largest moment [N.m] at an angle [rad] and a rate [rad/s], in the direction of `sign`; the ends of the table hold
-    /// beyond them.
+    /// Largest moment [N.m] at an angle [rad] and a rate [rad/s], in the direction of `sign`. Constant beyond the ends of the table.
     #[must_use]
     pub fn available(&self, angle: f64, rate: f64, sign: f64, eccentric: f64) -> f64 {
         let hill = self.hill.unwrap_or(Hill::UNKNOWN);
@@ -83,7 +81,7 @@ impl StrengthCurve {
         crate::motion::interpolate(&self.angles, isometric, angle) * hill.factor(shortening, eccentric)
     }
 
-    /// The same joint counted the other way round.
+    /// The curve for a coordinate with the opposite sign.
     #[must_use]
     pub fn reversed(&self) -> StrengthCurve {
         let turned = |values: &[f64]| values.iter().rev().copied().collect::<Vec<f64>>();
@@ -95,7 +93,7 @@ impl StrengthCurve {
         }
     }
 
-    /// The built-in curve of a movement for a person, positive in the direction of the movement; `None` where the table has none.
+    /// The built-in curve of a movement for a person, positive in the direction of the movement; `None` if the table has none.
     #[must_use]
     pub fn built_in(movement: Movement, mass_kg: f64, height_m: f64) -> Option<StrengthCurve> {
         let (_, coordinate, sign) = *COORDINATES.iter().find(|(of, ..)| *of == movement)?;
@@ -114,11 +112,11 @@ impl StrengthCurve {
 }
 
 impl Hill {
-    /// Muscles that the source lacks slow down as the hip's extensors do.
+    /// Muscles that the source lacks are treated like the hip extensors.
     pub(super) const UNKNOWN: [Hill; 2] = [HIP_EXTENSORS; 2];
 
-    /// Of the muscles that give the positive and the negative moment of a coordinate, which grows (`sign` above zero) or falls during
-    /// a movement.
+    /// The muscles of the positive and of the negative moment of a coordinate that increases (`sign` above zero) or decreases during a
+    /// movement.
     #[must_use]
     pub fn of_direction(movement: Movement, sign: f64) -> [Hill; 2] {
         let [agonists, antagonists] = match movement {
@@ -131,7 +129,7 @@ impl Hill {
     }
 }
 
-/// Movements of the table, their coordinates there and the signs of these: Gait2392 counts the knee's extension.
+/// Movements of the table, their coordinates there and the signs of these: knee extension is positive in gait2392.
 const COORDINATES: [(Movement, &str, f64); 4] = [
     (Movement::HipFlexion, "hip_flexion", 1.0),
     (Movement::HipAdduction, "hip_adduction", 1.0),
@@ -139,7 +137,7 @@ const COORDINATES: [(Movement, &str, f64); 4] = [
     (Movement::AnkleDorsiflexion, "ankle_angle", 1.0),
 ];
 
-/// Coordinate, angle [deg], largest positive and negative moment [N.m]; `None` for comments and the line of names.
+/// Coordinate, angle [deg], largest positive and negative moment [N.m]; `None` for comments and the header.
 fn row(line: &str) -> Option<(&str, [f64; 3])> {
     let (name, numbers) = line.split_once(',')?;
     let numbers: Vec<f64> = numbers.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;

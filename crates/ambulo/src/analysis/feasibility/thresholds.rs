@@ -1,4 +1,4 @@
-//! What is allowed, by default or from a file.
+//! The limits of all checks, by default or from a file.
 
 use super::strength::StrengthCurve;
 use super::verdict::Check;
@@ -7,47 +7,47 @@ use crate::toml_reader::{Source, Table, TomlError, Value};
 /// Limits of every check. docs/FEASIBILITY.md gives the reasons for the defaults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thresholds {
-    /// What lasts less than this is noise [s]: two frames of a 60 Hz recording are more.
+    /// Shorter violations are noise [s]; two frames at 60 Hz are longer.
     pub shortest_s: f64,
-    /// Checks that are left out.
+    /// Checks that are skipped.
     pub skip: Vec<Check>,
-    /// Body mass whose strength is taken [kg]; `None`: the figure's own.
+    /// Body mass for the strength [kg]; `None`: the person's.
     pub mass_kg: Option<f64>,
-    /// Stature whose strength is taken [m]; `None`: the figure's own.
+    /// Stature for the strength [m]; `None`: the person's.
     pub height_m: Option<f64>,
     /// Share of the strength that may be used.
     pub strength_share: f64,
-    /// What a joint moment may be wrong by [N.m/kg]: body weight times 10 mm of the centre of pressure.
+    /// Tolerance for errors of the joint moment [N.m/kg]: body weight times 10 mm of the centre of pressure.
     pub strength_tolerance_nm_kg: f64,
-    /// Most that stretched muscles hold, in isometric moments.
+    /// Largest moment of stretched muscles, in isometric moments.
     pub eccentric: f64,
-    /// Strength of single coordinates in place of the built-in one [N.m], not scaled.
+    /// Strength of single coordinates, not scaled [N.m]; replaces the built-in one.
     pub tables: Vec<(String, StrengthCurve)>,
     /// Coefficient of friction between sole and ground.
     pub friction: f64,
-    /// Friction is judged on feet that carry at least this [body weights].
+    /// Friction is checked for feet that carry at least this [body weights].
     pub friction_load_bw: f64,
-    /// How far outside the sole a centre of pressure may lie [m].
+    /// Largest distance of a centre of pressure outside the sole [m].
     pub sole_margin_m: f64,
-    /// Centres of pressure are judged on feet that carry at least this [body weights].
+    /// Centres of pressure are checked for feet that carry at least this [body weights].
     pub sole_load_bw: f64,
     /// Longest time without a loaded foot [s].
     pub flight_s: f64,
-    /// V²/(g L) above which a person runs, and may fly.
+    /// Froude number V²/(g L) above which the person runs and flight is allowed.
     pub running_froude: f64,
     /// Largest speed of a loaded sole along the ground [m/s].
     pub sliding_m_s: f64,
-    /// Sliding is judged on feet that carry at least this [body weights].
+    /// Sliding is checked for feet that carry at least this [body weights].
     pub sliding_load_bw: f64,
-    /// How far a joint may leave its range [rad].
+    /// Largest excess over a joint's range [rad].
     pub range_slack_rad: f64,
-    /// Largest power that a coordinate delivers [W/kg].
+    /// Largest power generated at a coordinate [W/kg].
     pub generation_w_kg: f64,
-    /// Largest power that a coordinate takes up [W/kg].
+    /// Largest power absorbed at a coordinate [W/kg].
     pub absorption_w_kg: f64,
-    /// Largest force at the root that nothing supplies [body weights].
+    /// Largest residual force [body weights].
     pub support_bw: f64,
-    /// Largest moment about the root that nothing supplies [N.m/kg].
+    /// Largest residual moment about the root [N.m/kg].
     pub balance_nm_kg: f64,
 }
 
@@ -79,14 +79,14 @@ impl Default for Thresholds {
     }
 }
 
-/// Larger moments are slips [N.m].
+/// Larger moments are mistakes [N.m].
 const LARGEST_MOMENT: f64 = 1e6;
 
 impl Thresholds {
-    /// Reads a file; what it leaves out keeps its default.
+    /// Reads a file; missing keys keep their defaults.
     ///
     /// # Errors
-    /// Text that is no TOML, unknown keys, values outside of what makes sense.
+    /// Text that is not TOML, unknown keys, values outside their range.
     pub fn from_toml(text: &str) -> Result<Thresholds, TomlError> {
         let source = Source::new(text, "docs/FEASIBILITY.md");
         let parsed = source.parse()?;
@@ -138,14 +138,14 @@ impl Thresholds {
         Ok(t)
     }
 
-    /// Whether a check is to be made.
+    /// Whether a check is made.
     #[must_use]
     pub fn judges(&self, check: Check) -> bool {
         !self.skip.contains(&check)
     }
 }
 
-/// The table under a key with no other keys than these, if it is there.
+/// The table under a key, if present; it may contain only the allowed keys.
 fn section<'t>(root: &Table<'t>, key: &str, allowed: &[&str]) -> Result<Option<Table<'t>>, TomlError> {
     let Some(value) = root.get(key) else { return Ok(None) };
     let table = value.table(&format!("a table under the header [{key}]"))?;
@@ -163,7 +163,7 @@ fn optional(table: &Table<'_>, key: &str, range: [f64; 2]) -> Result<Option<f64>
     table.get(key).map(|value| between(&value, range)).transpose()
 }
 
-/// Writes the number over the default, if it is there.
+/// Replaces the default if the key is present.
 fn read(table: &Table<'_>, key: &str, range: [f64; 2], into: &mut f64) -> Result<(), TomlError> {
     if let Some(number) = optional(table, key, range)? {
         *into = number;
@@ -185,13 +185,13 @@ fn strength_table(table: &Table<'_>) -> Result<(String, StrengthCurve), TomlErro
     let numbers = |value: &Value<'_>, expected: &str, range| -> Result<Vec<f64>, TomlError> {
         value.list(expected)?.iter().map(|entry| between(entry, range)).collect()
     };
-    const ANGLES: &str = "a list of one or more rising angles";
+    const ANGLES: &str = "a list of one or more increasing angles";
     let angles_deg = numbers(&angles_value, ANGLES, [-720.0, 720.0])?;
     if angles_deg.is_empty() || angles_deg.windows(2).any(|w| w[0] >= w[1]) {
         return Err(angles_value.wrong(ANGLES));
     }
     let moments = |key: &str| {
-        let expected = format!("a list of {} moments [N.m], zero or more, one an angle", angles_deg.len());
+        let expected = format!("a list of {} moments [N.m], zero or more, one per angle", angles_deg.len());
         let value = table.need(key, &expected)?;
         let list = numbers(&value, &expected, [0.0, LARGEST_MOMENT])?;
         if list.len() == angles_deg.len() { Ok(list) } else { Err(value.wrong(&expected)) }

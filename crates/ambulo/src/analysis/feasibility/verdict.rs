@@ -1,32 +1,32 @@
-//! What a judgement yields.
+//! The verdict on a motion.
 
 use crate::model::Side;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// What is judged.
+/// The kinds of checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
-    /// Joint moment against the strength of its muscles at this angle and speed.
+    /// Joint moment compared with the strength of the muscles at this angle and speed.
     Strength,
-    /// Joint angle against the model's range.
+    /// Joint angle compared with the model's range.
     Range,
     /// Joint power per kilogram.
     Power,
-    /// Tangential over normal ground force against the friction there is.
+    /// Tangential over normal ground force compared with the coefficient of friction.
     Friction,
-    /// Centre of pressure against the sole.
+    /// Centre of pressure relative to the sole.
     CenterOfPressure,
     /// Speed of the loaded sole along the ground.
     Sliding,
     /// Time without a loaded foot while walking.
     Flight,
-    /// Force at the root that neither the ground nor a muscle supplies.
+    /// Residual force: supplied neither by the ground nor by muscles.
     Support,
-    /// Moment about the root that neither the ground nor a muscle supplies.
+    /// Residual moment about the root.
     Balance,
 }
 
@@ -87,28 +87,28 @@ impl fmt::Display for Check {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Verdict {
-    /// Nothing was found against it.
+    /// Whether no check failed.
     pub feasible: bool,
-    /// What was found, in order of time.
+    /// Why the motion is infeasible, in order of time.
     pub reasons: Vec<Reason>,
-    /// For each check that was made, where the motion came nearest to its limit (or went furthest beyond).
+    /// For each check, the instant closest to its limit (or furthest beyond).
     pub closest: Vec<Closest>,
-    /// What could not be judged.
+    /// Checks that could not be made.
     pub not_judged: Vec<NotJudged>,
-    /// Frames of the motion.
+    /// Number of frames.
     pub frames: usize,
-    /// Frames in which a foot may stand where nothing measures its force: moments, powers, flight, support and balance were not judged
+    /// Frames in which a foot may be on the ground outside the force plates: moments, powers, flight, support and balance were not checked
     /// in them.
     pub frames_unmeasured: usize,
-    /// Body mass whose strength was taken [kg].
+    /// Body mass used for the strength [kg].
     pub mass_kg: f64,
-    /// Stature whose strength was taken [m].
+    /// Stature used for the strength [m].
     pub height_m: f64,
 }
 
 impl Verdict {
-    /// Adds what stands against the motion from elsewhere.
-    pub fn oppose(&mut self, reasons: &[Reason]) {
+    /// Adds reasons of further checks; the motion is then infeasible.
+    pub fn add_reasons(&mut self, reasons: &[Reason]) {
         self.reasons.extend_from_slice(reasons);
         self.reasons.sort_by(|a, b| a.time_s[0].total_cmp(&b.time_s[0]).then(a.check.cmp(&b.check)));
         self.feasible = self.reasons.is_empty();
@@ -119,11 +119,11 @@ impl Verdict {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reason {
-    /// Which check.
+    /// The check.
     pub check: Check,
-    /// What exceeded it: a generalised force, a coordinate, or a foot's quantity.
+    /// What exceeded the limit: a generalised force, a coordinate, or a quantity of a foot.
     pub quantity: String,
-    /// Whose, if it belongs to a side.
+    /// The side of the body, if it belongs to one.
     pub side: Option<Side>,
     /// First and last instant [s].
     pub time_s: [f64; 2],
@@ -131,31 +131,31 @@ pub struct Reason {
     pub at_s: f64,
     /// The worst value.
     pub value: f64,
-    /// What was allowed there.
+    /// The limit at that instant.
     pub limit: f64,
     /// Unit of both.
     pub unit: Cow<'static, str>,
-    /// The same in a sentence.
+    /// The same as a sentence.
     pub message: String,
 }
 
-/// Where a motion came nearest to a limit.
+/// The instant at which a motion came closest to the limit of a check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Closest {
-    /// Which check.
+    /// The check.
     pub check: Check,
-    /// What was measured.
+    /// The checked quantity.
     pub quantity: String,
-    /// When [s].
+    /// The instant [s].
     pub at_s: f64,
-    /// What was found.
+    /// The value at that instant.
     pub value: f64,
-    /// What was allowed there.
+    /// The limit at that instant.
     pub limit: f64,
     /// Unit of both.
     pub unit: Cow<'static, str>,
-    /// Share of the allowed that was used; above one in an infeasible instant.
+    /// Share of the limit that was used; infeasible above 1.
     pub share: f64,
 }
 
@@ -163,8 +163,8 @@ pub struct Closest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NotJudged {
-    /// Which check.
+    /// The check.
     pub check: Check,
-    /// Why not, and for what.
+    /// Why it was not made, and for which part.
     pub why: String,
 }

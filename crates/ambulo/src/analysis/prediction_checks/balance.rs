@@ -1,65 +1,67 @@
-//! Forces against the motion of the mass centre: weight and impulse over whole cycles.
+//! Checks the forces against the motion of the mass centre: weight and impulse over whole gait cycles.
 
 use super::CheckedPrediction;
-use super::judgement::{Found, Judgement, Looked};
+use super::judgement::{Criterion, Judgement, TimedValue};
 use super::record::Record;
 use crate::findings::Code;
 use crate::model::Side;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use std::ops::Range;
 
-/// Slower than this over the floor a body goes nowhere [m/s].
+/// Below this speed over the floor the person stays in place [m/s].
 const UNDER_WAY_M_S: f64 = 0.2;
 
-/// A mean vertical force may differ from body weight by this share.
+/// Allowed difference of the mean vertical force from body weight, as a share of it.
 const WEIGHT_SHARE: f64 = 0.05;
-/// The feet's mean force along the way may differ by this from what changes the mass centre's velocity [body weights].
+/// Allowed difference of the mean force of the feet along the walking direction from m Δv / T [body weights].
 const ALONG_BW: f64 = 0.03;
 
 /// Mean forces over whole cycles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Balance {
-    /// First and last instant [s].
+    /// Start and end [s].
     time_s: [f64; 2],
     /// Mean vertical force of both feet [body weights].
     feet: f64,
     /// Mean vertical force that the motion needs [body weights].
     total: f64,
-    /// What the feet's mean force along the way departs from m Δv / T by [body weights]; `None` on the spot.
+    /// Mean force of the feet along the walking direction less m Δv / T [body weights]; `None` if the person stays in place.
     along: Option<f64>,
 }
 
 pub(super) fn check(evidence: &CheckedPrediction<'_>, record: &Record, judgement: &mut Judgement<'_>) {
     let weight = [1.0 - WEIGHT_SHARE, 1.0 + WEIGHT_SHARE];
-    let feet = Looked { name: "vertical_force_feet", allowed: weight, unit: "BW" };
-    let needed = Looked { name: "vertical_force_needed", ..feet };
-    let along = Looked { name: "fore_aft_impulse", allowed: [-ALONG_BW, ALONG_BW], unit: "BW" };
+    let feet = Criterion { name: "vertical_force_feet", allowed: weight, unit: "BW" };
+    let needed = Criterion { name: "vertical_force_needed", ..feet };
+    let along = Criterion { name: "fore_aft_impulse", allowed: [-ALONG_BW, ALONG_BW], unit: "BW" };
     let Some(balance) = balance(evidence, record) else {
-        return [feet, needed, along].into_iter().for_each(|looked| judgement.skip(looked, "no whole gait cycle"));
+        return [feet, needed, along]
+            .into_iter()
+            .for_each(|criterion| judgement.skip(criterion, "no whole gait cycle"));
     };
     let time_s = balance.time_s;
-    for (looked, value, whose) in
-        [(feet, balance.feet, "of the predicted feet"), (needed, balance.total, "that the motion needs")]
+    for (criterion, value, source) in
+        [(feet, balance.feet, "on the feet"), (needed, balance.total, "that the motion needs")]
     {
-        if !judgement.take(looked, Found { value, time_s }) {
+        if !judgement.take(criterion, TimedValue { value, time_s }) {
             let message = format!(
-                "the mean vertical force {whose} is {value:.2} body weights over whole cycles ({:.3} to {:.3} s); it should be 1.00",
+                "the mean vertical force {source} is {value:.2} body weights over whole gait cycles ({:.3} to {:.3} s); expected 1.00",
                 time_s[0], time_s[1]
             );
             judgement.report(Code::PredictionWeight, message);
         }
     }
-    let Some(value) = balance.along else { return judgement.skip(along, "the body goes nowhere") };
-    if !judgement.take(along, Found { value, time_s }) {
+    let Some(value) = balance.along else { return judgement.skip(along, "the person stays in place") };
+    if !judgement.take(along, TimedValue { value, time_s }) {
         let message = format!(
-            "the feet's mean force along the way departs by {value:+.3} body weights from what changes the body's speed ({:.3} to {:.3} s)",
+            "the mean force on the feet along the walking direction differs by {value:+.3} body weights from the rate of change of momentum ({:.3} to {:.3} s)",
             time_s[0], time_s[1]
         );
         judgement.report(Code::PredictionImpulse, message);
     }
 }
 
-/// Over all whole cycles together; without any, over the whole recording if it begins and ends in rest.
+/// Means over all whole cycles together; without any, over the whole recording if it begins and ends at rest.
 fn balance(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Balance> {
     let frames = whole_cycles(evidence, record).or_else(|| at_rest(record))?;
     let duration = (frames.end - 1 - frames.start) as f64 * record.grid.step_s;
@@ -77,7 +79,7 @@ fn balance(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Balance>
     Some(Balance { time_s, feet: feet.dot(&record.up), total: total.dot(&record.up), along })
 }
 
-/// From the first strike of a whole cycle to the last of the same foot: the longest such time.
+/// From the first to the last strike of a foot's whole cycles; the longer one of both feet.
 fn whole_cycles(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Range<usize>> {
     let frame = |time: f64| ((time - record.grid.start_s) / record.grid.step_s).round().max(0.0) as usize;
     let of_side = |side| {
@@ -90,7 +92,7 @@ fn whole_cycles(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Ran
     spans.max_by_key(Range::len)
 }
 
-/// The whole recording, if the mass centre goes up or down by less than what changes the mean force by a hundredth.
+/// The whole recording, if the change of vertical velocity changes the mean force by less than 1 %.
 fn at_rest(record: &Record) -> Option<Range<usize>> {
     const SHARE: f64 = 0.01;
     let frames = 0..record.grid.frames;

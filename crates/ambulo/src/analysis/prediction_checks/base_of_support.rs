@@ -1,8 +1,8 @@
-//! The area that soles span, seen from above, and how far outside of it a place lies.
+//! The base of support in the horizontal plane, and the distance of a point outside it.
 
 use crate::spatial::Vec3;
 
-/// Convex hull of discs.
+/// Convex hull of discs around sole points.
 #[derive(Debug, Clone)]
 pub(super) struct BaseOfSupport {
     /// Corners, counterclockwise; one or two if the soles span no area.
@@ -13,23 +13,23 @@ pub(super) struct BaseOfSupport {
 }
 
 impl BaseOfSupport {
-    /// Around places that each hold what lies within `radius` [m]; `axes` are two level unit vectors, square to each other. `None`
-    /// without places.
-    pub(super) fn around(places: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
-        let corners = hull(places.iter().map(|p| [p.dot(&axes[0]), p.dot(&axes[1])]).collect());
+    /// The base of support of points with discs of `radius` [m] around them; `axes` are two horizontal orthogonal unit vectors. `None`
+    /// without points.
+    pub(super) fn around(points: &[Vec3], radius: f64, axes: [Vec3; 2]) -> Option<BaseOfSupport> {
+        let corners = hull(points.iter().map(|p| [p.dot(&axes[0]), p.dot(&axes[1])]).collect());
         (!corners.is_empty()).then_some(BaseOfSupport { corners, radius, axes })
     }
 
-    /// Level way from the nearest place of the base [m]; zero inside.
-    pub(super) fn outside(&self, place: Vec3) -> Vec3 {
-        let p = [place.dot(&self.axes[0]), place.dot(&self.axes[1])];
+    /// Horizontal vector from the nearest point of the base [m]; zero inside.
+    pub(super) fn outside(&self, point: Vec3) -> Vec3 {
+        let p = [point.dot(&self.axes[0]), point.dot(&self.axes[1])];
         let count = self.corners.len();
         let edges = || (0..count).map(|i| (self.corners[i], self.corners[(i + 1) % count]));
         if count > 2 && edges().all(|(a, b)| turn(a, b, p) >= 0.0) {
             return Vec3::zeros();
         }
-        let ways = edges().map(|(a, b)| from_edge(a, b, p));
-        let nearest = ways.min_by(|v, w| length(*v).total_cmp(&length(*w))).unwrap_or([0.0; 2]);
+        let offsets = edges().map(|(a, b)| from_edge(a, b, p));
+        let nearest = offsets.min_by(|v, w| length(*v).total_cmp(&length(*w))).unwrap_or([0.0; 2]);
         let distance = length(nearest);
         let share = if distance > self.radius { (distance - self.radius) / distance } else { 0.0 };
         (self.axes[0] * nearest[0] + self.axes[1] * nearest[1]) * share
@@ -40,12 +40,12 @@ fn length([x, y]: [f64; 2]) -> f64 {
     x.hypot(y)
 }
 
-/// Twice the area of a triangle, positive if it turns counterclockwise.
+/// Twice the area of a triangle, positive if counterclockwise.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// From the nearest place of an edge to p.
+/// Vector from the nearest point of an edge to p.
 fn from_edge(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> [f64; 2] {
     let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = along[0] * along[0] + along[1] * along[1];
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_is_as_far_outside_as_it_lies_beyond_the_rounded_edge() {
+    fn the_distance_outside_is_measured_from_the_rounded_edge() {
         let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]];
         for (at, expected) in
             [([0.5, 0.5], 0.0), ([1.04, 0.5], 0.0), ([1.25, 0.5], 0.2), ([1.3, 1.4], 0.45), ([0.2, -0.15], 0.1)]
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn one_place_and_a_line_have_a_breadth_too() {
+    fn a_single_point_and_a_line_have_a_width_too() {
         assert!((outside(&[[0.0, 0.0]], [0.3, 0.4]) - 0.45).abs() < 1e-12);
         assert!((outside(&[[0.0, 0.0], [1.0, 0.0]], [0.5, 0.25]) - 0.2).abs() < 1e-12);
         assert!(outside(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], [0.9, -0.04]) < 1e-12);

@@ -1,19 +1,19 @@
-//! Where the checks write down what they found.
+//! Collects the outcomes of the checks of a prediction.
 
 use super::{PredictionCheck, PredictionChecks};
 use crate::analysis::feasibility::{Check, Reason, Thresholds};
 use crate::findings::{Code, Findings};
 
-/// What was found so far.
+/// The outcomes so far.
 pub(super) struct Judgement<'a> {
     pub(super) checks: PredictionChecks,
     findings: &'a mut Findings,
-    judged: &'a Thresholds,
+    thresholds: &'a Thresholds,
 }
 
-/// What was looked at, and what passes.
+/// Name, allowed range and unit of a check.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Looked {
+pub(super) struct Criterion {
     pub(super) name: &'static str,
     pub(super) allowed: [f64; 2],
     pub(super) unit: &'static str,
@@ -21,19 +21,19 @@ pub(super) struct Looked {
 
 /// A value and its time [s].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct TimedValue {
     pub(super) value: f64,
     pub(super) time_s: [f64; 2],
 }
 
 impl<'a> Judgement<'a> {
-    pub(super) fn new(judged: &'a Thresholds, findings: &'a mut Findings) -> Judgement<'a> {
-        Judgement { checks: PredictionChecks::default(), findings, judged }
+    pub(super) fn new(thresholds: &'a Thresholds, findings: &'a mut Findings) -> Judgement<'a> {
+        Judgement { checks: PredictionChecks::default(), findings, thresholds }
     }
 
-    /// Takes a value; `true` if it passes.
-    pub(super) fn take(&mut self, looked: Looked, found: Found) -> bool {
-        let Looked { name, allowed, unit } = looked;
+    /// Adds the value of a check; `true` if it passes.
+    pub(super) fn take(&mut self, criterion: Criterion, found: TimedValue) -> bool {
+        let Criterion { name, allowed, unit } = criterion;
         let passed = (allowed[0]..=allowed[1]).contains(&found.value);
         self.checks.checks.push(PredictionCheck {
             name: name.into(),
@@ -47,8 +47,8 @@ impl<'a> Judgement<'a> {
         passed
     }
 
-    pub(super) fn skip(&mut self, looked: Looked, why: &'static str) {
-        let Looked { name, allowed, unit } = looked;
+    pub(super) fn skip(&mut self, criterion: Criterion, why: &'static str) {
+        let Criterion { name, allowed, unit } = criterion;
         let check = PredictionCheck {
             name: name.into(),
             passed: None,
@@ -65,16 +65,16 @@ impl<'a> Judgement<'a> {
         self.findings.report(code, message);
     }
 
-    /// Forces do not go through the feet, which stands against the motion where the verdict has a check of it.
-    pub(super) fn oppose(&mut self, check: Check, looked: Looked, found: Found, message: String) {
-        if !self.judged.judges(check) {
+    /// Reports forces that do not act through the feet, also as a reason for an infeasible verdict unless the check is skipped.
+    pub(super) fn report_infeasible(&mut self, check: Check, criterion: Criterion, found: TimedValue, message: String) {
+        if !self.thresholds.judges(check) {
             return self.findings.report(Code::PredictionNotThroughTheFeet, message);
         }
         self.findings.report(Code::PredictionNotThroughTheFeet, message.clone());
-        let limit = if found.value < looked.allowed[0] { looked.allowed[0] } else { looked.allowed[1] };
+        let limit = if found.value < criterion.allowed[0] { criterion.allowed[0] } else { criterion.allowed[1] };
         self.checks.reasons.push(Reason {
             check,
-            quantity: format!("{}_needed", looked.name.trim_end_matches("_needed")),
+            quantity: format!("{}_needed", criterion.name.trim_end_matches("_needed")),
             side: None,
             time_s: found.time_s,
             at_s: 0.5 * (found.time_s[0] + found.time_s[1]),

@@ -1,31 +1,32 @@
-//! The record, low-passed: mean wrenches, and the soles that stand meanwhile.
+//! Low-passed wrench of the whole body, and the soles in stance meanwhile.
 //!
 //!   p = (u × M₀ + h F) / (u · F)
 //!
-//! F and M₀ are the mean wrench of the ground over a Gauss curve of time, h the mean height of what the feet stand on.
+//! p is the centre of pressure, F and M₀ the ground's wrench averaged with a Gaussian window over time, h the mean height of the ground.
 
 use super::record::Record;
 use crate::spatial::{Vec3, Wrench};
 
-/// Half the amplitude passes at this frequency [Hz]. The trunk's soft tissue shakes faster after a strike.
+/// Frequency at which half the amplitude passes [Hz]. Soft tissue of the trunk vibrates faster after a foot strike.
 const BANDWIDTH_HZ: f64 = 3.5;
-/// The low-pass reaches this many deviations of the Gauss curve, 0.11 s.
+/// Half-width of the window in standard deviations of the Gaussian: 0.11 s.
 const REACH: f64 = 2.0;
-/// Time between looks [s].
+/// Time between checked instants [s].
 const EVERY_S: f64 = 0.02;
-/// A centre of pressure means something above this mean vertical force [body weights].
+/// Centres of pressure are only used above this mean vertical force [body weights].
 const LEAST_LOAD_BW: f64 = 0.3;
-/// What lasts less is noise [s].
+/// Shorter violations are noise [s].
 pub(super) const SHORTEST_S: f64 = 0.1;
 
-/// What was low-passed.
+/// The low-passed record at regular times.
 #[derive(Debug, Clone)]
 pub(super) struct LowPassed {
     pub(super) instants: Vec<Instant>,
-    /// Time from one to the next [s].
+    /// Time between instants [s].
     pub(super) step_s: f64,
-    /// The same in frames, and how far the low-pass reaches.
+    /// Frames between instants.
     stride: usize,
+    /// Half-width of the window in frames.
     reach: usize,
 }
 
@@ -34,17 +35,17 @@ pub(super) struct LowPassed {
 pub(super) struct Instant {
     pub(super) frame: usize,
     pub(super) time_s: f64,
-    /// Of the ground on the body, about the floor's origin.
+    /// Mean wrench of the ground on the body about the floor's origin.
     pub(super) mean: Wrench,
-    /// Mean height of what stands [m].
+    /// Mean height of the ground under the feet in stance [m].
     height: f64,
-    /// Whether a foot stands within the reach.
-    pub(super) someone_stands: bool,
-    /// The only foot that stands at this instant.
-    pub(super) alone: Option<usize>,
+    /// Whether a foot is in stance within the window.
+    pub(super) any_foot_stands: bool,
+    /// The foot in stance at this instant if the other one is not.
+    pub(super) single_support_foot: Option<usize>,
 }
 
-/// The record, low-passed, every now and then; nothing within the reach of the recording's ends.
+/// Low-passes the record; instants closer to its ends than the half-width of the window are left out.
 pub(super) fn low_passed(record: &Record) -> LowPassed {
     let sigma = (0.5 * std::f64::consts::LN_2).sqrt() / (std::f64::consts::PI * BANDWIDTH_HZ);
     let reach = record.frames_in(REACH * sigma);
@@ -76,13 +77,13 @@ fn instant(record: &Record, frame: usize, weights: &[f64]) -> Instant {
         time_s: record.grid.time(frame),
         mean: Wrench { force: sum.force / whole, moment: sum.moment / whole },
         height: if standing > 0.0 { height / standing } else { 0.0 },
-        someone_stands: standing > 0.0,
-        alone: (0..2).find(|&foot| stands(foot) && !stands(1 - foot)),
+        any_foot_stands: standing > 0.0,
+        single_support_foot: (0..2).find(|&foot| stands(foot) && !stands(1 - foot)),
     }
 }
 
 impl LowPassed {
-    /// Points of the soles that stand within the reach of an instant [m].
+    /// Sole points of the feet in stance within the window around an instant [m].
     pub(super) fn places(&self, record: &Record, instant: &Instant) -> Vec<Vec3> {
         let (first, last) = (instant.frame - self.reach, instant.frame + self.reach);
         let frames = (first..last).step_by(self.stride).chain([last]);
@@ -95,7 +96,7 @@ impl LowPassed {
 }
 
 impl Instant {
-    /// Where the ground must push [m]; `None` where it hardly pushes.
+    /// The centre of pressure that the motion needs [m]; `None` at low load.
     pub(super) fn center(&self, record: &Record) -> Option<Vec3> {
         let Wrench { force, moment } = self.mean;
         let vertical = force.dot(&record.up);

@@ -1,4 +1,4 @@
-//! What the checks look at: the whole body's wrench and both soles, on the floor's own axes.
+//! The whole body's wrench and both soles in axes that move with the floor: the data that the checks use.
 
 use super::CheckedPrediction;
 use crate::ground::footfalls::Footfall;
@@ -8,7 +8,7 @@ use crate::model::{Displacement, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 
-/// One entry a frame. Places move with the floor, so that a sole that stands on a belt rests.
+/// Series with one entry per frame. Positions are relative to the moving floor, so that a sole in stance on a belt is at rest.
 #[derive(Debug, Clone)]
 pub(super) struct Record {
     pub(super) grid: TimeGrid,
@@ -20,13 +20,13 @@ pub(super) struct Record {
     pub(super) velocity: Vec<Vec3>,
     /// Rear, ball and tip of right and left sole [m].
     pub(super) soles: [Vec<[Vec3; 3]>; 2],
-    /// Height of what right and left foot stand on [m]; `None` while they do not stand.
+    /// Height of the ground under right and left foot [m]; `None` while not in stance.
     pub(super) stands_on: [Vec<Option<f64>>; 2],
-    /// Of the ground on the body: force, and moment about the floor's origin.
+    /// Force of the ground on the body, and moment about the floor's origin.
     pub(super) total: Vec<Wrench>,
-    /// Half the breadth of right and left sole [m].
+    /// Half the width of right and left sole [m].
     pub(super) half_widths: [f64; 2],
-    /// Of the plane that the root's joint keeps the body in, if it does.
+    /// Normal of the plane in which the root joint keeps the body, if it does.
     pub(super) plane_normal: Option<Vec3>,
 }
 
@@ -74,7 +74,7 @@ fn holds(fall: &Footfall, time: f64) -> bool {
     fall.strike_s.is_none_or(|strike| strike <= time) && fall.off_s.is_none_or(|off| time <= off)
 }
 
-/// The axis of a root that turns about one axis alone and slides.
+/// The rotation axis of a root that rotates about one axis only and translates.
 fn plane_normal(model: &Model) -> Option<Vec3> {
     let joint = &model.bodies().iter().find(|body| body.joint.parent.is_none())?.joint;
     let moves = |axis: &&crate::model::JointAxis| matches!(axis.displacement, Displacement::Follows(..));

@@ -17,7 +17,7 @@ use super::running_machine::RunningMachine;
 use crate::gait::arms::ArmCurves;
 use crate::gait::cyclic_curve::CyclicCurve;
 use crate::gait::jet::Jet;
-use crate::gait::joint::Joint;
+use crate::gait::joint::LegJoint;
 use crate::gait::speed_plan::Clock;
 use crate::gait::sub_cycle::SubCycle;
 use crate::gait::walk::{LegAngles, Phases, Walk, WalkPosture};
@@ -86,24 +86,24 @@ fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
             stands != (from == 0)
         })
     };
-    let names = Joint::ALL.map(|joint| joint_name(side, joint));
+    let names = LegJoint::ALL.map(|joint| joint_name(side, joint));
     let foot = move |_: usize, _: &MachineInputs<'_>, children: &ChildOutputs<'_>| {
         let [hip, knee, ankle] = [0, 1, 2].map(|i| children.output(&names[i]));
         hip - knee + ankle
     };
     Machine::new(&format!("{side} leg"), states, foot)
         .with_transitions([transition(0, "foot off"), transition(1, "contact")])
-        .with_children(Joint::ALL.map(|joint| joint_machine(walk, side, joint)))
+        .with_children(LegJoint::ALL.map(|joint| joint_machine(walk, side, joint)))
 }
 
-fn joint_name(side: Side, joint: Joint) -> String {
+fn joint_name(side: Side, joint: LegJoint) -> String {
     format!("{side} {}", joint.name())
 }
 
-fn joint_machine(walk: &Arc<Walk>, side: Side, joint: Joint) -> Machine {
+fn joint_machine(walk: &Arc<Walk>, side: Side, joint: LegJoint) -> Machine {
     let offset = {
         let walk = Arc::clone(walk);
-        move |speed: Jet| if joint == Joint::Hip { walk.hip_offset(speed) } else { Jet::ZERO }
+        move |speed: Jet| if joint == LegJoint::Hip { walk.hip_offset(speed) } else { Jet::ZERO }
     };
     curve_machine(walk, &joint_name(side, joint), side, walk.legs().of(joint), offset)
 }
@@ -220,7 +220,7 @@ impl WalkMachine {
         WalkMachine {
             walk: walk.clone(),
             legs: Side::BOTH.map(|side| number(&format!("{side} leg"))),
-            joints: Side::BOTH.map(|side| Joint::ALL.map(|joint| number(&joint_name(side, joint)))),
+            joints: Side::BOTH.map(|side| LegJoint::ALL.map(|joint| number(&joint_name(side, joint)))),
             trunk: ["pelvis", "trunk"].map(number),
             arms: Side::BOTH.map(|side| ["shoulder", "elbow"].map(|part| number(&format!("{side} {part}")))),
             running,

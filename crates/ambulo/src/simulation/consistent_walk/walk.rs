@@ -10,7 +10,7 @@ use crate::gait::Walk;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
 use crate::numerics::{Progress, minimise};
-use crate::simulation::walking::{Ground, Shoes, WalkRecording, Walker, WalkingError};
+use crate::simulation::walking::{GroundContact, Shoes, WalkRecording, Walker, WalkingError};
 use crate::simulation::{ImpactLaw, Integrator, Signal, StepSettings};
 use crate::spatial::Vec3;
 
@@ -112,7 +112,7 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// If the model is not planar.
-    pub fn walker(&self, human: &Human, ground: &Ground) -> Result<Walker, WalkingError> {
+    pub fn walker(&self, human: &Human, ground: &GroundContact) -> Result<Walker, WalkingError> {
         let model = &human.model;
         let count = model.coordinates().len();
         let (mut q, mut qd, mut qdd) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
@@ -135,7 +135,7 @@ impl ConsistentWalk {
         cycles: f64,
         findings: &mut Findings,
     ) -> Result<WalkRecording, WalkingError> {
-        let ground = Ground {
+        let ground = GroundContact {
             friction: settings.shoes.dynamic_friction,
             shoes: Shoes::HuntCrossley(settings.shoes),
             impact: ImpactLaw::Coulomb,

@@ -1,4 +1,4 @@
-//! Rigid bodies: mass, place, first velocity, shapes.
+//! Rigid bodies in a scene file: mass, inertia, initial position and velocity, shapes.
 
 use super::SceneError;
 use super::material::MaterialEntry;
@@ -11,7 +11,7 @@ use crate::toml_reader::{Table, Value};
 /// A rigid body. Its frame has the origin at the mass centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyEntry {
-    /// Name, its own among bodies, obstacles and figures.
+    /// Name, unique among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
@@ -19,12 +19,12 @@ pub struct BodyEntry {
     pub inertia: Inertia,
     /// `world_from_body` at the start.
     pub start: Pose,
-    /// Velocity of the mass centre at the start, world axes [m/s]. `None`: as the joint that carries the body asks, given
-    /// its parent's motion and the rates of its coordinates; without such a joint, at rest.
+    /// Velocity of the mass centre at the start, world axes [m/s]. `None`: from the parent's motion and the rates of the joint's
+    /// coordinates; at rest without a joint.
     pub velocity: Option<Vec3>,
     /// Angular velocity at the start, world axes [rad/s]. `None`: as for `velocity`.
     pub angular_velocity: Option<Vec3>,
-    /// What it looks like where it touches; bodies without shapes touch nothing.
+    /// Contact shapes; bodies without shapes touch nothing.
     pub shapes: Vec<ShapeEntry>,
 }
 
@@ -40,11 +40,11 @@ const KEYS: &[&str] = &[
     "shape",
 ];
 
-/// The shapes' common centre may miss the body's origin by this share of their radius of gyration: rounding by hand.
+/// Allowed distance of the shapes' common centre from the body's origin, as a share of their radius of gyration: for rounded numbers.
 const CENTER_SLACK: f64 = 1e-3;
-/// Two entries of an inertia that mirror each other may differ by this share of the largest.
+/// Allowed asymmetry of an inertia matrix, as a share of its largest entry.
 const SYMMETRY_SLACK: f64 = 1e-9;
-/// The smallest principal moment is at least this share of the largest; below, the body spins without limit.
+/// Smallest principal moment as a share of the largest; below, angular velocities become unbounded.
 const THINNEST: f64 = 1e-9;
 
 impl BodyEntry {
@@ -73,7 +73,7 @@ impl BodyEntry {
 }
 
 fn mass(table: &Table<'_>) -> Result<f64, SceneError> {
-    let advice = "what no force moves is an [[obstacle]]";
+    let advice = "a solid that forces do not move is an [[obstacle]]";
     table.need("mass", "the mass [kg]")?.above_zero().map_err(|error| error.hint(advice))
 }
 
@@ -93,7 +93,7 @@ fn inertia(table: &Table<'_>, mass: f64, shapes: &[ShapeEntry]) -> Result<Inerti
     let principal = about_center.symmetric_eigenvalues();
     if principal.min() <= THINNEST * principal.max() {
         return Err(refuse(format!("{expected}; the smallest principal moment is {:e} kg.m²", principal.min()))
-            .hint("a thin rod has m r²/2 about its axis"));
+            .hint("the moment of a thin rod about its axis is m r²/2"));
     }
     match inertia.defect() {
         Some(defect) => Err(refuse(format!("an inertia that a body can have; {defect}"))),
@@ -110,7 +110,7 @@ fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
     let rows = value.list(EXPECTED)?;
     let is_row = |row: &Value<'_>| row.list(EXPECTED).is_ok();
     let (3, true) = (rows.len(), rows.iter().all(is_row)) else {
-        // The first entry that is no number says more than the whole.
+        // An error about the first wrong entry is more specific than one about the whole list.
         value.numbers::<3>(EXPECTED)?;
         return Err(value.wrong(EXPECTED));
     };
@@ -124,16 +124,16 @@ fn checked(value: &Value<'_>) -> Result<Mat3, SceneError> {
     Ok((matrix + matrix.transpose()) / 2.0)
 }
 
-/// Of the uniform solid that the shapes are, for 1 kg [m²].
+/// Inertia of the shapes as a uniform solid, for 1 kg [m²].
 fn of_shapes(table: &Table<'_>, shapes: &[ShapeEntry]) -> Result<Mat3, SceneError> {
     let meaning = "the moments about the mass centre [xx, yy, zz] [kg.m²]";
     if shapes.is_empty() {
         return Err(table
             .missing("inertia", meaning)
-            .hint("a body with a shape may go without: it is taken as uniform"));
+            .hint("`inertia` is optional for a body with shapes, which is then taken as uniform"));
     }
     let Some(uniform) = uniform(shapes) else {
-        return Err(table.missing("inertia", meaning).hint("that of a convex shape is not worked out"));
+        return Err(table.missing("inertia", meaning).hint("the inertia of a convex shape is not computed"));
     };
     let gyration = (uniform.about_center.trace() / 2.0).sqrt();
     if uniform.center.norm() > CENTER_SLACK * gyration {

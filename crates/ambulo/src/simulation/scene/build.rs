@@ -1,36 +1,34 @@
-//! From a scene file to a world that runs.
+//! Builds a world from a scene file.
 
+use super::built_figure;
 use super::closing::Closing;
 use super::closure::ClosureEntry;
 use super::event::EventEntry;
 use super::figure::FigureEntry;
 use super::file::SceneFile;
+use super::model_figure::{self, PlacedFigure};
 use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
 use super::placement::{order, place};
-use super::solver::{Integrator as AskedIntegrator, Method as AskedMethod};
 use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
-use super::synthetic;
-use super::walk_keeper::FigureRecorder;
-use super::walker::{self, PlacedFigure};
-use super::{CoordinateEntry, coordinate::CoordinateKind};
+use super::walk_recorder::FigureRecorder;
+use super::{CoordinateEntry, coordinate::MotionKind};
 use super::{Place, SceneError};
-use crate::dynamics::{Method, SolverSettings};
 use crate::findings::{Code, Findings};
 use crate::simulation::state::WorldState;
-use crate::simulation::workspace::{Integrator, StepSettings, StepWorkspace};
+use crate::simulation::workspace::{StepSettings, StepWorkspace};
 use crate::simulation::world::{
-    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Spring, Surface,
+    Closure, ContactLaw, JointCoordinate, JointDrive, Motor, Obstacle, ObstaclePath, Owner, RigidBody, Surface,
     TreeJoint, World,
 };
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 
-/// Points of a closure with a body of a figure, where it is active from the start, are at most this far apart [m].
+/// Largest initial distance of the points of an active closure with a body of a figure [m].
 const LARGEST_GAP_M: f64 = 1e-3;
 
-/// A world with its state, what is to happen to it, and what is kept of it.
+/// A world with its state, its events and its outputs.
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(super) world: World,
@@ -41,39 +39,39 @@ pub struct Scene {
     pub(super) outputs: Outputs,
     pub(super) title: String,
     pub(super) events: Vec<EventEntry>,
-    /// How many events have happened.
+    /// Number of events that have happened.
     pub(super) fired: usize,
-    /// How many steps have been made.
+    /// Number of steps made.
     pub(super) steps: usize,
     pub(super) closings: Vec<Closing>,
-    /// Where each joint of the file stands in the world; `None` once it has let go.
+    /// Index in the world of each joint of the file; `None` once an event has removed it.
     pub(super) joint_numbers: Vec<Option<usize>>,
-    /// Names of the file's joints and bodies, for what is drawn.
+    /// Names of the file's joints and bodies, for figures.
     pub(super) joint_names: Vec<String>,
     pub(super) walkers: Vec<PlacedFigure>,
-    /// What is kept of figures that walk, every step.
-    pub(super) keepers: Vec<FigureRecorder>,
+    /// Recorders of the walking figures.
+    pub(super) recorders: Vec<FigureRecorder>,
     pub(super) workspace: StepWorkspace,
-    /// Poses at the beginning of the last step, where its forces are taken; only where there are figures.
+    /// Poses at the beginning of the last step, to which its forces belong; only if there are figures.
     pub(super) before: Vec<Pose>,
 }
 
-/// What differs from the file.
+/// Settings that replace those of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SceneSettings {
     /// Time step [s].
     pub step_s: Option<f64>,
-    /// How long the scene lasts [s].
+    /// Duration [s].
     pub duration_s: Option<f64>,
 }
 
 impl Scene {
-    /// Builds the world of a scene. `load` reads the files that it names: from a path as it stands in the scene to bytes, or
-    /// to a message that says why not.
+    /// Builds the world of a scene. `load` reads the files that it names: it takes a path as written in the scene and returns bytes or an
+    /// error message.
     ///
     /// # Errors
-    /// Files that cannot be read or do not fit, bodies that a figure does not have, joints of a figure that the simulator does
-    /// not know; each with line and key.
+    /// Files that cannot be read or do not fit, bodies that a figure lacks, joints of a figure that the simulator does not support; each
+    /// with line and key.
     pub fn build(
         file: &SceneFile,
         changes: SceneSettings,
@@ -84,7 +82,7 @@ impl Scene {
         let mut sources = InputFiles::new(load, findings, duration_s);
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
-        let (walkers, keepers) = add_bodies(&mut world, file, &mut sources)?;
+        let (walkers, recorders) = add_bodies(&mut world, file, &mut sources)?;
         let bodies = Bodies { file, walkers: &walkers, world: &world };
         let (joints, starts, rates) = make_joints(&bodies, &mut sources)?;
         let figure_joints = std::mem::take(&mut world.joints);
@@ -114,7 +112,7 @@ impl Scene {
             joint_numbers,
             joint_names: file.joints.iter().map(|joint| joint.name.clone()).collect(),
             walkers,
-            keepers,
+            recorders,
             workspace: StepWorkspace::default(),
             before: Vec::new(),
             world,
@@ -126,23 +124,13 @@ impl Scene {
 fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
     StepSettings {
         step_s: changes.step_s.unwrap_or(file.step_s),
-        integrator: match file.integrator {
-            AskedIntegrator::Impulse => Integrator::Impulse,
-            AskedIntegrator::RungeKutta => Integrator::RungeKutta,
-        },
+        integrator: file.integrator,
         projection: file.projection,
-        solver: SolverSettings {
-            method: match file.solver.method {
-                AskedMethod::Newton => Method::Newton,
-                AskedMethod::ConjugateGradient => Method::ConjugateGradient,
-            },
-            tolerance: file.solver.tolerance,
-            max_iterations: file.solver.max_iterations,
-        },
+        solver: file.solver,
     }
 }
 
-/// Bodies of the file, obstacles and figures, with their surfaces and the figures' joints.
+/// Adds bodies, obstacles and figures, with their surfaces and the joints of the figures.
 fn add_bodies(
     world: &mut World,
     file: &SceneFile,
@@ -167,12 +155,12 @@ fn add_bodies(
             });
         }
     }
-    for (i, asked) in file.obstacles.iter().enumerate() {
-        let place = Place { line: asked.line, key: format!("obstacle[{}]", i + 1) };
-        let (shape, owner_from_shape) = obstacle(&asked.shape, &place)?;
-        let (owner, material) = (Owner::Obstacle(i), asked.material);
+    for (i, entry) in file.obstacles.iter().enumerate() {
+        let place = Place { line: entry.line, key: format!("obstacle[{}]", i + 1) };
+        let (shape, owner_from_shape) = obstacle(&entry.shape, &place)?;
+        let (owner, material) = (Owner::Obstacle(i), entry.material);
         world.surfaces.push(Surface { owner, shape, owner_from_shape, material });
-        let path = asked.motion.as_ref().map(|motion| -> Result<ObstaclePath, SceneError> {
+        let path = entry.motion.as_ref().map(|motion| -> Result<ObstaclePath, SceneError> {
             let place = Place { line: motion.line, key: format!("obstacle[{}].motion", i + 1) };
             let [x, y, z] = &motion.displacement;
             Ok(ObstaclePath {
@@ -185,19 +173,19 @@ fn add_bodies(
                 turn: sources.signal(&place, &motion.angle, true)?,
             })
         });
-        world.obstacles.push(Obstacle { name: asked.name.clone(), pose: asked.pose, path: path.transpose()? });
+        world.obstacles.push(Obstacle { name: entry.name.clone(), pose: entry.pose, path: path.transpose()? });
     }
     let add = |(i, figure): (usize, &FigureEntry)| match &figure.built {
-        Some(built) => synthetic::add(world, figure, built, i + 1, sources),
-        None => walker::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
+        Some(built) => built_figure::add(world, figure, built, i + 1, sources),
+        None => model_figure::add(world, figure, i + 1, sources).map(|walker| (walker, None)),
     };
     let added: Vec<(PlacedFigure, Option<FigureRecorder>)> =
         file.figures.iter().enumerate().map(add).collect::<Result<_, _>>()?;
-    let (walkers, keepers): (Vec<_>, Vec<_>) = added.into_iter().unzip();
-    Ok((walkers, keepers.into_iter().flatten().collect()))
+    let (walkers, recorders): (Vec<_>, Vec<_>) = added.into_iter().unzip();
+    Ok((walkers, recorders.into_iter().flatten().collect()))
 }
 
-/// Names of the file as bodies of the world.
+/// Looks up the bodies of the world that attachments refer to.
 struct Bodies<'a> {
     file: &'a SceneFile,
     walkers: &'a [PlacedFigure],
@@ -205,12 +193,12 @@ struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
-    /// The body that a joint or closure holds on to; `None` is the world.
+    /// The body of an attachment; `None` is the world.
     fn of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<Option<usize>, SceneError> {
         self.point_of(carrier, place).map(|(body, _)| body)
     }
 
-    /// The same, and the point from which points on it are counted: the mass centre, or a marker of a figure.
+    /// The body of an attachment and the reference point for points on it: the mass centre, or a marker of a figure.
     fn point_of(&self, carrier: &Attachment, place: impl Fn() -> Place) -> Result<(Option<usize>, Vec3), SceneError> {
         match carrier {
             Attachment::World => Ok((None, Vec3::zeros())),
@@ -234,42 +222,42 @@ impl Bodies<'_> {
         }
         let known: Vec<String> = model.bodies().iter().map(|b| format!("{name}/{}", b.name)).collect();
         let found = format!("found \"{name}/{body}\"; expected a body of the figure");
-        Err(place().error(found).hint(&format!("they are {}", known.join(", "))))
+        Err(place().error(found).hint(&format!("the bodies are {}", known.join(", "))))
     }
 }
 
-/// Joints with what their coordinates are called, and their rates, in the simulator's order.
+/// Joints with the initial values and rates of their coordinates, in the simulator's order.
 type Started = (Vec<TreeJoint>, Vec<Vec<f64>>, Vec<Vec<f64>>);
 
 fn make_joints(bodies: &Bodies<'_>, sources: &mut InputFiles<'_, '_>) -> Result<Started, SceneError> {
     let Bodies { file, world, .. } = bodies;
     let (mut joints, mut starts, mut rates) = (Vec::new(), Vec::new(), Vec::new());
-    for (i, asked) in file.joints.iter().enumerate() {
+    for (i, entry) in file.joints.iter().enumerate() {
         let parent =
-            bodies.of(&asked.parent, || Place { line: asked.line, key: format!("joint[{}].parent", i + 1) })?;
+            bodies.of(&entry.parent, || Place { line: entry.line, key: format!("joint[{}].parent", i + 1) })?;
         let mut coordinates = Vec::new();
-        for (k, coordinate) in asked.coordinates.iter().enumerate() {
+        for (k, coordinate) in entry.coordinates.iter().enumerate() {
             let key = format!("joint[{}].coordinate[{}]", i + 1, k + 1);
             coordinates.push(acting(coordinate, &Place { line: coordinate.line, key }, sources)?);
         }
-        let start = |(asked, acting): (&CoordinateEntry, &JointCoordinate)| match &acting.drive {
+        let start = |(entry, acting): (&CoordinateEntry, &JointCoordinate)| match &acting.drive {
             Some(drive) => {
                 let [value, rate, _] = drive.signal.at(0.0);
                 (value, rate)
             }
-            None => (asked.start, asked.rate),
+            None => (entry.start, entry.rate),
         };
-        let (values, speeds): (Vec<f64>, Vec<f64>) = asked.coordinates.iter().zip(&coordinates).map(start).unzip();
-        let placed = place(&asked.kind, asked.at, &values);
+        let (values, speeds): (Vec<f64>, Vec<f64>) = entry.coordinates.iter().zip(&coordinates).map(start).unzip();
+        let placed = place(&entry.kind, entry.at, &values);
         let order = order(placed.kind);
         let on =
             |body: Option<usize>, frame: Pose| body.map_or(frame, |body| world.bodies[body].pose.inverse() * frame);
         joints.push(TreeJoint {
-            name: asked.name.clone(),
-            child: asked.child,
+            name: entry.name.clone(),
+            child: entry.child,
             parent,
             parent_from_joint: on(parent, placed.world_from_parent_side),
-            child_from_joint: on(Some(asked.child), placed.world_from_child_side),
+            child_from_joint: on(Some(entry.child), placed.world_from_child_side),
             kind: placed.kind,
             coordinates: (0..placed.kind.freedom()).map(|k| coordinates[order[k]].clone()).collect(),
             follows: None,
@@ -280,29 +268,29 @@ fn make_joints(bodies: &Bodies<'_>, sources: &mut InputFiles<'_, '_>) -> Result<
     Ok((joints, starts, rates))
 }
 
-/// What acts on a coordinate.
+/// Drive, spring, motor, limits and friction of a coordinate.
 pub(super) fn acting(
-    asked: &CoordinateEntry,
+    entry: &CoordinateEntry,
     place: &Place,
     sources: &mut InputFiles<'_, '_>,
 ) -> Result<JointCoordinate, SceneError> {
-    let turns = asked.kind == CoordinateKind::Rotation;
-    let drive = asked.drive.as_ref().map(|drive| -> Result<JointDrive, SceneError> {
+    let turns = entry.kind == MotionKind::Rotation;
+    let drive = entry.drive.as_ref().map(|drive| -> Result<JointDrive, SceneError> {
         let signal = sources.signal(place, &drive.function, turns)?;
         Ok(JointDrive { signal, max: drive.max.is_finite().then_some(drive.max) })
     });
     let drive = drive.transpose()?;
-    let motor = asked.motor.as_ref().map(|motor| -> Result<Motor, SceneError> {
+    let motor = entry.motor.as_ref().map(|motor| -> Result<Motor, SceneError> {
         let target = sources.signal(place, &motor.target, turns)?;
         Ok(Motor { target, kp: motor.stiffness, kd: motor.damping, max: motor.max })
     });
     let limit = |value: f64| value.is_finite().then_some(value);
     Ok(JointCoordinate {
         drive,
-        spring: asked.spring.map(|s| Spring { stiffness: s.stiffness, damping: s.damping, rest: s.rest }),
+        spring: entry.spring,
         motor: motor.transpose()?,
-        limits: asked.limits.map_or((None, None), |limits| (limit(limits.lower), limit(limits.upper))),
-        friction: asked.friction,
+        limits: entry.limits.map_or((None, None), |limits| (limit(limits.lower), limit(limits.upper))),
+        friction: entry.friction,
         rotor: 0.0,
         effort: 0.0,
     })
@@ -310,33 +298,34 @@ pub(super) fn acting(
 
 fn add_closures(world: &mut World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<Vec<Closing>, SceneError> {
     let mut closings = Vec::new();
-    for (i, asked) in file.closures.iter().enumerate() {
-        let place = |key: &str| Place { line: asked.line, key: format!("closure[{}].{key}", i + 1) };
+    for (i, entry) in file.closures.iter().enumerate() {
+        let place = |key: &str| Place { line: entry.line, key: format!("closure[{}].{key}", i + 1) };
         let bodies = Bodies { file, walkers, world };
-        let (first, on_first) = bodies.point_of(&asked.first, || place("first"))?;
-        let (second, on_second) = bodies.point_of(&asked.second, || place("second"))?;
-        let asked = &ClosureEntry { anchor: asked.anchor.shifted(on_first, on_second), ..asked.clone() };
+        let (first, on_first) = bodies.point_of(&entry.first, || place("first"))?;
+        let (second, on_second) = bodies.point_of(&entry.second, || place("second"))?;
+        let entry = &ClosureEntry { anchor: entry.anchor.shifted(on_first, on_second), ..entry.clone() };
         let pose = |body: Option<usize>| body.map_or(Pose::IDENTITY, |body| world.bodies[body].pose);
-        let Some(closing) = Closing::new(asked, [first, second], [pose(first), pose(second)]) else {
+        let Some(closing) = Closing::new(entry, [first, second], [pose(first), pose(second)]) else {
             return Err(place("second").error("found the world at both ends; expected a body at one of them"));
         };
         let [on, other] = [world.bodies[closing.first].pose, pose(closing.second)];
         let gap = closing.gap(&on, &other);
-        if asked.active && gap > LARGEST_GAP_M {
-            let found =
-                format!("found points that are {gap:.4} m apart; expected points that meet at the start, within 1 mm");
+        if entry.active && gap > LARGEST_GAP_M {
+            let found = format!(
+                "found points that are {gap:.4} m apart; expected points that coincide at the start, within 1 mm"
+            );
             let advice = "move the bodies, or set active = false and add the closure by an [[event]]";
             return Err(place("on_second").error(found).hint(advice));
         }
         let (first_from_joint, second_from_joint) = closing.frames(&on, &other);
         world.closures.push(Closure {
-            name: asked.name.clone(),
+            name: entry.name.clone(),
             first: closing.first,
             second: closing.second,
             first_from_joint,
             second_from_joint,
-            kind: super::placement::kind(&asked.kind),
-            active: asked.active,
+            kind: super::placement::kind(&entry.kind),
+            active: entry.active,
         });
         closings.push(closing);
     }
@@ -371,7 +360,7 @@ fn ignored(world: &World, file: &SceneFile, walkers: &[PlacedFigure]) -> Result<
     Ok(pairs)
 }
 
-/// Hunt and Crossley's law is one of round shapes: two without a radius pass through each other under it.
+/// Warns about pairs without a contact force: Hunt and Crossley's law requires a round shape on one side.
 fn report_untouchable(world: &World, findings: &mut Findings) {
     let soft = |surface: &Surface| matches!(world.materials[surface.material].law, ContactLaw::HuntCrossley(_));
     for (i, a) in world.surfaces.iter().enumerate() {
@@ -383,7 +372,7 @@ fn report_untouchable(world: &World, findings: &mut Findings) {
                 findings.report(
                     Code::ContactNotRound,
                     format!(
-                        "`{a}` and `{b}` pass through each other: the law hunt-crossley needs a sphere or a capsule on one \
+                        "`{a}` and `{b}` pass through each other: the law hunt-crossley requires a sphere or a capsule on one \
                          side. hint: law = \"regularised\""
                     ),
                 );

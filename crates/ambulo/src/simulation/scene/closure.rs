@@ -1,4 +1,4 @@
-//! Closures: joints that close loops, there from the start or added by an event.
+//! Closures in a scene file: joints that close loops, from the start or when an event adds them.
 
 use super::SceneError;
 use super::body::BodyEntry;
@@ -7,49 +7,49 @@ use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::{Table, Value};
 
-/// A joint that closes a loop. Orientations (of a weld, of axes) are kept as they are at the moment it becomes active.
+/// A joint that closes a loop. It keeps the orientations (of a weld, of axes) of the time at which it becomes active.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosureEntry {
-    /// Name, its own among joints and closures.
+    /// Name, unique among joints and closures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// Which motions it leaves; never [`JointAxes::Free`].
+    /// The free motions; never [`JointAxes::Free`].
     pub kind: JointAxes,
     /// One end.
     pub first: Attachment,
     /// The other end.
     pub second: Attachment,
-    /// Which points it keeps together.
+    /// The points that it keeps together.
     pub anchor: Anchor,
-    /// Whether it is there from the start; else an event adds it.
+    /// Whether it is active from the start; otherwise an event adds it.
     pub active: bool,
 }
 
-/// Which points a closure keeps together.
+/// The points that a closure keeps together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
-    /// The point of each that is here at the start.
+    /// The points of both bodies that are at this position at the start.
     Start {
-        /// In the world [m].
+        /// Position in the world [m].
         at: Vec3,
     },
-    /// A point of each, in the frame of each [m].
+    /// A point of each body, in its frame [m].
     Points {
-        /// In the first's frame.
+        /// In the frame of the first body.
         on_first: Vec3,
-        /// In the second's frame.
+        /// In the frame of the second body.
         on_second: Vec3,
     },
-    /// A point of the first, and the point of the second that is there at the moment the closure becomes active.
+    /// A point of the first body, and the point of the second one that is there when the closure becomes active.
     AsFound {
-        /// In the first's frame [m].
+        /// In the frame of the first body [m].
         on_first: Vec3,
     },
 }
 
 impl Anchor {
-    /// The same with points that are counted from other places of the bodies than their mass centres.
+    /// The anchor for points that are relative to other reference points than the mass centres.
     pub(super) fn shifted(self, first: Vec3, second: Vec3) -> Anchor {
         match self {
             Anchor::Start { at } => Anchor::Start { at },
@@ -62,8 +62,7 @@ impl Anchor {
 }
 
 const KEYS: &[&str] = &["name", "kind", "first", "second", "at", "on_first", "on_second", "active"];
-/// How far apart the points of a closure that is active from the start may be [m]: what a tenth of a millimetre of
-/// rounding in a few lengths adds up to.
+/// Largest initial distance of the points of an active closure [m]: the sum of rounding a few lengths to a tenth of a millimetre.
 const LARGEST_GAP: f64 = 1e-3;
 
 impl ClosureEntry {
@@ -75,7 +74,7 @@ impl ClosureEntry {
     ) -> Result<ClosureEntry, SceneError> {
         let kind = JointAxes::read(table, KEYS)?;
         if kind == JointAxes::Free {
-            return Err(table.need("kind", "a kind")?.wrong("a kind that holds something; free holds nothing"));
+            return Err(table.need("kind", "a kind")?.wrong("a kind with a constraint; `free` has none"));
         }
         let value = table.need("second", "the other end")?;
         let closure = ClosureEntry {
@@ -94,7 +93,7 @@ impl ClosureEntry {
         Ok(closure)
     }
 
-    /// A closure that is active from the start must be closed then.
+    /// Rejects a closure that is active from the start but open.
     fn refuse_gap(&self, table: &Table<'_>, bodies: &[BodyEntry]) -> Result<(), SceneError> {
         let Anchor::Points { on_first, on_second } = self.anchor else { return Ok(()) };
         let place = |carrier: &Attachment, point: Vec3| match carrier {
@@ -112,7 +111,7 @@ impl ClosureEntry {
             return Ok(());
         }
         let value = table.need("on_second", "a point")?;
-        let expected = "points that meet at the start, within 1 mm";
+        let expected = "points that coincide at the start, within 1 mm";
         let advice = "move the bodies, or set active = false and add the closure by an [[event]]";
         Err(value.wrong(&format!("{expected}; they are {gap:.4} m apart")).hint(advice))
     }

@@ -1,57 +1,45 @@
-//! What acts along a motion that a joint leaves: springs, limits, motors, drives.
+//! Coordinates of joints in a scene file: springs, limits, motors, drives.
 
 use super::SceneError;
 use super::body::BodyEntry;
 use super::function::{self, Purpose, TimeFunction};
 use super::joint::JointAxes;
+use crate::simulation::world::Spring;
 use crate::toml_reader::{Table, Value};
 
-/// One motion that a joint leaves. Angles [rad] and moments [N.m], or lengths [m] and forces [N].
+/// One free motion of a joint: angles [rad] and moments [N.m], or lengths [m] and forces [N].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateEntry {
-    /// Line of its header; the joint's where it has none.
+    /// Line of its header, or of the joint's header if it has none.
     pub line: usize,
-    /// Turn or slide.
-    pub kind: CoordinateKind,
-    /// What its value is called at the start, where the bodies stand as their positions say. Without meaning if `drive`
-    /// is: then it is the drive's value at time zero.
+    /// Rotation or translation.
+    pub kind: MotionKind,
+    /// The value that belongs to the initial positions of the bodies. Not used with a `drive`, whose value at time zero it is.
     pub start: f64,
-    /// Its rate at the start [rad/s or m/s]. Without meaning if the child's own velocity is given, or if `drive` is: then
-    /// it is the drive's rate at time zero.
+    /// Rate at the start [rad/s or m/s]. Not used if the child's velocity is given, nor with a `drive`, whose rate at time zero it is.
     pub rate: f64,
     /// A spring and damper.
     pub spring: Option<Spring>,
-    /// How far it goes.
+    /// Range of motion.
     pub limits: Option<Limits>,
-    /// A proportional and derivative controller; never beside `drive`.
+    /// A proportional-derivative controller; never together with `drive`.
     pub motor: Option<MotorEntry>,
-    /// A prescribed motion; its multiplier is the actuator's moment or force.
+    /// A prescribed motion; its multiplier is the moment or force of the actuator.
     pub drive: Option<DriveEntry>,
     /// Largest moment or force of dry friction [N.m or N].
     pub friction: f64,
 }
 
-/// Whether a coordinate turns or slides.
+/// Whether a coordinate is a rotation or a translation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CoordinateKind {
+pub enum MotionKind {
     /// An angle [rad].
     Rotation,
     /// A length [m].
     Translation,
 }
 
-/// Moment or force -stiffness (value - rest) - damping rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spring {
-    /// [N.m/rad or N/m], zero or more.
-    pub stiffness: f64,
-    /// [N.m.s/rad or N.s/m], zero or more.
-    pub damping: f64,
-    /// Value without force.
-    pub rest: f64,
-}
-
-/// Lower is below upper, and the start between them.
+/// Range of a coordinate: the lower limit is below the upper one, and the start is between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Minus infinity if there is none.
@@ -60,14 +48,14 @@ pub struct Limits {
     pub upper: f64,
 }
 
-/// Moment or force stiffness (target - value) + damping (target's rate - rate), cut at `max`.
+/// A motor with the moment or force stiffness (target - value) + damping (target's rate - rate), limited to `max`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotorEntry {
-    /// Where it wants to be.
+    /// Target value over time.
     pub target: TimeFunction,
-    /// [N.m/rad or N/m], zero or more.
+    /// Stiffness [N.m/rad or N/m], zero or more.
     pub stiffness: f64,
-    /// [N.m.s/rad or N.s/m], zero or more.
+    /// Damping [N.m.s/rad or N.s/m], zero or more.
     pub damping: f64,
     /// Largest moment or force [N.m or N]; infinity if not limited.
     pub max: f64,
@@ -96,25 +84,25 @@ pub(super) const KEYS: &[&str] = &[
     "friction",
 ];
 
-impl CoordinateKind {
-    /// Reads a plain value: `key_deg` or `key` for a turn, `key` for a slide.
+impl MotionKind {
+    /// Reads a value: `key_deg` or `key` for a rotation, `key` for a translation.
     fn value(self, table: &Table<'_>, key: &str) -> Result<Option<f64>, SceneError> {
-        if self == CoordinateKind::Rotation {
+        if self == MotionKind::Rotation {
             return table.angle(key);
         }
         if let Some(value) = table.get(&format!("{key}_deg")) {
-            return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate slides, it does not turn"));
+            return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate is a translation"));
         }
         table.get(key).map(|value| value.number()).transpose()
     }
 
     fn purpose(self, duration_s: f64) -> Purpose {
-        Purpose { duration_s, angle: self == CoordinateKind::Rotation }
+        Purpose { duration_s, angle: self == MotionKind::Rotation }
     }
 }
 
 impl CoordinateEntry {
-    /// All coordinates of a joint; those that the file leaves out are free.
+    /// Reads all coordinates of a joint; those that are missing in the file are free.
     pub(super) fn read_all(
         joint: &Table<'_>,
         kind: JointAxes,
@@ -125,23 +113,23 @@ impl CoordinateEntry {
         let tables = joint.tables("coordinate")?;
         if let Some(table) = tables.get(kinds.len()) {
             let found = format!("found coordinate {}; expected at most {}", kinds.len() + 1, kinds.len());
-            return Err(table.wrong(found).hint("docs/SCENES.md tells which motions each kind of joint leaves"));
+            return Err(table.wrong(found).hint("docs/SCENES.md lists the free motions of each kind of joint"));
         }
-        let read = |(i, kind): (usize, &CoordinateKind)| match tables.get(i) {
+        let read = |(i, kind): (usize, &MotionKind)| match tables.get(i) {
             Some(table) => CoordinateEntry::read(table, *kind, child, duration_s),
             None => Ok(CoordinateEntry::free(joint.line, *kind)),
         };
         kinds.iter().enumerate().map(read).collect()
     }
 
-    fn free(line: usize, kind: CoordinateKind) -> CoordinateEntry {
+    fn free(line: usize, kind: MotionKind) -> CoordinateEntry {
         let (spring, limits, motor, drive) = (None, None, None, None);
         CoordinateEntry { line, kind, start: 0.0, rate: 0.0, spring, limits, motor, drive, friction: 0.0 }
     }
 
     fn read(
         table: &Table<'_>,
-        kind: CoordinateKind,
+        kind: MotionKind,
         child: &BodyEntry,
         duration_s: f64,
     ) -> Result<CoordinateEntry, SceneError> {
@@ -151,10 +139,10 @@ impl CoordinateEntry {
         Ok(coordinate)
     }
 
-    /// Reads the keys of a coordinate; other keys are not looked at. Limits must hold the start if it is known.
+    /// Reads the keys of a coordinate and ignores other keys. The start must be within the limits if it is known.
     pub(super) fn read_acting(
         table: &Table<'_>,
-        kind: CoordinateKind,
+        kind: MotionKind,
         start_is_known: bool,
         duration_s: f64,
     ) -> Result<CoordinateEntry, SceneError> {
@@ -176,13 +164,13 @@ impl CoordinateEntry {
     }
 }
 
-/// What is said twice could contradict itself.
+/// Rejects keys that could contradict a drive.
 fn refuse_beside_drive(table: &Table<'_>, driven: bool) -> Result<(), SceneError> {
     let keys = ["start_deg", "start", "rate_deg", "rate", "motor"];
     match keys.iter().find_map(|key| table.get(key)).filter(|_| driven) {
         Some(value) => {
-            let expected = "no such key beside a drive";
-            Err(value.wrong(expected).hint("the drive's own value and rate at time zero hold"))
+            let expected = "no such key together with a drive";
+            Err(value.wrong(expected).hint("the drive determines value and rate at time zero"))
         }
         None => Ok(()),
     }
@@ -193,13 +181,13 @@ fn refuse_rates_twice(table: &Table<'_>, child: &BodyEntry) -> Result<(), SceneE
     match ["rate_deg", "rate"].iter().find_map(|key| table.get(key)).filter(|_| own) {
         Some(value) => {
             let expected = format!("no rate, as body \"{}\" has its own velocity (line {})", child.name, child.line);
-            Err(value.wrong(&expected).hint("take one of them away"))
+            Err(value.wrong(&expected).hint("remove one of them"))
         }
         None => Ok(()),
     }
 }
 
-fn drive(table: &Table<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Option<DriveEntry>, SceneError> {
+fn drive(table: &Table<'_>, kind: MotionKind, duration_s: f64) -> Result<Option<DriveEntry>, SceneError> {
     let function = function::either_unit(table, "drive", kind.purpose(duration_s))?;
     let max = table.above_zero_or("drive_max", f64::INFINITY)?;
     match (function, table.get("drive_max")) {
@@ -208,7 +196,7 @@ fn drive(table: &Table<'_>, kind: CoordinateKind, duration_s: f64) -> Result<Opt
     }
 }
 
-fn spring(value: &Value<'_>, kind: CoordinateKind) -> Result<Spring, SceneError> {
+fn spring(value: &Value<'_>, kind: MotionKind) -> Result<Spring, SceneError> {
     let table = value.table("{ stiffness = …, damping = 0, rest_deg = 0 }")?;
     table.only(&[&["stiffness", "damping", "rest_deg", "rest"]])?;
     if table.get("stiffness").is_none() && table.get("damping").is_none() {
@@ -221,7 +209,7 @@ fn spring(value: &Value<'_>, kind: CoordinateKind) -> Result<Spring, SceneError>
     })
 }
 
-fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, unchecked: bool) -> Result<Limits, SceneError> {
+fn limits(value: &Value<'_>, kind: MotionKind, start: f64, unchecked: bool) -> Result<Limits, SceneError> {
     let table = value.table("{ lower_deg = …, upper_deg = … }")?;
     table.only(&[&["lower_deg", "lower", "upper_deg", "upper"]])?;
     let (lower, upper) = (kind.value(&table, "lower")?, kind.value(&table, "upper")?);
@@ -234,23 +222,21 @@ fn limits(value: &Value<'_>, kind: CoordinateKind, start: f64, unchecked: bool) 
     }
     if !unchecked && !(limits.lower..=limits.upper).contains(&start) {
         let error = value.wrong("limits around the value at the start");
-        return Err(
-            error.hint("`start_deg` (or `start`) says what the value is called where the bodies stand; default 0")
-        );
+        return Err(error.hint(
+            "`start_deg` (or `start`) is the value that belongs to the initial positions of the bodies; default 0",
+        ));
     }
     Ok(limits)
 }
 
-fn motor(value: &Value<'_>, kind: CoordinateKind, duration_s: f64) -> Result<MotorEntry, SceneError> {
+fn motor(value: &Value<'_>, kind: MotionKind, duration_s: f64) -> Result<MotorEntry, SceneError> {
     let table = value.table("{ target_deg = …, stiffness = …, damping = 0 }")?;
     table.only(&[&["target_deg", "target", "stiffness", "damping", "max"]])?;
     let target = function::either_unit(&table, "target", kind.purpose(duration_s))?;
-    let key = if kind == CoordinateKind::Rotation { "target_deg" } else { "target" };
+    let key = if kind == MotionKind::Rotation { "target_deg" } else { "target" };
     Ok(MotorEntry {
-        target: target.ok_or_else(|| table.missing(key, "where the motor wants to be"))?,
-        stiffness: table
-            .need("stiffness", "the moment for each radian, or the force for each metre")?
-            .zero_or_more()?,
+        target: target.ok_or_else(|| table.missing(key, "the target of the motor"))?,
+        stiffness: table.need("stiffness", "the moment per radian, or the force per metre")?.zero_or_more()?,
         damping: table.zero_or_more_or("damping", 0.0)?,
         max: table.above_zero_or("max", f64::INFINITY)?,
     })

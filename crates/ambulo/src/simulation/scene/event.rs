@@ -1,4 +1,4 @@
-//! Events: closures that come and go, joints that let go.
+//! Events in a scene file: closures are added and removed, joints are removed.
 
 use super::SceneError;
 use super::closure::ClosureEntry;
@@ -6,14 +6,14 @@ use super::joint::JointEntry;
 use super::names::{Item, Names};
 use crate::toml_reader::{Table, Value};
 
-/// Something that happens at an instant.
+/// A change at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventEntry {
     /// Line of its header.
     pub line: usize,
-    /// When [s], from zero to the duration.
+    /// Time [s], from zero to the duration.
     pub time_s: f64,
-    /// What.
+    /// The change.
     pub change: EventAction,
 }
 
@@ -22,13 +22,13 @@ pub struct EventEntry {
 pub enum EventAction {
     /// A closure becomes active: index in [`SceneFile::closures`](super::SceneFile::closures).
     AddClosure(usize),
-    /// A closure lets go: index in [`SceneFile::closures`](super::SceneFile::closures).
+    /// A closure is removed: index in [`SceneFile::closures`](super::SceneFile::closures).
     RemoveClosure(usize),
-    /// A joint lets go for good, and its child is free: index in [`SceneFile::joints`](super::SceneFile::joints).
+    /// A joint is removed for good, and its child is free: index in [`SceneFile::joints`](super::SceneFile::joints).
     RemoveJoint(usize),
 }
 
-/// All events in the order of their times; those of one instant in the order of the file.
+/// Reads all events in order of time; simultaneous events are in the order of the file.
 pub(super) fn read_all(
     root: &Table<'_>,
     links: &Names,
@@ -72,7 +72,7 @@ fn change<'t>(table: &Table<'t>, links: &Names) -> Result<(EventAction, Value<'t
     Ok((change, value))
 }
 
-/// Refuses to add what is there and to remove what is not.
+/// Rejects adding an active closure, and removing an inactive closure or a removed joint.
 fn refuse_idle(
     events: &[(EventEntry, Value<'_>)],
     joints: &[JointEntry],
@@ -88,10 +88,10 @@ fn refuse_idle(
         };
         if *there == after && after {
             let error = value.wrong(&format!("a closure that is not active at {} s already", event.time_s));
-            return Err(error.hint("active = false keeps a closure away until an event adds it"));
+            return Err(error.hint("with active = false a closure is inactive until an event adds it"));
         }
         if *there == after {
-            return Err(value.wrong(&format!("one that is still there at {} s", event.time_s)));
+            return Err(value.wrong(&format!("a closure or joint that is active at {} s", event.time_s)));
         }
         *there = after;
     }

@@ -1,53 +1,53 @@
-//! Figures: bodies and joints of an OpenSim model, moved by a recording; or those that the program builds.
+//! Figures in a scene file: an OpenSim model that follows a recording, or a built-in figure.
 
-use super::built::{self, BuiltFigure};
+use super::built_entry::{self, BuiltFigure};
 use super::material::{self, MaterialEntry};
 use super::names::{Item, Names};
 use super::{Place, SceneError};
 use crate::spatial::{Pose, Vec3};
 use crate::toml_reader::{Table, Value};
 
-/// A figure from an OpenSim model, or one that the program builds. Its files are not opened here.
+/// A figure from an OpenSim model, or a built-in figure. Its files are not opened here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigureEntry {
-    /// Name, its own among bodies, obstacles and figures.
+    /// Name, unique among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// Where the path of the model stands.
+    /// Place of the model's path in the file.
     pub model_place: Place,
-    /// Built by the program; then no model, motion, `driven` or `root` plays a part.
+    /// The built-in figure; then model, motion, `driven` and `root` are not used.
     pub built: Option<BuiltFigure>,
-    /// Path of the `.osim` file as it stands in the scene, relative to the scene; empty if the figure is built.
+    /// Path of the `.osim` file, relative to the scene; empty for a built-in figure.
     pub model: String,
-    /// Where the path of the motion stands; the model's place if there is none.
+    /// Place of the motion's path in the file; the model's place if there is none.
     pub motion_place: Place,
-    /// Path of the `.mot` or `.sto` file with coordinates, in the same way.
+    /// Path of the `.mot` or `.sto` file with coordinates, relative to the scene.
     pub motion: Option<String>,
-    /// Time of the recording [s] at which the scene begins; `None` is its first instant.
+    /// Time of the recording at which the scene begins [s]; `None`: its first sample.
     pub from_s: Option<f64>,
-    /// Which coordinates follow the recording; never more than `Nothing` without one.
+    /// The coordinates that follow the recording; `Nothing` without one.
     pub driven: DrivenCoordinates,
-    /// What becomes of the coordinates that carry the whole figure.
+    /// How the root's coordinates move.
     pub root: RootMotion,
-    /// `world_from_ground`, ground being that of the model.
+    /// `world_from_ground`, with the ground of the model.
     pub pose: Pose,
-    /// Where it touches.
+    /// Contact spheres.
     pub spheres: Vec<SphereEntry>,
 }
 
-/// Which coordinates of a figure follow its recording; those of the root aside.
+/// The coordinates of a figure that follow its recording, except those of the root.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DrivenCoordinates {
     /// All.
     All,
-    /// None: a rag doll that starts as the recording does.
+    /// None: the figure is passive and starts in the posture of the recording.
     Nothing,
-    /// Those named, in the order of the file.
+    /// The named ones, in the order of the file.
     Only(Vec<String>),
 }
 
-/// What becomes of the coordinates that carry the whole figure.
+/// How the root's coordinates of a figure move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RootMotion {
     /// Forces move them.
@@ -56,7 +56,7 @@ pub enum RootMotion {
     Driven,
 }
 
-/// A sphere on a body of a figure, where it touches others.
+/// A contact sphere on a body of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereEntry {
     /// Line of its header.
@@ -82,7 +82,7 @@ impl FigureEntry {
     ) -> Result<Vec<FigureEntry>, SceneError> {
         let read = |(i, table): (usize, &Table<'_>)| {
             if let Some(value) = table.get("build") {
-                let name = names.declare_first(table, built::KEYS, Item::Figure(i))?;
+                let name = names.declare_first(table, built_entry::KEYS, Item::Figure(i))?;
                 return FigureEntry::read_built(table, name, &value, materials, duration_s);
             }
             FigureEntry::read(table, names.declare_first(table, KEYS, Item::Figure(i))?, materials)

@@ -1,4 +1,4 @@
-//! The whole scene.
+//! Reads a whole scene file.
 
 use super::SceneError;
 use super::body::BodyEntry;
@@ -10,61 +10,62 @@ use super::material::{self, MaterialEntry};
 use super::names::{Attachment, ContactPartner, Item, Names};
 use super::obstacle::ObstacleEntry;
 use super::output::{self, AllNames, Outputs};
-use super::solver::{Integrator, Solver, read_impact};
+use super::solver::{read_impact, read_integrator, read_solver};
 use super::tree;
-use crate::simulation::ImpactLaw;
+use crate::dynamics::SolverSettings;
+use crate::simulation::{ImpactLaw, Integrator};
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use crate::toml_reader::{Source, Table};
 
-/// A scene as its file says it: SI units and radians, references resolved, numbers checked.
+/// The content of a scene file, in SI units and radians, with references resolved and numbers checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
-    /// What the scene is called; empty if it is not.
+    /// Title; may be empty.
     pub title: String,
     /// Gravity in the world [m/s²].
     pub gravity: Vec3,
     /// Time step [s], above zero, at most the duration.
     pub step_s: f64,
-    /// How long it lasts [s], above zero.
+    /// Duration [s], above zero.
     pub duration_s: f64,
-    /// How time goes on.
+    /// The integrator.
     pub integrator: Integrator,
-    /// What becomes of the velocity of a point that strikes.
+    /// The impact law.
     pub impact: ImpactLaw,
     /// Whether positions are projected back onto the constraints after each step.
     pub projection: bool,
-    /// Rows of output a second [Hz], at most one a step.
+    /// Rate of output rows [Hz], at most one per step.
     pub output_rate_hz: f64,
-    /// How loops and contacts are solved.
-    pub solver: Solver,
-    /// Surfaces; the first is `default`, then in the order of the file.
+    /// Settings of the constraint solver.
+    pub solver: SolverSettings,
+    /// Materials: first `default`, then in the order of the file.
     pub materials: Vec<MaterialEntry>,
     /// Rigid bodies, in the order of the file.
     pub bodies: Vec<BodyEntry>,
-    /// What forces never move, in the order of the file.
+    /// Solids that forces do not move, in the order of the file.
     pub obstacles: Vec<ObstacleEntry>,
-    /// Joints, in the order of the file; a parent's joint may stand after its child's.
+    /// Joints, in the order of the file; a parent's joint may follow its child's.
     pub joints: Vec<JointEntry>,
     /// Joints that close loops, in the order of the file.
     pub closures: Vec<ClosureEntry>,
-    /// What happens when, in the order of time.
+    /// Events, in order of time.
     pub events: Vec<EventEntry>,
-    /// Figures from OpenSim models, in the order of the file.
+    /// Figures, in the order of the file.
     pub figures: Vec<FigureEntry>,
-    /// Pairs that never touch each other, beside those that a joint or closure connects.
+    /// Pairs that pass through each other, in addition to those that a joint or closure connects.
     pub ignored: Vec<IgnoredPair>,
-    /// Which results are kept.
+    /// The results to write.
     pub outputs: Outputs,
 }
 
-/// Two that never touch each other.
+/// Two parts of a scene that pass through each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct IgnoredPair {
     /// Line of its header.
     pub line: usize,
-    /// One.
+    /// The first part.
     pub first: ContactPartner,
-    /// The other; the same figure as the first if its bodies ignore each other.
+    /// The second part; the same figure as the first if its bodies ignore each other.
     pub second: ContactPartner,
 }
 
@@ -88,11 +89,11 @@ const KEYS: &[&str] = &[
     "ignore",
     "output",
 ];
-/// Standard gravity, against y up [m/s²].
+/// Standard gravity along -y [m/s²].
 const GRAVITY: Vec3 = Vec3::new(0.0, -STANDARD_GRAVITY, 0.0);
-/// Rows a second without `output_rate`; one a step where steps are longer.
+/// Default output rate; one row per step if steps are longer.
 const OUTPUT_RATE_HZ: f64 = 100.0;
-/// More steps than this are a slip: eleven days at a microsecond a step would be 1e12.
+/// More steps are a mistake: eleven days at a microsecond per step would be 1e12.
 const MOST_STEPS: f64 = 1e9;
 /// Rounding of 1/step, relative.
 const RATE_SLACK: f64 = 1e-9;
@@ -101,7 +102,7 @@ impl SceneFile {
     /// Reads a scene.
     ///
     /// # Errors
-    /// The first thing that is wrong, with line and key.
+    /// The first error in the file, with line and key.
     pub fn parse(text: &str) -> Result<SceneFile, SceneError> {
         let source = Source::new(text, "docs/SCENES.md");
         let raw = source.parse()?;
@@ -116,7 +117,7 @@ impl SceneFile {
         if bodies.is_empty() && figures.is_empty() {
             return Err(root.missing("body", "at least one [[body]] or [[figure]]"));
         }
-        let integrator = Integrator::read(&root)?;
+        let integrator = read_integrator(&root)?;
         let joints = joints(&root, &mut links, &things, &bodies, duration_s)?;
         let closures = closures(&root, &mut links, &things, &bodies)?;
         Ok(SceneFile {
@@ -128,7 +129,7 @@ impl SceneFile {
             impact: read_impact(&root, integrator)?,
             projection: root.truth_or("projection", true)?,
             output_rate_hz: output_rate(&root, step_s)?,
-            solver: Solver::read(&root)?,
+            solver: read_solver(&root)?,
             events: event::read_all(&root, &links, (&joints, &closures), duration_s)?,
             ignored: ignored(&root, &things)?,
             outputs: output::read(&root, &AllNames { things: &things, links: &links })?,
@@ -141,7 +142,7 @@ impl SceneFile {
         })
     }
 
-    /// The name of what a joint or closure holds on to, as it stands in the scene.
+    /// The name of an attachment, as in the scene file.
     #[must_use]
     pub fn carrier_name(&self, carrier: &Attachment) -> String {
         match carrier {
@@ -153,7 +154,7 @@ impl SceneFile {
 }
 
 fn times(root: &Table<'_>) -> Result<(f64, f64), SceneError> {
-    let duration_s = root.need("duration", "how long the scene lasts [s]")?.above_zero()?;
+    let duration_s = root.need("duration", "the duration of the scene [s]")?.above_zero()?;
     let value = root.need("step", "the time step [s], such as 0.001")?;
     let step_s = value.above_zero()?;
     if step_s > duration_s {
@@ -169,7 +170,7 @@ fn output_rate(root: &Table<'_>, step_s: f64) -> Result<f64, SceneError> {
     let Some(value) = root.get("output_rate") else { return Ok(OUTPUT_RATE_HZ.min(1.0 / step_s)) };
     let rate = value.above_zero()?;
     if rate * step_s > 1.0 + RATE_SLACK {
-        return Err(value.wrong(&format!("at most one row a step, {} a second", 1.0 / step_s)));
+        return Err(value.wrong(&format!("at most one row per step, {} Hz", 1.0 / step_s)));
     }
     Ok(rate)
 }

@@ -1,49 +1,48 @@
-//! Functions of time: what drives, motors and moving obstacles follow.
+//! Functions of time in a scene file, for drives, motors and moving obstacles.
 
 use super::{Place, SceneError};
 use crate::toml_reader::{Table, Value};
 
-/// A function of the scene's time [s]; values in rad or m, as what it is for says.
+/// A function of the scene's time [s]; values in rad or m, depending on its use.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TimeFunction {
-    /// Always the same.
+    /// A constant.
     Constant(f64),
     /// offset + amplitude sin(2π frequency t + phase).
     Sine {
         /// Half the distance between the extremes.
         amplitude: f64,
-        /// Cycles a second [Hz], above zero.
+        /// Frequency [Hz], above zero.
         frequency_hz: f64,
-        /// At time zero [rad].
+        /// Phase at time zero [rad].
         phase: f64,
-        /// The middle.
+        /// Mean value.
         offset: f64,
     },
-    /// At rest at each of these instants, at least one, times rising: (time [s], value). Quintics between, without
-    /// velocity and acceleration at their ends; constant before the first and after the last.
+    /// Stops at these times, at least one, with increasing times: (time [s], value). Between them quintics with zero velocity and
+    /// acceleration at their ends; constant before the first and after the last.
     Stops(Vec<(f64, f64)>),
-    /// The natural cubic spline through these, at least two, times rising from zero or before to the end of the scene or
-    /// after: (time [s], value).
+    /// The natural cubic spline through at least two points with increasing times, which cover the whole scene: (time [s], value).
     Points(Vec<(f64, f64)>),
-    /// A column of a recording, in the unit that the file states.
+    /// A column of a recording, in the unit stated in the file.
     Motion {
-        /// Where the path stands.
+        /// Place of the path in the scene file.
         place: Place,
-        /// Path as it stands in the scene, relative to the scene.
+        /// Path, relative to the scene.
         file: String,
         /// Name of the column.
         column: String,
-        /// Time of the recording [s] at which the scene begins; `None` is its first instant.
+        /// Time of the recording at which the scene begins [s]; `None`: its first sample.
         from_s: Option<f64>,
     },
 }
 
-/// What a function is for.
+/// The use of a function.
 #[derive(Clone, Copy)]
 pub(super) struct Purpose {
-    /// How long it must last [s].
+    /// Duration that it must cover [s].
     pub(super) duration_s: f64,
-    /// Whether it is an angle: recordings say themselves whether theirs are degrees.
+    /// Whether it is an angle; recordings state whether their angles are in degrees.
     pub(super) angle: bool,
 }
 
@@ -57,13 +56,13 @@ pub(super) fn either_unit(table: &Table<'_>, key: &str, purpose: Purpose) -> Res
         return table.either_unit(key)?.map(read).transpose();
     }
     if let Some(value) = table.get(&format!("{key}_deg")) {
-        return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate slides, it does not turn"));
+        return Err(value.wrong(&format!("`{key}` in metres")).hint("this coordinate is a translation"));
     }
     table.get(key).map(|value| read((value, 1.0))).transpose()
 }
 
 impl TimeFunction {
-    /// Reads a function whose values stand in a unit of so many radians or metres.
+    /// Reads a function; `unit` is the unit of its values in radians or metres.
     pub(super) fn read(value: &Value<'_>, unit: f64, purpose: Purpose) -> Result<TimeFunction, SceneError> {
         if !value.is_table() {
             return value.finite(EXPECTED).map(|number| TimeFunction::Constant(number * unit));
@@ -91,7 +90,7 @@ fn sine(value: &Value<'_>, unit: f64) -> Result<TimeFunction, SceneError> {
     table.only(&[&["amplitude", "frequency_hz", "phase_deg", "phase", "offset"]])?;
     Ok(TimeFunction::Sine {
         amplitude: table.need("amplitude", "half the distance between the extremes")?.number()? * unit,
-        frequency_hz: table.need("frequency_hz", "the cycles a second")?.above_zero()?,
+        frequency_hz: table.need("frequency_hz", "the frequency [Hz]")?.above_zero()?,
         phase: table.angle("phase")?.unwrap_or(0.0),
         offset: table.number_or("offset", 0.0)? * unit,
     })
@@ -115,16 +114,16 @@ fn points(value: &Value<'_>, unit: f64, duration_s: f64) -> Result<TimeFunction,
     let points = pairs(value, unit, 2)?;
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     if first > 0.0 || last < duration_s {
-        let expected = format!("points from 0 s or before to {duration_s} s (`duration`) or after");
-        let error = value.wrong(&format!("{expected}; these go from {first} s to {last} s"));
-        return Err(error.hint("`stops` rests before its first and after its last instant"));
+        let expected = format!("points that cover 0 s to {duration_s} s (`duration`)");
+        let error = value.wrong(&format!("{expected}; these cover {first} s to {last} s"));
+        return Err(error.hint("`stops` is constant before its first and after its last time"));
     }
     Ok(TimeFunction::Points(points))
 }
 
-/// At least so many pairs [time, value], times rising.
+/// Reads at least `least` pairs [time, value] with increasing times.
 fn pairs(value: &Value<'_>, unit: f64, least: usize) -> Result<Vec<(f64, f64)>, SceneError> {
-    let expected = format!("a list of at least {least} [time, value], times rising");
+    let expected = format!("a list of at least {least} [time, value] with increasing times");
     let mut pairs: Vec<(f64, f64)> = Vec::new();
     for entry in value.list(&expected)? {
         let [time, number] = entry.numbers("[time, value]")?;
@@ -140,7 +139,7 @@ fn motion(table: &Table<'_>, value: &Value<'_>, unit: f64) -> Result<TimeFunctio
     table.only(&[&["motion", "column", "from"]])?;
     if unit < 1.0 {
         let error = value.wrong("a recording under the key without `_deg`");
-        return Err(error.hint("the file itself says whether its angles are degrees"));
+        return Err(error.hint("the file states whether its angles are in degrees"));
     }
     Ok(TimeFunction::Motion {
         place: value.place(),

@@ -1,8 +1,8 @@
-//! Joints: how a body hangs on another or on the world.
+//! Joints in a scene file: they connect a body to another one or to the world.
 
 use super::SceneError;
 use super::body::BodyEntry;
-use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::coordinate::{CoordinateEntry, MotionKind};
 use super::names::{Attachment, Names};
 use crate::spatial::Vec3;
 use crate::toml_reader::Table;
@@ -10,59 +10,59 @@ use crate::toml_reader::Table;
 /// A joint between a child and its parent. The joints form trees; loops are closed by closures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointEntry {
-    /// Name, its own among joints and closures.
+    /// Name, unique among joints and closures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// Which motions it leaves.
+    /// The free motions.
     pub kind: JointAxes,
-    /// What it hangs on.
+    /// The parent.
     pub parent: Attachment,
-    /// What hangs on it: index in [`SceneFile::bodies`](super::SceneFile::bodies). No body hangs on two joints.
+    /// The child: index in [`SceneFile::bodies`](super::SceneFile::bodies). No body is the child of two joints.
     pub child: usize,
-    /// The joint's centre at the start, in the world [m].
+    /// Initial position of the joint's centre in the world [m].
     pub at: Vec3,
-    /// One for each motion the joint leaves, in the order of [`JointAxes::coordinates`].
+    /// One per free motion, in the order of [`JointAxes::coordinates`].
     pub coordinates: Vec<CoordinateEntry>,
 }
 
-/// Which motions a joint or closure leaves. Directions are unit vectors of the world at the start (a closure that is not
-/// active then: at the moment it becomes active).
+/// The free motions of a joint or closure. Directions are unit vectors in the world at the start (for a closure that is added later: when
+/// it becomes active).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointAxes {
     /// None.
     Weld,
-    /// A turn about an axis of both.
+    /// A rotation about an axis fixed in both bodies.
     Revolute {
         /// The axis.
         axis: Vec3,
     },
-    /// A turn about an axis of the parent, then about an axis of the child.
+    /// A rotation about an axis of the parent, then about an axis of the child.
     Universal {
         /// Fixed in the parent.
         axis: Vec3,
         /// Fixed in the child, at right angles to `axis`.
         second_axis: Vec3,
     },
-    /// Every turn: the rotation vector along axes of the parent, the world's at the start.
+    /// All rotations: the rotation vector in axes of the parent that are the world's axes at the start.
     Ball,
-    /// A slide along an axis of both.
+    /// A translation along an axis fixed in both bodies.
     Prismatic {
         /// The axis.
         axis: Vec3,
     },
-    /// A turn about the normal, then slides along `along` and `normal` × `along`.
+    /// A rotation about the normal, then translations along `along` and `normal` × `along`.
     Planar {
         /// At right angles to the plane, fixed in the parent.
         normal: Vec3,
         /// In the plane, fixed in the parent.
         along: Vec3,
     },
-    /// Every motion: turns as those of a ball, then slides along x, y, z of the parent, the world's at the start.
+    /// All motions: rotations as for a ball joint, then translations along x, y, z of the parent, which are the world's axes at the start.
     Free,
 }
 
-/// The kinds of joint, by their word.
+/// The kinds of joint, by their name in the file.
 #[derive(Clone, Copy)]
 enum Word {
     Weld,
@@ -88,7 +88,7 @@ const KEYS: &[&str] = &["name", "kind", "parent", "child", "at", "coordinate"];
 const SQUARE_SLACK: f64 = 1e-6;
 
 impl JointEntry {
-    /// One joint; whether the joints together form trees is asked in `tree`.
+    /// Reads one joint; `tree` checks that all joints form trees.
     pub(super) fn read(
         table: &Table<'_>,
         name: String,
@@ -98,7 +98,7 @@ impl JointEntry {
     ) -> Result<JointEntry, SceneError> {
         let kind = JointAxes::read(table, KEYS)?;
         let parent = names.carrier(&table.need("parent", "\"world\" or a body")?)?;
-        let child = names.body(&table.need("child", "the body that hangs on the joint")?)?;
+        let child = names.body(&table.need("child", "the child of the joint")?)?;
         let at = match (table.get("at"), kind) {
             (Some(value), _) => value.vector()?,
             (None, JointAxes::Revolute { .. } | JointAxes::Universal { .. } | JointAxes::Ball) => {
@@ -112,10 +112,10 @@ impl JointEntry {
 }
 
 impl JointAxes {
-    /// What the motions that the joint leaves are, in order.
+    /// The kinds of the free motions, in order.
     #[must_use]
-    pub fn coordinates(&self) -> &'static [CoordinateKind] {
-        use CoordinateKind::{Rotation, Translation};
+    pub fn coordinates(&self) -> &'static [MotionKind] {
+        use MotionKind::{Rotation, Translation};
         match self {
             JointAxes::Weld => &[],
             JointAxes::Revolute { .. } => &[Rotation],
@@ -127,7 +127,7 @@ impl JointAxes {
         }
     }
 
-    /// The `kind` of a table and the axes that belong to it; refuses keys that are not among `keys` or those.
+    /// Reads `kind` and its axes; rejects other keys except `keys`.
     pub(super) fn read(table: &Table<'_>, keys: &[&str]) -> Result<JointAxes, SceneError> {
         let words = WORDS.map(|(text, _)| text).join(", ");
         let word = table.need("kind", &format!("the kind of joint: {words}"))?.choice(&WORDS)?;
@@ -161,13 +161,13 @@ impl JointAxes {
     }
 }
 
-/// The direction, made exactly square to the other; `None` if it is not square already, but for rounding.
+/// The direction, made exactly perpendicular to the other; `None` if it is not perpendicular to rounding.
 fn square(direction: Vec3, to: Vec3) -> Option<Vec3> {
     let cosine = direction.dot(&to);
     (cosine.abs() <= SQUARE_SLACK).then(|| (direction - to * cosine).normalize())
 }
 
-/// The first sliding direction: `second_axis`, or world x laid into the plane, or world y where x is nearly the normal.
+/// The first translation axis: `second_axis`, or world x projected onto the plane, or world y if x is nearly the normal.
 fn along(table: &Table<'_>, normal: Vec3) -> Result<Vec3, SceneError> {
     const NEARLY: f64 = 0.99;
     if let Some(value) = table.get("second_axis") {

@@ -1,27 +1,27 @@
-//! What surfaces are made of: friction, bounce, compliance.
+//! Materials in a scene file: friction, restitution, compliance.
 
 use super::SceneError;
 use crate::toml_reader::Table;
 
-/// A surface, named by the shapes that have it.
+/// A material, which shapes refer to by its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaterialEntry {
     /// Name.
     pub name: String,
     /// Line of its header; 0 for the built-in `default`.
     pub line: usize,
-    /// How it pushes back.
-    pub law: ContactLaw,
+    /// The contact law.
+    pub law: MaterialLaw,
 }
 
-/// How a surface pushes back.
+/// The contact law of a material, with its friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ContactLaw {
-    /// Nothing enters anything; Coulomb friction.
+pub enum MaterialLaw {
+    /// Surfaces do not overlap; Coulomb friction.
     Rigid {
         /// Coulomb's coefficient, zero or more.
         friction: f64,
-        /// Share of the approach speed that comes back, 0 to 1.
+        /// Coefficient of restitution, 0 to 1.
         restitution: f64,
     },
     /// A spring and a damper at every contact point, solved as a constraint; Coulomb friction.
@@ -33,27 +33,27 @@ pub enum ContactLaw {
         /// Per contact point [N.s/m], zero or more.
         damping: f64,
     },
-    /// Hunt and Crossley's law as OpenSim's `SmoothSphereHalfSpaceForce` has it: a force from the depth, no constraint.
+    /// Hunt and Crossley's law as in OpenSim's `SmoothSphereHalfSpaceForce`: a force that depends on the depth, no constraint.
     HuntCrossley {
         /// Plane strain modulus [N/m²], above zero.
         stiffness: f64,
-        /// [s/m], zero or more.
+        /// Dissipation [s/m], zero or more.
         dissipation: f64,
         /// Friction coefficient as sliding begins.
         static_friction: f64,
         /// Friction coefficient while sliding.
         dynamic_friction: f64,
-        /// Friction for each m/s of sliding [s/m].
+        /// Increase of the friction coefficient per m/s of sliding [s/m].
         viscous_friction: f64,
         /// Sliding speed at which friction is full [m/s], above zero.
         transition_velocity: f64,
     },
 }
 
-/// Shoe on floor; and the 1997 paper's default, no bounce.
-const DEFAULT: ContactLaw = ContactLaw::Rigid { friction: 0.8, restitution: 0.0 };
+/// A shoe on a floor, and the default of the 1997 paper, without restitution.
+const DEFAULT: MaterialLaw = MaterialLaw::Rigid { friction: 0.8, restitution: 0.0 };
 
-/// The kinds of law, by their word.
+/// The contact laws, by their name in the file.
 #[derive(Clone, Copy)]
 enum Word {
     Rigid,
@@ -61,7 +61,7 @@ enum Word {
     HuntCrossley,
 }
 
-/// All materials of the file; the first is `default`, the file's own or the built-in one.
+/// Reads all materials; the first is `default`, from the file or built in.
 pub(super) fn read_all(root: &Table<'_>) -> Result<Vec<MaterialEntry>, SceneError> {
     let mut materials = vec![MaterialEntry { name: "default".into(), line: 0, law: DEFAULT }];
     for (name, table) in root.named_tables("material")? {
@@ -75,7 +75,7 @@ pub(super) fn read_all(root: &Table<'_>) -> Result<Vec<MaterialEntry>, SceneErro
     Ok(materials)
 }
 
-fn law(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
+fn law(table: &Table<'_>) -> Result<MaterialLaw, SceneError> {
     let words = [("rigid", Word::Rigid), ("regularised", Word::Regularised), ("hunt-crossley", Word::HuntCrossley)];
     let word = table.get("law").map_or(Ok(Word::Rigid), |value| value.choice(&words))?;
     match word {
@@ -85,18 +85,18 @@ fn law(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
     }
 }
 
-fn rigid(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
+fn rigid(table: &Table<'_>) -> Result<MaterialLaw, SceneError> {
     table.only(&[&["law", "friction", "restitution"]])?;
     let restitution = table.number_or("restitution", 0.0)?;
     if let Some(value) = table.get("restitution").filter(|_| !(0.0..=1.0).contains(&restitution)) {
-        return Err(value.wrong("a share of the approach speed from 0 to 1"));
+        return Err(value.wrong("a coefficient of restitution from 0 to 1"));
     }
-    Ok(ContactLaw::Rigid { friction: friction(table)?, restitution })
+    Ok(MaterialLaw::Rigid { friction: friction(table)?, restitution })
 }
 
-fn regularised(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
+fn regularised(table: &Table<'_>) -> Result<MaterialLaw, SceneError> {
     table.only(&[&["law", "friction", "stiffness", "damping"]])?;
-    Ok(ContactLaw::Regularised {
+    Ok(MaterialLaw::Regularised {
         friction: friction(table)?,
         stiffness: table.need("stiffness", "the stiffness of a contact point [N/m]")?.above_zero()?,
         damping: table.zero_or_more_or("damping", 0.0)?,
@@ -107,11 +107,11 @@ fn friction(table: &Table<'_>) -> Result<f64, SceneError> {
     table.need("friction", "the coefficient of friction")?.zero_or_more()
 }
 
-/// Defaults: those that `contact::HuntCrossley::FALISSE_2022` has.
-fn hunt_crossley(table: &Table<'_>) -> Result<ContactLaw, SceneError> {
+/// Defaults as in `contact::HuntCrossley::FALISSE_2022`.
+fn hunt_crossley(table: &Table<'_>) -> Result<MaterialLaw, SceneError> {
     let friction = ["static_friction", "dynamic_friction", "viscous_friction", "transition_velocity"];
     table.only(&[&["law", "stiffness", "dissipation"], &friction])?;
-    Ok(ContactLaw::HuntCrossley {
+    Ok(MaterialLaw::HuntCrossley {
         stiffness: table.above_zero_or("stiffness", 1e6)?,
         dissipation: table.zero_or_more_or("dissipation", 2.0)?,
         static_friction: table.zero_or_more_or("static_friction", 0.8)?,

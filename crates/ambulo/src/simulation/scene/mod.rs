@@ -1,12 +1,13 @@
 //! Scenes: a world, its outputs and its duration as a TOML file (docs/SCENES.md).
 //!
-//! [`SceneFile::parse`] turns text into plain records, in SI units and radians, every reference resolved and every number
-//! checked; a [`SceneError`] names line and key. Files that a scene names (models, motions) are not opened here: the caller
-//! reads them for [`Scene::build`], which makes a world of the records. [`Scene::run`] steps it to its end.
+//! [`SceneFile::parse`] converts text to records in SI units and radians; references are resolved and numbers are checked. A
+//! [`SceneError`] states line and key. Files that a scene names (models, motions) are not opened here: the caller reads them for
+//! [`Scene::build`], which builds a world from the records. [`Scene::run`] simulates it to its end.
 
 mod body;
 mod build;
-mod built;
+mod built_entry;
+mod built_figure;
 mod closing;
 mod closure;
 mod coordinate;
@@ -16,6 +17,7 @@ mod file;
 mod function;
 mod joint;
 mod material;
+mod model_figure;
 mod names;
 mod obstacle;
 mod output;
@@ -27,30 +29,27 @@ mod solver;
 mod sources;
 mod starting;
 mod surfaces;
-mod synthetic;
 mod tree;
 mod uniform;
-mod walk_keeper;
-mod walker;
+mod walk_recorder;
 
 pub use crate::toml_reader::{Place, TomlError as SceneError};
 pub use body::BodyEntry;
 pub use build::{Scene, SceneSettings};
-pub use built::{ArmEntry, BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+pub use built_entry::{ArmEntry, BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
 pub use closure::{Anchor, ClosureEntry};
-pub use coordinate::{CoordinateEntry, CoordinateKind, DriveEntry, Limits, MotorEntry, Spring};
+pub use coordinate::{CoordinateEntry, DriveEntry, Limits, MotionKind, MotorEntry};
 pub use event::{EventAction, EventEntry};
 pub use figure::{DrivenCoordinates, FigureEntry, RootMotion, SphereEntry};
 pub use file::{IgnoredPair, SceneFile};
 pub use function::TimeFunction;
 pub use joint::{JointAxes, JointEntry};
-pub use material::{ContactLaw, MaterialEntry};
+pub use material::{MaterialEntry, MaterialLaw};
 pub use names::{Attachment, ContactPartner};
 pub use obstacle::{ObstacleEntry, ObstacleMotion, ObstacleShape};
 pub use output::{Outputs, Plot};
 pub use run::{RunError, RunStatistics, SceneFrame};
 pub use saved::{ResumeError, SavedState};
 pub use shape::{ShapeEntry, Solid};
-pub use solver::{Integrator, Method, Solver};
 pub use sources::ReadFile;
-pub use walk_keeper::FigureWalk;
+pub use walk_recorder::FigureWalk;

@@ -1,13 +1,13 @@
-//! Names of a scene and what they refer to.
+//! Names in a scene file and the parts that they refer to.
 
 use super::SceneError;
 use crate::toml_reader::{Table, Value, listed, nearest};
 use std::collections::BTreeMap;
 
-/// What a joint or closure holds on to.
+/// The part to which a joint or closure is attached.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Attachment {
-    /// The world, which never moves.
+    /// The world.
     World,
     /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
     Body(usize),
@@ -20,7 +20,7 @@ pub enum Attachment {
     },
 }
 
-/// What can touch something.
+/// A part that can be in contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ContactPartner {
     /// A body of the scene: its index in [`SceneFile::bodies`](super::SceneFile::bodies).
@@ -38,7 +38,7 @@ pub enum ContactPartner {
     },
 }
 
-/// What a name in the scene stands for, with its index.
+/// The part that a name refers to, with its index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Item {
     Body(usize),
@@ -48,31 +48,34 @@ pub(super) enum Item {
     Closure(usize),
 }
 
-/// Names that must differ from each other.
+/// A set of unique names.
 #[derive(Default)]
 pub(super) struct Names {
     items: BTreeMap<String, (Item, usize)>,
 }
 
 impl Names {
-    /// Reads the `name` of a table and notes what it stands for.
+    /// Reads the `name` of a table and registers the part.
     pub(super) fn declare(&mut self, table: &Table<'_>, item: Item) -> Result<String, SceneError> {
         let value = table.need("name", "a name")?;
         let name = value.text()?;
         let free = |c: char| !c.is_control() && c != '/' && c != ':';
         if name.is_empty() || name.trim() != name || name == "world" || !name.chars().all(free) {
-            let expected = "a name that is not empty, not \"world\", without / and : and without spaces around it";
+            let expected =
+                "a name that is not empty and not \"world\", without / and :, without leading or trailing spaces";
             return Err(value.wrong(expected));
         }
         if let Some((_, line)) = self.items.get(name) {
-            let error = value.wrong(&format!("a name of its own; this one stands in line {line} already"));
-            return Err(error.hint("bodies, obstacles and figures share their names, and so do joints and closures"));
+            let error = value.wrong(&format!("a unique name; this one is also in line {line}"));
+            return Err(
+                error.hint("names are unique among bodies, obstacles and figures, and among joints and closures")
+            );
         }
         self.items.insert(name.to_owned(), (item, value.line()));
         Ok(name.to_owned())
     }
 
-    /// As `declare`, of a table that knows these keys only: a misspelt `name` is told as such.
+    /// As `declare`, but first rejects keys other than these, so that a misspelt `name` is reported as such.
     pub(super) fn declare_first(&mut self, table: &Table<'_>, keys: &[&str], item: Item) -> Result<String, SceneError> {
         table.only(&[keys])?;
         self.declare(table, item)
@@ -82,7 +85,7 @@ impl Names {
         self.items.get(name).map(|(item, _)| *item)
     }
 
-    /// What a joint or closure holds on to.
+    /// Reads the attachment of a joint or closure.
     pub(super) fn carrier(&self, value: &Value<'_>) -> Result<Attachment, SceneError> {
         let name = value.text()?;
         if name == "world" {
@@ -97,7 +100,7 @@ impl Names {
         }
     }
 
-    /// A body of the scene.
+    /// Reads the name of a body of the scene.
     pub(super) fn body(&self, value: &Value<'_>) -> Result<usize, SceneError> {
         let name = value.text()?;
         match self.find(name) {
@@ -106,7 +109,7 @@ impl Names {
         }
     }
 
-    /// What can touch something.
+    /// Reads the name of a part that can be in contact.
     pub(super) fn partner(&self, value: &Value<'_>) -> Result<ContactPartner, SceneError> {
         let name = value.text()?;
         if let Some((figure, body)) = self.figure_body(name) {
@@ -128,19 +131,19 @@ impl Names {
         }
     }
 
-    /// The error that a name stands for nothing, or for something else.
+    /// The error for a name that refers to nothing or to another kind of part.
     pub(super) fn unfit(&self, value: &Value<'_>, name: &str, expected: &str, found: Option<Item>) -> SceneError {
         let error = value.wrong(expected);
         let kind = match found {
             None => {
                 return match nearest(name, self.items.keys().map(String::as_str)) {
-                    Some(near) => error.hint(&format!("is \"{near}\" meant?")),
+                    Some(near) => error.hint(&format!("did you mean \"{near}\"?")),
                     None if self.items.is_empty() => error,
                     None => error.hint(&format!("the names are {}", listed(self.items.keys().map(String::as_str)))),
                 };
             }
             Some(Item::Body(_)) => "a body",
-            Some(Item::Obstacle(_)) => "an obstacle; what joints hold on to is a body, if need be on a driven joint",
+            Some(Item::Obstacle(_)) => "an obstacle; joints connect bodies, if necessary a body on a driven joint",
             Some(Item::Figure(_)) => "a figure; name one of its bodies as \"figure/body\"",
             Some(Item::Joint(_)) => "a joint",
             Some(Item::Closure(_)) => "a closure",

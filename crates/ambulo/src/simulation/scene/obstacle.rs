@@ -1,4 +1,4 @@
-//! What forces never move: floors, walls, terrain, and things on rails.
+//! Obstacles in a scene file: floors, walls, terrain, and solids with a prescribed motion.
 
 use super::SceneError;
 use super::function::{self, Purpose, TimeFunction};
@@ -8,20 +8,20 @@ use super::shape::{self, Solid};
 use crate::spatial::{Pose, Vec3};
 use crate::toml_reader::{Table, Value};
 
-/// Something that forces never move.
+/// A solid that forces do not move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleEntry {
-    /// Name, its own among bodies, obstacles and figures.
+    /// Name, unique among bodies, obstacles and figures.
     pub name: String,
     /// Line of its header.
     pub line: usize,
-    /// What it is, in its own frame.
+    /// Shape in its own frame.
     pub shape: ObstacleShape,
-    /// `world_from_obstacle`, before its motion.
+    /// `world_from_obstacle` without the motion.
     pub pose: Pose,
     /// Index in [`SceneFile::materials`](super::SceneFile::materials).
     pub material: usize,
-    /// How it moves, if it does.
+    /// Prescribed motion, if any.
     pub motion: Option<ObstacleMotion>,
 }
 
@@ -35,9 +35,9 @@ pub enum ObstacleShape {
         /// Unit normal, out of the ground.
         normal: Vec3,
     },
-    /// Ground with a height at each point of a grid, about the origin.
+    /// Terrain: a grid of heights, centred at the origin.
     HeightField {
-        /// Heights along y [m]: at least two rows of at least two, all as long; rows run along x, the first at -z/2.
+        /// Heights along y [m]: at least two rows of equal length, at least two each; rows are along x, the first one at -z/2.
         heights: Vec<Vec<f64>>,
         /// Whole length along x [m].
         size_x: f64,
@@ -46,21 +46,21 @@ pub enum ObstacleShape {
     },
 }
 
-/// A prescribed motion: `world_from_obstacle(t)` = (`pose` turned by `angle` about `axis` through its own origin, then
-/// moved by `displacement`).
+/// A prescribed motion: `world_from_obstacle(t)` is `pose`, rotated by `angle` about `axis` through its own origin, then translated by
+/// `displacement`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleMotion {
     /// Line of its header.
     pub line: usize,
-    /// Along world x, y, z [m].
+    /// Translation along world x, y, z [m].
     pub displacement: [TimeFunction; 3],
     /// Unit direction in the world.
     pub axis: Vec3,
-    /// About `axis` [rad].
+    /// Angle about `axis` [rad].
     pub angle: TimeFunction,
 }
 
-/// The kinds of obstacle, by their word.
+/// The kinds of obstacle, by their name in the file.
 #[derive(Clone, Copy)]
 enum Word {
     Solid(shape::Word),
@@ -123,7 +123,7 @@ fn shape(table: &Table<'_>) -> Result<ObstacleShape, SceneError> {
 
 fn height_field(table: &Table<'_>) -> Result<ObstacleShape, SceneError> {
     let value = table.need("heights", "rows of heights [m]")?;
-    let expected = "at least two rows of at least two heights [m], all rows as long";
+    let expected = "at least two rows of at least two heights [m], all of the same length";
     let row = |row: Value<'_>| row.list("a row of heights [m]")?.iter().map(|height| height.number()).collect();
     let rows: Result<Vec<Vec<f64>>, SceneError> = value.list(expected)?.into_iter().map(row).collect();
     let heights = rows?;
@@ -144,7 +144,7 @@ fn motion(value: &Value<'_>, duration_s: f64) -> Result<ObstacleMotion, SceneErr
     let angle = function::either_unit(&table, "angle", Purpose { duration_s, angle: true })?;
     let axis = match (&angle, table.get("axis")) {
         (_, Some(value)) => value.direction()?,
-        (Some(_), None) => return Err(table.missing("axis", "the direction to turn about, in the world")),
+        (Some(_), None) => return Err(table.missing("axis", "the axis of rotation in the world")),
         (None, None) => Vec3::y(),
     };
     Ok(ObstacleMotion {
@@ -158,7 +158,7 @@ fn motion(value: &Value<'_>, duration_s: f64) -> Result<ObstacleMotion, SceneErr
 fn displacement(table: &Table<'_>, duration_s: f64) -> Result<[TimeFunction; 3], SceneError> {
     let still = || TimeFunction::Constant(0.0);
     let Some(value) = table.get("displacement") else { return Ok([still(), still(), still()]) };
-    let expected = "three functions [x, y, z] [m]; 0 where it does not move";
+    let expected = "three functions [x, y, z] [m]; 0 for no motion";
     let purpose = Purpose { duration_s, angle: false };
     let read = |entry: &Value<'_>| TimeFunction::read(entry, 1.0, purpose);
     let functions: Result<Vec<TimeFunction>, _> = value.list(expected)?.iter().map(read).collect();

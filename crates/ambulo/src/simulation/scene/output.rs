@@ -1,21 +1,21 @@
-//! Which results of a scene are kept.
+//! Outputs in a scene file.
 
 use super::SceneError;
 use super::names::{Item, Names};
 use crate::toml_reader::{Table, Value};
 
-/// Which results are kept, and drawn.
+/// The results that are written and drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outputs {
     /// Poses of the bodies.
     pub poses: bool,
-    /// Coordinates, moments of drives and reactions of the joints.
+    /// Coordinates, efforts and reactions of the joints.
     pub joints: bool,
     /// Contact points, forces, slip.
     pub contacts: bool,
     /// Energies, iterations, residual.
     pub energy: bool,
-    /// What is drawn over time.
+    /// Curves that are drawn over time.
     pub plots: Vec<Plot>,
 }
 
@@ -28,7 +28,7 @@ pub enum Plot {
     Solver,
     /// The sum of the contact forces.
     Contacts,
-    /// Place of a body: index in [`SceneFile::bodies`](super::SceneFile::bodies).
+    /// Position of a body: index in [`SceneFile::bodies`](super::SceneFile::bodies).
     Body(usize),
     /// Coordinates and moments of a joint: index in [`SceneFile::joints`](super::SceneFile::joints).
     Joint(usize),
@@ -36,7 +36,7 @@ pub enum Plot {
     Closure(usize),
 }
 
-/// Names by what they name: bodies, obstacles and figures; joints and closures.
+/// Both sets of names: bodies, obstacles and figures; joints and closures.
 pub(super) struct AllNames<'n> {
     pub(super) things: &'n Names,
     pub(super) links: &'n Names,

@@ -1,10 +1,10 @@
-//! A scene stepped through time, its events, and what is seen of it.
+//! Simulates a scene with its events, and passes frames to the caller.
 
 use super::build::Scene;
 use super::event::EventAction;
+use super::model_figure::{Placed, PlacedFigure};
 use super::output::Outputs;
-use super::walk_keeper::FigureWalk;
-use super::walker::{Placed, PlacedFigure};
+use super::walk_recorder::FigureWalk;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
@@ -17,40 +17,40 @@ use crate::simulation::workspace::StepSettings;
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Wrench};
 
-/// Instants nearer than this share of a step are one: rounding of times that were typed.
+/// Times closer than this share of a step are simultaneous: for rounded times in files.
 const SAME_INSTANT: f64 = 1e-6;
 
-/// Why a scene could not be stepped to its end.
+/// Why a scene could not be simulated to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// Joints that are no forest.
+    /// Joints that do not form trees.
     #[error(transparent)]
     Links(#[from] LinkError),
     /// A number that is not finite.
-    #[error("at {time_s:.6} s the place or velocity of `{body}` is no longer a finite number. hint: a shorter step")]
+    #[error("at {time_s:.6} s position or velocity of `{body}` is not a finite number. hint: use a shorter time step")]
     NotFinite {
         /// The body.
         body: String,
-        /// The instant [s].
+        /// Time [s].
         time_s: f64,
     },
 }
 
-/// What is seen of a scene at an instant of output.
+/// A scene at one output time.
 #[derive(Debug)]
 pub struct SceneFrame<'a> {
-    /// The scene as it then stands.
+    /// The scene in its present state.
     pub scene: &'a Scene,
     /// Forces of the step that ends here; none at the start.
     pub forces: Option<StepForces>,
-    /// Collisions within steps since the last frame: time [s], and impulses [N.s] for forces.
+    /// Impacts within steps since the last frame: time [s], with impulses [N.s] as forces.
     pub impacts: Vec<(f64, ContactForce)>,
     /// Energies.
     pub energy: Energy,
 }
 
-/// How a run went.
+/// Numbers of steps and iterations of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RunStatistics {
     /// Steps made.
@@ -79,37 +79,37 @@ impl RunStatistics {
 }
 
 impl Scene {
-    /// What is simulated. Joints and closures come and go with events.
+    /// The simulated world. Events add and remove joints and closures.
     #[must_use]
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// Where everything is now.
+    /// The present state.
     #[must_use]
     pub fn state(&self) -> &WorldState {
         &self.state
     }
 
-    /// How it is stepped.
+    /// Settings of the steps.
     #[must_use]
     pub fn settings(&self) -> &StepSettings {
         &self.settings
     }
 
-    /// The instant at which it ends [s].
+    /// Time at which the scene ends [s].
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.duration_s
     }
 
-    /// What it is called; empty if it is not.
+    /// Title; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// Which results are kept.
+    /// The results to write.
     #[must_use]
     pub fn outputs(&self) -> &Outputs {
         &self.outputs
@@ -126,23 +126,23 @@ impl Scene {
         self.walkers.iter().map(|walker| walker.name.as_str())
     }
 
-    /// Steps made since the beginning of the scene, those before a resumption too.
+    /// Steps since the beginning of the scene, including those before it was resumed.
     #[must_use]
     pub fn steps_made(&self) -> usize {
         self.steps
     }
 
-    /// Steps of the whole scene: as many as reach its end.
+    /// Number of steps of the whole scene.
     #[must_use]
     pub fn steps_in_all(&self) -> usize {
         (self.duration_s / self.settings.step_s - SAME_INSTANT).ceil().max(0.0) as usize
     }
 
-    /// Steps to the end, calling back at the output rate. A scene that has not begun is seen at its start as well; one that was
-    /// resumed is not, as that instant was seen before.
+    /// Simulates to the end and calls back at the output rate. The first frame is the start, except for a resumed scene, where the earlier
+    /// run had this frame.
     ///
     /// # Errors
-    /// Joints that are no forest, numbers that run out of bounds.
+    /// Joints that do not form trees, motion that is not finite.
     pub fn run(
         &mut self,
         findings: &mut Findings,
@@ -167,7 +167,7 @@ impl Scene {
         Ok(statistics)
     }
 
-    /// What is due happens, then one step.
+    /// Applies the events that are due, then makes one step.
     ///
     /// # Errors
     /// As [`Scene::run`].
@@ -176,8 +176,8 @@ impl Scene {
         if !self.walkers.is_empty() {
             self.before.clone_from(&self.state.poses);
         }
-        for keeper in &mut self.keepers {
-            keeper.before_step(&self.world, &self.state);
+        for recorder in &mut self.recorders {
+            recorder.before_step(&self.world, &self.state);
         }
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {
@@ -185,18 +185,20 @@ impl Scene {
                 let name = &self.world.closures[closure].name;
                 findings.report(
                     Code::ClosureRedundant,
-                    format!("the closure `{name}` holds what others hold already; of its forces the least-squares ones are given"),
+                    format!(
+                        "the closure `{name}` repeats constraints of others; its forces are the least-squares ones"
+                    ),
                 );
             }
         }
         self.steps += 1;
-        // Counted, so that times do not drift.
+        // Times are computed from the number of steps, so that rounding does not accumulate.
         self.state.time_s = self.steps as f64 * self.settings.step_s;
-        if !self.keepers.is_empty() {
+        if !self.recorders.is_empty() {
             self.workspace.read_wrenches();
-            for keeper in &mut self.keepers {
+            for recorder in &mut self.recorders {
                 let (step_s, solved) = (self.settings.step_s, convergence.converged);
-                keeper.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
+                recorder.after_step(&self.world, &self.state, &self.workspace, step_s, solved);
             }
         }
         let finite = |body: usize| {
@@ -219,12 +221,12 @@ impl Scene {
         self.workspace.forces(&self.world)
     }
 
-    /// What the figures that walk have done since the scene was built or resumed, in the order of the file.
+    /// Recordings of the walking figures since the scene was built or resumed, in the order of the file.
     ///
     /// # Errors
-    /// No step yet.
+    /// If no step was made yet.
     pub fn walks(&self) -> Result<Vec<FigureWalk>, TrajectoryError> {
-        self.keepers.iter().map(|keeper| keeper.walk(self.settings.step_s)).collect()
+        self.recorders.iter().map(|recorder| recorder.walk(self.settings.step_s)).collect()
     }
 
     /// Whether the last step has passed an instant of output.
@@ -234,7 +236,7 @@ impl Scene {
         rows(self.steps) > rows(self.steps.saturating_sub(1))
     }
 
-    /// Events up to now.
+    /// Applies the events up to now.
     fn fire_events(&mut self) {
         let now = self.state.time_s + SAME_INSTANT * self.settings.step_s;
         while let Some(event) = self.events.get(self.fired).filter(|event| event.time_s <= now) {
@@ -246,7 +248,7 @@ impl Scene {
                     self.world.closures[closure].active = false;
                     self.state.guess.remove(&RowKey::Closure(closure));
                 }
-                EventAction::RemoveJoint(joint) => self.let_go(joint),
+                EventAction::RemoveJoint(joint) => self.remove_joint(joint),
             }
         }
     }
@@ -260,8 +262,8 @@ impl Scene {
         closure.active = true;
     }
 
-    /// Takes a joint of the file away; its child is free.
-    pub(super) fn let_go(&mut self, joint: usize) {
+    /// Removes a joint of the file; its child is then free.
+    pub(super) fn remove_joint(&mut self, joint: usize) {
         let Some(number) = self.joint_numbers[joint].take() else { return };
         self.world.joints.remove(number);
         self.state.coordinates.remove(number);
@@ -272,9 +274,8 @@ impl Scene {
         self.state.guess = guess.into_iter().filter_map(|(key, rows)| Some((without(key, number)?, rows))).collect();
     }
 
-    /// Generalised forces of each figure, one a coordinate of its model [N.m or N], with the coordinates themselves and
-    /// their rates: (value, rate, force). Zero where nothing holds or drives a joint; values of figures from a model file are those of
-    /// the recording.
+    /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model. The force is zero for joints without
+    /// constraint or drive; values of figures from a model file are those of the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
@@ -294,7 +295,7 @@ impl Scene {
         let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
         let motions = body_motion(&figure.model, posture);
         let joint_of = self.world.joint_of_body();
-        // The recording may stand elsewhere than the figure does; what a joint carries is turned with its child.
+        // The recording may have another posture than the figure; reactions are rotated with the joint's child.
         let wrench = |(i, motion): (usize, &BodyMotion)| {
             let body = walker.first_body + i;
             let follows = joint_of[body].is_some_and(|j| self.world.joints[j].follows.is_some());
@@ -321,7 +322,7 @@ impl Scene {
         placed.iter().map(of).collect()
     }
 
-    /// How far the two points that a closure keeps together are apart, as far as it minds [m].
+    /// Distance of the points of a closure along its constrained directions [m].
     #[must_use]
     pub fn closure_gap(&self, closure: usize) -> f64 {
         let (frames, errors) = closure_errors(&self.world, &self.state, closure);
@@ -329,14 +330,14 @@ impl Scene {
         errors[turns.len()..].iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Largest distance of any joint or closure from where it holds [m].
+    /// Largest position error of any joint or active closure [m].
     #[must_use]
     pub fn largest_joint_error(&self) -> f64 {
         largest_joint_error(&self.world, &self.state)
     }
 }
 
-/// The key once a joint is gone; `None` if it was the joint's own.
+/// The key after a joint was removed; `None` if it belonged to that joint.
 fn without(key: RowKey, gone: usize) -> Option<RowKey> {
     let rest = |joint: usize| (joint != gone).then(|| joint - usize::from(joint > gone));
     Some(match key {

@@ -1,4 +1,4 @@
-//! The state of a scene as plain numbers: saved and resumed bit for bit.
+//! Saves and resumes the state of a scene bit for bit.
 
 use super::build::Scene;
 use super::event::{EventAction, EventEntry};
@@ -6,13 +6,13 @@ use crate::simulation::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a scene stands. Written as JSON with every digit, it resumes bit for bit on the same scene file.
+/// The state of a scene. Written as JSON with all digits, it resumes the same scene file bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedState {
     /// Version of the program that wrote it.
     pub version: String,
-    /// Names of the bodies, by which it is told whether it belongs to a scene.
+    /// Names of the bodies, to check that the state belongs to a scene.
     pub bodies: Vec<String>,
     /// Time step [s].
     pub step_s: f64,
@@ -22,13 +22,13 @@ pub struct SavedState {
     pub time_s: f64,
     /// Events that have happened.
     pub events: usize,
-    /// Place [m], then the rotation matrix row by row, of each body.
+    /// Position [m], then the rotation matrix row by row, of each body.
     poses: Vec<[f64; 12]>,
     /// Angular velocity [rad/s], then velocity [m/s], of each body.
     twists: Vec<[f64; 6]>,
-    /// Coordinates of each joint that is still there [rad, m].
+    /// Coordinates of each remaining joint [rad, m].
     coordinates: Vec<Vec<f64>>,
-    /// Whether each closure holds, and its frames on its two bodies.
+    /// Whether each closure is active, and its frames on its two bodies.
     closures: Vec<(bool, [f64; 12], [f64; 12])>,
     /// Impulses of the last step.
     impulses: Vec<(RowKey, [f64; 6])>,
@@ -47,7 +47,7 @@ pub struct ResumeError {
 }
 
 impl Scene {
-    /// Everything that changes in a run.
+    /// Saves everything that changes in a run.
     #[must_use]
     pub fn save(&self) -> SavedState {
         let state = &self.state;
@@ -71,10 +71,10 @@ impl Scene {
         }
     }
 
-    /// Takes the scene, as built from its file, to where it was saved.
+    /// Restores a saved state in a scene that was built from the same file.
     ///
     /// # Errors
-    /// A state of another scene, or of another step.
+    /// A state of another scene, or with another time step.
     pub fn resume(&mut self, saved: &SavedState) -> Result<(), ResumeError> {
         let names: Vec<&str> = self.world.bodies.iter().map(|body| body.name.as_str()).collect();
         agree("the bodies", &saved.bodies.join(", "), &names.join(", "))?;
@@ -88,7 +88,7 @@ impl Scene {
             _ => None,
         };
         let gone: Vec<usize> = self.events[..saved.events].iter().filter_map(gone).collect();
-        gone.into_iter().for_each(|joint| self.let_go(joint));
+        gone.into_iter().for_each(|joint| self.remove_joint(joint));
         let counts = |list: &[Vec<f64>]| format!("{:?}", list.iter().map(Vec::len).collect::<Vec<_>>());
         agree("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
         (self.steps, self.fired) = (saved.steps, saved.events);

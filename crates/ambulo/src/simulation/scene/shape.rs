@@ -1,4 +1,4 @@
-//! What bodies and obstacles look like where they touch.
+//! Contact shapes in a scene file.
 
 use super::SceneError;
 use super::material::{self, MaterialEntry};
@@ -10,7 +10,7 @@ use crate::toml_reader::Table;
 pub struct ShapeEntry {
     /// Line of its header.
     pub line: usize,
-    /// What it is, in its own frame.
+    /// The solid in its own frame.
     pub solid: Solid,
     /// `body_from_shape`; the body's frame has its origin at the mass centre.
     pub pose: Pose,
@@ -21,7 +21,7 @@ pub struct ShapeEntry {
 /// A solid in its own frame [m].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
-    /// About the origin.
+    /// A sphere about the origin.
     Sphere {
         /// Radius, above zero.
         radius: f64,
@@ -35,19 +35,19 @@ pub enum Solid {
         /// Radius, above zero.
         radius: f64,
     },
-    /// About the origin, along the axes.
+    /// A box about the origin, along the axes.
     Box {
-        /// Whole lengths, above zero.
+        /// Edge lengths, above zero.
         size: Vec3,
     },
-    /// The smallest convex solid around at least four points that are not in one plane.
+    /// The convex hull of at least four points that are not in one plane.
     Convex {
         /// The points.
         points: Vec<Vec3>,
     },
 }
 
-/// The kinds of solid, by their word.
+/// The kinds of solid, by their name in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Word {
     Sphere,
@@ -56,7 +56,7 @@ pub(super) enum Word {
     Convex,
 }
 
-/// The words of a scene for solids.
+/// The names of solids in a scene file.
 pub(super) const WORDS: [(&str, Word); 4] =
     [("sphere", Word::Sphere), ("capsule", Word::Capsule), ("box", Word::Box), ("convex", Word::Convex)];
 
@@ -64,7 +64,7 @@ pub(super) const WORDS: [(&str, Word); 4] =
 const THINNEST: f64 = 1e-6;
 
 impl ShapeEntry {
-    /// The shapes of a body.
+    /// Reads the shapes of a body.
     pub(super) fn read_all(body: &Table<'_>, materials: &[MaterialEntry]) -> Result<Vec<ShapeEntry>, SceneError> {
         body.tables("shape")?.iter().map(|table| ShapeEntry::read(table, materials)).collect()
     }
@@ -92,7 +92,7 @@ impl Word {
         }
     }
 
-    /// Keys that place the solid in its body: where its own do not.
+    /// Keys of the solid's pose in its body, if its own keys do not define it.
     fn place(self) -> &'static [&'static str] {
         match self {
             Word::Sphere => &["at"],
@@ -129,7 +129,7 @@ fn capsule(table: &Table<'_>) -> Result<Solid, SceneError> {
 }
 
 fn cuboid(table: &Table<'_>) -> Result<Solid, SceneError> {
-    let value = table.need("size", "the whole lengths along x, y, z [m]")?;
+    let value = table.need("size", "the edge lengths along x, y, z [m]")?;
     let expected = "three lengths [x, y, z] above zero";
     let lengths: Result<Vec<f64>, _> = value.list(expected)?.iter().map(|length| length.above_zero()).collect();
     let [x, y, z]: [f64; 3] = lengths?.try_into().map_err(|_| value.wrong(expected))?;
@@ -144,8 +144,7 @@ fn convex(table: &Table<'_>) -> Result<Solid, SceneError> {
     if flat(&points) { Err(value.wrong(expected)) } else { Ok(Solid::Convex { points }) }
 }
 
-/// Whether points lie in one plane: the farthest from the first, the farthest from that line, the farthest from that
-/// plane.
+/// Whether points lie in one plane, determined with the farthest point from the first one, from their line, and from that plane.
 fn flat(points: &[Vec3]) -> bool {
     let Some(origin) = points.first() else { return true };
     let farthest = |distance: &dyn Fn(&Vec3) -> f64| {

@@ -1,6 +1,6 @@
-//! Files that a scene names, read by the caller, and the functions of time in them.
+//! Files that a scene names, which the caller reads, and functions of time from them.
 
-use super::built::GaitSource;
+use super::built_entry::GaitSource;
 use super::function::TimeFunction;
 use super::{Place, SceneError};
 use crate::findings::{Code, Findings};
@@ -12,17 +12,17 @@ use crate::simulation::consistent_walk::ConsistentWalk;
 use crate::simulation::signal::Signal;
 use std::collections::BTreeMap;
 
-/// Reads a file: from its path as it stands in the scene to its bytes, or a message.
+/// Reads a file: takes its path as written in the scene, returns its bytes or an error message.
 pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
-/// Files of a scene as they are asked for; each table is read once.
+/// The files of a scene, read when needed; each table is read once.
 pub(super) struct InputFiles<'a, 'f> {
     load: &'a mut ReadFile<'f>,
     tables: BTreeMap<String, RecordedTable>,
-    /// Walks that were corrected for figures of this scene, which others of the same build share.
+    /// Corrected walks of this scene, shared by figures of the same build.
     pub(super) corrected: Vec<(Build, GaitSource, Option<f64>, ConsistentWalk)>,
     pub(super) findings: &'a mut Findings,
-    /// How long the scene lasts [s].
+    /// Duration of the scene [s].
     pub(super) duration_s: f64,
 }
 
@@ -52,11 +52,11 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         let bytes = (self.load)(path).map_err(|message| place.error(message))?;
         String::from_utf8(bytes).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
-            place.error(format!("{path}: byte {at} is not UTF-8; expected a text"))
+            place.error(format!("{path}: byte {at} is not UTF-8; expected text"))
         })
     }
 
-    /// A function of the scene, which belongs to `of`, as a signal; `turns` says that it is an angle.
+    /// Converts a function of the part at `of` to a signal; `turns` states that it is an angle.
     pub(super) fn signal(&mut self, of: &Place, function: &TimeFunction, turns: bool) -> Result<Signal, SceneError> {
         Ok(match function {
             TimeFunction::Constant(value) => Signal::Constant(*value),
@@ -80,7 +80,7 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         })
     }
 
-    /// The time of a recording at which the scene begins; a scene that outlasts it is a finding.
+    /// The time of a recording at which the scene begins; a recording that ends before the scene gives a finding.
     pub(super) fn start(
         &mut self,
         place: &Place,
@@ -91,15 +91,15 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         let start = from_s.unwrap_or(first);
         if !(first..=last).contains(&start) {
             let message =
-                format!("{file}: found `from` = {start} s; expected an instant of it, from {first} s to {last} s");
+                format!("{file}: found `from` = {start} s; expected a time of the recording, {first} s to {last} s");
             return Err(place.error(message));
         }
-        // A clock that was printed with four digits.
+        // Rounding of times with four decimals.
         const ROUNDED_CLOCK_S: f64 = 1e-4;
         if start + self.duration_s > last + ROUNDED_CLOCK_S {
             let message = format!(
-                "{file} ends {:.3} s after the scene begins; from then on its last values hold, and what follows them \
-                 stops from one step to the next",
+                "{file} ends {:.3} s after the scene begins; its last values are used from then on, so the motion stops within \
+                 one step",
                 last - start
             );
             self.findings.report(Code::MotionShorterThanScene, message);
@@ -108,7 +108,7 @@ impl<'a, 'f> InputFiles<'a, 'f> {
     }
 }
 
-/// The same natural cubic through four points at least, which its fit asks for: further points are put on the curve.
+/// Adds points on the natural cubic spline, because its fit requires at least four.
 fn four_or_more(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     match *points {
         // A straight line.
@@ -125,7 +125,7 @@ fn four_or_more(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     }
 }
 
-/// The message with those of its sources.
+/// The message of an error followed by those of its sources.
 pub(super) fn chain(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut source = error.source();

@@ -1,4 +1,4 @@
-//! How bodies move at the start: as the file says, or as the joints that carry them ask.
+//! Initial velocities of bodies, from the file or from the rates of their joints.
 
 use super::file::SceneFile;
 use crate::dynamics::Six;
@@ -6,25 +6,27 @@ use crate::simulation::joint::Frames;
 use crate::simulation::world::World;
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// Sets the twists of the file's bodies. Figures move already; `rates` are those of the file's joints, which come first in
-/// the world, coordinate by coordinate.
+/// Sets the twists of the file's bodies; those of figures are already set. `rates` are the coordinate rates of the file's joints, which come
+/// first in the world.
 pub(super) fn start_moving(world: &mut World, file: &SceneFile, rates: &[Vec<f64>]) {
     let joint_of = world.joint_of_body();
     for body in parents_first(world, file.bodies.len()) {
-        let asked = &file.bodies[body];
+        let body_entry = &file.bodies[body];
         let (mut angular, mut linear) = (Vec3::zeros(), Vec3::zeros());
         if let Some(number) = joint_of[body] {
             let relative = Relative::of(world, number, &rates[number]);
             angular = relative.angular;
-            // What is given of the spin carries the mass centre with it.
-            linear = relative.at_joint + asked.angular_velocity.unwrap_or(angular).cross(&relative.to_center);
+            // A given angular velocity also moves the mass centre.
+            linear = relative.at_joint + body_entry.angular_velocity.unwrap_or(angular).cross(&relative.to_center);
         }
-        world.bodies[body].twist =
-            Twist { angular: asked.angular_velocity.unwrap_or(angular), linear: asked.velocity.unwrap_or(linear) };
+        world.bodies[body].twist = Twist {
+            angular: body_entry.angular_velocity.unwrap_or(angular),
+            linear: body_entry.velocity.unwrap_or(linear),
+        };
     }
 }
 
-/// Motion that a joint asks of its child.
+/// The motion of a joint's child.
 struct Relative {
     angular: Vec3,
     /// Velocity of the origin of C.
@@ -59,7 +61,7 @@ impl Relative {
     }
 }
 
-/// The file's bodies, each after the one that it hangs on.
+/// The file's bodies, each after its parent.
 fn parents_first(world: &World, count: usize) -> Vec<usize> {
     let joint_of = world.joint_of_body();
     let parent = |body: usize| joint_of[body].and_then(|j| world.joints[j].parent).filter(|p| *p < count);

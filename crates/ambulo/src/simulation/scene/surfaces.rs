@@ -1,6 +1,6 @@
-//! Shapes and materials of a scene as the simulator has them.
+//! Converts shapes and materials of a scene to those of the simulator.
 
-use super::material::{ContactLaw as Asked, MaterialEntry as AskedMaterial};
+use super::material::{MaterialEntry, MaterialLaw};
 use super::obstacle::ObstacleShape;
 use super::shape::Solid;
 use super::{Place, SceneError};
@@ -10,13 +10,13 @@ use crate::simulation::world::{ContactLaw, Material};
 use crate::spatial::{Mat3, Pose, Vec3};
 use std::f64::consts::PI;
 
-pub(super) fn material(asked: &AskedMaterial) -> Material {
-    match asked.law {
-        Asked::Rigid { friction, restitution } => Material { friction, restitution, law: ContactLaw::Rigid },
-        Asked::Regularised { friction, stiffness, damping } => {
+pub(super) fn material(entry: &MaterialEntry) -> Material {
+    match entry.law {
+        MaterialLaw::Rigid { friction, restitution } => Material { friction, restitution, law: ContactLaw::Rigid },
+        MaterialLaw::Regularised { friction, stiffness, damping } => {
             Material { friction, restitution: 0.0, law: ContactLaw::Regularised { stiffness, damping } }
         }
-        Asked::HuntCrossley {
+        MaterialLaw::HuntCrossley {
             stiffness,
             dissipation,
             static_friction,
@@ -53,7 +53,7 @@ pub(super) fn solid(solid: &Solid, place: &Place) -> Result<Shape, SceneError> {
 /// The shape of an obstacle, and `obstacle_from_shape`.
 pub(super) fn obstacle(shape: &ObstacleShape, place: &Place) -> Result<(Shape, Pose), SceneError> {
     match shape {
-        ObstacleShape::Solid(asked) => Ok((solid(asked, place)?, Pose::IDENTITY)),
+        ObstacleShape::Solid(shape) => Ok((solid(shape, place)?, Pose::IDENTITY)),
         ObstacleShape::Plane { normal } => {
             let pose = Pose { rotation: turning_y_to(normal), translation: Vec3::zeros() };
             Ok((Shape::half_space(), pose))
@@ -70,7 +70,7 @@ fn refused(error: &ShapeError, place: &Place) -> SceneError {
     place.error(error.to_string())
 }
 
-/// The shortest rotation that takes y to a unit vector.
+/// The smallest rotation that maps y to a unit vector.
 fn turning_y_to(normal: &Vec3) -> Mat3 {
     let across = Vec3::y().cross(normal);
     let angle = across.norm().atan2(normal.y);

@@ -1,4 +1,4 @@
-//! Mass properties of uniform solids: what a body with shapes and without `inertia` has.
+//! Mass properties of uniform solids, for bodies with shapes and without `inertia`.
 //!
 //! | solid   | volume            | inertia about its centre, mass m                                            |
 //! |---------|-------------------|-----------------------------------------------------------------------------|
@@ -7,10 +7,10 @@
 //! | capsule | π r² l + 4/3 π r³ | cylinder m_c and two half balls m_s: about the axis m_c r²/2 + 2/5 m_s r²;  |
 //! |         |                   | across m_c (l²/12 + r²/4) + m_s (2/5 r² + l²/4 + 3/8 l r)                   |
 //!
-//! Several solids share the mass by volume; where they overlap, the overlap counts twice.
+//! The mass is divided among several solids by volume; overlaps count twice.
 //!
 //! Source: textbook integrals; the centre of a half ball is 3/8 r from its flat side.
-//! Not handled: convex solids; the caller asks for `inertia`.
+//! Not handled: convex solids; they require `inertia`.
 //! Pinned by: tests/scene_file.rs (sums over grids of points)
 
 use super::shape::{ShapeEntry, Solid};

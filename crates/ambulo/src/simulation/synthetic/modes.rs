@@ -6,7 +6,7 @@ use crate::findings::{Code, Findings};
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
 use crate::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
-use crate::simulation::walking::{Ground, Shoes, Walker, gait_signals};
+use crate::simulation::walking::{GroundContact, Shoes, Walker, gait_signals};
 use crate::simulation::{ImpactLaw, StepSettings};
 
 /// Cycles before the corrected walk is steady; it starts with the planned motion.
@@ -87,7 +87,7 @@ fn paper(
 ) -> Result<SyntheticWalk, SyntheticError> {
     let gait = Gait { pelvis: Pelvis::Vertical, ..settings.gait.clone() };
     let walk = Walk::new(&gait, human.dimensions.leg_length, findings)?;
-    let ground = Ground { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
+    let ground = GroundContact { friction: FRICTION, shoes: Shoes::Rigid, impact: ImpactLaw::Sticking };
     let walker = Walker::new(&human, gait_signals(&walk, &human.model), &ground, walk.speed())?;
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
     let recording = walker.walk(&step, simulated_cycles(settings, PAPER_SKIPPED) * walk.cycle_s(), findings)?;

@@ -32,7 +32,7 @@ pub enum Shoes {
 
 /// Contact between figure and ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ground {
+pub struct GroundContact {
     /// Coefficient of friction μ; not used by Hunt and Crossley's law.
     pub friction: f64,
     /// Material of the soles.
@@ -76,7 +76,12 @@ impl Walker {
     ///
     /// # Errors
     /// If the model is not planar, or the number of signals does not match.
-    pub fn new(human: &Human, signals: Vec<Signal>, ground: &Ground, speed_m_s: f64) -> Result<Walker, WalkingError> {
+    pub fn new(
+        human: &Human,
+        signals: Vec<Signal>,
+        ground: &GroundContact,
+        speed_m_s: f64,
+    ) -> Result<Walker, WalkingError> {
         let model = human.model.clone();
         let expected = model.coordinates().len();
         if signals.len() != expected {
@@ -172,7 +177,7 @@ impl Walker {
         JointCoordinate { drive: Some(JointDrive { signal, max: None }), ..JointCoordinate::default() }
     }
 
-    fn add_soles(&mut self, human: &Human, ground: &Ground) -> Result<(), WalkingError> {
+    fn add_soles(&mut self, human: &Human, ground: &GroundContact) -> Result<(), WalkingError> {
         let law = match ground.shoes {
             Shoes::Rigid => ContactLaw::Rigid,
             Shoes::Regularised { stiffness, damping } => ContactLaw::Regularised { stiffness, damping },

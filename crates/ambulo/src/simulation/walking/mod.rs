@@ -17,7 +17,7 @@ mod run;
 mod slip;
 
 pub use feet::{FootRecord, ToeRecord};
-pub use figure::{Ground, Shoes, Walker, WalkingError};
+pub use figure::{GroundContact, Shoes, Walker, WalkingError};
 pub use recording::{Excerpt, ExcerptRows, FootImpact, WalkRecording};
 pub use signals::gait_signals;
 pub use slip::StanceSlip;

@@ -1,4 +1,4 @@
-//! What motion over many steps leaves: energy that was gained or lost, joints that came apart.
+//! Accuracy over many steps: change of energy, and position errors of joints.
 
 use super::run::{DURATION_S, STEP_S, Simulation};
 use super::worlds;
@@ -6,7 +6,7 @@ use ambulo::simulation::{Integrator, StepSettings, energy};
 
 /// The chain of both tests.
 const LINKS: usize = 20;
-/// How long it flails [s].
+/// Duration of the flailing motion [s].
 const FLAILING_S: f64 = 60.0;
 
 /// What was found.

@@ -1,4 +1,4 @@
-//! Closed loops: ladders all of whose rungs are closed, and one that is closed more and more.
+//! Closed loops: ladders whose rungs are all closed, and one ladder with a growing number of closed rungs.
 
 use super::run::{Run, run};
 use super::scaling::slope;
@@ -7,7 +7,7 @@ use ambulo::simulation::StepSettings;
 
 /// Loops of each ladder.
 const SIZES: [usize; 3] = [10, 100, 1000];
-/// The ladder that is closed more and more, and how many of its rungs are closed.
+/// The size of the ladder with a growing number of closed rungs, and these numbers.
 pub(super) const RUNGS: usize = 1000;
 const CLOSED: [usize; 5] = [0, 1, 10, 100, 1000];
 

@@ -1,8 +1,8 @@
 //! The page docs/measured/BENCHMARKS.md, as Markdown that also reads well in a terminal.
 
-use super::asked::Asked;
 use super::ladder::{self, OfMethod};
 use super::markdown::{range, small, small_or_none, spread, time};
+use super::requirements::Requirement;
 use super::run::Run;
 use super::scaling::Scaling;
 use super::stance::Standing;
@@ -47,13 +47,13 @@ const NOTES: &str = "\
   left elsewhere. The soft engines pass there with the error that they have anyway, or diverge.
 ";
 
-/// What all scenes have [m/s²].
+/// Gravity in all scenes [m/s²].
 const GRAVITY: f64 = 9.81;
 
 /// The whole page.
-pub(super) fn text(results: &Results, asked: &[Asked]) -> String {
+pub(super) fn text(results: &Results, requirements: &[Requirement]) -> String {
     let mut text = format!("{HEAD}\nMachine: {}.\n", results.machine);
-    let _ = write!(text, "\n## Asked and got\n\n{}", asked_table(asked));
+    let _ = write!(text, "\n## Requirements\n\n{}", requirement_table(requirements));
     if let Some(standing) = &results.stance {
         let _ = write!(text, "\n## The standing human\n\n{}", human(standing, &results.peers));
     }
@@ -67,10 +67,10 @@ pub(super) fn text(results: &Results, asked: &[Asked]) -> String {
     text
 }
 
-fn asked_table(asked: &[Asked]) -> String {
-    let mut table = Table::new(&["what", "asked", "got", ""]);
-    for Asked { what, asked, got, met, .. } in asked {
-        table.row([what.clone(), asked.clone(), got.clone(), if *met { "✓" } else { "✗" }.to_owned()]);
+fn requirement_table(requirements: &[Requirement]) -> String {
+    let mut table = Table::new(&["quantity", "required", "measured", ""]);
+    for Requirement { what, required, measured, met, .. } in requirements {
+        table.row([what.clone(), required.clone(), measured.clone(), if *met { "✓" } else { "✗" }.to_owned()]);
     }
     table.text()
 }
@@ -131,15 +131,15 @@ fn human(standing: &Standing, peers: &[PeerTiming]) -> String {
     text + &table.text() + &missing(peers, Scene::Human) + &laws(standing)
 }
 
-/// What contacts leave of the laws.
+/// Violations of the contact laws.
 fn laws(standing: &Standing) -> String {
     let pushed = &standing.pushed;
-    let mut table = Table::new(&["left of the laws of contact, at most", "falling, landing, standing", "pushed"]);
+    let mut table = Table::new(&["largest violation of the contact laws", "falling, landing, standing", "pushed"]);
     let (ours, push) = (&standing.stance.left, &pushed.left);
     for (name, ours, pushed) in [
         ("complementarity: min of push / weight and departure / (g h)", ours.complementarity, push.complementarity),
         ("cone: friction beyond its limit / weight", ours.cone, push.cone),
-        ("slip: friction against what sticking or rubbing asks / weight", ours.slip, push.slip),
+        ("slip: violation of sticking or sliding friction / weight", ours.slip, push.slip),
         ("balance: sum of forces - m (a - g) / weight", ours.balance, push.balance),
     ] {
         table.row([name.to_owned(), small(ours), small(pushed)]);
@@ -295,10 +295,11 @@ fn missing(peers: &[PeerTiming], scene: Scene) -> String {
 }
 
 fn accuracy(accuracy: &Accuracy) -> String {
-    let mut table = Table::new(&["chain of 20 links, steps of 1 ms", "got"]);
+    let mut table = Table::new(&["chain of 20 links, steps of 1 ms", "measured"]);
     for (name, drift) in [("Runge-Kutta", &accuracy.smooth), ("impulses", &accuracy.impulses)] {
-        let got = format!("{} ({} J of {:.0} J)", small(drift.share()), small(drift.change_j), drift.turned_over_j);
-        table.row([format!("energy over 10 s, by {name}"), got]);
+        let measured =
+            format!("{} ({} J of {:.0} J)", small(drift.share()), small(drift.change_j), drift.turned_over_j);
+        table.row([format!("energy over 10 s, by {name}"), measured]);
     }
     for (name, error) in ["with", "without"].into_iter().zip(accuracy.joint_error_m) {
         table.row([format!("joint error in 60 s by impulses, {name} projection"), format!("{} m", small(error))]);
@@ -312,7 +313,7 @@ fn accuracy(accuracy: &Accuracy) -> String {
 
 // ---- where others are better ----
 
-/// Cases in which another engine takes less time or comes apart less.
+/// Cases in which another engine takes less time or has smaller errors.
 fn better(results: &Results) -> String {
     let mut list = String::new();
     for peer in &results.peers {

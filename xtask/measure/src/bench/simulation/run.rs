@@ -1,4 +1,4 @@
-//! A world stepped under the watch, the way the peers' programs do it.
+//! Times the steps of a world in the same way as the peers' programs.
 
 use super::super::timing::Timing;
 use ambulo::dynamics::Convergence;
@@ -16,7 +16,7 @@ pub(super) const DURATION_S: f64 = 10.0;
 const BUDGET_S: f64 = 20.0;
 /// From this number of bodies on each step is timed alone; fewer step in tens, so that the clock itself does not count.
 const LARGE: usize = 1000;
-/// Errors are looked at after every so many steps.
+/// Steps between checks of the errors.
 const WATCH: usize = 10;
 
 /// A world with its state.
@@ -28,12 +28,12 @@ pub(super) struct Simulation<'a> {
     findings: Findings,
 }
 
-/// What became of a case.
+/// The results of a case.
 pub(super) struct Run {
     /// CPU time of one step [us].
     pub(super) step_us: Timing,
     pub(super) steps: usize,
-    /// Largest joint or loop error [m] at any time, and the median of what was seen.
+    /// Largest joint or loop error [m] at any time, and the median of the checked steps.
     pub(super) worst_m: f64,
     pub(super) median_m: f64,
     /// Tree solves of a step, mean.

@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 /// Bodies of each size.
 const SIZES: [usize; 4] = [10, 100, 1000, 10_000];
-/// The slope is taken from here on: below, what a step costs by itself still shows.
+/// The slope is fitted from this size on; below, the fixed cost of a step dominates.
 const SLOPE_FROM: usize = 100;
 
 /// A family of worlds, and how they are stepped.
@@ -45,7 +45,7 @@ impl Scaling {
 
 /// Chains and trees, with and without projection.
 pub(super) fn measure() -> Result<Scaling, String> {
-    // First, while no freed memory lies ready.
+    // First, before freed memory could be reused.
     let bytes_a_body = memory(&worlds::chain)?;
     let mut families = Vec::new();
     for (name, build) in [("chain", worlds::chain as fn(usize) -> World), ("random tree", worlds::random_tree)] {

@@ -1,15 +1,14 @@
-//! The standing human: what a step costs, how it stands, and what its contacts leave of the laws of contact.
+//! The standing human: time per step, its stance, and the violation of the contact laws.
 //!
-//! The laws are looked at from outside, with the state before a step and the one after it: v is the velocity of the
-//! touching point, g the gap before the step of length h, F the force, W the weight and G = |gravity| h the speed that
-//! falling gains in a step. What is left of a law is the least change of force (by W) or velocity (by G) that would
-//! satisfy it:
+//! The violations are computed from the states before and after a step: v is the velocity of the contact point, g the gap before the
+//! step of length h, F the force, W the weight and G = |gravity| h the change of speed in free fall during a step. A violation is the
+//! smallest change of force (relative to W) or velocity (relative to G) that would satisfy the law:
 //!
-//! | name              | what is left                                                           |
+//! | name              | violation                                                              |
 //! |-------------------|------------------------------------------------------------------------|
-//! | `complementarity` | min(F_n/W, (v_n + max(g, 0)/h)/G): nothing pulls, nothing sinks, nothing pushes from afar |
-//! | `cone`            | (F_t - mu F_n)/W where that is above zero                                |
-//! | `slip`            | F_t/W - P(F_t/W - v_t/G), P onto the disc mu F_n/W: sticks, or rubs against its slip |
+//! | `complementarity` | min(F_n/W, (v_n + max(g, 0)/h)/G): no pulling, no penetration, no force at a distance |
+//! | `cone`            | (F_t - mu F_n)/W if above zero                                           |
+//! | `slip`            | F_t/W - P(F_t/W - v_t/G), P onto the disc mu F_n/W: sticking, or friction opposite to slip |
 //! | `balance`         | (sum of F - m (a - gravity))/W, a from velocities of all mass centres    |
 
 use super::super::timing::Timing;
@@ -35,7 +34,7 @@ const PUSH_N: Vec3 = Vec3::new(150.0, 100.0, 0.0);
 const PUSHED: usize = 200;
 const AFTER_PUSH: usize = 1000;
 
-/// What was found.
+/// All results.
 pub(super) struct Standing {
     /// CPU time of one step once it stands [us].
     pub(super) step_us: Timing,
@@ -43,7 +42,7 @@ pub(super) struct Standing {
     pub(super) pushed: Pushed,
 }
 
-/// How it stands.
+/// The stance of the human.
 #[derive(Debug, Default)]
 pub(super) struct Stance {
     /// Tree solves and factorisations of a step, means over the last tenth.
@@ -64,7 +63,7 @@ pub(super) struct Stance {
     pub(super) left: Left,
 }
 
-/// What a push over its feet did.
+/// The effect of a push on the pelvis.
 #[derive(Debug, Default)]
 pub(super) struct Pushed {
     pub(super) left: Left,
@@ -73,7 +72,7 @@ pub(super) struct Pushed {
     pub(super) touching: usize,
 }
 
-/// What is left of the laws of contact; see above.
+/// Violations of the contact laws; see above.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Left {
     pub(super) complementarity: f64,
@@ -82,7 +81,7 @@ pub(super) struct Left {
     pub(super) balance: f64,
 }
 
-/// Everything about it.
+/// Measures everything.
 pub(super) fn measure(world: &World) -> Result<Standing, String> {
     Ok(Standing { step_us: time(world)?, stance: watch(world)?, pushed: push(world)? })
 }
@@ -99,7 +98,7 @@ fn simulation(world: &World) -> Simulation<'_> {
     Simulation::new(world, StepSettings { step_s: STEP_S, ..StepSettings::default() })
 }
 
-/// CPU time of a step, without looking at what it does.
+/// CPU time of a step, without any checks.
 fn time(world: &World) -> Result<Timing, String> {
     let mut simulation = simulation(world);
     simulation.time(LANDING, |_| {})?;
@@ -107,7 +106,7 @@ fn time(world: &World) -> Result<Timing, String> {
     Ok(Timing::of((0..batches).map(|_| simulation.time(BATCH, |_| {})).collect::<Result<_, _>>()?))
 }
 
-/// The same motion once more, with a look at every step.
+/// Repeats the motion and checks every step.
 fn watch(world: &World) -> Result<Stance, String> {
     let mut found = Stance { weight_n: weight(world), ..Stance::default() };
     let mut simulation = simulation(world);
@@ -165,7 +164,7 @@ fn push(world: &World) -> Result<Pushed, String> {
 impl Left {
     fn look(&mut self, world: &World, before: &WorldState, after: &WorldState, contacts: &[ContactForce]) {
         let (weight, fall) = (weight(world), world.gravity.norm() * STEP_S);
-        // What is not a number must not be passed over, as `max` would.
+        // NaN must not be ignored, as `max` would do.
         let raise = |worst: &mut f64, now: f64| *worst = if now.is_nan() { f64::INFINITY } else { worst.max(now) };
         let mut total = Vec3::zeros();
         for contact in contacts {
@@ -183,8 +182,8 @@ impl Left {
             world.bodies.iter().zip(&state.twists).map(|(body, twist)| twist.linear * body.mass).sum()
         };
         let loads: Vec3 = world.bodies.iter().map(|body| body.load.force + world.gravity * body.mass).sum();
-        let asked = (momentum(after) - momentum(before)) / STEP_S - loads;
-        raise(&mut self.balance, (total - asked).norm() / weight);
+        let needed = (momentum(after) - momentum(before)) / STEP_S - loads;
+        raise(&mut self.balance, (total - needed).norm() / weight);
     }
 
     /// The largest of them.

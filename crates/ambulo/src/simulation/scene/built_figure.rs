@@ -1,14 +1,14 @@
-//! Built figures as the simulator has them: every coordinate of the model is one of a joint.
+//! Adds built-in figures to the world: every coordinate of the model becomes a coordinate of a joint.
 //!
-//! The root moves in the plane through the figure's place: forward and up freely, its turn, which holds the trunk, driven as
-//! in section 4.1 of Faure, Debunne, Cani, Multon 1997. What keeps the figure in its plane is the joint's reaction.
+//! The root moves in the vertical plane through the figure's position: its translations forwards and up are free; its rotation is driven and
+//! holds the trunk upright, as in section 4.1 of Faure, Debunne, Cani, Multon 1997. The reaction of this joint keeps the figure in its plane.
 
 use super::build::acting;
-use super::built::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
-use super::figure::FigureEntry as Asked;
+use super::built_entry::{BuiltCoordinate, BuiltFigure, FigureWalkMode, GaitSource, WalkEntry, WalkTracking};
+use super::figure::FigureEntry;
+use super::model_figure::{Placed, PlacedFigure, add_spheres};
 use super::sources::{InputFiles, chain};
-use super::walk_keeper::FigureRecorder;
-use super::walker::{Placed, PlacedFigure, add_spheres};
+use super::walk_recorder::FigureRecorder;
 use super::{Place, SceneError};
 use crate::contact::Shape;
 use crate::gait::{Gait, Speed, Walk, WalkCoordinates};
@@ -27,10 +27,10 @@ use crate::simulation::world::{
 };
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
-/// Where a hand grips, from the wrist to the tip of the fingers.
+/// Grip point of a hand, as a share of the length from the wrist to the fingertips.
 const GRIP: f64 = 0.5;
 
-/// A motion of all coordinates, and how the scene finds it.
+/// A motion of all coordinates, and its state at the start of the scene.
 struct Motion {
     signals: Vec<Signal>,
     /// Coordinates and their rates at the start.
@@ -40,7 +40,7 @@ struct Motion {
 /// Adds a figure to the world.
 pub(super) fn add(
     world: &mut World,
-    asked: &Asked,
+    entry: &FigureEntry,
     built: &BuiltFigure,
     number: usize,
     sources: &mut InputFiles<'_, '_>,
@@ -51,7 +51,7 @@ pub(super) fn add(
         Some(walk) => walking(walk, &human, sources)?,
         None => standing(&human.model),
     };
-    human.model = placed_model(&human, asked, built).map_err(|e| wrong(&e))?;
+    human.model = placed_model(&human, entry, built).map_err(|e| wrong(&e))?;
     for coordinate in &human.model.coordinates()[motion.signals.len()..] {
         motion.signals.push(Signal::Constant(coordinate.default_value));
         motion.start[0].push(coordinate.default_value);
@@ -65,61 +65,61 @@ pub(super) fn add(
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
     let mut placed = vec![Placed { body: first_body, coordinate: 0 }; model.coordinates().len()];
     for id in model.body_ids() {
-        world.bodies.push(body(asked, model, id, &motions[id.index()]));
+        world.bodies.push(body(entry, model, id, &motions[id.index()]));
         let coordinates = coordinates_of(model, id);
         for (k, coordinate) in coordinates.iter().enumerate() {
             placed[coordinate.index()] = Placed { body: first_body + id.index(), coordinate: k };
         }
         let acting = |id: &CoordinateId| acting_on(built, number, model, *id, &motion.signals, sources);
         let acting = coordinates.iter().map(acting).collect::<Result<Vec<_>, _>>()?;
-        world.joints.push(joint(asked, model, id, first_body, acting));
+        world.joints.push(joint(entry, model, id, first_body, acting));
     }
-    add_spheres(world, asked, number, model, first_body)?;
+    add_spheres(world, entry, number, model, first_body)?;
     let soles = add_soles(world, built, &human, first_body)?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
-    let keeper = built.walk.is_some().then(|| FigureRecorder::new(&asked.name, &human, placed.clone(), soles));
-    Ok((PlacedFigure { figure, first_body, name: asked.name.clone(), placed: Some(placed) }, keeper))
+    let recorder = built.walk.is_some().then(|| FigureRecorder::new(&entry.name, &human, placed.clone(), soles));
+    Ok((PlacedFigure { figure, first_body, name: entry.name.clone(), placed: Some(placed) }, recorder))
 }
 
-/// Upright, every coordinate at its default.
+/// Upright standing: every coordinate has its default value.
 fn standing(model: &Model) -> Motion {
     let values: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
     let rest = vec![0.0; values.len()];
     Motion { signals: values.iter().map(|value| Signal::Constant(*value)).collect(), start: [values, rest] }
 }
 
-fn walking(asked: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
+fn walking(entry: &WalkEntry, human: &Human, sources: &mut InputFiles<'_, '_>) -> Result<Motion, SceneError> {
     let same =
-        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &asked.gait, &asked.speed);
-    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (asked.mode, sources.corrected.iter().find(same)) {
-        return Ok(corrected(walk, &human.model, asked.phase));
+        |(build, gait, speed, _): &&(_, _, _, _)| (build, gait, speed) == (&human.build, &entry.gait, &entry.speed);
+    if let (FigureWalkMode::Corrected, Some((_, _, _, walk))) = (entry.mode, sources.corrected.iter().find(same)) {
+        return Ok(corrected(walk, &human.model, entry.phase));
     }
-    let place = &asked.place;
+    let place = &entry.place;
     let wrong = |e: &dyn std::error::Error| place.error(chain(e));
-    let mut gait = match &asked.gait {
+    let mut gait = match &entry.gait {
         GaitSource::Named(name) => Gait::named(name).map_err(|e| wrong(&e))?,
         GaitSource::File(path) => {
             let text = sources.text(place, path)?;
             Gait::from_toml(&text).map_err(|e| place.error(format!("{path}: {}", chain(&e))))?
         }
     };
-    if let Some(speed) = asked.speed {
+    if let Some(speed) = entry.speed {
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     }
     let walk = Walk::new(&gait, human.dimensions.leg_length, sources.findings).map_err(|e| wrong(&e))?;
-    match asked.mode {
-        FigureWalkMode::Curves => Ok(along_curves(&walk, human, asked.phase)),
+    match entry.mode {
+        FigureWalkMode::Curves => Ok(along_curves(&walk, human, entry.phase)),
         FigureWalkMode::Corrected => {
             let settings = ConsistentWalkSettings::default();
             let walk = make_consistent_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
-            let motion = corrected(&walk, &human.model, asked.phase);
-            sources.corrected.push((human.build, asked.gait.clone(), asked.speed, walk));
+            let motion = corrected(&walk, &human.model, entry.phase);
+            sources.corrected.push((human.build, entry.gait.clone(), entry.speed, walk));
             Ok(motion)
         }
     }
 }
 
-/// The curves of the gait as they are, the lowest sole on the ground.
+/// The unchanged curves of the gait, with the lowest sole on the ground.
 fn along_curves(walk: &Walk, human: &Human, phase: f64) -> Motion {
     let model = &human.model;
     let coordinates = WalkCoordinates::of(model);
@@ -150,8 +150,8 @@ fn corrected(walk: &ConsistentWalk, model: &Model, phase: f64) -> Motion {
     Motion { signals, start: [q, qd] }
 }
 
-/// A motion that repeats every cycle as signals, begun at a phase; and coordinates, rates and accelerations at the start. Signals
-/// of the root's slides mean nothing: forces move them.
+/// A periodic motion as signals that begin at a phase, with coordinates, rates and accelerations at the start. The signals of the root's
+/// translations are not used, because forces move them.
 fn sampled(
     model: &Model,
     cycle_s: f64,
@@ -171,13 +171,13 @@ fn sampled(
     (signals, posture)
 }
 
-/// The model on its place of the scene, arms held away from the trunk, with markers where the hands grip.
-fn placed_model(human: &Human, asked: &Asked, built: &BuiltFigure) -> Result<Model, ModelError> {
+/// The model at its pose in the scene, with abducted arms and markers at the grip points of the hands.
+fn placed_model(human: &Human, entry: &FigureEntry, built: &BuiltFigure) -> Result<Model, ModelError> {
     let model = &human.model;
     let mut bodies = model.bodies().to_vec();
     let mut markers = model.markers().to_vec();
     for body in bodies.iter_mut().filter(|body| body.joint.parent.is_none()) {
-        body.joint.parent_from_joint = asked.pose * body.joint.parent_from_joint;
+        body.joint.parent_from_joint = entry.pose * body.joint.parent_from_joint;
     }
     let mut coordinates = model.coordinates().to_vec();
     for ((side, arm), outwards) in Side::BOTH.into_iter().zip(built.arms).zip([-1.0, 1.0]) {
@@ -209,13 +209,13 @@ fn placed_model(human: &Human, asked: &Asked, built: &BuiltFigure) -> Result<Mod
     Model::new(model.name(), model.gravity(), bodies, coordinates, markers)
 }
 
-/// Starts that the scene gives, or that drives of its own have.
+/// Applies initial values from the scene, or from drives of single coordinates.
 fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     for own in &built.coordinates {
         let Some(id) = model.coordinate(&own.name) else { continue };
         let [q, qd] = &mut motion.start;
         if own.starts[0] {
-            // At rest unless a rate is given.
+            // Zero unless a rate is given.
             (q[id.index()], qd[id.index()]) = (own.acting.start, own.acting.rate);
         } else if own.starts[1] {
             qd[id.index()] = own.acting.rate;
@@ -223,7 +223,7 @@ fn own_starts(built: &BuiltFigure, model: &Model, motion: &mut Motion) {
     }
 }
 
-/// Towards the trunk, as OpenSim counts.
+/// Arm adduction, which is positive towards the trunk in OpenSim.
 fn adduction_name(side: Side) -> String {
     format!("arm_add_{}", side.letter())
 }
@@ -233,7 +233,7 @@ fn own_of<'a>(built: &'a BuiltFigure, model: &Model, id: CoordinateId) -> Option
     built.coordinates.iter().enumerate().find(|(_, own)| own.name == *name)
 }
 
-/// Coordinates of a body's joint in the simulator's order: slides, then turns.
+/// Coordinates of a body's joint in the simulator's order: translations, then rotations.
 fn coordinates_of(model: &Model, id: BodyId) -> Vec<CoordinateId> {
     let joint = &model.bodies()[id.index()].joint;
     let of = |axes: &[JointAxis]| {
@@ -277,10 +277,10 @@ fn acting_on(
     Ok(acting)
 }
 
-fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
+fn body(entry: &FigureEntry, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidBody {
     let about = &model.bodies()[id.index()];
     RigidBody {
-        name: format!("{}/{}", asked.name, about.name),
+        name: format!("{}/{}", entry.name, about.name),
         mass: about.inertia.mass(),
         inertia: about.inertia.about_center(),
         pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
@@ -289,12 +289,18 @@ fn body(asked: &Asked, model: &Model, id: BodyId, motion: &BodyMotion) -> RigidB
     }
 }
 
-fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinates: Vec<JointCoordinate>) -> TreeJoint {
+fn joint(
+    entry: &FigureEntry,
+    model: &Model,
+    id: BodyId,
+    first_body: usize,
+    coordinates: Vec<JointCoordinate>,
+) -> TreeJoint {
     let joint = &model.bodies()[id.index()].joint;
     let center = |body: BodyId| Pose::at(-model.bodies()[body.index()].inertia.center());
     let (kind, turn) = match (&joint.rotations[..], joint.parent) {
         (_, None) => (JointKind::Planar, Mat3::identity()),
-        // The simulator's universal joint turns about its x, then about its y.
+        // The simulator's universal joint rotates about its x, then about its y.
         ([first, second], _) => {
             let (x, y) = (first.direction, second.direction);
             (JointKind::Universal, Mat3::from_columns(&[x, y, x.cross(&y)]))
@@ -303,7 +309,7 @@ fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinate
     };
     let turn = Pose { rotation: turn, translation: Vec3::zeros() };
     TreeJoint {
-        name: format!("{}/{}", asked.name, joint.name),
+        name: format!("{}/{}", entry.name, joint.name),
         child: first_body + id.index(),
         parent: joint.parent.map(|p| first_body + p.index()),
         parent_from_joint: joint.parent.map_or(Pose::IDENTITY, center) * joint.parent_from_joint * turn,
@@ -314,7 +320,7 @@ fn joint(asked: &Asked, model: &Model, id: BodyId, first_body: usize, coordinate
     }
 }
 
-/// The soles, which pass each other; numbers of their surfaces.
+/// Adds the soles, which do not touch each other; returns the indices of their surfaces.
 fn add_soles(
     world: &mut World,
     built: &BuiltFigure,

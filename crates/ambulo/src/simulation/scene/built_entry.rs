@@ -1,101 +1,101 @@
-//! Figures that the program builds itself: size, walk, arms, and what acts on their joints.
+//! Built-in figures in a scene file: size, walk, arms, and drives of their joints.
 
 use super::SceneError;
-use super::coordinate::{CoordinateEntry, CoordinateKind};
+use super::coordinate::{CoordinateEntry, MotionKind};
 use super::material::MaterialEntry;
 use crate::gait::Gait;
 use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::model::{CoordinateId, CoordinateKind as ModelKind, Side};
 use crate::toml_reader::{Place, Table, Value};
 
-/// A figure of [`crate::model::anthropometry`], planar, on its own plane through `at`.
+/// A planar figure of [`crate::model::anthropometry`] in a vertical plane through `at`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltFigure {
-    /// Where `build` stands.
+    /// Place of `build` in the file.
     pub place: Place,
     /// Table, mass, height.
     pub build: Build,
-    /// How it walks; `None` stands upright.
+    /// The walk; `None`: it stands upright.
     pub walk: Option<WalkEntry>,
-    /// How the right and the left arm are held sideways.
+    /// Abduction of the right and the left arm.
     pub arms: [ArmEntry; 2],
     /// Material of the soles, an index in [`SceneFile::materials`](super::SceneFile::materials); `None`: soft shoes.
     pub shoes: Option<usize>,
-    /// Coordinates that do not simply follow the walk.
+    /// Coordinates that do not follow the walk exactly.
     pub coordinates: Vec<BuiltCoordinate>,
 }
 
-/// How an arm is held sideways.
+/// Abduction of an arm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ArmEntry {
     /// Angle away from the trunk [rad].
     pub abduction: f64,
-    /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring that holds it there; `None`: it is fixed.
+    /// Stiffness [N.m/rad] and damping [N.m.s/rad] of a spring at this angle; `None`: the angle is fixed.
     pub spring: Option<[f64; 2]>,
 }
 
-/// A walk as asked for.
+/// The walk of a built-in figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WalkEntry {
-    /// Where it stands.
+    /// Place in the file.
     pub place: Place,
     /// Name of a built-in gait, or the path of a gait file.
     pub gait: GaitSource,
-    /// Speed in place of the gait's own [m/s].
+    /// Speed instead of the gait's own [m/s].
     pub speed: Option<f64>,
-    /// What becomes of the curves.
+    /// How the curves of the gait are used.
     pub mode: FigureWalkMode,
-    /// Share of the cycle, from a strike of the right foot, at which the scene begins.
+    /// Phase at which the scene begins, as a share of the cycle from a right foot strike.
     pub phase: f64,
 }
 
 /// Where a gait comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GaitSource {
-    /// A built-in one.
+    /// A built-in gait.
     Named(String),
-    /// A file, its path relative to the scene.
+    /// A gait file, with its path relative to the scene.
     File(String),
 }
 
-/// What becomes of the curves of a gait.
+/// How the joint curves of a gait are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureWalkMode {
-    /// Changed as little as the ground's forces demand ([`crate::simulation::consistent_walk`]).
+    /// Made dynamically consistent ([`crate::simulation::consistent_walk`]).
     Corrected,
-    /// Followed as they are.
+    /// Followed unchanged.
     Curves,
 }
 
-/// A coordinate that does something of its own.
+/// A coordinate with a drive, motor, spring or start of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltCoordinate {
     /// Line of its header.
     pub line: usize,
-    /// Which one of the figure's model.
+    /// Name of the coordinate in the figure's model.
     pub name: String,
-    /// What acts on it.
+    /// Drive, motor, spring, limits and friction.
     pub acting: CoordinateEntry,
-    /// Whether value and rate at the start are given; else they are the walk's.
+    /// Whether value and rate at the start are given; otherwise they are taken from the walk.
     pub starts: [bool; 2],
-    /// A motor whose target is the walk.
+    /// A motor that tracks the walk.
     pub follow: Option<WalkTracking>,
 }
 
-/// Moment stiffness (walk - value) + damping (walk's rate - rate), cut at `max`.
+/// A motor with the moment stiffness (walk - value) + damping (walk's rate - rate), limited to `max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WalkTracking {
-    /// [N.m/rad], zero or more.
+    /// Stiffness [N.m/rad], zero or more.
     pub stiffness: f64,
-    /// [N.m.s/rad], zero or more.
+    /// Damping [N.m.s/rad], zero or more.
     pub damping: f64,
-    /// [N.m]; infinity if not limited.
+    /// Largest moment [N.m]; infinity if not limited.
     pub max: f64,
 }
 
-/// Keys of a built figure.
+/// Keys of a built-in figure.
 pub(super) const KEYS: &[&str] = &["name", "build", "walk", "arms", "shoes", "coordinate", "at", "rotation", "sphere"];
-/// Arms farther from the trunk than this are slips [rad].
+/// Larger abductions of an arm are mistakes [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
 impl BuiltFigure {
@@ -129,7 +129,7 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     table.only(&[&["table", "mass", "height", "toe_joint"]])?;
     let words = SegmentTable::ALL.map(|segments| (segments.name(), segments));
     let build = Build {
-        table: table.need("table", "whose segments, such as \"de-leva-female\"")?.choice(&words)?,
+        table: table.need("table", "the table of segments, such as \"de-leva-female\"")?.choice(&words)?,
         mass: table.need("mass", "the body mass [kg]")?.above_zero()?,
         height: table.need("height", "the stature [m]")?.above_zero()?,
         toe_joint: table.truth_or("toe_joint", true)?,
@@ -204,15 +204,15 @@ impl BuiltCoordinate {
             human.model.coordinate_ids().map(|id| (human.model.coordinates()[id.index()].name.as_str(), id)).collect();
         let id = value.choice(&words)?;
         let kind = match human.model.coordinates()[id.index()].kind {
-            ModelKind::Translation => CoordinateKind::Translation,
-            _ => CoordinateKind::Rotation,
+            ModelKind::Translation => MotionKind::Translation,
+            _ => MotionKind::Rotation,
         };
         let given = |keys: [&str; 2]| keys.iter().any(|key| table.get(key).is_some());
         let starts = [given(["start", "start_deg"]), given(["rate", "rate_deg"])];
         let acting = CoordinateEntry::read_acting(table, kind, starts[0], duration_s)?;
         let follow = table.get("follow").map(|value| WalkTracking::read(&value)).transpose()?;
         if let (Some(value), true) = (table.get("follow"), acting.drive.is_some() || acting.motor.is_some()) {
-            return Err(value.wrong("no such key beside a drive or a motor"));
+            return Err(value.wrong("no such key together with a drive or a motor"));
         }
         if let (Some(value), false) = (table.get("follow"), walks) {
             return Err(value.wrong("no such key without a `walk` to follow"));
@@ -226,7 +226,7 @@ impl WalkTracking {
         let table = value.table("{ stiffness = …, damping = 0 }")?;
         table.only(&[&["stiffness", "damping", "max"]])?;
         Ok(WalkTracking {
-            stiffness: table.need("stiffness", "the moment for each radian [N.m/rad]")?.zero_or_more()?,
+            stiffness: table.need("stiffness", "the moment per radian [N.m/rad]")?.zero_or_more()?,
             damping: table.zero_or_more_or("damping", 0.0)?,
             max: table.above_zero_or("max", f64::INFINITY)?,
         })
@@ -238,7 +238,7 @@ fn refuse_repeated(coordinates: &[BuiltCoordinate], figure: &Table<'_>) -> Resul
         if let Some(earlier) = coordinates[..i].iter().find(|earlier| earlier.name == own.name) {
             let place = Place { line: own.line, key: format!("{}.coordinate[{}].name", figure.place().key, i + 1) };
             let line = earlier.line;
-            return Err(place.error(format!("found \"{}\" again; it stands in line {line} already", own.name)));
+            return Err(place.error(format!("found \"{}\" twice; the first one is in line {line}", own.name)));
         }
     }
     Ok(())

@@ -1,11 +1,11 @@
-//! Figures of a scene: bodies and joints of an OpenSim model, as the simulator has them.
+//! Adds figures from OpenSim models to the world.
 //!
-//! A joint whose coordinates all follow the recording prescribes all six directions between its bodies, whatever its kind.
-//! Others must be of a kind that the simulator has: turns about one fixed axis, two square ones or three, slides along one, the
-//! plane, or everything.
+//! If all coordinates of a joint follow the recording, the joint prescribes all six directions between its bodies, whatever its kind. Other
+//! joints must be of a kind that the simulator supports: rotations about one fixed axis, two perpendicular axes or three, a translation along
+//! one axis, planar, or free.
 
-use super::figure::{DrivenCoordinates, FigureEntry as Asked, RootMotion};
-use super::joint::JointAxes as AskedJoint;
+use super::figure::{DrivenCoordinates, FigureEntry, RootMotion};
+use super::joint::JointAxes;
 use super::placement::place;
 use super::sources::InputFiles;
 use super::{Place, SceneError};
@@ -18,36 +18,36 @@ use crate::simulation::signal::Signal;
 use crate::simulation::world::{Figure, Follows, JointCoordinate, Owner, RigidBody, Surface, TreeJoint, World};
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 
-/// Cosine of the angle between axes that should be square.
+/// Largest cosine of the angle between axes that should be perpendicular.
 const SQUARE_SLACK: f64 = 1e-6;
-/// Rounding of slopes and offsets of functions that are plain coordinates.
+/// Tolerance for slopes and offsets of functions that equal a coordinate.
 const ROUNDING: f64 = 1e-12;
 
-/// Where a figure's bodies stand in the world.
+/// Indices of a figure's bodies in the world.
 #[derive(Debug, Clone)]
 pub(super) struct PlacedFigure {
-    /// Its number among the figures.
+    /// Index of the figure.
     pub(super) figure: usize,
-    /// Its first body; the others follow in the model's order.
+    /// Index of its first body; the others follow in the model's order.
     pub(super) first_body: usize,
     /// Name in the scene.
     pub(super) name: String,
-    /// Of a built figure: where each coordinate of its model is.
+    /// For a built-in figure: the joint coordinate of each coordinate of its model.
     pub(super) placed: Option<Vec<Placed>>,
 }
 
-/// A coordinate of a figure's model as that of a joint.
+/// The joint coordinate of a coordinate of a figure's model.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Placed {
-    /// The joint's child, among the bodies of the world.
+    /// Index of the joint's child among the bodies of the world.
     pub(super) body: usize,
-    /// Number of the joint's coordinate.
+    /// Index of the coordinate within the joint.
     pub(super) coordinate: usize,
 }
 
 /// A figure under construction.
 struct FigureAssembly<'a> {
-    asked: &'a Asked,
+    entry: &'a FigureEntry,
     /// Number in the file, from 1.
     number: usize,
     model: Model,
@@ -60,29 +60,29 @@ struct FigureAssembly<'a> {
 /// Adds a figure to the world.
 pub(super) fn add(
     world: &mut World,
-    asked: &Asked,
+    entry: &FigureEntry,
     number: usize,
     sources: &mut InputFiles<'_, '_>,
 ) -> Result<PlacedFigure, SceneError> {
-    let model = sources.model(&asked.model_place, &asked.model)?;
+    let model = sources.model(&entry.model_place, &entry.model)?;
     let model =
-        standing_at(&model, &asked.pose).map_err(|e| asked.model_place.error(format!("{}: {e}", asked.model)))?;
-    refuse_unknown(asked, number, &model)?;
-    let signals = signals(asked, &model, sources)?;
+        standing_at(&model, &entry.pose).map_err(|e| entry.model_place.error(format!("{}: {e}", entry.model)))?;
+    refuse_unknown(entry, number, &model)?;
+    let signals = signals(entry, &model, sources)?;
     let values: Vec<[f64; 3]> = signals.iter().map(|signal| signal.at(0.0)).collect();
     let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
     let motions = body_motion(&model, Posture { q: &q, qd: &qd, qdd: &qdd });
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
-    let making = FigureAssembly { asked, number, model, signals, motions, first_body, figure };
+    let making = FigureAssembly { entry, number, model, signals, motions, first_body, figure };
     for id in making.model.body_ids() {
         world.bodies.push(making.body(id));
         world.joints.extend(making.joint(id)?);
     }
     making.refuse_massless(world)?;
-    add_spheres(world, asked, number, &making.model, first_body)?;
+    add_spheres(world, entry, number, &making.model, first_body)?;
     let FigureAssembly { model, signals, .. } = making;
     world.figures.push(Figure { model, coordinates: signals });
-    Ok(PlacedFigure { figure, first_body, name: asked.name.clone(), placed: None })
+    Ok(PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None })
 }
 
 /// The model with its ground moved.
@@ -94,18 +94,18 @@ fn standing_at(model: &Model, world_from_ground: &Pose) -> Result<Model, crate::
     Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), Vec::new())
 }
 
-fn refuse_unknown(asked: &Asked, number: usize, model: &Model) -> Result<(), SceneError> {
-    let DrivenCoordinates::Only(names) = &asked.driven else { return Ok(()) };
-    let place = Place { line: asked.line, key: format!("figure[{number}].drive") };
+fn refuse_unknown(entry: &FigureEntry, number: usize, model: &Model) -> Result<(), SceneError> {
+    let DrivenCoordinates::Only(names) = &entry.driven else { return Ok(()) };
+    let place = Place { line: entry.line, key: format!("figure[{number}].drive") };
     for name in names {
         let Some(id) = model.coordinate(name) else {
             let known: Vec<&str> = model.coordinates().iter().map(|c| c.name.as_str()).collect();
             let found = format!("found \"{name}\"; expected a coordinate of the model");
-            return Err(place.error(found).hint(&format!("they are {}", known.join(", "))));
+            return Err(place.error(found).hint(&format!("the coordinates are {}", known.join(", "))));
         };
         if is_of_root(model, id) {
             let found = format!("found \"{name}\"; expected coordinates of joints within the figure");
-            return Err(place.error(found).hint("this one carries the whole figure; `root` says what becomes of it"));
+            return Err(place.error(found).hint("this one belongs to the root; see the key `root`"));
         }
     }
     Ok(())
@@ -115,17 +115,17 @@ fn is_of_root(model: &Model, id: CoordinateId) -> bool {
     model.bodies().iter().any(|body| body.joint.parent.is_none() && body.joint.coordinates().contains(&id))
 }
 
-/// One signal a coordinate: recorded, or as the model has it.
-fn signals(asked: &Asked, model: &Model, sources: &mut InputFiles<'_, '_>) -> Result<Vec<Signal>, SceneError> {
+/// One signal per coordinate: from the recording, or the model's default value.
+fn signals(entry: &FigureEntry, model: &Model, sources: &mut InputFiles<'_, '_>) -> Result<Vec<Signal>, SceneError> {
     let free = |id: CoordinateId| matches!(model.coordinates()[id.index()].drive, Drive::Free);
     let (mut columns, mut start) = (vec![None; model.coordinates().len()], 0.0);
-    if let Some(file) = &asked.motion {
-        let place = &asked.motion_place;
+    if let Some(file) = &entry.motion {
+        let place = &entry.motion_place;
         let table = sources.table(place, file)?;
         let curves = table
             .coordinates(model, free, sources.findings)
             .map_err(|e| place.error(format!("{file}: {}", super::sources::chain(&e))))?;
-        start = sources.start(place, file, curves.span_s, asked.from_s)?;
+        start = sources.start(place, file, curves.span_s, entry.from_s)?;
         columns = curves.columns;
         report_missing(model, &columns, file, sources);
     }
@@ -149,7 +149,7 @@ fn report_missing<T>(model: &Model, columns: &[Option<T>], file: &str, sources: 
     let names: Vec<String> = missing.map(|(c, _)| format!("`{}` ({})", c.name, c.default_value)).collect();
     if !names.is_empty() {
         let names = names.join(", ");
-        let message = format!("{file} has no column for {names}; the default values in brackets are used throughout");
+        let message = format!("{file} has no column for {names}; the default values in brackets are used at all times");
         sources.findings.report(Code::MotionMissingCoordinate, message);
     }
 }
@@ -158,7 +158,7 @@ impl FigureAssembly<'_> {
     fn body(&self, id: BodyId) -> RigidBody {
         let (about, motion) = (&self.model.bodies()[id.index()], &self.motions[id.index()]);
         RigidBody {
-            name: format!("{}/{}", self.asked.name, about.name),
+            name: format!("{}/{}", self.entry.name, about.name),
             mass: about.inertia.mass(),
             inertia: about.inertia.about_center(),
             pose: Pose { rotation: motion.pose.rotation, translation: motion.center },
@@ -173,8 +173,8 @@ impl FigureAssembly<'_> {
         match &coordinate.drive {
             Drive::Locked | Drive::Prescribed(_) => true,
             Drive::Coupled(leader, _) => self.follows(*leader),
-            Drive::Free if is_of_root(&self.model, id) => self.asked.root == RootMotion::Driven,
-            Drive::Free => match &self.asked.driven {
+            Drive::Free if is_of_root(&self.model, id) => self.entry.root == RootMotion::Driven,
+            Drive::Free => match &self.entry.driven {
                 DrivenCoordinates::All => true,
                 DrivenCoordinates::Nothing => false,
                 DrivenCoordinates::Only(names) => names.contains(&coordinate.name),
@@ -182,7 +182,7 @@ impl FigureAssembly<'_> {
         }
     }
 
-    /// The joint of a body; none where nothing holds it.
+    /// The joint of a body; `None` for a free body.
     fn joint(&self, id: BodyId) -> Result<Option<TreeJoint>, SceneError> {
         let body = &self.model.bodies()[id.index()];
         let followed: Vec<bool> = body.joint.coordinates().into_iter().map(|c| self.follows(c)).collect();
@@ -192,12 +192,12 @@ impl FigureAssembly<'_> {
         if followed.contains(&true) {
             return Err(self.unfit(body, "some of its coordinates are driven or locked and others are free"));
         }
-        let asked = self.free_joint(id)?;
-        if body.joint.parent.is_none() && matches!(asked.kind, AskedJoint::Free) {
+        let entry = self.free_joint(id)?;
+        if body.joint.parent.is_none() && matches!(entry.kind, JointAxes::Free) {
             return Ok(None);
         }
         let center = self.frame_on_child(id).translation;
-        let placed = place(&asked.kind, center, &asked.values);
+        let placed = place(&entry.kind, center, &entry.values);
         let on = |body: Option<BodyId>, frame: Pose| body.map_or(frame, |b| self.pose(b).inverse() * frame);
         Ok(Some(TreeJoint {
             name: self.joint_name(body),
@@ -212,7 +212,7 @@ impl FigureAssembly<'_> {
     }
 
     fn joint_name(&self, body: &Body) -> String {
-        format!("{}/{}", self.asked.name, body.joint.name)
+        format!("{}/{}", self.entry.name, body.joint.name)
     }
 
     /// `world_from_body`, origin at the mass centre.
@@ -242,7 +242,7 @@ impl FigureAssembly<'_> {
         }
     }
 
-    /// The simulator's joint that a joint of the model is.
+    /// Converts a joint of the model to a joint of the simulator.
     fn free_joint(&self, id: BodyId) -> Result<FreeJoint, SceneError> {
         let body = &self.model.bodies()[id.index()];
         let joint = &body.joint;
@@ -259,24 +259,24 @@ impl FigureAssembly<'_> {
         }
         let square = |a: &Axis, b: &Axis| a.direction.dot(&b.direction).abs() <= SQUARE_SLACK;
         let (kind, values) = match (&turns[..], &slides[..]) {
-            ([a], []) => (AskedJoint::Revolute { axis: a.direction }, vec![a.value]),
-            ([], [a]) => (AskedJoint::Prismatic { axis: a.direction }, vec![a.value]),
+            ([a], []) => (JointAxes::Revolute { axis: a.direction }, vec![a.value]),
+            ([], [a]) => (JointAxes::Prismatic { axis: a.direction }, vec![a.value]),
             ([a, b], []) if square(a, b) => {
-                (AskedJoint::Universal { axis: a.direction, second_axis: b.direction }, vec![a.value, b.value])
+                (JointAxes::Universal { axis: a.direction, second_axis: b.direction }, vec![a.value, b.value])
             }
-            ([_, _, _], []) => (AskedJoint::Ball, vec![0.0; 3]),
+            ([_, _, _], []) => (JointAxes::Ball, vec![0.0; 3]),
             ([n], [a, b]) if square(n, a) && square(n, b) && square(a, b) => {
                 let sense = n.direction.cross(&a.direction).dot(&b.direction).signum();
-                let kind = AskedJoint::Planar { normal: n.direction, along: a.direction };
+                let kind = JointAxes::Planar { normal: n.direction, along: a.direction };
                 (kind, vec![n.value, a.value, sense * b.value])
             }
-            ([_, _, _], [_, _, _]) => (AskedJoint::Free, vec![0.0; 6]),
-            _ => return Err(self.unfit(body, "it turns or slides in another way than the simulator's joints")),
+            ([_, _, _], [_, _, _]) => (JointAxes::Free, vec![0.0; 6]),
+            _ => return Err(self.unfit(body, "its free motions differ from those of the simulator's joints")),
         };
         Ok(FreeJoint { kind, values })
     }
 
-    /// An axis that a coordinate of its own moves, in the world; none if it stays.
+    /// An axis with a coordinate of its own, in the world; `None` for a fixed axis.
     fn moving(&self, body: &Body, axis: &JointAxis, frame: &Mat3) -> Result<Option<Axis>, SceneError> {
         let Displacement::Follows(id, function) = &axis.displacement else { return Ok(None) };
         if function.as_constant().is_some() {
@@ -284,7 +284,7 @@ impl FigureAssembly<'_> {
         }
         let sense = match function.as_linear() {
             Some((slope, intercept)) if (slope.abs() - 1.0).abs() < ROUNDING && intercept.abs() < ROUNDING => slope,
-            _ => return Err(self.unfit(body, "its axes follow their coordinates by curves or factors")),
+            _ => return Err(self.unfit(body, "its axes are scaled or curved functions of their coordinates")),
         };
         let axes = body.joint.rotations.iter().chain(&body.joint.translations);
         if axes.filter(|a| matches!(&a.displacement, Displacement::Follows(other, _) if other == id)).count() > 1 {
@@ -302,18 +302,18 @@ impl FigureAssembly<'_> {
     }
 
     fn unfit(&self, body: &Body, why: &str) -> SceneError {
-        let place = Place { line: self.asked.line, key: format!("figure[{}]", self.number) };
+        let place = Place { line: self.entry.line, key: format!("figure[{}]", self.number) };
         let of_root = body.joint.parent.is_none();
         let advice = if of_root { "root = \"driven\"" } else { "drive all coordinates of the joint, or none" };
         let message = format!(
-            "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or turns about one \
-             axis, two square axes or three, slides along one, moves in a plane, or moves freely",
+            "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or rotates about one \
+             axis, two perpendicular axes or three, translates along one axis, is planar, or is free",
             body.joint.name
         );
         place.error(message).hint(advice)
     }
 
-    /// What nothing resists has no motion under forces.
+    /// Rejects free bodies without mass, whose acceleration is undefined.
     fn refuse_massless(&self, world: &World) -> Result<(), SceneError> {
         let bodies = self.model.bodies();
         let mut carried: Vec<f64> = bodies.iter().map(|body| body.inertia.mass()).collect();
@@ -326,30 +326,30 @@ impl FigureAssembly<'_> {
             let joint = world.joints.iter().find(|joint| joint.child == self.first_body + i);
             let free = joint.is_none_or(|joint| joint.kind.freedom() > 0);
             if free && carried[i] <= 0.0 {
-                let place = Place { line: self.asked.line, key: format!("figure[{}]", self.number) };
+                let place = Place { line: self.entry.line, key: format!("figure[{}]", self.number) };
                 let found = format!("found the body `{}`, free to move and without mass", body.name);
-                return Err(place.error(found + "; expected a mass, its own or of what it carries"));
+                return Err(place.error(found + "; expected a mass of its own or of bodies that it carries"));
             }
         }
         Ok(())
     }
 }
 
-/// Spheres that the scene adds to a figure.
+/// Adds the contact spheres of a figure.
 pub(super) fn add_spheres(
     world: &mut World,
-    asked: &Asked,
+    entry: &FigureEntry,
     number: usize,
     model: &Model,
     first_body: usize,
 ) -> Result<(), SceneError> {
-    for (k, sphere) in asked.spheres.iter().enumerate() {
+    for (k, sphere) in entry.spheres.iter().enumerate() {
         let key = format!("figure[{number}].sphere[{}]", k + 1);
         let Some(id) = model.body(&sphere.body) else {
             let known: Vec<&str> = model.bodies().iter().map(|b| b.name.as_str()).collect();
             let place = Place { line: sphere.line, key: format!("{key}.body") };
             let found = format!("found \"{}\"; expected a body of the model", sphere.body);
-            return Err(place.error(found).hint(&format!("they are {}", known.join(", "))));
+            return Err(place.error(found).hint(&format!("the bodies are {}", known.join(", "))));
         };
         let place = Place { line: sphere.line, key };
         world.surfaces.push(Surface {
@@ -362,16 +362,16 @@ pub(super) fn add_spheres(
     Ok(())
 }
 
-/// A joint of the simulator, in the words of a scene.
+/// A joint of the simulator as described in scene files.
 struct FreeJoint {
-    kind: AskedJoint,
+    kind: JointAxes,
     /// Its coordinates at the start, in the order of scene files.
     values: Vec<f64>,
 }
 
 /// A moving axis of a joint.
 struct Axis {
-    /// Unit direction in the world, positive with its coordinate.
+    /// Unit direction in the world for a positive coordinate.
     direction: Vec3,
     value: f64,
 }

@@ -1,6 +1,6 @@
-//! What a walking figure of a scene does, kept step by step: by it the walk can be judged.
+//! Records a walking figure of a scene step by step, for its verdict.
 
-use super::walker::Placed;
+use super::model_figure::Placed;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::Human;
 use crate::model::{BodyId, Side};
@@ -11,9 +11,9 @@ use crate::simulation::walking::{FootRecord, WalkRecording};
 use crate::simulation::workspace::StepWorkspace;
 use crate::simulation::world::{Owner, World};
 
-/// A contact belongs to the ground if its normal rises at least this steeply (sine): less than 45° off the vertical.
+/// A contact belongs to the ground if the vertical component of its normal is at least this: less than 45° from the vertical.
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// More rows than this are not kept [steps].
+/// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
 
 /// A walk of a scene's figure.
@@ -21,7 +21,7 @@ const MOST_ROWS: usize = 1_000_000;
 pub struct FigureWalk {
     /// Name of the figure.
     pub name: String,
-    /// The figure as the scene has it: on its place, arms away from the trunk.
+    /// The figure at its pose in the scene, with abducted arms.
     pub human: Human,
     /// Posture and forces of every step.
     pub recording: WalkRecording,
@@ -33,7 +33,7 @@ pub(super) struct FigureRecorder {
     name: String,
     human: Human,
     placed: Vec<Placed>,
-    /// Surfaces of the soles.
+    /// Indices of the surfaces of the soles.
     soles: Vec<(usize, Side)>,
     start_s: f64,
     /// Coordinates and rates before the step.
@@ -66,7 +66,7 @@ impl FigureRecorder {
         }
     }
 
-    /// Coordinates and rates of all coordinates.
+    /// Values and rates of all coordinates.
     fn read(&self, world: &World, state: &WorldState) -> Vec<[f64; 2]> {
         let joint_of = world.joint_of_body();
         let mut rates: Vec<Vec<f64>> = vec![Vec::new(); world.joints.len()];
@@ -87,8 +87,8 @@ impl FigureRecorder {
         self.before = self.read(world, state);
     }
 
-    /// Keeps a step; wrenches of the workspace have been read. The posture is that at its start: velocities stand in the middle of
-    /// steps.
+    /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities belong to the middle
+    /// of steps.
     pub(super) fn after_step(
         &mut self,
         world: &World,
