@@ -48,7 +48,7 @@ fn summaries_of_recordings_follow_the_schema() {
 #[test]
 fn summaries_of_synthetic_walks_follow_the_schema() {
     let bench = Workbench::new("schema-walk");
-    bench.run(&["walk", "--mode", "paper", "-o", "out", "--quiet"]).done();
+    bench.run(&["walk", "--mode", "paper", "-o", "out", "--quiet"]).infeasible();
     assert_described(&bench.json("out/summary.json"));
 }
 

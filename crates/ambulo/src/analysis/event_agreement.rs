@@ -24,9 +24,11 @@ pub struct EventAgreement {
     pub extra: usize,
     /// Mean of |found - reference| over the pairs [ms]; not a number without pairs.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub mean_absolute_ms: f64,
     /// Mean of found - reference [ms]: positive if found late.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub bias_ms: f64,
 }
 

@@ -92,12 +92,15 @@ pub struct FootAgreement {
 pub struct ForceAgreement {
     /// Root-mean-square difference in body weights.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub rmse_bw: f64,
     /// RMSE over the mean of the two ranges.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub rrmse: f64,
     /// Pearson's correlation.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub r: f64,
     /// Agreement of the predicted standard deviation with the error.
     pub band: BandAgreement,
@@ -109,9 +112,11 @@ pub struct ForceAgreement {
 pub struct BandAgreement {
     /// Share of the measured samples inside the band.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub holds: f64,
     /// Mean half-width of the band over the RMSE.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub half_width_over_rmse: f64,
 }
 
@@ -125,15 +130,19 @@ pub struct CenterAgreement {
     pub missing: usize,
     /// RMS along the walking direction.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub fore_aft_mm: f64,
     /// RMS across the walking direction.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub lateral_mm: f64,
     /// RMS along the walking direction, samples weighted by the measured vertical force.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub fore_aft_weighted_mm: f64,
     /// RMS across the walking direction, with the same weights.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub lateral_weighted_mm: f64,
 }
 
@@ -149,12 +158,15 @@ pub struct MomentAgreement {
     pub samples: usize,
     /// Root-mean-square difference [N.m].
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub rmse_nm: f64,
     /// RMSE over body mass [N.m/kg].
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub rmse_nm_kg: f64,
     /// Pearson's correlation.
     #[serde(deserialize_with = "or_nan")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub r: f64,
 }
 

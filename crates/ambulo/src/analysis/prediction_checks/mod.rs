@@ -92,6 +92,7 @@ pub struct PredictionCheck {
     pub value: Option<f64>,
     /// Smallest and largest value that passes; infinite (`null` in files) for an open end.
     #[serde(deserialize_with = "open_range")]
+    #[cfg_attr(feature = "schema", schemars(with = "[Option<f64>; 2]"))]
     pub allowed: [f64; 2],
     /// Unit of both.
     pub unit: Cow<'static, str>,
