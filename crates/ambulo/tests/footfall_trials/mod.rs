@@ -198,7 +198,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         name: "gait2392 angles",
         subject: "gait2392",
         motion: coordinates_from_table(&small, &table, "ik", &mut Findings::default()).unwrap(),
-        soles: ambulo::analysis::feasibility::PersonMeasurements::of_model(&small).soles,
+        soles: ambulo::analysis::feasibility::Person::of_model(&small).soles,
         model: small.clone(),
         plates: of_angles,
         forces: forces_of(&small, &by_angles),
