@@ -303,7 +303,7 @@ fn no_reader_panics_on_input_cut_at_every_100th_byte() {
 }
 
 /// The whole computation of `forces` without files; `None` if it ends with an error.
-fn analyse(files: [&[u8]; 4]) -> Option<usize> {
+fn analyse_files(files: [&[u8]; 4]) -> Option<usize> {
     let [figure, walk, grf, loads] = files;
     let mut findings = Findings::default();
     let model = from_osim(&OsimModel::read(figure).ok()?, &mut findings).ok()?;
@@ -347,7 +347,7 @@ fn no_damaged_byte_makes_the_library_panic() {
             }
         }
         let [figure, walk, grf, loads] = &damaged;
-        through += usize::from(analyse([figure, walk, grf, loads]).is_some());
+        through += usize::from(analyse_files([figure, walk, grf, loads]).is_some());
     }
     println!("{through} of 1200 damaged inputs went through");
     assert!(through > 100, "only {through} of 1200: the damage never reaches the analysis");

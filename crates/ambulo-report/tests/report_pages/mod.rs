@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
-use ambulo::analysis::feasibility::{Evidence, Person, Thresholds, check};
+use ambulo::analysis::feasibility::{MotionAndForces, Person, Thresholds, check};
 use ambulo::analysis::{AnalysisSettings, PredictionInput, analyse, analyse_predicted};
 use ambulo::findings::Findings;
 use ambulo::ground::predict::PredictSettings;
@@ -48,7 +48,7 @@ pub(crate) fn analysed(body: &[u8], motion: &[u8], ground: &[u8], loads: &Extern
         instrumented: None,
     };
     let mut analysis = analyse(&model, &motion, &plates, settings, &mut findings).unwrap();
-    let evidence = Evidence {
+    let evidence = MotionAndForces {
         model: &model,
         trajectory: &analysis.trajectory,
         forces: &analysis.forces,
