@@ -1,10 +1,11 @@
 //! Scene files: the content of valid ones and the errors of invalid ones.
 
-use ambulo::simulation::ImpactLaw;
+use ambulo::dynamics::Method;
 use ambulo::simulation::scene::{
     Anchor, ArmEntry, Attachment, ContactPartner, DrivenCoordinates, EventAction, FigureWalkMode, GaitSource,
     JointAxes, MaterialLaw, MotionKind, ObstacleShape, Plot, RootMotion, SceneError, SceneFile, Solid, TimeFunction,
 };
+use ambulo::simulation::{ImpactLaw, Integrator};
 use ambulo::spatial::{Mat3, Vec3};
 use proptest::prelude::*;
 use std::f64::consts::PI;

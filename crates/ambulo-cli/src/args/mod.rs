@@ -8,7 +8,7 @@ mod values;
 mod walk;
 
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
-pub(crate) use forces::{Consistency, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
+pub(crate) use forces::{Adjusted, Filter, ForcesArgs, MarkerFitting, SubjectArgs};
 pub(crate) use report::{ReportArgs, ViewArgs};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs};
 pub(crate) use values::{FootColumns, PlateFoot};

@@ -210,7 +210,7 @@ fn opensim(data: &Path) -> Vec<Recorded> {
         height: Some(1.80),
         measurements: BodyMeasurements::default(),
     };
-    let runner = Body::BuiltIn { person: &person, set: None };
+    let runner = BodySource::BuiltIn { person: &person, set: None };
     let (markers, still) = (trc(run, "motion_capture_run.trc"), trc(run, "static_run.trc"));
     vec![
         fitted(

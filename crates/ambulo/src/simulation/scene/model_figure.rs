@@ -73,14 +73,14 @@ pub(super) fn add(
     let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
     let motions = body_motion(&model, Posture { q: &q, qd: &qd, qdd: &qdd });
     let (first_body, figure) = (world.bodies.len(), world.figures.len());
-    let making = FigureAssembly { entry, number, model, signals, motions, first_body, figure };
-    for id in making.model.body_ids() {
-        world.bodies.push(making.body(id));
-        world.joints.extend(making.joint(id)?);
+    let assembly = FigureAssembly { entry, number, model, signals, motions, first_body, figure };
+    for id in assembly.model.body_ids() {
+        world.bodies.push(assembly.body(id));
+        world.joints.extend(assembly.joint(id)?);
     }
-    making.refuse_massless(world)?;
-    add_spheres(world, entry, number, &making.model, first_body)?;
-    let FigureAssembly { model, signals, .. } = making;
+    assembly.refuse_massless(world)?;
+    add_spheres(world, entry, number, &assembly.model, first_body)?;
+    let FigureAssembly { model, signals, .. } = assembly;
     world.figures.push(Figure { model, coordinates: signals });
     Ok(PlacedFigure { figure, first_body, name: entry.name.clone(), placed: None })
 }
