@@ -113,15 +113,15 @@ test("one body weight is an arrow of 0.55 heights unless the peak would leave th
   close(arrowScale(2, 4) * 4, 1.9);
 });
 
-test("a blow does not shrink the other arrows", () => {
+test("an impact does not shrink the other arrows", () => {
   const numbers = new SampleNumbers();
   const view = samplePage(numbers).sessions[0]?.view;
   assert.ok(view?.forces[0]);
   const ordinary = peakOf(view, numbers);
   close(ordinary, 0.98, 0.02);
-  const blow = [...numbers.read(view.forces[0].force[1])];
-  blow[10] = 1e5;
-  view.forces[0].force[1] = numbers.add(blow);
+  const impact = [...numbers.read(view.forces[0].force[1])];
+  impact[10] = 1e5;
+  view.forces[0].force[1] = numbers.add(impact);
   close(peakOf(view, numbers), ordinary, 0.02);
 });
 

@@ -75,7 +75,7 @@ fn the_summary_states_how_the_walk_was_computed() {
     }
     assert!(number(&walk["trunk_torque_nm"]["rms"]) < 5.0 && number(&walk["foot_slip_mm"]) < 2.0, "{walk}");
     assert!(number(&walk["parameters_adjusted"]) > 50.0 && walk["solver"].as_array().unwrap().len() > 3, "{walk}");
-    assert!(number(&walk["flight_s"]) < 1e-9 && number(&walk["blows"]) < 0.5, "{walk}");
+    assert!(number(&walk["flight_s"]) < 1e-9 && number(&walk["impacts"]) < 0.5, "{walk}");
     // Recordings have no such part.
     let recorded = Workbench::new("walk_summary_of_forces");
     recorded.forces(&RAW).done();
@@ -128,7 +128,7 @@ fn the_walk_of_the_papers_mode_is_infeasible() {
     let summary = bench.json("out/summary.json");
     assert_eq!(summary["ground"]["rule"], "rigid soles");
     assert_eq!(summary["walk"]["parameters_adjusted"], Value::Null);
-    assert!(summary["walk"]["largest_blow_n_s"].as_f64().unwrap() > 1.0);
+    assert!(summary["walk"]["largest_impact_n_s"].as_f64().unwrap() > 1.0);
     assert!(!summary["verdict"]["reasons"].as_array().unwrap().is_empty());
     assert!(bench.text("out/figures/moments.svg").contains("red: not feasible"));
 }

@@ -52,10 +52,10 @@ pub struct WalkSummary {
     pub foot_slip_path_mm: Option<f64>,
     /// Time that no foot is loaded [s].
     pub flight_s: f64,
-    /// Blows of rigid soles on the ground.
-    pub blows: usize,
-    /// Largest impulse of a blow [N.s].
-    pub largest_blow_n_s: f64,
+    /// Impacts of rigid soles on the ground.
+    pub impacts: usize,
+    /// Largest impulse of an impact [N.s].
+    pub largest_impact_n_s: f64,
     /// Largest difference of the mid-hip's speed from one cycle to the next [m/s].
     pub speed_drift_m_s: f64,
     /// Steps of the simulator a second [Hz].
@@ -138,8 +138,8 @@ impl WalkSummary {
             foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),
             foot_slip_path_mm: report.slip.map(|slip| 1e3 * slip.path),
             flight_s: report.flight_s,
-            blows: report.impacts.0,
-            largest_blow_n_s: report.impacts.1,
+            impacts: report.impacts.0,
+            largest_impact_n_s: report.impacts.1,
             speed_drift_m_s: report.speed_drift,
             simulator_hz: report.steps_hz,
             unsolved_steps: report.unsolved_steps,

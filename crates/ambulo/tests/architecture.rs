@@ -35,6 +35,35 @@ fn the_crate_table_lists_the_crates_of_the_workspace() {
     assert!(found.is_empty(), "ARCHITECTURE.md and crates/ differ:\n{}", found.join("\n"));
 }
 
+/// The functions that a user of the library calls first.
+const VERBS: [(&str, &str); 8] = [
+    ("study/run.rs", "pub fn run("),
+    ("model/import.rs", "pub fn from_osim(bytes"),
+    ("ground/predict/mod.rs", "pub fn predict("),
+    ("ground/stream/mod.rs", "pub fn push("),
+    ("kinematics/marker_fit/mod.rs", "pub fn fit_markers("),
+    ("simulation/synthetic/modes.rs", "pub fn synthesise("),
+    ("simulation/scene/build.rs", "pub fn build("),
+    ("dynamics/inverse.rs", "pub fn inverse("),
+];
+
+#[test]
+fn every_main_function_has_an_example_that_runs() {
+    let runs = |comment: &str| comment.lines().any(|line| line.trim() == "/// ```");
+    for (file, function) in VERBS {
+        let text = fs::read_to_string(root().join("crates/ambulo/src").join(file)).unwrap();
+        let (before, _) = text.split_once(function).unwrap_or_else(|| panic!("{file}: no `{function}`"));
+        let comment: Vec<&str> = before
+            .lines()
+            .rev()
+            .skip_while(|line| line.trim().is_empty())
+            .take_while(|line| line.trim().starts_with("///"))
+            .collect();
+        assert!(runs(&comment.join("\n")), "{file}: `{function}` has no example");
+    }
+    assert!(!runs("/// ```no_run\n/// let x = 1;\n"), "an example that does not run");
+}
+
 // ---- the checker ----
 
 /// One file of the crate.

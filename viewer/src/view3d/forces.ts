@@ -12,10 +12,10 @@ const THIN = 0.0034;
 /** Vertical force from which on a foot is loaded [N], as in the events. */
 const LOADED_N = 20;
 
-/** Forces beyond this part of all are blows, for which the other arrows should not shrink. */
+/** Forces beyond this part of all are impacts, for which the other arrows should not shrink. */
 const ORDINARY_PART = 0.97;
 
-/** Largest force but for blows [body weights]. */
+/** Largest force except for impacts [body weights]. */
 export function peakOf(view: View, numbers: SeriesReader): number {
   const sizes: number[] = [];
   for (const { force } of view.forces) {

@@ -86,8 +86,8 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         "  trunk     held upright with {:.1} N.m rms, {:.1} N.m peak{slip}",
         walk.trunk_torque_nm.rms, walk.trunk_torque_nm.largest
     ))?;
-    if walk.blows > 0 {
-        print_line(&format!("  impacts   {}, {:.1} N.s at most", walk.blows, walk.largest_blow_n_s))?;
+    if walk.impacts > 0 {
+        print_line(&format!("  impacts   {}, {:.1} N.s at most", walk.impacts, walk.largest_impact_n_s))?;
     }
     Ok(())
 }

@@ -170,6 +170,27 @@ pub fn inverse_frames(
 
 /// Inverse dynamics of a whole trajectory under the given loads, each with one entry per frame.
 #[must_use]
+///
+/// A frame at rest, and one in free fall, where nothing is needed:
+///
+/// ```
+/// use ambulo::dynamics::{Workspace, inverse};
+/// use ambulo::kinematics::Trajectory;
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::motion::TimeGrid;
+///
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+/// let model = build.human()?.model;
+/// let vertical = model.coordinate("pelvis_ty").ok_or("no such coordinate")?.index();
+/// let mut columns = vec![[vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]]; model.coordinates().len()];
+/// columns[vertical][2][1] = -9.80665;
+/// let grid = TimeGrid { start_s: 0.0, step_s: 0.01, frames: 2 };
+/// let trajectory = Trajectory::new(&model, grid, columns)?;
+/// let forces = inverse(&mut Workspace::new(&model), &trajectory, &[]);
+/// assert!((forces.generalized[vertical][0] - 72.6 * 9.80665).abs() < 1e-6);
+/// assert!(forces.generalized[vertical][1].abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     let Workspace { plan, arch, many: kernel, .. } = workspace;
     let frames = trajectory.grid().frames;

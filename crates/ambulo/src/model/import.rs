@@ -125,13 +125,15 @@ impl Model {
     /// # Errors
     /// Bytes that are not an OpenSim document, or a model that cannot be computed.
     ///
-    /// ```no_run
+    /// ```
     /// use ambulo::findings::Findings;
-    /// use ambulo::model::Model;
+    /// use ambulo::model::anthropometry::{Build, SegmentTable};
+    /// use ambulo::model::{Model, to_osim};
     ///
-    /// let bytes = std::fs::read("subject.osim")?;
+    /// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+    /// let bytes = to_osim(&build.human()?.model)?.write()?; // otherwise std::fs::read("subject.osim")?
     /// let model = Model::from_osim(&bytes, &mut Findings::default())?;
-    /// println!("{} bodies, {:.1} kg", model.bodies().len(), model.mass());
+    /// assert!((model.mass() - 72.6).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn from_osim(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {

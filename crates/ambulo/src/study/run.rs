@@ -22,6 +22,27 @@ use std::ops::ControlFlow;
 ///
 /// # Errors
 /// Recordings that give no forces: see [`StudyError`].
+///
+/// A person of 72.6 kg who hangs still in the air, without ground forces; the motion needs the body weight at the root joint:
+///
+/// ```
+/// use ambulo::findings::Findings;
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::motion::Motion;
+/// use ambulo::study::{self, GroundSettings, Settings, Source};
+///
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+/// let model = build.human()?.model;
+/// let vertical = model.coordinate("pelvis_ty").ok_or("no such coordinate")?;
+/// let times: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
+/// let columns = vec![Some(vec![0.0; times.len()]); model.coordinates().len()];
+/// let source = Source::coordinates(model, Motion { origin: "still".to_owned(), times, columns });
+/// let settings = Settings { ground: GroundSettings::NoContact, ..Settings::default() };
+/// let outcome = study::run(&source, &settings, &mut Findings::default())?;
+/// let force = &outcome.analysis.forces.generalized[vertical.index()];
+/// assert!(force.iter().all(|force| (force - 72.6 * 9.80665).abs() < 1e-6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn run(source: &Source, settings: &Settings, findings: &mut Findings) -> Result<Outcome, StudyError> {
     road(source, settings, findings, &mut Progress::default())
 }

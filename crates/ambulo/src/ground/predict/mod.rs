@@ -204,6 +204,31 @@ pub enum PredictError {
 ///
 /// # Errors
 /// A model without feet or soles, prescribed series of another length than the motion: see [`PredictError`].
+///
+/// The mean vertical force of a synthetic walk is the body weight:
+///
+/// ```
+/// use ambulo::analysis::feasibility::Person;
+/// use ambulo::findings::Findings;
+/// use ambulo::gait::Gait;
+/// use ambulo::ground::predict::{PredictSettings, predict};
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
+///
+/// let mut findings = Findings::default();
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+/// let gait = Gait::named("free")?;
+/// let mode = SyntheticMode::Paper;
+/// let settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles: 1, rate_hz: 100.0 };
+/// let walk = synthesise(&settings, &mut findings)?;
+/// let (model, soles) = (&walk.human.model, Person::of_human(&walk.human).soles);
+/// let prediction = predict(model, &walk.trajectory, &soles, &PredictSettings::default(), &mut findings)?;
+/// let frames = walk.trajectory.grid().frames;
+/// let vertical = |frame: usize| prediction.ground.bodies.iter().map(|foot| foot.force[frame].y).sum::<f64>();
+/// let mean = (0..frames).map(vertical).sum::<f64>() / frames as f64;
+/// assert!((mean / (72.6 * 9.80665) - 1.0).abs() < 0.05, "{mean} N");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn predict(
     model: &Model,
     trajectory: &Trajectory,

@@ -127,6 +127,24 @@ impl Stream {
     ///
     /// # Errors
     /// A frame of another length, an infinite value (neither counts as a frame); a model without feet.
+    ///
+    /// ```
+    /// use ambulo::analysis::feasibility::Person;
+    /// use ambulo::ground::stream::{Stream, StreamSettings};
+    /// use ambulo::model::anthropometry::{Build, SegmentTable};
+    ///
+    /// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+    /// let human = build.human()?;
+    /// let upright = vec![0.0; human.model.coordinates().len()];
+    /// let soles = Person::of_human(&human).soles;
+    /// let mut stream = Stream::new(human.model, soles, &StreamSettings::at_rate(100.0))?;
+    /// for _ in 0..7 {
+    ///     assert!(stream.push(&upright)?.is_none(), "the delay is 70 ms");
+    /// }
+    /// let frame = stream.push(&upright)?.ok_or("no forces yet")?;
+    /// assert!(frame.time_s.abs() < 1e-9, "the forces of the first frame");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn push(&mut self, q: &[f64]) -> Result<Option<StreamFrame>, StreamError> {
         self.buffer.push(&self.model, q)?;
         // The gap, from one complete frame to the next, is at least one step longer than the number of missing frames.

@@ -53,6 +53,43 @@ use problem::FitProblem;
 ///
 /// # Errors
 /// No common marker, no coordinate that the markers determine, settings out of range: see [`FitError`].
+///
+/// A hip that is flexed by 0.4 rad, from three markers on the pelvis and three on the thigh:
+///
+/// ```
+/// use ambulo::findings::Findings;
+/// use ambulo::formats::osim::OsimMarker;
+/// use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
+/// use ambulo::kinematics::{Posture, body_motion};
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::model::{from_osim, to_osim};
+/// use ambulo::motion::{MarkerPath, MarkerRecording};
+///
+/// let mut findings = Findings::default();
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+/// let mut document = to_osim(&build.human()?.model)?;
+/// for (i, location_m) in [[0.1, 0.0, 0.0], [0.0, -0.2, 0.1], [0.1, -0.1, -0.1]].into_iter().enumerate() {
+///     for body in ["pelvis", "femur_r"] {
+///         document.markers.push(OsimMarker { name: format!("{body}_{i}"), body: body.to_owned(), location_m });
+///     }
+/// }
+/// let model = from_osim(&document, &mut findings)?;
+/// let hip = model.coordinate("hip_flexion_r").ok_or("no such coordinate")?.index();
+/// let still = vec![0.0; model.coordinates().len()];
+/// let mut flexed = still.clone();
+/// flexed[hip] = 0.4;
+/// let poses = body_motion(&model, Posture { q: &flexed, qd: &still, qdd: &still });
+/// let path = |marker: &ambulo::model::Marker| {
+///     let body = marker.body.map_or(0, |body| body.index());
+///     MarkerPath { name: marker.name.clone(), positions: vec![poses[body].pose.place(marker.location); 2] }
+/// };
+/// let markers = model.markers().iter().map(path).collect();
+/// let recording = MarkerRecording { name: "hip".to_owned(), rate_hz: 100.0, times: vec![0.0, 0.01], markers };
+/// let fit = fit_markers(&model, &recording, &FitSettings::default(), &mut findings)?;
+/// let angles = fit.motion.columns[hip].as_ref().ok_or("not determined")?;
+/// assert!((angles[0] - 0.4).abs() < 1e-4, "{angles:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn fit_markers(
     model: &Model,
     markers: &MarkerRecording,

@@ -72,6 +72,23 @@ impl Scene {
     /// # Errors
     /// Files that cannot be read or do not fit, bodies that a figure lacks, joints of a figure that the simulator does not support; each
     /// with line and key.
+    ///
+    /// A ball that falls for a tenth of a second:
+    ///
+    /// ```
+    /// use ambulo::findings::Findings;
+    /// use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
+    ///
+    /// let text = "duration = 0.1\n[[body]]\nname = \"ball\"\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 1, 0]";
+    /// let mut findings = Findings::default();
+    /// let mut no_files = |path: &str| Err(format!("{path}: this scene names no files"));
+    /// let file = SceneFile::parse(text)?;
+    /// let mut scene = Scene::build(&file, SceneSettings::default(), &mut no_files, &mut findings)?;
+    /// scene.run(&mut findings, |_| ())?;
+    /// let height = scene.state().poses[0].translation.y;
+    /// assert!((height - (1.0 - 0.5 * 9.80665 * 0.1 * 0.1)).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn build(
         file: &SceneFile,
         changes: SceneSettings,

@@ -22,6 +22,22 @@ const FRICTION: f64 = 1.0;
 ///
 /// # Errors
 /// If the settings, the figure or the gait are invalid; see [`SyntheticError`].
+///
+/// ```
+/// use ambulo::findings::Findings;
+/// use ambulo::gait::Gait;
+/// use ambulo::model::anthropometry::{Build, SegmentTable};
+/// use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
+///
+/// let mut findings = Findings::default();
+/// let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+/// let gait = Gait::named("free")?;
+/// let mode = SyntheticMode::Paper;
+/// let settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles: 1, rate_hz: 100.0 };
+/// let walk = synthesise(&settings, &mut findings)?;
+/// assert_eq!(walk.loads.len(), 2, "the ground reactions of two feet");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn synthesise(
     settings: &SyntheticWalkSettings<'_>,
     findings: &mut Findings,
