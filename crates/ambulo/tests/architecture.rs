@@ -53,6 +53,7 @@ fn every_main_function_has_an_example_that_runs() {
     for (file, function) in VERBS {
         let text = fs::read_to_string(root().join("crates/ambulo/src").join(file)).unwrap();
         let (before, _) = text.split_once(function).unwrap_or_else(|| panic!("{file}: no `{function}`"));
+        let documented = |line: &&str| line.trim().starts_with("///") || line.trim().starts_with("#[");
         let comment: Vec<&str> = before
             .lines()
             .rev()

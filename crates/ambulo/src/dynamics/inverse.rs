@@ -169,7 +169,6 @@ pub fn inverse_frames(
 }
 
 /// Inverse dynamics of a whole trajectory under the given loads, each with one entry per frame.
-#[must_use]
 ///
 /// A frame at rest, and one in free fall, where nothing is needed:
 ///
@@ -191,6 +190,7 @@ pub fn inverse_frames(
 /// assert!(forces.generalized[vertical][1].abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     let Workspace { plan, arch, many: kernel, .. } = workspace;
     let frames = trajectory.grid().frames;
