@@ -54,12 +54,8 @@ fn every_main_function_has_an_example_that_runs() {
         let text = fs::read_to_string(root().join("crates/ambulo/src").join(file)).unwrap();
         let (before, _) = text.split_once(function).unwrap_or_else(|| panic!("{file}: no `{function}`"));
         let documented = |line: &&str| line.trim().starts_with("///") || line.trim().starts_with("#[");
-        let comment: Vec<&str> = before
-            .lines()
-            .rev()
-            .skip_while(|line| line.trim().is_empty())
-            .take_while(|line| line.trim().starts_with("///"))
-            .collect();
+        let comment: Vec<&str> =
+            before.lines().rev().skip_while(|line| line.trim().is_empty()).take_while(documented).collect();
         assert!(runs(&comment.join("\n")), "{file}: `{function}` has no example");
     }
     assert!(!runs("/// ```no_run\n/// let x = 1;\n"), "an example that does not run");
