@@ -536,7 +536,7 @@ fn a_body_must_be_the_child_of_exactly_one_joint() {
     let text = custom("q", "", "");
     let body = "<Body name=\"drifter\"><mass>1</mass></Body>\n</objects></BodySet>";
     let loose = text.replace("</objects></BodySet>", body);
-    assert_refused(&loose, "<Body name=\"drifter\"", &["body `drifter`", "not joined to ground", "FreeJoint"]);
+    assert_refused(&loose, "<Body name=\"drifter\"", &["body `drifter`", "not connected to ground", "FreeJoint"]);
     let second = "<WeldJoint name=\"second\"><socket_parent_frame>/ground</socket_parent_frame>\
         <socket_child_frame>/bodyset/stone</socket_child_frame></WeldJoint>\n</objects></JointSet>";
     let looped = text.replace("</objects></JointSet>", second);

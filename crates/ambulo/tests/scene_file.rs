@@ -936,7 +936,7 @@ fn built_figures_that_make_no_sense_are_rejected() {
     let said = |build: &str, more: &str| refusal(&person(build, more)).to_string();
     let cases = [
         ("60", "", "line 4, `figure[1].build`: found 60; expected { table = …, mass = …, height = … }"),
-        ("{ mass = 60 }", "", "line 4, `figure[1].build.table`: found no `table`; expected whose segments"),
+        ("{ mass = 60 }", "", "line 4, `figure[1].build.table`: found no `table`; expected the table of segments"),
         (
             "{ table = \"de-leva-woman\", mass = 60, height = 1.65 }",
             "",
