@@ -189,7 +189,7 @@ fn a_standing_trial_must_show_the_same_person_standing_still() {
     forces(&bench, "walk.c3d", &["--static", "walk.c3d"]).warned(&[
         "in the standing trial the markers move",
         "0 of 437 frames",
-        "hint: give a trial in which the person",
+        "hint: use a trial in which the person",
     ]);
     // The standing trial has other names than the walk, so the calibrated body has none of the markers.
     edit_c3d(&bench, "walk.c3d", "prefixed.c3d", |c3d| {

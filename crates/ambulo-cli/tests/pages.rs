@@ -56,7 +56,7 @@ fn two_and_three_runs_are_shown_on_one_page() {
     assert!(page.contains("<title>out / b/out / c - Ambulo</title>"), "{}", &page[..400]);
     bench
         .run(&["report", "out", "--compare", "c", "--compare", "c", "--compare", "c"])
-        .refused(&["found 3 folders", "2 at most"]);
+        .refused(&["found 3 folders", "at most 2"]);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn anything_but_a_result_folder_is_rejected_with_a_hint() {
     bench.write("paper/claims.json", "[]");
     bench.run(&["report", "nothing"]).refused(&["nothing", "no such folder", "hint:"]);
     bench.run(&["report", "empty"]).refused(&["empty", "found no summary.json"]);
-    bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote it"]);
+    bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote this folder"]);
     bench.run(&["report", "out/report.html"]).refused(&["this is a file", "its folder is out"]);
     bench.run(&["report", "out", "-o", "page.txt"]).refused(&["ends in .html"]);
     bench.run(&["view", "walk.mot"]).refused(&["no page"]);
