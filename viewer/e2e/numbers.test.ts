@@ -16,13 +16,13 @@ interface Drawn {
   start: number;
   frameStep: number;
   values: number[];
-  /** Distance of neighbouring values in the page. */
+  /** Quantisation step of the values in the page. */
   step: number;
-  /** Whether the panel's own array holds the same. */
+  /** Whether the panel's own array has the same values. */
   same: boolean;
 }
 
-/** Reads every curve that says where it comes from out of the page, on both axes; and which panels have none of these. */
+/** Reads every curve with a source column from the page, on both axes, and lists the panels without such curves. */
 async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string[] }> {
   let curves: Drawn[] = [];
   let untold: string[] = [];
@@ -71,7 +71,7 @@ async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string
 /** Panels whose curves are computed from several columns. */
 const DERIVED = ["friction_use", "residual_force"];
 
-/** Compares the curves of a page with the files beside it; returns how many numbers agree. */
+/** Compares the curves of a page with the files in its folder; returns the number of equal values. */
 async function compare(name: string): Promise<{ curves: number; numbers: number }> {
   const tables = new Map<string, Map<string, Column>>();
   const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
@@ -107,7 +107,7 @@ async function compare(name: string): Promise<{ curves: number; numbers: number 
   return { curves: curves.length, numbers: count };
 }
 
-/** Ground forces are 0 in the file while a foot carries nothing; the page leaves a gap there. */
+/** Ground forces are 0 in the file while a foot is unloaded; the page has a gap there. */
 function isGap(value: number, curve: Drawn): boolean {
   return Number.isNaN(value) || (value === 0 && curve.file.startsWith("grf"));
 }
@@ -120,14 +120,14 @@ function onFrames(column: Column | undefined, curve: Drawn): number[] | undefine
 }
 
 for (const name of ["demo", "recording", "predicted"]) {
-  test(`${name}: every number drawn is the file's`, async (t) => {
+  test(`${name}: every number drawn equals the file`, async (t) => {
     const { curves, numbers } = await compare(name);
     t.diagnostic(`${name}: ${numbers} numbers of ${curves} curves compared with the files`);
     assert.ok(curves >= 20, `${curves} curves`);
   });
 }
 
-test("the friction used is that of the ground forces in the file", async () => {
+test("the friction used agrees with the ground forces in the file", async () => {
   const table = readTable(readFileSync(join(PAGES, "demo", "grf.mot"), "utf8"));
   const column = (side: string, axis: string): number[] => table.get(`ground_force_${side}_v${axis}`)?.values ?? [];
   await withPage("demo", async ({ page }) => {
