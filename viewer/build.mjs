@@ -1,6 +1,6 @@
 // Bundles the viewer into crates/ambulo-report/data/report/viewer.js and viewer.css; with `--check` compares instead of writing.
 //
-// The first line of the script carries a hash of all that it is made from, so that a Rust test can tell without npm whether the
+// The first line of the script has a hash of all its sources, so that a Rust test can check without npm whether the
 // committed bundle belongs to the sources (crates/ambulo-report/tests/viewer_bundle.rs computes the same hash).
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative, sep } from "node:path";
@@ -11,7 +11,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
 const target = join(repository, "crates/ambulo-report/data/report");
 
-/** Files that the bundle is made from, as paths from the repository's root with `/`, sorted. */
+/** Source files of the bundle, as sorted paths from the repository's root with `/`. */
 function sources() {
   const files = readdirSync(join(here, "src"), { withFileTypes: true, recursive: true })
     .filter((entry) => entry.isFile())
@@ -46,7 +46,7 @@ function notice(name) {
   return `/*! ${name}\n\n${text}\n*/\n`;
 }
 
-/** Text that may stand inside of a script or style element: no end tag, no comment start. */
+/** Escapes text for a script or style element: no end tag, no comment start. */
 function embeddable(text) {
   return text.replace(/<\/(script|style)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
 }
@@ -80,7 +80,7 @@ for (const [name, text] of Object.entries(files)) {
   if (!process.argv.includes("--check")) {
     writeFileSync(path, text);
   } else if (readFileSync(path, "utf8") !== text) {
-    console.error(`${name} is not what the sources give; run \`npm run build\` in viewer/ and commit it`);
+    console.error(`${name} differs from its sources; run \`npm run build\` in viewer/ and commit it`);
     process.exitCode = 1;
   }
 }

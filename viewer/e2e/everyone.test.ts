@@ -16,7 +16,7 @@ interface Finding {
 for (const name of ["demo", "infeasible", "compared"]) {
   for (const colorScheme of ["light", "dark"] as const) {
     for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
-      test(`${name}, ${colorScheme}, ${device}: all can use it, nothing is wider than the window`, async () => {
+      test(`${name}, ${colorScheme}, ${device}: accessible, and not wider than the window`, async () => {
         await withPage(
           name,
           async ({ page }) => {

@@ -4,17 +4,33 @@ export interface Column {
   values: number[];
 }
 
-/** Columns by name of a `.mot` or `.sto` file. */
+/** Columns by name of a `.mot`, `.sto` or `.csv` file. */
 export function readTable(text: string): Map<string, Column> {
+  const header = text.indexOf("endheader");
+  const separator = header < 0 ? "," : "\t";
   const lines = text
-    .slice(text.indexOf("endheader"))
+    .slice(Math.max(header, 0))
     .split("\n")
-    .slice(1)
-    .filter((line) => line.trim() !== "");
-  const names = lines[0]?.split("\t").map((name) => name.trim()) ?? [];
-  const rows = lines.slice(1).map((line) => line.split("\t").map(Number));
+    .slice(header < 0 ? 0 : 1)
+    .filter((line) => line.trim() !== "" && !line.startsWith("#"));
+  const names = lines[0]?.split(separator).map((name) => name.trim()) ?? [];
+  const rows = lines.slice(1).map((line) => line.split(separator).map(Number));
   const times = rows.map((row) => row[0] ?? Number.NaN);
   return new Map(names.map((name, at) => [name, { times, values: rows.map((row) => row[at] ?? Number.NaN) }]));
+}
+
+/** A column over a gait cycle: linear interpolation at 0 to 100 %. */
+export function timeNormalised({ times, values }: Column, start: number, end: number): number[] {
+  return Array.from({ length: 101 }, (_, percent) => {
+    const time = start + (percent / 100) * (end - start);
+    const next = Math.max(
+      times.findIndex((instant) => instant >= time - 1e-9),
+      1,
+    );
+    const [before, after] = [times[next - 1] ?? Number.NaN, times[next] ?? Number.NaN];
+    const share = Math.min((time - before) / (after - before), 1);
+    return (values[next - 1] ?? Number.NaN) * (1 - share) + (values[next] ?? Number.NaN) * share;
+  });
 }
 
 /** Values from 0 to 100 % of `cycles.csv`, by `side cycle quantity`. */

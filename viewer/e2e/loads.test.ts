@@ -18,13 +18,13 @@ const ALL = [
   "scene",
   "compared",
 ];
-/** Bytes of the page of a walk of ten seconds, at most. */
+/** Largest size of the page of a ten-second walk [bytes]. */
 const LARGEST = 1_500_000;
-/** Time to the first picture, at most [ms], also where a processor draws it. */
+/** Longest time to the first picture [ms], also without a graphics card. */
 const SLOWEST_MS = 1000;
 
 for (const name of ALL) {
-  test(`${name}: opens from disk without a complaint and asks for nothing`, async () => {
+  test(`${name}: opens from disk without console messages and requests nothing`, async () => {
     await withPage(name, async ({ page, requests, complaints }) => {
       assert.deepEqual(complaints, []);
       assert.deepEqual(
@@ -39,20 +39,20 @@ for (const name of ALL) {
   });
 }
 
-/** Time [ms] at which the figure's pixels can be read: the picture is done then, not only asked for. */
+/** Time [ms] at which the figure's pixels can be read: the picture is then finished, not only requested. */
 function firstPixel(): number {
   const gl = document.querySelector<HTMLCanvasElement>("canvas[role=img]")?.getContext("webgl2");
   gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   return performance.now();
 }
 
-test("the page of ten seconds is small", (t) => {
+test("the page of a ten-second walk is small", (t) => {
   const bytes = statSync(join(PAGES, "long/report.html")).size;
   t.diagnostic(`page of a walk of ten seconds: ${bytes} bytes`);
   assert.ok(bytes <= LARGEST, `${bytes} bytes`);
 });
 
-/** How much longer than its work a program takes here now: 1 on an idle machine, more where others compute too. */
+/** Current slowdown of the machine: elapsed time over processor time of a program; 1 if idle, more under load. */
 function crowding(): number {
   const [started, work] = [performance.now(), process.cpuUsage()];
   const used = (): number => {
@@ -65,7 +65,7 @@ function crowding(): number {
   return Math.max(1, (performance.now() - started) / used());
 }
 
-/** Median time to the first picture and what is allowed meanwhile [ms]. */
+/** Median time to the first picture, and the limit under the current load [ms]. */
 async function firstPicture(): Promise<{ times: number[]; median: number; most: number }> {
   const times: number[] = [];
   const crowd = crowding();
@@ -78,13 +78,13 @@ async function firstPicture(): Promise<{ times: number[]; median: number; most: 
   return { times, median: times[1] ?? Number.POSITIVE_INFINITY, most: SLOWEST_MS * Math.max(crowd, crowding()) };
 }
 
-test("the first picture is there soon", async (t) => {
+test("the first picture appears soon", async (t) => {
   let met = false;
-  // Other work on the machine only ever adds time, so one round of three without it is enough.
+  // Other load only adds time, so one round of three without it is enough.
   for (let round = 0; round < 3 && !met; round += 1) {
     const { times, median, most } = await firstPicture();
     const words = times.map((time) => time.toFixed(0)).join(", ");
-    t.diagnostic(`first picture after ${words} ms, drawn by the processor; ${most.toFixed(0)} ms allowed`);
+    t.diagnostic(`first picture after ${words} ms without graphics card; ${most.toFixed(0)} ms allowed`);
     met = median < most;
   }
   assert.ok(met, "no round was fast enough");

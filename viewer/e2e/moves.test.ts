@@ -3,7 +3,7 @@ import { test } from "node:test";
 import type { Page } from "playwright-core";
 import { drawn, PHONE, picture, timeOf, withPage } from "./page";
 
-/** Middle of a panel's plot, at a part of its width, in CSS pixels of the window. */
+/** Point at half the height and a fraction of the width of a panel's plot, in CSS pixels of the window. */
 async function inPlot(page: Page, panel: string, part: number): Promise<{ x: number; y: number }> {
   const plot = page.locator(`#panel-${panel} .u-over`);
   await plot.scrollIntoViewIfNeeded();
@@ -12,7 +12,7 @@ async function inPlot(page: Page, panel: string, part: number): Promise<{ x: num
   return { x: box.x + part * box.width, y: box.y + box.height / 2 };
 }
 
-/** Where the cursors of the panels in sight are, by panel and side. */
+/** Positions of the cursors of the visible panels, by panel and side. */
 function cursors(page: Page): Promise<Record<string, string>> {
   return page.evaluate(() =>
     Object.fromEntries(
@@ -26,7 +26,7 @@ function cursors(page: Page): Promise<Record<string, string>> {
   );
 }
 
-test("play moves time and figure, pause holds them", async () => {
+test("play moves time and figure, pause stops them", async () => {
   await withPage("demo", async ({ page }) => {
     const [time, before] = [await timeOf(page), await picture(page)];
     await page.getByRole("button", { name: "Play", exact: true }).click();
@@ -53,7 +53,7 @@ test("hovering a curve moves time and figure", async () => {
   });
 });
 
-test("the slider moves the cursors of all panels in sight", async () => {
+test("the slider moves the cursors of all visible panels", async () => {
   await withPage("demo", async ({ page }) => {
     await page.locator("#panel-hip_flexion_angle .u-over").scrollIntoViewIfNeeded();
     await drawn(page);
@@ -96,7 +96,7 @@ test("keys: space, arrows, Home, cameras, help", async () => {
   });
 });
 
-test("the focused picture turns by keys and comes nearer", async () => {
+test("keys rotate and zoom the focused picture", async () => {
   await withPage("demo", async ({ page }) => {
     await page.locator("canvas[role=img]").focus();
     const prints = new Set([(await picture(page)).print]);
@@ -108,7 +108,7 @@ test("the focused picture turns by keys and comes nearer", async () => {
   });
 });
 
-test("what is shown beside the figure can be chosen", async () => {
+test("the reader can choose the parts shown with the figure", async () => {
   await withPage("compared", async ({ page }) => {
     const prints = new Set([(await picture(page)).print]);
     for (const word of ["Moments", "Forces", "Soles", "Ghost"]) {
@@ -122,7 +122,7 @@ test("what is shown beside the figure can be chosen", async () => {
   });
 });
 
-test("a finger on a curve moves the time; on the figure it scrolls or turns", async () => {
+test("a finger on a curve moves the time; on the figure it scrolls or rotates", async () => {
   const phone = { viewport: PHONE, hasTouch: true, isMobile: true };
   await withPage(
     "demo",
@@ -142,7 +142,7 @@ test("a finger on a curve moves the time; on the figure it scrolls or turns", as
   );
 });
 
-test("the picture follows the theme and the size of its place", async () => {
+test("the picture follows the theme and the size of its host", async () => {
   await withPage("demo", async ({ page }) => {
     const light = await picture(page);
     await page.keyboard.press("t");

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { type Column, readCycles, readTable } from "./files";
+import { type Column, readCycles, readTable, timeNormalised } from "./files";
 import { PAGES, withPage } from "./page";
 
 /** A curve as the page draws it. */
@@ -13,19 +13,21 @@ interface Drawn {
   factor: number;
   side: "r" | "l" | null;
   cycle: number | null;
+  /** Start and end of the cycle [s]. */
+  span: [number, number] | null;
   start: number;
   frameStep: number;
   values: number[];
-  /** Distance of neighbouring values in the page. */
+  /** Quantisation step of the values in the page. */
   step: number;
-  /** Whether the panel's own array holds the same. */
+  /** Whether the panel's own array has the same values. */
   same: boolean;
 }
 
-/** Reads every curve that says where it comes from out of the page, on both axes; and which panels have none of these. */
-async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string[] }> {
+/** Reads every curve with a source column from the page, on both axes, and lists the panels without such curves. */
+async function curvesOf(name: string): Promise<{ curves: Drawn[]; withoutSource: string[] }> {
   let curves: Drawn[] = [];
-  let untold: string[] = [];
+  let withoutSource: string[] = [];
   await withPage(name, async ({ page }) => {
     curves = await page.evaluate(() => {
       const { page: data, numbers, display } = window.ambulo;
@@ -48,37 +50,39 @@ async function curvesOf(name: string): Promise<{ curves: Drawn[]; untold: string
             const values = numbers.read(curve.values);
             if (curve.origin) {
               const cycle = "number" in curve ? curve.number : null;
+              const own = session.cycles.find(({ side, number }) => side === curve.side && number === cycle);
+              const span: [number, number] | null = own ? [own.start_s, own.end_s] : null;
               const drawn = { values: [...values], step: curve.values.step, same: same(panel.id, values) };
-              out.push({ panel: panel.id, ...curve.origin, side: curve.side, cycle, ...base, ...drawn });
+              out.push({ panel: panel.id, ...curve.origin, side: curve.side, cycle, span, ...base, ...drawn });
             }
           }
         }
       }
       return out;
     });
-    untold = await page.evaluate(() => {
+    withoutSource = await page.evaluate(() => {
       const [session] = window.ambulo.page.sessions;
       const panels = [...(session?.groups ?? []), ...(session?.quality.groups ?? [])].flatMap((group) => group.panels);
-      const tells = (curve: { origin: unknown }): boolean => curve.origin !== null;
+      const hasSource = (curve: { origin: unknown }): boolean => curve.origin !== null;
       return panels
-        .filter((panel) => panel.empty === null && ![...panel.cycles, ...panel.traces].some(tells))
+        .filter((panel) => panel.empty === null && ![...panel.cycles, ...panel.traces].some(hasSource))
         .map((panel) => panel.id);
     });
   });
-  return { curves, untold };
+  return { curves, withoutSource };
 }
 
 /** Panels whose curves are computed from several columns. */
 const DERIVED = ["friction_use", "residual_force"];
 
-/** Compares the curves of a page with the files beside it; returns how many numbers agree. */
+/** Compares the curves of a page with the files in its folder; returns the number of equal values. */
 async function compare(name: string): Promise<{ curves: number; numbers: number }> {
   const tables = new Map<string, Map<string, Column>>();
   const cycles = readCycles(readFileSync(join(PAGES, name, "cycles.csv"), "utf8"));
   let count = 0;
-  const { curves, untold } = await curvesOf(name);
+  const { curves, withoutSource } = await curvesOf(name);
   assert.deepEqual(
-    untold.filter((panel) => !DERIVED.includes(panel)),
+    withoutSource.filter((panel) => !DERIVED.includes(panel)),
     [],
     "panels without a curve of a file",
   );
@@ -87,10 +91,13 @@ async function compare(name: string): Promise<{ curves: number; numbers: number 
     if (!tables.has(curve.file) && curve.file !== "cycles.csv") {
       tables.set(curve.file, readTable(readFileSync(join(PAGES, name, curve.file), "utf8")));
     }
+    const column = tables.get(curve.file)?.get(curve.column);
     const wanted =
       curve.cycle === null
-        ? onFrames(tables.get(curve.file)?.get(curve.column), curve)
-        : cycles.get(`${curve.side} ${curve.cycle} ${curve.column}`);
+        ? onFrames(column, curve)
+        : curve.file === "cycles.csv"
+          ? cycles.get(`${curve.side} ${curve.cycle} ${curve.column}`)
+          : column && curve.span && timeNormalised(column, ...curve.span);
     assert.ok(wanted, `${where}: the file has no such column`);
     assert.equal(curve.values.length, wanted.length, where);
     assert.ok(curve.same, `${where}: the panel draws something else`);
@@ -107,7 +114,7 @@ async function compare(name: string): Promise<{ curves: number; numbers: number 
   return { curves: curves.length, numbers: count };
 }
 
-/** Ground forces are 0 in the file while a foot carries nothing; the page leaves a gap there. */
+/** Ground forces are 0 in the file while a foot is unloaded; the page has a gap there. */
 function isGap(value: number, curve: Drawn): boolean {
   return Number.isNaN(value) || (value === 0 && curve.file.startsWith("grf"));
 }
@@ -120,14 +127,14 @@ function onFrames(column: Column | undefined, curve: Drawn): number[] | undefine
 }
 
 for (const name of ["demo", "recording", "predicted"]) {
-  test(`${name}: every number drawn is the file's`, async (t) => {
+  test(`${name}: every number drawn equals the file`, async (t) => {
     const { curves, numbers } = await compare(name);
     t.diagnostic(`${name}: ${numbers} numbers of ${curves} curves compared with the files`);
     assert.ok(curves >= 20, `${curves} curves`);
   });
 }
 
-test("the friction used is that of the ground forces in the file", async () => {
+test("the friction used agrees with the ground forces in the file", async () => {
   const table = readTable(readFileSync(join(PAGES, "demo", "grf.mot"), "utf8"));
   const column = (side: string, axis: string): number[] => table.get(`ground_force_${side}_v${axis}`)?.values ?? [];
   await withPage("demo", async ({ page }) => {

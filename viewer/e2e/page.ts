@@ -4,13 +4,13 @@ import { after } from "node:test";
 import { pathToFileURL } from "node:url";
 import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
 
-/** Result folders with their pages, made by run.mjs. */
+/** Folder of the result folders and their pages, made by run.mjs. */
 export const PAGES = process.env["PAGES"] ?? "";
 export const SHOTS = process.env["SHOTS"] ?? "";
 export const DESKTOP = { width: 1400, height: 1000 };
 export const PHONE = { width: 390, height: 844 };
 
-/** Names under which Chromium is found, if CHROMIUM names none. */
+/** Paths searched for Chromium if the variable CHROMIUM is not set. */
 const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 /** WebGL without a graphics card. */
 const ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
@@ -20,13 +20,13 @@ let running: Promise<Browser> | null = null;
 function browser(): Promise<Browser> {
   const executablePath = process.env["CHROMIUM"] ?? CHROMIUM.find((path) => existsSync(path));
   if (!executablePath) {
-    throw new Error("no Chromium: install it, or name it in CHROMIUM");
+    throw new Error("Chromium was not found: install it, or set CHROMIUM to its path");
   }
   running ??= chromium.launch({ executablePath, args: ARGUMENTS });
   return running;
 }
 
-/** Ends the browser, without which this process would not end. */
+/** Closes the browser; otherwise this process would not end. */
 export async function closeBrowser(): Promise<void> {
   const was = running;
   running = null;
@@ -35,16 +35,16 @@ export async function closeBrowser(): Promise<void> {
 
 after(closeBrowser);
 
-/** A page that was opened, and what it did meanwhile. */
+/** An open page with its requests and messages. */
 export interface Opened {
   page: Page;
-  /** Addresses that it asked for. */
+  /** Requested addresses. */
   requests: string[];
-  /** Errors and warnings of the console, exceptions. */
+  /** Console errors and warnings, and exceptions. */
   complaints: string[];
 }
 
-/** Opens a result's page, lets `use` look at it, and closes it; `before` is script that runs first. */
+/** Opens a result's page, passes it to `use` and closes it; `before` is script that runs first. */
 export async function withPage(
   name: string,
   use: (opened: Opened) => Promise<void>,
@@ -76,7 +76,7 @@ export function addressOf(name: string): string {
   return pathToFileURL(join(PAGES, name, "report.html")).href;
 }
 
-/** Lets the page draw what was asked for. */
+/** Waits until the page has drawn. */
 export async function drawn(page: Page): Promise<void> {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
@@ -86,7 +86,7 @@ export function timeOf(page: Page): Promise<number> {
   return page.evaluate(() => window.ambulo.clock.time);
 }
 
-/** A fingerprint of the figure's picture, the share of its pixels that are not the ground's, and how many colours it has. */
+/** A hash of the figure's picture, the share of its pixels that differ from the background, and its number of colours. */
 export function picture(page: Page): Promise<{ print: number; share: number; colors: number }> {
   return page.evaluate(async () => {
     const image = new Image();

@@ -1,4 +1,4 @@
-// The pages that the tests open, made by the program from its own walks and from a recording of the repository.
+// Makes the pages that the tests open, with the program, from synthetic walks and a recording of the repository.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 const repository = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const recording = join(repository, "crates/ambulo-cli/tests/recording");
 
-/** The program: the one that AMBULO names, or else the last built one. */
+/** Path of the program: the variable AMBULO, or else the program built last. */
 function program() {
   const built = ["release", "debug"].map((profile) => join(repository, "target", profile, "ambulo")).filter(existsSync);
   built.sort((a, b) => statSync(b).mtimeMs - statSync(a).mtimeMs);
@@ -18,7 +18,7 @@ function program() {
   return found;
 }
 
-/** Fills a folder with a result folder for each page; returns the folder. */
+/** Fills a folder with one result folder per page; returns the folder. */
 export function makePages(folder) {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
@@ -106,7 +106,7 @@ export function makePages(folder) {
   return folder;
 }
 
-/** Runs the program; 1 means a motion that nobody could do, which is fine here. */
+/** Runs the program; exit code 1 (motion not feasible) is accepted. */
 function run(command, args) {
   const { status, stderr, error } = spawnSync(command, [...args, "--quiet"], { encoding: "utf8" });
   if (error || (status !== 0 && status !== 1)) {
@@ -114,7 +114,7 @@ function run(command, args) {
   }
 }
 
-/** A recording whose markers are all lost for half a second: `.trc` leaves them blank. */
+/** Writes a recording without any marker for half a second: `.trc` leaves such fields blank. */
 function gaps(from, to) {
   const lines = readFileSync(from, "utf8").split("\n");
   const first = lines.findIndex((line) => /^\d+\t/.test(line));
@@ -128,10 +128,10 @@ function gaps(from, to) {
   writeFileSync(to, blank.join("\n"));
 }
 
-/** Text that would run if anything took it for HTML. */
+/** Text that would run if the page interpreted it as HTML. */
 const SCRIPT = "</script><script>hacked()</script><img src=x onerror=hacked()>";
 
-/** Names of file and model that hold script. */
+/** Puts script into the names of file and model. */
 function hostile(input, folder) {
   const escaped = SCRIPT.replaceAll("<", "&lt;").replaceAll(">", "&gt;");
   const model = readFileSync(join(input, "figure.osim"), "utf8").replace(
@@ -142,7 +142,7 @@ function hostile(input, folder) {
   cpSync(join(input, "walk.mot"), join(folder, "<img src=x onerror=hacked()>.mot"));
 }
 
-/** Script in every sentence of the summary. */
+/** Puts script into every sentence of the summary. */
 function hostileSummary(folder) {
   const path = join(folder, "summary.json");
   const within = (value, key) => {

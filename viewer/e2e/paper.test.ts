@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { SHOTS, withPage } from "./page";
 
-/** A4 in points. */
+/** Size of A4 in points. */
 const A4 = { width: 595, height: 842 };
 
 test("prints on A4 with the figure as a still", async () => {

@@ -7,7 +7,7 @@ import type { View3D } from "../src/view3d";
 
 declare global {
   interface Window {
-    /** What the page shows, for tests. */
+    /** State of the page, for tests. */
     readonly ambulo: {
       readonly page: Page;
       readonly numbers: Numbers;
@@ -16,7 +16,7 @@ declare global {
       readonly view: View3D | null;
       readonly panels: Record<string, Drawing | null>;
     };
-    /** Set by script that must not run. */
+    /** Set by a script that must not run. */
     hacked?: () => void;
   }
 }

@@ -3,14 +3,16 @@ import { test } from "node:test";
 import type { Page } from "playwright-core";
 import { addressOf, type Opened, withPage } from "./page";
 
-/** Panels, tables and the figure's place that hold neither a drawing nor a sentence. */
+/** Panels, tables and views that contain neither a drawing nor a sentence. */
 function emptyBoxes(page: Page): Promise<string[]> {
   return page.evaluate(() => {
-    const says = (box: Element): boolean => (box.querySelector(".empty")?.textContent ?? "").trim().length > 20;
+    const hasSentence = (box: Element): boolean => (box.querySelector(".empty")?.textContent ?? "").trim().length > 20;
     const panels = [...document.querySelectorAll("figure.panel")].filter(
-      (box) => !says(box) && window.ambulo.panels[box.id.replace("panel-", "")] == null,
+      (box) => !hasSentence(box) && window.ambulo.panels[box.id.replace("panel-", "")] == null,
     );
-    const views = [...document.querySelectorAll(".view")].filter((box) => !says(box) && !box.querySelector("canvas"));
+    const views = [...document.querySelectorAll(".view")].filter(
+      (box) => !hasSentence(box) && !box.querySelector("canvas"),
+    );
     const tables = [...document.querySelectorAll("table")].filter((box) => !box.querySelector("tbody tr"));
     const chapters = [...document.querySelectorAll(".chapter")].filter((box) => box.children.length < 2);
     return [...panels, ...views, ...tables, ...chapters].map(
@@ -20,22 +22,22 @@ function emptyBoxes(page: Page): Promise<string[]> {
 }
 
 for (const name of ["demo", "recording", "no_ground", "one_leg", "no_cycles", "gaps", "scene"]) {
-  test(`${name}: every box holds a drawing or a sentence`, async () => {
+  test(`${name}: every box contains a drawing or a sentence`, async () => {
     await withPage(name, async ({ page }) => {
       assert.deepEqual(await emptyBoxes(page), []);
     });
   });
 }
 
-const SAID: [string, RegExp][] = [
+const MISSING: [string, RegExp][] = [
   ["no_ground", /without ground forces|no ground forces/i],
   ["one_leg", /left/i],
   ["no_cycles", /cycle/i],
   ["gaps", /is missing at 1\.50/],
 ];
 
-for (const [name, words] of SAID) {
-  test(`${name}: the page says what is missing`, async () => {
+for (const [name, words] of MISSING) {
+  test(`${name}: the page names missing data`, async () => {
     await withPage(name, async ({ page }) => {
       const sentences = await page.locator(".missing, .empty, #quality").allTextContents();
       assert.match(sentences.join("\n"), words);
@@ -43,7 +45,7 @@ for (const [name, words] of SAID) {
   });
 }
 
-test("what is not feasible is red, with the reason in words", async () => {
+test("infeasible spans are red, with the reason as text", async () => {
   await withPage("infeasible", async ({ page }) => {
     const spans = page.locator(".lane .span");
     assert.ok((await spans.count()) > 0);
@@ -72,7 +74,7 @@ const NO_WEBGL = `
     return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest);
   };`;
 
-test("without WebGL a sentence stands in place of the figure, and all else works", async () => {
+test("without WebGL a sentence replaces the figure, and everything else works", async () => {
   const look = async ({ page }: Opened): Promise<void> => {
     assert.match(await page.locator(".view").innerText(), /WebGL/);
     assert.deepEqual(await emptyBoxes(page), []);

@@ -5,22 +5,22 @@ import { ROOM } from "./plot";
 import { colour, STYLE } from "./style";
 import type { Size } from "./vector";
 
-/** Words around a drawing. */
+/** Title, axis name and legend texts of a drawing. */
 export interface Words {
   readonly title: string;
   readonly unit: string;
   readonly positive: string;
   readonly negative: string;
-  /** Whose the grey band is, in short; empty if there is none. */
+  /** Short source of the grey band; empty if there is no band. */
   readonly band: string;
 }
 
-/** Room that the captions of a saved picture take [CSS px]. */
+/** Margins for the captions of a saved picture [CSS px]. */
 export const CAPTIONS = { above: 20, below: 34 } as const;
 
 const SAMPLE = 20;
 
-/** What positive and negative values mean. */
+/** Meaning of positive and negative values. */
 export function directionWords({ positive, negative }: Words): string {
   return [...(positive ? [`↑ ${positive}`] : []), ...(negative ? [`↓ ${negative}`] : [])].join("   ");
 }
@@ -57,7 +57,7 @@ export function captions(
   ];
 }
 
-/** A sample and a name for every side of every session. */
+/** Legend entries: a line sample and a name per side and session. */
 function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly string[]): SVGElement[] {
   const thick = drawing.lines.filter((line) => line.role === "mean" || line.role === "main");
   const y = size.height - 9;
@@ -73,7 +73,7 @@ function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly
       fill: colour("quiet"),
       "font-size": pixels(STYLE.font.note_pt),
     });
-    // Letters are about half as wide as high.
+    // The width of a letter is about half its height.
     x += SAMPLE + 14 + name.length * 0.52 * pixels(STYLE.font.note_pt);
     return [svgElement("line", sample), word];
   });

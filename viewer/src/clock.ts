@@ -1,9 +1,9 @@
 import type { TimeAxis } from "./contract";
 
-/** Longest wall time between two pictures that playing follows [s]: after a pause of the browser it goes on where it was. */
+/** Longest real time between two pictures that playback follows [s]: if the browser pauses for longer, playback resumes at the same time. */
 const LONGEST_FRAME_S = 0.25;
 
-/** The one time of the page [s], that of the first session. It runs in a loop from the first instant to the last. */
+/** The time that the whole page shows [s], on the first session's time axis. Playback loops over the recording. */
 export class Clock {
   readonly start: number;
   readonly end: number;
@@ -30,7 +30,7 @@ export class Clock {
     return this.#playing;
   }
 
-  /** Seconds of the motion in a second of the wall. */
+  /** Seconds of motion per second of real time. */
   get speed(): number {
     return this.#speed;
   }
@@ -63,7 +63,7 @@ export class Clock {
     }
   }
 
-  /** Goes to a time; beyond the ends to the end. */
+  /** Sets the time, limited to the recording. */
   seek(time: number): void {
     if (Number.isFinite(time)) {
       this.#time = Math.min(Math.max(time, this.start), this.end);
@@ -71,20 +71,20 @@ export class Clock {
     }
   }
 
-  /** Goes to an instant of the recording so many further on, and stops there. */
+  /** Moves by a number of frames of the recording and pauses there. */
   nudge(frames: number): void {
     this.#playing = false;
     const frame = Math.round((this.#time - this.start) / this.step) + frames;
     this.seek(this.start + frame * this.step);
   }
 
-  /** Calls the listener at every change; the returned function ends that. */
+  /** Calls the listener at every change; the returned function removes it. */
   subscribe(listener: (clock: Clock) => void): () => void {
     this.#listeners.add(listener);
     return () => this.#listeners.delete(listener);
   }
 
-  /** Asks for the next picture once, however often playing starts and stops until then. */
+  /** Requests the next picture only once, even if playback starts and stops several times before it. */
   #ask(): void {
     if (!this.#asked) {
       this.#asked = true;

@@ -4,17 +4,17 @@ import type { Display } from "./display";
 import type { Numbers } from "./numbers";
 import type { View3D } from "./view3d";
 
-/** What every part of the page needs. */
+/** Objects that every part of the page uses. */
 export interface Context {
   readonly page: Page;
-  /** The first session: the clock's time is its time. */
+  /** The first session; the clock runs on its time axis. */
   readonly first: Session;
   readonly numbers: Numbers;
   readonly clock: Clock;
   readonly display: Display;
 }
 
-/** A context with the figure. */
+/** The context together with the 3-D figure. */
 export interface Stage extends Context {
   readonly view: View3D | null;
 }

@@ -8,20 +8,20 @@ import { cycleAt, percentAt } from "./phase";
 import { switchTheme } from "./style";
 import { timeline } from "./timeline";
 
-/** Speeds of playing, in parts of the true one. */
+/** Playback speeds; 1 is real time. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2] as const;
 
-/** A camera of the figure. */
+/** Camera of the 3-D view. */
 export type Camera = "side" | "front" | "free";
 
-/** What the keyboard does as well. */
+/** Actions that the keyboard can trigger too. */
 export interface Actions {
   camera(kind: Camera): void;
   faster(steps: number): void;
   help(): void;
 }
 
-/** Below the figure: play, speed, time, cameras. */
+/** Controls below the figure: playback, speed, time, cameras. */
 export function playControls(stage: Stage): {
   readonly bar: HTMLElement;
   readonly actions: Pick<Actions, "camera" | "faster">;
@@ -58,7 +58,7 @@ export function playControls(stage: Stage): {
   return { bar, actions: { camera, faster } };
 }
 
-/** At the top: what the panels show, theme, print, help. */
+/** Controls at the top: content of the panels, theme, print, help. */
 export function pageControls(stage: Stage, help: () => void): HTMLElement {
   const { display } = stage;
   const axes = choice<Axis>(
@@ -126,7 +126,7 @@ function speedSelect({ clock }: Stage): HTMLElement {
   return made;
 }
 
-/** Time, and how far each foot is in its cycle. */
+/** Current time, and the percentage of the gait cycle of each side. */
 function readout({ clock, first }: Stage): HTMLElement {
   const time = element("span", { class: "time" });
   const sides = (["r", "l"] as const).filter((side) => first.cycles.some((cycle) => cycle.side === side));

@@ -1,7 +1,7 @@
 import type { PageSide } from "./contract";
 import type { Axis } from "./drawing";
 
-/** What the reader has chosen to see in all panels. */
+/** The reader's choices for all panels. */
 export class Display {
   #axis: Axis = "cycle";
   #sides: readonly PageSide[] = ["r", "l"];
@@ -25,7 +25,7 @@ export class Display {
     this.#tell();
   }
 
-  /** Calls the listener after every change; the returned function ends that. */
+  /** Calls the listener after every change; the returned function removes it. */
   subscribe(listener: () => void): () => void {
     this.#listeners.add(listener);
     return () => this.#listeners.delete(listener);

@@ -2,10 +2,10 @@ import type { Origin, PageSide, Panel, RedSpan, Session, TimeAxis } from "./cont
 import type { Numbers } from "./numbers";
 import { percentAt } from "./phase";
 
-/** What the horizontal axis is: percent of the gait cycle or time. */
+/** Horizontal axis: percent of the gait cycle, or time. */
 export type Axis = "cycle" | "time";
 
-/** What a line is; decides on its looks. */
+/** Role of a line; determines its style. */
 export type LineRole = "cycle" | "mean" | "main" | "measured" | "limit" | "infeasible";
 
 /** A curve in the panel's units. */
@@ -14,16 +14,16 @@ export interface Line {
   readonly role: LineRole;
   readonly side: PageSide | null;
   readonly session: number;
-  /** Number of the cycle, if it is one. */
+  /** Cycle number, if the line is a single cycle. */
   readonly cycle: number | null;
-  /** Which of several main lines of one side over time, from 0. */
+  /** Index among several main lines of one side over time, from 0. */
   readonly variant: number;
   readonly x: Float64Array;
   readonly y: Float64Array;
   readonly origin: Origin | null;
 }
 
-/** A surface between two curves. */
+/** A filled area between two curves. */
 export interface Area {
   readonly kind: "band" | "deviation";
   readonly side: PageSide | null;
@@ -33,21 +33,21 @@ export interface Area {
   readonly high: Float64Array;
 }
 
-/** A tick at the bottom. */
+/** A tick at the bottom of the panel. */
 export interface Mark {
-  readonly kind: "strike" | "toe-off";
+  readonly kind: "strike" | "foot-off";
   readonly side: PageSide;
   readonly session: number;
   readonly x: number;
 }
 
-/** A time in which something is not feasible. */
+/** A time span that is not feasible. */
 export interface Shade {
   readonly from: number;
   readonly to: number;
 }
 
-/** All that is drawn in a panel, in its units, back to front. */
+/** Everything drawn in a panel, in the panel's units, back to front. */
 export interface Drawing {
   readonly axis: Axis;
   readonly x: readonly [number, number];
@@ -58,32 +58,32 @@ export interface Drawing {
   readonly marks: readonly Mark[];
 }
 
-/** A panel of a session. */
+/** One session's data for a panel. */
 export interface PanelSource {
-  /** Place of the session in the page. */
+  /** Index of the session in the page. */
   readonly index: number;
   readonly session: Session;
   readonly panel: Panel;
 }
 
-/** What of the sources is to be drawn. */
+/** Selection of the data to draw. */
 export interface DrawingChoice {
   readonly axis: Axis;
-  /** Sides that are shown; what has no side always is. */
+  /** Sides to show; curves without a side are always shown. */
   readonly sides: readonly PageSide[];
 }
 
 const PERCENT = Float64Array.from({ length: 101 }, (_, i) => i);
-/** Free room above and below, in parts of what is drawn. */
+/** Margin above and below, as a fraction of the range of the data. */
 const ROOM = 0.06;
-/** Zero is shown if it is not further away than this, in parts of what is drawn. */
+/** Zero is shown if its distance is at most this fraction of the range of the data. */
 const ZERO_WITHIN = 0.35;
-/** Values that differ by less are the same: no unit of a panel means anything there but rounding. */
+/** Values that differ by less count as equal: in every unit used, such a difference is rounding. */
 const NOISE = 1e-9;
-/** A limit further away than this, in parts of what is drawn, does not squeeze the rest. */
+/** A limit further away than this fraction of the range of the data is left outside the panel, so that the curves stay legible. */
 const LIMIT_WITHIN = 0.6;
 
-/** What is drawn of one quantity of one or more sessions; nothing if there is nothing, over time nothing without values over time. */
+/** The drawing of one quantity for one or more sessions; `null` if the chosen axis has no values. */
 export function drawing(sources: readonly PanelSource[], numbers: Numbers, choice: DrawingChoice): Drawing | null {
   const axis = possibleAxis(sources, choice.axis);
   if (axis === null) {
@@ -125,7 +125,7 @@ function possibleAxis(sources: readonly PanelSource[], wanted: Axis): Axis | nul
   return time ? "time" : null;
 }
 
-/** Whether there is anything to be drawn over any axis. */
+/** Whether there is anything to draw on either axis. */
 export function hasValues(sources: readonly PanelSource[]): boolean {
   return possibleAxis(sources, "cycle") !== null;
 }
@@ -134,7 +134,7 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
   const { panel, index } = source;
   const lines: Line[] = [];
   const marks: Mark[] = [];
-  // Of several sessions only the means are drawn, so that they can be told apart; without means the cycles.
+  // With several sessions only means are drawn, to keep the sessions distinguishable; without means, the cycles.
   if (all.length === 1 || panel.means.length === 0) {
     lines.push(...cycleLines(source, numbers));
   }
@@ -153,7 +153,7 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
       origin: null,
     });
     if (mean.toe_off_percent !== null) {
-      marks.push({ kind: "toe-off", side: mean.side, session: index, x: mean.toe_off_percent });
+      marks.push({ kind: "foot-off", side: mean.side, session: index, x: mean.toe_off_percent });
     }
   }
   return { lines, areas: index === firstWithBand(all) ? bandOf(panel, numbers) : [], marks, shades: [] };
@@ -216,7 +216,7 @@ function timePart(source: PanelSource, numbers: Numbers, all: readonly PanelSour
     }
   }
   const marks = session.events.map((event) => ({
-    kind: event.strike ? ("strike" as const) : ("toe-off" as const),
+    kind: event.strike ? ("strike" as const) : ("foot-off" as const),
     side: event.side,
     session: index,
     x: event.time_s + shift,
@@ -231,7 +231,7 @@ function isRed(spans: readonly RedSpan[], side: PageSide | null, time: number): 
   );
 }
 
-/** Sessions begin together. */
+/** Shifts times so that all sessions start together. */
 function timeShift(source: PanelSource, all: readonly PanelSource[]): number {
   const first = all[0] ?? source;
   return first.session.time.start_s - source.session.time.start_s;
@@ -251,13 +251,13 @@ function around(mean: Float64Array, sd: Float64Array): { low: Float64Array; high
   return { low: mean.map((m, i) => m - (sd[i] ?? Number.NaN)), high: mean.map((m, i) => m + (sd[i] ?? Number.NaN)) };
 }
 
-/** The values at some places, gaps elsewhere; nothing if there are none. */
+/** Keeps the selected values and leaves gaps elsewhere; `null` if no value is selected. */
 function partOf(values: Float64Array, inside: (i: number) => boolean): Float64Array | null {
   const part = values.map((value, i) => (inside(i) ? value : Number.NaN));
   return part.some(Number.isFinite) ? part : null;
 }
 
-/** A range that shows everything with some room, and zero if it is near. */
+/** A range that contains all values with a margin, and zero if it is near. */
 export function valueRange(lines: readonly Line[], areas: readonly Area[]): [number, number] {
   const main = lines.filter((line) => line.role !== "limit").map((line) => line.y);
   let [low, high] = extent([...main, ...areas.flatMap((area) => [area.low, area.high])]);
@@ -297,7 +297,7 @@ function inOrder<T>(items: readonly T[], rank: (item: T) => number): T[] {
   return [...items].sort((a, b) => rank(a) - rank(b));
 }
 
-/** A side in a word. */
+/** Name of a side. */
 export function sideName(side: PageSide): string {
   return side === "r" ? "right" : "left";
 }

@@ -27,7 +27,7 @@ export function svgElement<K extends keyof SVGElementTagNameMap>(
   return made;
 }
 
-/** A button with a visible word or drawing, a spoken name and what it does. */
+/** A button with a visible text or icon, a name for screen readers, and an action. */
 export function button(name: string, content: Node | string, action: () => void): HTMLButtonElement {
   const made = element("button", { type: "button", title: name }, content);
   if (typeof content !== "string" || content !== name) {
@@ -37,7 +37,7 @@ export function button(name: string, content: Node | string, action: () => void)
   return made;
 }
 
-/** Buttons of which one is pressed; `choose` shows another one without calling the action. */
+/** Buttons of which exactly one is pressed; `choose` changes the pressed one without calling the action. */
 export function choice<T extends string>(
   name: string,
   options: readonly (readonly [T, string])[],

@@ -7,7 +7,7 @@ import { foldButton, MANY } from "./fold";
 import type { Panels } from "./panels";
 import { tableSection } from "./table";
 
-/** Whether a person could do this: verdict, red spans over the recording, reasons in words. */
+/** The feasibility section: verdict, red spans over the recording, and reasons as text. */
 export function feasibility(context: Context, panels: Panels): HTMLElement[] {
   const judged = context.page.sessions.filter((session) => session.feasibility !== null);
   if (judged.length === 0) {
@@ -41,7 +41,7 @@ function one(context: Context, panels: Panels, session: Session, verdict: Feasib
   return [...name, sentence, ...red];
 }
 
-/** A lane a check, over the whole recording. */
+/** One lane per check, over the whole recording. */
 function lanes(context: Context, session: Session, red: readonly RedSpan[], go: (span: RedSpan) => void): HTMLElement {
   const { start_s, step_s, frames } = session.time;
   const length = step_s * Math.max(frames - 1, 1);
@@ -53,7 +53,7 @@ function lanes(context: Context, session: Session, red: readonly RedSpan[], go: 
       .map((span) => {
         const made = button(`${spanTime(span)}: ${span.sentence}`, "", () => go(span));
         made.className = "span";
-        // The list of reasons below has the same for the keyboard.
+        // The list of reasons below offers the same to keyboard users.
         made.tabIndex = -1;
         made.style.left = `${part(span.from_s)}%`;
         made.style.width = `max(4px, ${part(span.to_s) - part(span.from_s)}%)`;

@@ -1,8 +1,8 @@
 import { element } from "./element";
 
-/** What is shown of a folded list or table; css/table.css hides the others on the screen, paper has all. */
+/** Number of items shown in a folded list or table; css/table.css hides the others on the screen, and print shows all. */
 const FEW = 10;
-/** A list or table with more than this is folded at first. */
+/** A list or table with more items is folded at first. */
 export const MANY = 15;
 
 /** Folds a list or table to its first items, and unfolds it. */

@@ -5,13 +5,13 @@ import { element } from "./element";
 import { PanelView } from "./panel";
 import type { Panels } from "./panels";
 
-/** A grid of panels with what each session has for them. */
+/** A grid of panels with the data of each session. */
 interface MergedGroup {
   readonly group: Group;
   readonly panels: Map<string, PanelSource[]>;
 }
 
-/** Grids of panels of all sessions: those of the same name share a panel. `level` is that of the headings. */
+/** Grids of panels for all sessions; equal names share a panel. `level` is the heading level. */
 export function groups(
   context: Context,
   panels: Panels,

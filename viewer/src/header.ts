@@ -9,10 +9,10 @@ const SOURCES: Readonly<Record<PageSource, string>> = {
   none: "No ground forces",
 };
 
-/** Screens on which the settings are folded at first. */
+/** Screens narrow enough to fold the settings at first. */
 const NARROW = "(max-width: 900px)";
 
-/** The top of the page: whose it is and where the ground forces come from. */
+/** The top of the page: title and source of the ground forces. */
 export function header(page: Page): HTMLElement {
   const badges = [...new Set(page.sessions.map((session) => session.source))].map((source) =>
     element("span", { class: `badge ${source}` }, SOURCES[source]),
@@ -20,7 +20,7 @@ export function header(page: Page): HTMLElement {
   return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
 }
 
-/** Who, with what, how, beside a picture of the figure for paper; then what the page cannot show. */
+/** Subject, model and settings, next to a picture of the figure for print; then the data that the page cannot show. */
 export function about(page: Page, still: HTMLImageElement): HTMLElement {
   const [first] = page.sessions;
   const facts = page.sessions.length === 1 && first ? factList(first) : factTable(page.sessions);
@@ -29,7 +29,7 @@ export function about(page: Page, still: HTMLImageElement): HTMLElement {
   return element(
     "div",
     { class: "about" },
-    element("div", { class: "beside" }, details, still),
+    element("div", { class: "subject-row" }, details, still),
     ...missing(page.sessions),
   );
 }
@@ -61,7 +61,7 @@ function factTable(sessions: readonly Session[]): HTMLElement {
   );
 }
 
-/** What the page cannot show. */
+/** Lists the data that the page cannot show. */
 function missing(sessions: readonly Session[]): HTMLElement[] {
   const all = [...new Set(sessions.flatMap((session) => session.missing))];
   const sentences = all.map((sentence) => {

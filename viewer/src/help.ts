@@ -2,24 +2,24 @@ import { button, element } from "./element";
 
 const KEYS: readonly (readonly [string, string])[] = [
   ["Space", "play, pause"],
-  ["← →", "one frame back, on"],
-  ["Shift ← →", "ten frames back, on"],
-  ["Home, End", "to the beginning, to the end"],
+  ["← →", "one frame back, forward"],
+  ["Shift ← →", "ten frames back, forward"],
+  ["Home, End", "first frame, last frame"],
   ["+ −", "play faster, slower"],
   ["1 2 3", "camera: side, front, free"],
-  ["A D W S, Q E", "turn the figure, zoom (click it first)"],
-  ["C", "gait cycle or time"],
-  ["T", "dark or light"],
+  ["A D W S, Q E", "rotate the figure, zoom (click it first)"],
+  ["C", "switch between gait cycle and time"],
+  ["T", "switch between dark and light"],
   ["?", "this help"],
 ];
 
 const HINTS: readonly string[] = [
-  "Move over a curve, or press and drag: the figure goes to that instant of that cycle.",
-  "⋯ at a panel saves it as PNG, SVG or CSV.",
-  "Everything is in this one file; it asks nothing of any network.",
+  "Move over a curve, or press and drag: the figure shows that instant of that cycle.",
+  "The ⋯ menu of a panel saves it as PNG, SVG or CSV.",
+  "This one file contains everything; it works offline and loads nothing from the network.",
 ];
 
-/** A dialog with keys and hints; opens with the returned function. */
+/** A dialog with keys and hints; the returned function opens it. */
 export function helpDialog(): { readonly dialog: HTMLDialogElement; open(): void } {
   const rows = KEYS.map(([key, what]) =>
     element("div", {}, element("dt", {}, element("kbd", {}, key)), element("dd", {}, what)),
@@ -45,7 +45,7 @@ export function helpDialog(): { readonly dialog: HTMLDialogElement; open(): void
   return { dialog, open };
 }
 
-/** Whether a click was beside the dialog. */
+/** Whether a click was outside the dialog. */
 function outside(dialog: HTMLElement, event: MouseEvent): boolean {
   const { left, right, top, bottom } = dialog.getBoundingClientRect();
   return event.clientX < left || event.clientX > right || event.clientY < top || event.clientY > bottom;

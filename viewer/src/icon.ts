@@ -1,6 +1,6 @@
 import { svgElement } from "./element";
 
-/** Paths in a box of 16 by 16, drawn with the colour of the text. */
+/** SVG paths in a box of 16 by 16, drawn in the colour of the text. */
 const PATHS = {
   play: "M4 2.5v11l9-5.5z",
   pause: "M4 2.5h3v11H4zM9 2.5h3v11H9z",
@@ -9,7 +9,7 @@ const PATHS = {
   help: "M5.2 5.4C5.4 3.5 6.5 2.6 8 2.6c1.700 0 2.900 1 2.900 2.600 0 1.300-.7 1.900-1.500 2.500-.6.500-.8.800-.8 1.700H7.300c0-1.500.5-2.100 1.300-2.700.6-.5.9-.8.9-1.500 0-.8-.6-1.300-1.500-1.300s-1.400.500-1.500 1.500zM7.100 11h1.700v1.900H7.100z",
 } as const;
 
-/** A drawing for a button. */
+/** An icon for a button. */
 export function icon(name: keyof typeof PATHS): SVGElement {
   const path = svgElement("path", { d: PATHS[name], fill: "currentColor" });
   return svgElement("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, path);

@@ -2,7 +2,7 @@ import type { Context } from "./context";
 import type { Actions } from "./controls";
 import { switchTheme } from "./style";
 
-/** What a key does, if it does something. */
+/** The action of a key, if it has one. */
 export function keyAction(key: string, shift: boolean, context: Context, actions: Actions): (() => void) | null {
   const { clock, display } = context;
   const frames = shift ? 10 : 1;
@@ -44,7 +44,7 @@ export function keyAction(key: string, shift: boolean, context: Context, actions
   }
 }
 
-/** Listens to the keyboard, except where a key already means something. */
+/** Handles keys, except where the focused element uses them. */
 export function listenToKeys(context: Context, actions: Actions): void {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || ownMeaning(event)) {
@@ -58,7 +58,7 @@ export function listenToKeys(context: Context, actions: Actions): void {
   });
 }
 
-/** Keys that buttons, lists, sliders and open dialogs take for themselves. */
+/** Whether a button, list, slider or open dialog uses the key itself. */
 function ownMeaning(event: KeyboardEvent): boolean {
   const target = event.target instanceof Element ? event.target : null;
   if (document.querySelector("dialog[open]") || target?.closest("select, input:not([type=range]), textarea")) {

@@ -6,7 +6,7 @@ import type { Panels } from "./panels";
 import { areaSample, lineSample } from "./sample";
 import { colour, onThemeChange, STYLE, sessionColour } from "./style";
 
-/** What colours and dashes mean; follows theme and choices. */
+/** The legend of colours and dashes; follows the theme and the reader's choices. */
 export function legend(context: Context, panels: Panels): HTMLElement {
   const list = element("ul", { class: "legend", "aria-label": "Legend" });
   const fill = (): void =>
@@ -39,7 +39,7 @@ function entries(context: Context, panels: Panels): (Node | string)[][] {
   return [...lines, ...(context.display.axis === "cycle" ? overCycle(context, panels) : overTime(context)), ...wrong];
 }
 
-/** Whether anything of a side is drawn. */
+/** Whether any curve of a side is drawn. */
 export function hasSide(sessions: readonly Session[], side: PageSide): boolean {
   const groups = sessions.flatMap((session) => [...session.groups, ...session.quality.groups]);
   return groups.some((group) =>
@@ -53,8 +53,8 @@ function sideWords(sides: readonly PageSide[]): string {
 
 function overCycle({ page }: Context, panels: Panels): (Node | string)[][] {
   const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
-  const band = panels.citations().length > 0 ? [[areaSample(colour("band"), 1), "normal, mean ± 1 SD"]] : [];
-  return [[curves], ...band, ["ticks below: toe-off"]];
+  const band = panels.citations().length > 0 ? [[areaSample(colour("band"), 1), "normative, mean ± 1 SD"]] : [];
+  return [[curves], ...band, ["ticks below: foot off"]];
 }
 
 function overTime({ page }: Context): (Node | string)[][] {
@@ -74,7 +74,7 @@ function overTime({ page }: Context): (Node | string)[][] {
         ]
       : []),
     ...(page.sessions.length === 1 && page.sessions.some((one) => one.events.length > 0)
-      ? [["ticks below: strike (short), toe-off (long)"]]
+      ? [["ticks below: foot strike (short), foot off (long)"]]
       : []),
   ];
 }

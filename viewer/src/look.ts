@@ -2,7 +2,7 @@ import type { PageSide } from "./contract";
 import type { Area, Line } from "./drawing";
 import { colour, STYLE, sessionColour, sideColour } from "./style";
 
-/** How a line is drawn; lengths in CSS pixels. */
+/** Style of a line; lengths in CSS pixels. */
 export interface Look {
   readonly colour: string;
   readonly width: number;
@@ -10,7 +10,7 @@ export interface Look {
   readonly opacity: number;
 }
 
-/** CSS pixels in a point. */
+/** CSS pixels per point. */
 const PX_PER_PT = 96 / 72;
 
 /** A length of style.json in CSS pixels. */
@@ -18,13 +18,13 @@ export function pixels(points: number): number {
   return points * PX_PER_PT;
 }
 
-/** How many sessions are compared and which sides are shown: decides on what colour and dash stand for. */
+/** Number of compared sessions and the sides shown; determines the meaning of colour and dash. */
 export interface Scheme {
   readonly sessions: number;
   readonly sides: readonly PageSide[];
 }
 
-/** Looks of a line. One session: colour and dash say the side. Several: colour says the session, dash the side or, of one side, the session. */
+/** Style of a line. One session: colour and dash mark the side. Several: colour marks the session, dash the side, or the session too if one side is shown. */
 export function lineLook(line: Line, scheme: Scheme): Look {
   const widths = STYLE.lines_pt;
   switch (line.role) {
@@ -42,7 +42,7 @@ export function lineLook(line: Line, scheme: Scheme): Look {
   }
 }
 
-/** Colour and opacity of a surface. */
+/** Colour and opacity of an area. */
 export function areaLook(area: Area, scheme: Scheme): { readonly colour: string; readonly opacity: number } {
   if (area.kind === "band") {
     return { colour: colour("band"), opacity: STYLE.band.opacity };
@@ -50,7 +50,7 @@ export function areaLook(area: Area, scheme: Scheme): { readonly colour: string;
   return { colour: sideLook(area, scheme).colour, opacity: STYLE.uncertainty_opacity };
 }
 
-/** Colour and dash of what belongs to a side of a session. */
+/** Colour and dash for one side of one session. */
 export function sideLook(
   item: { readonly side: PageSide | null; readonly session: number },
   scheme: Scheme,
@@ -63,7 +63,7 @@ export function sideLook(
   return { colour: sessionColour(item.session), dash };
 }
 
-/** Looks of the first main line of a side are those of the side; others differ by dash and, without a side, by colour. */
+/** The first main line of a side has the style of the side; others differ by dash and, without a side, by colour. */
 function mainLook(line: Line, scheme: Scheme): { readonly colour: string; readonly dash: readonly number[] } {
   const own = sideLook(line, scheme);
   if (line.variant === 0) {
@@ -74,7 +74,7 @@ function mainLook(line: Line, scheme: Scheme): { readonly colour: string; readon
   return { colour: free ? sessionColour(line.variant - 1) : own.colour, dash };
 }
 
-/** Dashes of the second, third, ... main line of a side, in widths of a mean's line. */
+/** Dashes of the second, third, ... main line of a side, in multiples of the width of a mean line. */
 const VARIANT_DASHES: readonly (readonly number[])[] = [
   [5, 1.5],
   [1, 1.3],
@@ -85,7 +85,7 @@ function sideDash(side: PageSide | null): number[] {
   return side === "l" ? STYLE.left.dash.map(scaled) : [];
 }
 
-/** Dashes are given in widths of a mean's line. */
+/** Converts dashes from multiples of the width of a mean line to CSS pixels. */
 function scaled(length: number): number {
   return length * pixels(STYLE.lines_pt.mean);
 }

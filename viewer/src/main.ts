@@ -25,18 +25,18 @@ import "./css/panel.css";
 import "./css/table.css";
 import "./css/print.css";
 
-/** Where in a right cycle the page begins [%]: the leg is loaded and the picture has forces. */
+/** Percent of a right cycle at which the page opens: the leg is loaded, so the first picture shows forces. */
 const BEGIN_PERCENT = 15;
-/** The figure is drawn after this time even if the rest is not on the screen yet. */
+/** The figure is drawn after this time even if the rest is not yet on the screen. */
 const LONGEST_PAINT_MS = 100;
 
-/** Draws the page, or says why it cannot be drawn. */
+/** Draws the page, or shows why that is not possible. */
 async function main(root: HTMLElement): Promise<void> {
   followSystem();
   const { page, numbers } = await readPage();
   const [first] = page.sessions;
   if (!first) {
-    throw new Error("This report holds no session.");
+    throw new Error("This report contains no motion. Make the report again with `ambulo report`.");
   }
   document.documentElement.toggleAttribute("data-compared", page.sessions.length > 1);
   const context: Context = { page, first, numbers, clock: new Clock(first.time), display: new Display() };
@@ -50,7 +50,11 @@ async function main(root: HTMLElement): Promise<void> {
   const nav = element("nav", { class: "bar", "aria-label": "Page" });
   const report = content(context, panels);
   report.prepend(about(page, still), nav);
-  const footer = element("footer", {}, `Ambulo ${page.program}. One file, nothing is loaded from elsewhere.`);
+  const footer = element(
+    "footer",
+    {},
+    `Ambulo ${page.program}. This file is complete and loads nothing from the network.`,
+  );
   root.replaceChildren(header(page), element("main", { class: "columns" }, aside, report), footer);
   panels.start();
   await painted();
@@ -79,7 +83,7 @@ async function main(root: HTMLElement): Promise<void> {
   requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(ready)));
 }
 
-/** Curves, tables, quality, feasibility. */
+/** The report: curves, tables, quality and feasibility. */
 function content(context: Context, panels: Panels): HTMLElement {
   const { sessions } = context.page;
   const curves = groups(context, panels, (session) => session.groups);
@@ -98,10 +102,10 @@ function content(context: Context, panels: Panels): HTMLElement {
   );
 }
 
-/** Where the grey bands that are drawn now come from, in full. */
+/** Full sources of the grey bands that are drawn now. */
 function sources(context: Context, panels: Panels): HTMLElement {
   const list = element("ul", {});
-  const made = element("section", { class: "sources" }, element("h3", {}, "Normal bands"), list);
+  const made = element("section", { class: "sources" }, element("h3", {}, "Normative bands"), list);
   const fill = (): void => {
     const all = panels.citations();
     made.hidden = all.length === 0;
@@ -112,7 +116,7 @@ function sources(context: Context, panels: Panels): HTMLElement {
   return made;
 }
 
-/** Which of the sessions compared cannot be seen over the gait cycle. */
+/** Names the compared sessions that have no gait cycles. */
 function cycleless({ page }: Context): HTMLElement[] {
   const without = page.sessions.filter((session) => session.cycles.length === 0);
   if (without.length === 0 || without.length === page.sessions.length) {
@@ -131,10 +135,10 @@ function contents(report: HTMLElement): HTMLElement {
   return element("div", { class: "links" }, ...links);
 }
 
-/** The figure, or a sentence why there is none. */
+/** The figure, or the reason why it cannot be shown. */
 function figure(host: HTMLElement, context: Context): View3D | null {
   if (context.page.sessions.every((session) => session.view === null)) {
-    host.replaceChildren(element("p", { class: "empty" }, "There is no body to show in 3-D."));
+    host.replaceChildren(element("p", { class: "empty" }, "The report contains no body to show in 3-D."));
     return null;
   }
   try {
@@ -147,7 +151,7 @@ function figure(host: HTMLElement, context: Context): View3D | null {
   }
 }
 
-/** Words and curves come on the screen before the figure; a window that nobody sees is not waited for. */
+/** Waits until text and curves are on the screen, but not in a hidden window. */
 function painted(): Promise<void> {
   return new Promise((done) => {
     requestAnimationFrame(() => setTimeout(done));

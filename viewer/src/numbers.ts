@@ -1,9 +1,9 @@
 import type { Series } from "./contract";
 
-/** Code of no number. */
+/** Code of a missing number. */
 const NONE = 65535;
 
-/** The numbers of a page, read series by series. */
+/** Reads the numbers of a page, series by series. */
 export class Numbers {
   readonly #codes: Uint16Array;
   readonly #read = new Map<Series, Float64Array>();
@@ -12,12 +12,12 @@ export class Numbers {
     this.#codes = codes;
   }
 
-  /** Numbers of a page's block: base64 of zlib of low bytes, then high bytes, of differences of 16-bit codes. */
+  /** Decodes a page's block: base64 of zlib of low bytes, then high bytes, of differences of 16-bit codes. */
   static async decode(base64: string): Promise<Numbers> {
     return new Numbers(codesOf(await inflated(bytesOf(base64.trim()))));
   }
 
-  /** Values of a series; what is not a number is a gap. The same array every time: not to be changed. */
+  /** Values of a series; NaN is a gap. Returns the same array every time, which must not be changed. */
   read(series: Series): Float64Array {
     const known = this.#read.get(series);
     if (known) {
@@ -25,7 +25,9 @@ export class Numbers {
     }
     const codes = this.#codes.subarray(series.at, series.at + series.count);
     if (codes.length !== series.count) {
-      throw new Error(`The page's numbers end at ${this.#codes.length}, a series needs ${series.at + series.count}.`);
+      throw new Error(
+        `This report has ${this.#codes.length} numbers, but a curve needs ${series.at + series.count}: the file seems to be damaged.`,
+      );
     }
     const values = Float64Array.from(codes, (q) => (q === NONE ? Number.NaN : series.low + series.step * q));
     this.#read.set(series, values);

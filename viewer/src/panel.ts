@@ -13,10 +13,10 @@ import { lineSample } from "./sample";
 import { saveCsv, savePng, saveSvg } from "./save";
 import { vector } from "./vector";
 
-/** Size of a plot on paper [CSS px]; it is stretched to its column. */
+/** Size of a plot in print [CSS px], before it is stretched to its column. */
 const PRINT = { width: 240, height: 128, above: 0, below: 0 };
 
-/** One quantity: title, plot, value at the cursor, menu to save it. */
+/** Panel of one quantity: title, plot, value at the cursor, menu to save it. */
 export class PanelView {
   readonly figure: HTMLElement;
   readonly id: string;
@@ -27,7 +27,7 @@ export class PanelView {
   readonly #paper: HTMLElement;
   readonly #readout = element("span", { class: "readout", "aria-hidden": "true" });
   readonly #source: HTMLElement;
-  readonly #absent = element("p", { class: "empty", hidden: "" }, "no values over time");
+  readonly #absent = element("p", { class: "empty", hidden: "" }, "No values over time");
   readonly #key = element("p", { class: "key", "aria-hidden": "true" });
   readonly #values = new Map<string, HTMLElement>();
   readonly #cursors = new Map<PageSide | null, HTMLElement>();
@@ -54,17 +54,17 @@ export class PanelView {
     }
   }
 
-  /** Whether there is anything to be drawn over any axis. */
+  /** Whether there is anything to draw on either axis. */
   get drawable(): boolean {
     return hasValues(this.#sources);
   }
 
-  /** Where the grey band that is drawn now comes from, in full; empty if there is none. */
+  /** Full source of the grey band that is drawn now; empty if there is none. */
   get citation(): string {
     return this.#source.title;
   }
 
-  /** What is drawn now. */
+  /** The current drawing. */
   get drawing(): Drawing | null {
     return this.#drawing;
   }
@@ -74,7 +74,7 @@ export class PanelView {
     return this.#plot;
   }
 
-  /** Whether somebody can see it; draws it when that is so for the first time. */
+  /** Whether the panel is in sight; draws it the first time that it is. */
   set visible(visible: boolean) {
     this.#visible = visible;
     if (visible) {
@@ -83,7 +83,7 @@ export class PanelView {
     }
   }
 
-  /** Draws anew what another axis or other sides ask for; at once if visible, or else when it becomes so. */
+  /** Redraws after a change of axis or sides: at once if visible, otherwise when the panel becomes visible. */
   update(): void {
     this.#drawing = drawing(this.#sources, this.#context.numbers, this.#context.display);
     if (this.drawable) {
@@ -97,7 +97,7 @@ export class PanelView {
     }
   }
 
-  /** Colours of another theme. */
+  /** Redraws in the colours of the current theme. */
   recolour(): void {
     if (this.#drawing && this.#key.childElementCount > 0) {
       this.#key.replaceChildren(...this.#keyEntries(this.#drawing));
@@ -105,7 +105,7 @@ export class PanelView {
     this.#chart?.redraw(false);
   }
 
-  /** Another width of its column. */
+  /** Adapts to a new width of the column. */
   resize(): void {
     const { clientWidth, clientHeight } = this.#plot;
     if (this.#chart && clientWidth > 0 && clientWidth !== this.#chart.width) {
@@ -136,13 +136,13 @@ export class PanelView {
     }
   }
 
-  /** The plot as a vector picture, for paper. */
+  /** Makes the plot a vector picture for print. */
   prepareForPaper(): void {
     const picture = this.#drawing ? [vector(this.#drawing, this.#scheme(), PRINT)] : [];
     this.#paper.replaceChildren(...picture);
   }
 
-  /** Draws the plot at the size of its host, if that has not been done. */
+  /** Draws the plot at the size of its host, unless it is drawn already. */
   draw(): void {
     const { clientWidth, clientHeight } = this.#plot;
     if (!this.#drawing || this.#chart || clientWidth === 0) {
@@ -180,7 +180,7 @@ export class PanelView {
     return head;
   }
 
-  /** Words that depend on what is drawn: places of the values, source of the band, summary. */
+  /** Updates the texts that depend on the drawing: values, source of the band, summary. */
   #fillWords(now: Drawing | null): void {
     this.#values.clear();
     this.#plot.hidden = now === null;
@@ -201,7 +201,7 @@ export class PanelView {
     this.#plot.setAttribute("aria-label", this.#summary(now));
   }
 
-  /** Names and values of several main lines of a side. */
+  /** Names and values where a side has several main lines. */
   #keyEntries(now: Drawing): HTMLElement[] {
     const main = now.lines.filter((line) => line.role === "main" && line.session === 0);
     return main.map((line) => {
@@ -210,7 +210,7 @@ export class PanelView {
     });
   }
 
-  /** Whose the grey band is, in short; in full it stands below all panels. */
+  /** Short source of the grey band; the full source is below all panels. */
   #fillSource(now: Drawing | null): void {
     const band = this.#sources.find(({ panel }) => panel.band !== null)?.panel.band;
     const visible = band && now?.areas.some((area) => area.kind === "band");
@@ -245,7 +245,7 @@ export class PanelView {
     return menu;
   }
 
-  /** The plot in words, for those who cannot see it. */
+  /** Text alternative of the plot, for screen readers. */
   #summary(now: Drawing): string {
     const { title, unit, positive, negative } = this.#words;
     const digits = digitsFor(...now.y);
@@ -260,7 +260,7 @@ export class PanelView {
   }
 }
 
-/** Main lines are known by their side and number. */
+/** Key of a main line: side and number. */
 function keyOf(line: { readonly side: PageSide | null; readonly variant: number }): string {
   return `${line.side}${line.variant}`;
 }

@@ -3,13 +3,13 @@ import type { Drawing } from "./drawing";
 import type { PanelView } from "./panel";
 import { onThemeChange } from "./style";
 
-/** How far below the window panels are drawn in advance. */
+/** Distance below the window within which panels are drawn in advance. */
 const MARGIN = "400px 0px";
 
-/** A panel out of sight is drawn after this time, even if the browser is never idle. */
+/** A panel out of sight is drawn after this time even if the browser is never idle. */
 const LONGEST_WAIT_MS = 100;
 
-/** All panels of the page: draws those in sight, keeps them at the clock's time, the reader's choices and the theme. */
+/** All panels of the page: draws the visible ones and keeps them in step with the clock, the reader's choices and the theme. */
 export class Panels {
   readonly #views: PanelView[] = [];
   readonly #byHost = new Map<Element, PanelView>();
@@ -41,7 +41,7 @@ export class Panels {
     }
   }
 
-  /** Draws what is in sight at once, without waiting for the observer, and the rest while the browser is idle. */
+  /** Draws visible panels at once, without waiting for the observer, and the others while the browser is idle. */
   start(): void {
     this.#each((view) => {
       view.visible = view.host.getBoundingClientRect().top < innerHeight;
@@ -49,7 +49,7 @@ export class Panels {
     this.#drawLater();
   }
 
-  /** Draws what is not in sight while the browser is idle, one panel at a time. */
+  /** Draws panels out of sight one at a time while the browser is idle. */
   #drawLater(): void {
     const waiting = [...this.#views];
     const next = (): void => {
@@ -61,22 +61,22 @@ export class Panels {
     whenIdle(next);
   }
 
-  /** Vector pictures of all panels, for paper. */
+  /** Makes vector pictures of all panels, for print. */
   prepareForPaper(): void {
     this.#each((view) => view.prepareForPaper());
   }
 
-  /** Where the grey bands that are drawn now come from, each once. */
+  /** Sources of the grey bands that are drawn now, each once. */
   citations(): string[] {
     return [...new Set(this.#views.flatMap(({ citation }) => (citation ? [citation] : [])))];
   }
 
-  /** What is drawn, panel by panel. */
+  /** Current drawings by panel. */
   drawings(): Record<string, Drawing | null> {
     return Object.fromEntries(this.#views.map((view) => [view.id, view.drawing]));
   }
 
-  /** Brings a panel into sight and marks it for a moment. */
+  /** Scrolls to a panel and highlights it for a moment. */
   show(id: string): void {
     const figure = this.#views.find((view) => view.id === id)?.figure;
     if (figure) {
@@ -109,7 +109,7 @@ export class Panels {
   }
 }
 
-/** Not every browser tells when it is idle. */
+/** Runs when the browser is idle; not every browser reports that. */
 function whenIdle(action: () => void): void {
   if (typeof requestIdleCallback === "function") {
     requestIdleCallback(action, { timeout: LONGEST_WAIT_MS });

@@ -2,7 +2,7 @@ import type { Panels } from "./panels";
 import { setPrinting } from "./style";
 import type { View3D } from "./view3d";
 
-/** Makes the page ready for paper before it is printed: light, all panels as vectors, the figure as a picture. */
+/** Prepares the page for printing: light theme, all panels as vectors, the figure as a picture. */
 export function prepareForPaper(panels: Panels, view: View3D | null, still: HTMLImageElement): void {
   let ready = false;
   let folded: HTMLDetailsElement[] = [];
@@ -27,7 +27,7 @@ export function prepareForPaper(panels: Panels, view: View3D | null, still: HTML
   };
   addEventListener("beforeprint", before);
   addEventListener("afterprint", after);
-  // Where a browser prints without these events, the media query tells.
+  // The media query covers browsers that print without these events.
   matchMedia("print").addEventListener("change", (event) => (event.matches ? before() : after()));
 }
 

@@ -4,9 +4,9 @@ import { roundValues, shown } from "./format";
 import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
 import { colour, STYLE } from "./style";
 
-/** Room of the axes [CSS px]. */
+/** Size of the axes [CSS px]. */
 export const ROOM = { left: 32, bottom: 17, top: 5, right: 13 } as const;
-/** Height of the ticks of strikes and toe-offs [CSS px]. */
+/** Height of the ticks for foot strikes and foot offs [CSS px]. */
 export const MARK = 9;
 
 /** Values at the axes of a drawing. */
@@ -16,14 +16,14 @@ export function ticksOf(drawing: Drawing): { readonly x: number[]; readonly y: n
   return { x, y: roundValues(drawing.y[0], drawing.y[1], 5) };
 }
 
-/** Words at the ticks of the horizontal axis; the last one has the unit. */
+/** Labels of the horizontal axis; the last one has the unit. */
 export function xWords(ticks: readonly number[], axis: Axis): string[] {
   return ticks.map((tick, i) =>
     i === ticks.length - 1 ? (axis === "cycle" ? `${tick}%` : `${tick} s`) : String(tick),
   );
 }
 
-/** Words at the ticks of the vertical axis, all with the same digits. */
+/** Labels of the vertical axis, all with the same number of decimal places. */
 export function yWords(ticks: readonly number[]): string[] {
   const largest = Math.max(...ticks.map(Math.abs));
   if (largest < 1e-3 || largest >= 1e6) {
@@ -36,7 +36,7 @@ export function yWords(ticks: readonly number[]): string[] {
 /** Draws into a host of the given size. */
 export function plot(host: HTMLElement, drawing: Drawing, scheme: Scheme, width: number, height: number): uPlot {
   const ticks = ticksOf(drawing);
-  // uPlot enlarges whole pixels only on fine screens.
+  // On high-resolution screens uPlot scales whole pixels only.
   const font = `${Math.round(pixels(STYLE.font.tick_pt))}px ${STYLE.font.family}`;
   const axis = { font, stroke: () => colour("quiet"), ticks: { show: false } };
   const grid = { width: pixels(STYLE.lines_pt.grid), stroke: () => colour("grid") };
@@ -65,8 +65,8 @@ export function plot(host: HTMLElement, drawing: Drawing, scheme: Scheme, width:
 }
 
 /**
- * Lets the processor draw on the canvases that are made meanwhile. A plot is drawn once and then stands; to prepare the graphics card
- * for it takes longer, and without a card half a second.
+ * Makes the processor draw on the canvases that are created meanwhile. A plot is drawn once and does not change; preparing the graphics
+ * card for it takes longer, and without a card half a second.
  */
 function onPlainCanvas<T>(make: () => T): T {
   const { prototype } = HTMLCanvasElement;
@@ -93,7 +93,7 @@ function seriesOf(line: Line, scheme: Scheme): uPlot.Series {
   };
 }
 
-/** Lines of one horizontal axis as they are, those of several joined. */
+/** Lines that share their abscissa unchanged; lines with different abscissas joined. */
 function dataOf(lines: readonly Line[]): uPlot.AlignedData {
   const tables: [Float64Array, ...(number | null)[][]][] = [];
   for (const line of lines) {
@@ -112,7 +112,7 @@ function dataOf(lines: readonly Line[]): uPlot.AlignedData {
   return tables.length === 1 ? first : inLineOrder(lines, uPlot.join(tables), tables);
 }
 
-/** `join` puts the lines table by table; the series want them in their own order. */
+/** `join` orders the lines by table; this restores the order of the series. */
 function inLineOrder(
   lines: readonly Line[],
   joined: uPlot.AlignedData,
@@ -164,7 +164,7 @@ function fillRun(chart: uPlot, area: Area, from: number, to: number): void {
   ctx.fill();
 }
 
-/** Ranges of places without gaps, from (included) to (not included). */
+/** Index ranges without gaps, from (included) to (not included). */
 export function runs(area: { readonly low: Float64Array; readonly high: Float64Array }): [number, number][] {
   const found: [number, number][] = [];
   let from = -1;
@@ -180,7 +180,7 @@ export function runs(area: { readonly low: Float64Array; readonly high: Float64A
   return found;
 }
 
-/** Zero line, axes and the ticks of strikes and toe-offs. */
+/** Draws the zero line, the axes and the ticks for foot strikes and foot offs. */
 function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   const { ctx } = chart;
   const { left, top, width, height } = chart.bbox;

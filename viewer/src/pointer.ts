@@ -4,7 +4,7 @@ import type { PageSide } from "./contract";
 import type { Drawing } from "./drawing";
 import { nearestCycle, timeAt } from "./phase";
 
-/** Makes a plot move the clock: by hovering while it stands still, by pressing and dragging always. */
+/** Lets the pointer set the clock: by hovering while playback is paused, by pressing and dragging always. */
 export function followPointer(chart: uPlot, drawing: Drawing, context: Context): void {
   const { over } = chart;
   const seek = (event: PointerEvent): void => {
@@ -27,7 +27,7 @@ export function followPointer(chart: uPlot, drawing: Drawing, context: Context):
   });
 }
 
-/** The time that a place of a plot stands for; over the gait cycle that of the nearest curve's cycle. */
+/** Time at a position in a plot; over the gait cycle, a time in the cycle of the nearest curve. */
 function timeUnder(chart: uPlot, drawing: Drawing, context: Context, left: number, top: number): number | null {
   const x = Math.min(Math.max(chart.posToVal(left, "x"), drawing.x[0]), drawing.x[1]);
   if (drawing.axis === "time") {
@@ -43,7 +43,7 @@ function timeUnder(chart: uPlot, drawing: Drawing, context: Context, left: numbe
   return cycle ? timeAt(cycle, x) : null;
 }
 
-/** The first session's curve nearest to a height above or below a percentage; a mean stands for no certain cycle. */
+/** The first session's curve nearest to a height at a percentage; a mean belongs to no particular cycle. */
 function nearestLine(
   chart: uPlot,
   drawing: Drawing,

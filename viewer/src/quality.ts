@@ -6,7 +6,7 @@ import { groups } from "./groups";
 import type { Panels } from "./panels";
 import { tables } from "./table";
 
-/** How far the numbers can be trusted. */
+/** The quality section: how far the numbers can be trusted. */
 export function quality(context: Context, panels: Panels): HTMLElement[] {
   const { sessions } = context.page;
   const facts = sessions.flatMap((session) => judged(session, sessions.length > 1));
@@ -54,9 +54,9 @@ function remarks(session: Session, named: boolean): HTMLElement[] {
       ? [element("section", { class: "remarks" }, element("h3", {}, title + of), element("ul", {}, ...items))]
       : [];
   return [
-    ...list("Remarks of the program", findings.map(finding)),
+    ...list("Warnings and notes", findings.map(finding)),
     ...list(
-      "Taken for granted",
+      "Assumptions",
       assumptions.map((sentence) => element("li", {}, sentence)),
     ),
   ];

@@ -2,16 +2,16 @@ import type { PageCycle, PageSide, Session } from "./contract";
 import type { Drawing, Line } from "./drawing";
 import { cycleAt, percentAt } from "./phase";
 
-/** Where a side is in a drawing at a time, and its value there. */
+/** Position and value of a side in a drawing at a time. */
 export interface Reading {
   readonly side: PageSide | null;
   readonly variant: number;
-  /** On the drawing's horizontal axis; nothing while the side is in no cycle. */
+  /** Position on the horizontal axis; `null` while the side is in no cycle. */
   readonly x: number | null;
   readonly value: number | undefined;
 }
 
-/** What a drawing says of the first session at a time: a reading for each side, over time for each main line. */
+/** Values of the first session at a time: one reading per side; over time, one per main line. */
 export function readings(drawing: Drawing, session: Session, time: number): Reading[] {
   const lines = drawing.lines.filter((line) => line.session === 0);
   if (drawing.axis === "cycle") {

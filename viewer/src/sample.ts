@@ -2,7 +2,7 @@ import { svgElement } from "./element";
 import { pixels } from "./look";
 import { STYLE } from "./style";
 
-/** A piece of a line, for a legend. */
+/** A line sample for a legend. */
 export function lineSample(ink: string, dash: readonly number[], width = pixels(STYLE.lines_pt.mean)): SVGElement {
   const line = svgElement("line", {
     x1: 0,
@@ -16,7 +16,7 @@ export function lineSample(ink: string, dash: readonly number[], width = pixels(
   return svgElement("svg", { width: 26, height: 10, "aria-hidden": "true" }, line);
 }
 
-/** A piece of a surface, for a legend. */
+/** An area sample for a legend. */
 export function areaSample(fill: string, opacity: number): SVGElement {
   const box = svgElement("rect", { width: 18, height: 10, fill, "fill-opacity": opacity });
   return svgElement("svg", { width: 18, height: 10, "aria-hidden": "true" }, box);

@@ -6,7 +6,7 @@ import { vector } from "./vector";
 
 /** Size of a saved picture [CSS px]: one column of a journal, 85 mm. */
 const SIZE = { width: 321, height: 254, ...CAPTIONS };
-/** Dots of a saved PNG in a CSS pixel: 576 dots an inch. */
+/** Dots of a saved PNG per CSS pixel: 576 dots per inch. */
 const DOTS = 6;
 
 /** Saves a drawing as SVG. */
@@ -20,7 +20,7 @@ export function saveSvg(
   save(`${name}.svg`, new Blob([svgText(drawing, scheme, words, sessions)], { type: "image/svg+xml" }));
 }
 
-/** Saves a drawing as PNG on the ground of the theme. */
+/** Saves a drawing as PNG on the background of the theme. */
 export async function savePng(
   name: string,
   drawing: Drawing,
@@ -49,12 +49,12 @@ export async function savePng(
   }, "image/png");
 }
 
-/** Saves what is drawn as CSV: the horizontal axis, then a column a curve. */
+/** Saves a drawing as CSV: the horizontal axis, then one column per curve. */
 export function saveCsv(name: string, drawing: Drawing, words: Words, sessions: readonly string[]): void {
   save(`${name}.csv`, new Blob([csvText(drawing, words, sessions)], { type: "text/csv" }));
 }
 
-/** Curves as CSV, six digits each; gaps are empty. */
+/** Curves as CSV with six digits; gaps are empty. */
 export function csvText(drawing: Drawing, words: Words, sessions: readonly string[]): string {
   const lines = drawing.lines.filter((line) => line.role !== "infeasible");
   const head = [
@@ -76,7 +76,7 @@ function number(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : "";
 }
 
-/** A field of a CSV file; no program shall take it for a formula. */
+/** A field of a CSV file, escaped so that no spreadsheet takes it for a formula. */
 function quoted(text: string): string {
   const plain = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;

@@ -1,10 +1,10 @@
 import style from "../../crates/ambulo-report/data/report/style.json";
 import type { PageSide } from "./contract";
 
-/** Dark or light ground. */
+/** Dark or light background. */
 export type Theme = "light" | "dark";
 
-/** A colour on light and on dark ground. */
+/** A colour for the light and the dark theme. */
 interface Colour {
   readonly color: string;
   readonly dark: string;
@@ -13,14 +13,14 @@ interface Colour {
 /** Names of the colours. */
 export type ColourName = "right" | "left" | "band" | "infeasible" | "measured" | "text" | "quiet" | "grid" | "paper";
 
-/** Everything that style.json says. */
+/** Contents of style.json. */
 export const STYLE = style;
 
 const listeners = new Set<(theme: Theme) => void>();
 let chosen: Theme | null = null;
 let printing = false;
 
-/** The theme of now: light on paper, what the reader chose, or what the system prefers. */
+/** The current theme: light in print, otherwise the reader's choice or the system's preference. */
 export function theme(): Theme {
   if (printing) {
     return "light";
@@ -28,40 +28,40 @@ export function theme(): Theme {
   return chosen ?? (systemIsDark().matches ? "dark" : "light");
 }
 
-/** Chooses the other theme. */
+/** Switches to the other theme. */
 export function switchTheme(): void {
   chosen = theme() === "dark" ? "light" : "dark";
   applyTheme();
 }
 
-/** Light for as long as the page is printed. */
+/** Uses the light theme while the page is printed. */
 export function setPrinting(now: boolean): void {
   printing = now;
   applyTheme();
 }
 
-/** Colour by its name, on the ground of now. */
+/** A colour by name, in the current theme. */
 export function colour(name: ColourName): string {
   return onGround(style[name]);
 }
 
-/** Colour of a side; of what has no side that of text. */
+/** Colour of a side; without a side, the colour of text. */
 export function sideColour(side: PageSide | null): string {
   return side === null ? colour("text") : colour(side === "r" ? "right" : "left");
 }
 
-/** Colour of a session compared with others. */
+/** Colour of a session in a comparison. */
 export function sessionColour(session: number): string {
   return onGround(style.sessions[session % style.sessions.length] ?? style.text);
 }
 
-/** Calls the listener after every change of theme; the returned function ends that. */
+/** Calls the listener after every change of theme; the returned function removes it. */
 export function onThemeChange(listener: (theme: Theme) => void): () => void {
   listeners.add(listener);
   return () => listeners.delete(listener);
 }
 
-/** Sets the CSS variables `--right`, `--left`, `--paper`, ..., `--own` of the first session compared, and tells the listeners. */
+/** Sets the CSS variables `--right`, `--left`, `--paper`, ... and, for the first compared session, `--own`; then calls the listeners. */
 export function applyTheme(): void {
   const root = document.documentElement;
   const now = theme();
@@ -77,7 +77,7 @@ export function applyTheme(): void {
   }
 }
 
-/** Follows the system's preference as long as nothing was chosen. */
+/** Follows the system's preference until the reader chooses a theme. */
 export function followSystem(): void {
   systemIsDark().addEventListener("change", applyTheme);
   applyTheme();

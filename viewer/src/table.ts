@@ -2,15 +2,15 @@ import type { Cell, Session, Table } from "./contract";
 import { element } from "./element";
 import { foldButton, MANY } from "./fold";
 
-/** A table as it is shown: heads over groups of columns, heads, rows. */
+/** A table as shown: heads over groups of columns, column heads, rows. */
 export interface Columns {
-  /** Sessions over their columns; none of one session. */
+  /** Session names above their columns; empty for one session. */
   readonly spans: readonly { readonly name: string; readonly columns: number }[];
   readonly heads: readonly string[];
   readonly rows: readonly (readonly Cell[])[];
 }
 
-/** Tables of all sessions, those of the same name side by side. */
+/** Tables of all sessions; equal names are merged into one table. */
 export function tables(sessions: readonly Session[], tablesOf: (session: Session) => readonly Table[]): HTMLElement[] {
   const ids = [...new Set(sessions.flatMap((session) => tablesOf(session).map((table) => table.id)))];
   return ids.map((id) => {
@@ -28,7 +28,7 @@ export function tableSection(own: readonly (Table | null)[], names: readonly str
   const heading = element("h3", {}, first?.title ?? "");
   const notes = sentences(own, names).map((sentence) => element("p", { class: "note" }, sentence));
   if (!first || own.every((table) => !table || table.rows.length === 0)) {
-    const why = own.find((table) => table?.empty)?.empty ?? "There are no values.";
+    const why = own.find((table) => table?.empty)?.empty ?? "No values.";
     return element("section", { class: "table" }, heading, element("p", { class: "empty" }, why));
   }
   const columns = sideBySide(own, names);
@@ -38,10 +38,10 @@ export function tableSection(own: readonly (Table | null)[], names: readonly str
   return element("section", { class: "table" }, heading, scroll, ...fold, ...notes);
 }
 
-/** Notes of the tables, and why a session has no rows; with its name what not all sessions say. */
+/** Notes of the tables, and why a session has no rows; notes that not all sessions share carry the session's name. */
 export function sentences(own: readonly (Table | null)[], names: readonly string[]): string[] {
   const said = own.map((table) => {
-    const empty = table && table.rows.length > 0 ? null : (table?.empty ?? "There are no values.");
+    const empty = table && table.rows.length > 0 ? null : (table?.empty ?? "No values.");
     return [table?.note, empty].flatMap((sentence) => (sentence ? [sentence] : []));
   });
   return [...new Set(said.flat())].map((sentence) => {
@@ -50,7 +50,7 @@ export function sentences(own: readonly (Table | null)[], names: readonly string
   });
 }
 
-/** Columns of all sessions in turn; words that all sessions have in common, as normal ranges, stand once, at the end. */
+/** Columns of all sessions in turn; columns with equal text in all sessions, such as normal ranges, appear once, at the end. */
 export function sideBySide(own: readonly (Table | null)[], names: readonly string[]): Columns {
   const present = own.flatMap((table, i) => (table && table.rows.length > 0 ? [{ table, name: names[i] ?? "" }] : []));
   const [first] = present;
@@ -97,20 +97,20 @@ export function sideBySide(own: readonly (Table | null)[], names: readonly strin
 
 const NOTHING: Cell = { text: "", value: null, outside: false };
 
-/** How many of the first columns tell the rows apart: as few as do, of those that hold words in all tables. */
+/** Smallest number of leading text columns that identify a row. */
 function titleColumns(tables: readonly Table[]): number {
   const wordy = (column: number): boolean =>
     tables.every(({ columns, rows }) => column < columns.length && rows.every((row) => !isNumber(row[column])));
-  const isTold = (count: number): boolean =>
+  const isUnique = (count: number): boolean =>
     tables.every(({ rows }) => new Set(rows.map((row) => keyOf(row, count))).size === rows.length);
   let count = 1;
-  while (!isTold(count) && wordy(count)) {
+  while (!isUnique(count) && wordy(count)) {
     count += 1;
   }
   return count;
 }
 
-/** Rows by what tells them apart; those that nothing tells apart are counted. */
+/** Rows by their identifying columns; rows that do not differ there are numbered. */
 function rowsByKey(table: Table, titles: number): Map<string, readonly Cell[]> {
   const found = new Map<string, readonly Cell[]>();
   const counts = new Map<string, number>();
@@ -135,7 +135,7 @@ function sameWords(a: readonly string[], b: readonly string[]): boolean {
   return a.length === b.length && a.every((word, i) => word === b[i]);
 }
 
-/** A table element; its caption is for screen readers, who see no heading beside it. */
+/** A table element; the caption is for screen readers, which do not connect it with the heading. */
 export function tableElement({ spans, heads, rows }: Columns, caption: string): HTMLTableElement {
   const kinds = heads.map((_, column) => (rows.every((row) => isNumber(row[column])) ? "number" : "words"));
   const head = element("thead");
@@ -157,7 +157,7 @@ function spanHead({ name, columns }: { readonly name: string; readonly columns: 
     : element("th", { scope: "colgroup", colspan: columns }, name);
 }
 
-/** Whether a cell may stand in a column of numbers, which is aligned to the right. */
+/** Whether a cell fits a column of numbers, which is right-aligned. */
 function isNumber(cell: Cell | undefined): boolean {
   return !cell || cell.value !== null || /^([−-]?[\d.]+( .*)?|[–-]?)$/.test(cell.text);
 }

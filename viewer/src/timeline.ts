@@ -2,7 +2,7 @@ import type { Context } from "./context";
 import type { PageSide } from "./contract";
 import { element } from "./element";
 
-/** The whole recording in a strip: stances of both feet, what is not feasible, and a slider for the time. */
+/** The whole recording as a strip: stances of both feet, infeasible spans, and a slider for the time. */
 export function timeline(context: Context): HTMLElement {
   const { clock, first } = context;
   const length = Math.max(clock.end - clock.start, clock.step);
@@ -26,7 +26,7 @@ export function timeline(context: Context): HTMLElement {
     step: "any",
   });
   slider.addEventListener("input", () => {
-    // Pausing tells all listeners, and that below puts the slider back to the clock's time.
+    // Pausing calls all listeners, and the one below resets the slider to the clock's time.
     const wanted = Number(slider.value);
     clock.pause();
     clock.seek(wanted);
@@ -38,7 +38,7 @@ export function timeline(context: Context): HTMLElement {
   return element("div", { class: "timeline" }, strip, slider);
 }
 
-/** From strike to toe-off; one that has begun before the recording or goes on after it reaches its end. */
+/** Stances from foot strike to foot off, cut at the ends of the recording. */
 function stances(context: Context, side: PageSide): [number, number][] {
   const found: [number, number][] = [];
   const own = context.first.events.filter((event) => event.side === side);

@@ -4,7 +4,7 @@ import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
 import { MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
 import { colour, STYLE } from "./style";
 
-/** Places of values in a picture [CSS px]. */
+/** Positions of values in a picture [CSS px]. */
 interface Frame {
   readonly left: number;
   readonly right: number;
@@ -14,7 +14,7 @@ interface Frame {
   y(value: number): number;
 }
 
-/** Size of a picture [CSS px], and the room that words above and below take of it. */
+/** Size of a picture and of its margins for text above and below [CSS px]. */
 export interface Size {
   readonly width: number;
   readonly height: number;
@@ -22,7 +22,7 @@ export interface Size {
   readonly below: number;
 }
 
-/** A drawing as SVG, as the screen shows it: for print, where the page has the words, and for saving, with `captions` around it. */
+/** A drawing as SVG, as on the screen: for print, where the page has the texts, and for saving, with `captions`. */
 export function vector(drawing: Drawing, scheme: Scheme, size: Size): SVGSVGElement {
   const frame = frameOf(drawing, size);
   const picture = svgElement("svg", {
@@ -143,7 +143,7 @@ function place(frame: Frame, x: number, y: number): string {
   return `${short(frame.x(x))} ${short(frame.y(y))}`;
 }
 
-/** Hundredths of a pixel are enough. */
+/** Rounds to hundredths of a pixel. */
 function short(length: number): string {
   return String(Math.round(100 * length) / 100);
 }

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { Clock } from "../src/clock";
 
-/** Pictures that were asked for, to be drawn by hand. */
+/** Requested animation frames, run by hand. */
 let waiting: ((now: number) => void)[] = [];
 globalThis.requestAnimationFrame = (draw) => waiting.push(draw);
 const picture = (now_ms: number): void => {
@@ -18,7 +18,7 @@ beforeEach(() => {
 
 const clock = (): Clock => new Clock({ start_s: 2, step_s: 0.01, frames: 101 });
 
-test("it stays between the first and the last instant", () => {
+test("the time stays between the first and the last instant", () => {
   const one = clock();
   one.seek(99);
   assert.equal(one.time, 3);
@@ -28,7 +28,7 @@ test("it stays between the first and the last instant", () => {
   assert.equal(one.time, 2);
 });
 
-test("a nudge goes from instant to instant and stops", () => {
+test("a nudge moves from frame to frame and pauses", () => {
   const one = clock();
   one.play();
   one.seek(2.504);
@@ -37,7 +37,7 @@ test("a nudge goes from instant to instant and stops", () => {
   assert.equal(one.playing, false);
 });
 
-test("playing follows the wall and the speed, and loops", () => {
+test("playback follows real time and the speed, and loops", () => {
   const one = clock();
   one.speed = 0.5;
   one.play();
@@ -49,7 +49,7 @@ test("playing follows the wall and the speed, and loops", () => {
   assert.equal(one.time, 2);
 });
 
-test("play, pause, play within a picture asks for one picture", () => {
+test("play, pause, play within one picture request only one picture", () => {
   const one = clock();
   one.play();
   one.pause();
@@ -60,7 +60,7 @@ test("play, pause, play within a picture asks for one picture", () => {
   assert.equal(one.time.toFixed(6), "2.100000");
 });
 
-test("listeners hear every change until they leave", () => {
+test("listeners are called at every change until they are removed", () => {
   const one = clock();
   let heard = 0;
   const leave = one.subscribe(() => heard++);
@@ -70,7 +70,7 @@ test("listeners hear every change until they leave", () => {
   assert.equal(heard, 1);
 });
 
-test("one instant alone does not play", () => {
+test("a single instant does not play", () => {
   const one = new Clock({ start_s: 0, step_s: 0.01, frames: 1 });
   one.toggle();
   assert.equal(one.playing, false);

@@ -26,7 +26,7 @@ function sourcesOf(page: Page, id: string): PanelSource[] {
 
 const count = (of: Drawing | null, role: string): number => of?.lines.filter((line) => line.role === role).length ?? 0;
 
-test("every cycle, a mean a side, the band and toe-offs are drawn over the cycle", async () => {
+test("every cycle, one mean per side, the band and foot offs are drawn over the cycle", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
   assert.equal(count(now, "cycle"), 5);
@@ -42,14 +42,14 @@ test("every cycle, a mean a side, the band and toe-offs are drawn over the cycle
   assert.deepEqual(now?.x, [0, 100]);
 });
 
-test("a side alone leaves out the other one", async () => {
+test("one chosen side hides the other", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   const now = drawing(sourcesOf(page, "knee_flexion"), numbers, { axis: "cycle", sides: ["l"] });
   assert.equal(count(now, "mean"), 1);
   assert.ok(now?.lines.every((line) => line.side === "l"));
 });
 
-test("of several sessions the means are drawn", async () => {
+test("with several sessions only means are drawn", async () => {
   const { page, numbers } = await pageOf(WHOLE, { ...WHOLE, name: "two", scale: 1.2 });
   const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
   assert.equal(count(now, "cycle"), 0);
@@ -81,7 +81,7 @@ test("without cycles the panel is over time, with deviations and events", async 
   assert.equal(now?.x[0], page.sessions[0]?.time.start_s);
 });
 
-test("red spans shade the time and redden the curve of their side only", async () => {
+test("red spans shade the time, and only the curve of their side is red", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   const now = drawing(sourcesOf(page, "ankle_moment"), numbers, { ...BOTH, axis: "time" });
   assert.equal(now?.shades.length, 2);
@@ -95,11 +95,11 @@ test("red spans shade the time and redden the curve of their side only", async (
   assert.ok(times.every((t) => (t >= 1.299 && t <= 1.441) || (t >= 2.399 && t <= 2.521)));
 });
 
-test("over the cycle the red part lies where the span is", async () => {
+test("over the cycle the red part is at the place of the span", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   const now = drawing(sourcesOf(page, "ankle_moment"), numbers, BOTH);
   const red = now?.lines.filter((line) => line.role === "infeasible") ?? [];
-  // The spans 1.30-1.44 s and 2.40-2.52 s, the right cycles from 0.45 s on with 1.12 s each.
+  // Spans: 1.30-1.44 s and 2.40-2.52 s. Right cycles: from 0.45 s, 1.12 s each.
   assert.deepEqual(
     red.map((line) => line.cycle),
     [1, 2],
@@ -108,7 +108,7 @@ test("over the cycle the red part lies where the span is", async () => {
   assert.deepEqual([percents[0], percents.at(-1)], [76, 88]);
 });
 
-test("an empty panel is no drawing", async () => {
+test("an empty panel gives no drawing", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   assert.equal(drawing(sourcesOf(page, "plates_predicted"), numbers, BOTH), null);
 });
@@ -147,7 +147,7 @@ test("the range shows a limit if it is near, zero if it is near, and no rounding
   assert.equal(valueRange([line("main", [1, 9])], [])[0], 0);
 });
 
-test("several lines without a side have numbers, and a reading each", async () => {
+test("several lines without a side have numbers and one reading each", async () => {
   const block = new Block();
   const page = samplePage(block, [WHOLE]);
   const [session] = page.sessions;

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { digitsFor, roundValues, shortCitation, shown } from "../src/format";
 
-test("values have the digits that their panel needs", () => {
+test("the decimal places of values depend on the range of the panel", () => {
   assert.equal(shown(-12.345, digitsFor(-60, 10)), "−12.3");
   assert.equal(shown(0.1234, digitsFor(-0.2, 0.2)), "0.123");
   assert.equal(shown(-0.001, 1), "0.0");
@@ -15,7 +15,7 @@ test("axis values are round and within the range", () => {
   assert.deepEqual(roundValues(0.25, 4.44, 5), [1, 2, 3, 4]);
 });
 
-test("a citation in short is author and year", () => {
+test("a short citation is author and year", () => {
   assert.equal(shortCitation("Schwartz et al. 2008, J Biomech 41:1639; 83 children"), "Schwartz et al. 2008");
   assert.equal(shortCitation("Winter (1991) Waterloo"), "Winter 1991");
   assert.equal(

@@ -12,17 +12,17 @@ const cycle = (side: "r" | "l", number: number, start_s: number): PageCycle => (
 });
 const CYCLES = [cycle("r", 1, 1), cycle("r", 2, 2.25), cycle("l", 1, 1.6)];
 
-test("percent and time are each other's inverse", () => {
+test("percent and time are inverse functions", () => {
   assert.equal(percentAt(cycle("r", 1, 1), 1.5), 40);
   assert.equal(timeAt(cycle("r", 1, 1), 40), 1.5);
 });
 
-test("a time is in the cycle of its side", () => {
+test("the cycle of a side contains the time", () => {
   assert.equal(cycleAt(CYCLES, "r", 2.5)?.number, 2);
   assert.equal(cycleAt(CYCLES, "l", 1.5), null);
 });
 
-test("outside of all cycles the nearest one counts", () => {
+test("outside all cycles the nearest one is used", () => {
   assert.equal(nearestCycle(CYCLES, "r", 0)?.number, 1);
   assert.equal(nearestCycle(CYCLES, "r", 9)?.number, 2);
   assert.equal(nearestCycle([], "r", 9), null);

@@ -7,10 +7,10 @@ test("a page of this format is read", () => {
   assert.equal(pageOf(`{"format": ${FORMAT}, "title": "x"}`).title, "x");
 });
 
-test("another format is refused in words", () => {
-  assert.throws(() => pageOf('{"format": 999}'), new RegExp(`format 999, its viewer needs ${FORMAT}`));
+test("another format is rejected with a message", () => {
+  assert.throws(() => pageOf('{"format": 999}'), new RegExp(`format 999, but this viewer expects ${FORMAT}`));
 });
 
-test("a file cut off is refused in words", () => {
-  assert.throws(() => pageOf('{"format": 1, "ti'), /cut off or changed/);
+test("an incomplete file is rejected with a message", () => {
+  assert.throws(() => pageOf('{"format": 1, "ti'), /incomplete or changed/);
 });

@@ -1,4 +1,4 @@
-// Compiles tests/*.test.ts and runs them with node's own test runner.
+// Compiles tests/*.test.ts and runs them with node's test runner.
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readdirSync, rmSync } from "node:fs";
 import { dirname, join } from "node:path";

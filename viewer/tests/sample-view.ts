@@ -1,4 +1,4 @@
-// A made-up walk for tests and for looking at the view: joint angles as sums of few cosines, no physics.
+// An invented walk for tests and for viewing: joint angles as sums of a few cosines, without physics.
 import { Quaternion, Vector3 } from "three";
 import type {
   Page,
@@ -24,7 +24,7 @@ const SHANK = 0.42;
 const HALF_PELVIS = 0.085;
 const STANCE = 0.62;
 
-/** Collects series as a page's block does; reads them back as the page does. */
+/** Stores series like a page's block, and reads them back like the page. */
 export class SampleNumbers {
   readonly codes: number[] = [];
 
@@ -46,19 +46,19 @@ export class SampleNumbers {
   }
 }
 
-/** How a sample walks. */
+/** Gait of a sample. */
 export interface SampleWalk {
   name: string;
   seconds: number;
   cycle_s: number;
   speed: number;
-  /** Multiplies the joint angles. */
+  /** Factor of the joint angles. */
   stride: number;
 }
 
 export const ORDINARY: SampleWalk = { name: "sample", seconds: 4, cycle_s: CYCLE_S, speed: SPEED, stride: 1 };
 
-/** A page with a session for each walk. */
+/** A page with one session per walk. */
 export function samplePage(numbers: SampleNumbers, walks: SampleWalk[] = [ORDINARY]): Page {
   return {
     format: FORMAT,
@@ -100,7 +100,7 @@ function eventsOf(walk: SampleWalk): PageEvent[] {
   return events.sort((a, b) => a.time_s - b.time_s);
 }
 
-/** Flexion of hip and knee, dorsiflexion, shoulder at a part of the cycle [rad]. */
+/** Hip and knee flexion, dorsiflexion and shoulder angle at a fraction of the cycle [rad]. */
 function angles(part: number, stride: number): { hip: number; knee: number; ankle: number; shoulder: number } {
   const wave = (amplitude: number, times: number, shift: number): number =>
     amplitude * Math.cos(2 * Math.PI * (times * part - shift));
@@ -118,7 +118,7 @@ interface Pose {
   turn: Quaternion;
 }
 
-/** Bodies of an instant; the pelvis at height 0. */
+/** Body poses at an instant, with the pelvis at height 0. */
 function poses(time: number, walk: SampleWalk): Map<string, Pose> {
   const out = new Map<string, Pose>();
   const root = { place: new Vector3(walk.speed * time, 0, 0), turn: new Quaternion() };
@@ -220,7 +220,7 @@ function sideOf(name: string): PageSide | null {
   return name.endsWith("_l") ? "l" : null;
 }
 
-/** A force with two humps on a point that goes from heel to toe. */
+/** A force with two peaks whose centre of pressure moves from heel to toe. */
 function force(
   numbers: SampleNumbers,
   walk: SampleWalk,

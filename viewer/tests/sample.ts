@@ -19,7 +19,7 @@ const START_S = 0.25;
 const STRIDE_S = 1.12;
 const TOE_OFF = 0.62;
 
-/** A made-up quantity: sums of waves of the stride. */
+/** An invented quantity: a sum of harmonics of the stride. */
 interface Quantity {
   readonly id: string;
   readonly title: string;
@@ -87,18 +87,18 @@ const GROUND: readonly Quantity[] = [
   q("ground_lateral", "Medial ground force", "BW", "medial lateral", (p) => (p > TOE_OFF ? 0 : 0.06 * hump(p))),
 ];
 
-/** How a session differs from another one. */
+/** Settings in which sessions differ. */
 export interface Variant {
   readonly name: string;
-  /** Size of everything. */
+  /** Scale of all values. */
   readonly scale: number;
-  /** Whether it has cycles, or only values over time. */
+  /** Whether the session has cycles, or only values over time. */
   readonly cycles: boolean;
-  /** Whether something is not feasible. */
+  /** Whether some time is not feasible. */
   readonly red: boolean;
 }
 
-/** A page of made-up sessions that has a case of everything. */
+/** A page of invented sessions that contains every kind of element. */
 export function samplePage(block: Block, variants: readonly Variant[]): Page {
   const title = variants.map((variant) => variant.name).join(" / ");
   return { format: FORMAT, program: "0.0.0", title, sessions: variants.map((variant) => session(block, variant)) };
@@ -128,7 +128,7 @@ function session(block: Block, variant: Variant): Session {
     cycles: variant.cycles ? cycles() : [],
     groups: [
       group("kinematics", "Joint angles", 4, KINEMATICS, null),
-      group("kinetics", "Joint moments and powers", 4, KINETICS, "Internal moments: what muscles and ligaments do."),
+      group("kinetics", "Joint moments and powers", 4, KINETICS, "Internal moments: moments of muscles and ligaments."),
       group("ground", "Ground forces", 3, GROUND, null),
     ],
     tables: [timeTable(variant), extracted(variant)],
@@ -164,7 +164,7 @@ function session(block: Block, variant: Variant): Session {
     feasibility: {
       feasible: !variant.red,
       sentence: variant.red
-        ? "A person of this size could not do this: 3 spans exceed what is possible."
+        ? "A person of this size could not do this: 3 spans exceed the limits."
         : "A person could do this.",
       red,
       closest: table(
@@ -277,7 +277,7 @@ function emptyGroup(block: Block): Group {
   return {
     id: "residuals",
     title: "Residuals",
-    note: "What the forces do not explain.",
+    note: "Force at the root that nothing supplies.",
     columns: 3,
     panels: [
       {

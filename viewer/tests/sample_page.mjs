@@ -1,4 +1,4 @@
-// Writes made-up pages to look at: out/sample.html, out/compare.html, out/bare.html.
+// Writes sample pages for viewing: out/sample.html, out/compare.html, out/bare.html.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";

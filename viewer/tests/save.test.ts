@@ -25,12 +25,12 @@ const drawn = (...lines: Line[]): Drawing => ({
   lines,
 });
 
-test("a column a curve, gaps are empty", () => {
+test("one column per curve, gaps are empty", () => {
   const text = csvText(drawn(line("right, mean of 3", [0, 1], [1.23456789, Number.NaN])), WORDS, ["a"]);
   assert.equal(text, 'time [s],"right, mean of 3 [deg]"\n0,1.23457\n1,\n');
 });
 
-test("curves of different instants are put in order, sessions are named", () => {
+test("curves at different instants are merged in order, and sessions are named", () => {
   const text = csvText(drawn(line("right", [0, 2], [1, 2]), line("right", [1], [5], 1)), WORDS, ["=a", 'b"c']);
   assert.equal(text, `time [s],"'=a, right [deg]","b""c, right [deg]"\n0,1,\n1,,5\n2,2,\n`);
 });

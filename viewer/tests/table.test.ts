@@ -12,12 +12,12 @@ const table = (rows: string[][]): Table => ({
   empty: null,
 });
 
-test("one table stays as it is", () => {
+test("a single table is unchanged", () => {
   const own = table([["step", "0.7", "0.6-0.8"]]);
   assert.deepEqual(sideBySide([own], ["a"]), { spans: [], heads: own.columns, rows: own.rows });
 });
 
-test("columns of two sessions stand side by side, common ones once", () => {
+test("columns of two sessions are side by side, common columns appear once", () => {
   const made = sideBySide([table([["step", "0.7", "0.6-0.8"]]), table([["step", "0.5", "0.6-0.8"]])], ["a", "b"]);
   assert.deepEqual(made.heads, ["", "Right", "Right", "Normal"]);
   assert.deepEqual(
@@ -30,7 +30,7 @@ test("columns of two sessions stand side by side, common ones once", () => {
   );
 });
 
-test("a row that only one session has is empty in the other", () => {
+test("a row of one session only is empty in the other", () => {
   const made = sideBySide([table([["a", "1", "n"]]), table([["b", "2", "n"]])], ["x", "y"]);
   assert.deepEqual(
     made.rows.map((row) => row.map((cell) => cell.text)),
@@ -41,14 +41,14 @@ test("a row that only one session has is empty in the other", () => {
   );
 });
 
-/** Texts of the rows side by side. */
+/** Cell texts of all rows. */
 function rowsOf(...tables: string[][][]): string[][] {
   const made = tables.map((rows) => table(rows));
   const names = tables.map((_, i) => String(i));
   return sideBySide(made, names).rows.map((row) => row.map((cell) => cell.text));
 }
 
-test("rows with the same first word are told apart by the next words", () => {
+test("rows with the same first column are distinguished by the next columns", () => {
   const own = (a: string, b: string): string[][] => [
     ["right", "up", a],
     ["right", "ahead", b],
@@ -59,7 +59,7 @@ test("rows with the same first word are told apart by the next words", () => {
   ]);
 });
 
-test("rows that nothing tells apart keep their order, and none is lost", () => {
+test("indistinguishable rows keep their order, and none is lost", () => {
   const more = [
     ["strike", "0.1", "n"],
     ["strike", "1.1", "n"],
@@ -72,7 +72,7 @@ test("rows that nothing tells apart keep their order, and none is lost", () => {
   ]);
 });
 
-test("a session without rows does not take its name from the others", () => {
+test("a session without rows does not remove the names of the others", () => {
   const made = sideBySide([table([]), table([["a", "1", "n"]])], ["x", "y"]);
   assert.deepEqual(
     made.spans.map((span) => `${span.name}${span.columns}`),
@@ -80,7 +80,7 @@ test("a session without rows does not take its name from the others", () => {
   );
 });
 
-test("sessions with other columns keep their own heads", () => {
+test("sessions with different columns keep their own heads", () => {
   const other: Table = { ...table([["a", "1"]]), columns: ["", "Left"] };
   const made = sideBySide([table([["a", "1", "n"]]), other], ["x", "y"]);
   assert.deepEqual(made.heads, ["", "Right", "Normal", "Left"]);
@@ -90,7 +90,7 @@ test("sessions with other columns keep their own heads", () => {
   );
 });
 
-test("notes that differ stand with the names of their sessions", () => {
+test("different notes carry the names of their sessions", () => {
   const noted = (note: string | null): Table => ({ ...table([["a", "1", "n"]]), note });
   assert.deepEqual(sentences([noted("N"), noted("N")], ["x", "y"]), ["N"]);
   assert.deepEqual(sentences([noted("N"), noted("M")], ["x", "y"]), ["x: N", "y: M"]);

@@ -31,7 +31,7 @@ function gait(start: number, end: number, right: number[], left: number[] = []):
   };
 }
 
-test("frames between instants, held at the ends", () => {
+test("frames are interpolated, and constant beyond the ends", () => {
   const timeline = new Timeline({ start_s: 2, step_s: 0.01, frames: 101 });
   close(timeline.end, 3);
   close(timeline.frameAt(2.005), 0.5);
@@ -39,7 +39,7 @@ test("frames between instants, held at the ends", () => {
   close(timeline.frameAt(9), 100);
 });
 
-test("a number beside a gap is none, one on an instant is itself", () => {
+test("a number next to a gap is NaN, a number on a frame is exact", () => {
   const values = Float64Array.of(1, 3, NONE, 5);
   close(sample(values, 0.25), 1.5);
   close(sample(values, 1), 3);
@@ -48,7 +48,7 @@ test("a number beside a gap is none, one on an instant is itself", () => {
   close(sample(values, 3), 5);
 });
 
-test("poses turn on great arcs and are missing in gaps", () => {
+test("poses are interpolated along great arcs and missing in gaps", () => {
   const numbers = new SampleNumbers();
   const half = Math.SQRT1_2;
   const of = (...values: number[]) => numbers.add(values);
@@ -70,7 +70,7 @@ test("poses turn on great arcs and are missing in gaps", () => {
   assert.equal(motion.at(1.5, place, turn), false);
 });
 
-test("the same phase: strikes of the same foot fall together", () => {
+test("at the same phase, foot strikes of the same foot coincide", () => {
   const main = gait(0, 4, [0.5, 1.5, 2.5]);
   const slow = gait(0, 9, [1, 3, 5, 7]);
   close(matchingTime(0.5, main, slow), 1);
@@ -79,7 +79,7 @@ test("the same phase: strikes of the same foot fall together", () => {
   close(matchingTime(3.0, main, slow), 6);
 });
 
-test("beyond its recording a ghost walks on from its first cycle", () => {
+test("beyond its recording a ghost continues from its first cycle", () => {
   const main = gait(0, 6, [0.5, 1.5, 2.5, 3.5, 4.5]);
   const short = gait(0, 2.2, [0.1, 1.1, 2.1]);
   close(matchingTime(3.0, main, short), 0.6);
@@ -87,7 +87,7 @@ test("beyond its recording a ghost walks on from its first cycle", () => {
   assert.ok(found >= 0 && found <= 2.2, `${found}`);
 });
 
-test("a session compared with itself stands in itself at all times", () => {
+test("a session compared with itself coincides with itself at all times", () => {
   const [session] = samplePage(new SampleNumbers()).sessions;
   assert.ok(session);
   const own = gaitOf(session);
@@ -96,14 +96,14 @@ test("a session compared with itself stands in itself at all times", () => {
   }
 });
 
-test("without cycles the same time from the start", () => {
+test("without cycles the time from the start is equal", () => {
   const main = gait(2, 4, []);
   const other = gait(7, 8, [7.1, 7.9]);
   close(matchingTime(2.5, main, other), 7.5);
   close(matchingTime(3.9, main, other), 8);
 });
 
-test("the left foot leads where only it has cycles in both", () => {
+test("the left foot defines the phase if only it has cycles in both", () => {
   close(matchingTime(1, gait(0, 3, [0.2], [1, 2]), gait(0, 3, [0, 1], [0.5, 1.5])), 0.5);
 });
 
@@ -125,7 +125,7 @@ test("an impact does not shrink the other arrows", () => {
   close(peakOf(view, numbers), ordinary, 0.02);
 });
 
-test("dashes fill a shaft, a short one is solid", () => {
+test("dashes fill a shaft, a short shaft is solid", () => {
   const { count, unit } = dashParts(0.9, 0.012);
   assert.equal(count, 8);
   close(unit * (count * 9.5 - 3), 0.9);
@@ -134,7 +134,7 @@ test("dashes fill a shaft, a short one is solid", () => {
   assert.equal(dashParts(50, 0.012).count, 40);
 });
 
-test("heads of short arrows shrink, lengths stay", () => {
+test("heads of short arrows shrink, lengths do not change", () => {
   const long = arrowParts(1, 0.01);
   close(long.head, 0.065);
   const short = arrowParts(0.05, 0.01);
@@ -142,7 +142,7 @@ test("heads of short arrows shrink, lengths stay", () => {
   assert.ok(short.headRadius < long.headRadius);
 });
 
-test("arcs grow with the moment up to a full one and keep its sign", () => {
+test("arcs grow with the moment up to a full arc and keep its sign", () => {
   assert.equal(arcAngle(0.01), 0);
   assert.equal(arcAngle(NONE), 0);
   close(arcAngle(-0.8), -arcAngle(0.8));
@@ -150,7 +150,7 @@ test("arcs grow with the moment up to a full one and keep its sign", () => {
   assert.ok(arcAngle(1.2) > arcAngle(0.6));
 });
 
-test("a trail begins with its contact and after the last jump", () => {
+test("a trail begins at its contact or after the last jump", () => {
   const x = Float64Array.of(9, NONE, 1, 1.01, 1.02, 2, 2.01);
   const level = x.map(() => 0);
   const along = (frame: number): number[] => trailPoints([x, level, level], frame).map(([a]) => a);
@@ -161,7 +161,7 @@ test("a trail begins with its contact and after the last jump", () => {
   assert.deepEqual(along(1), []);
 });
 
-test("the trail's line lies around its points and fades backwards", () => {
+test("the trail's line surrounds its points and fades with age", () => {
   const points: Place[] = [0, 1, 2].map((x) => [x, 0.5, 0]);
   const { corners, strength } = rings(points, 0.2);
   assert.deepEqual(corners[0], [0, 0.5, 0.2]);
@@ -171,7 +171,7 @@ test("the trail's line lies around its points and fades backwards", () => {
   close(strength[2] ?? 0, 1);
 });
 
-test("an obstacle before the figure is clear, others are not", () => {
+test("an obstacle in front of the figure is translucent, others are not", () => {
   const box = (x: number): ViewShape => ({ kind: "box", center: [x, 0, 0], half: [0.1, 1, 1], turn: [0, 0, 0, 1] });
   const view = samplePage(new SampleNumbers()).sessions[0]?.view;
   assert.ok(view);
@@ -182,7 +182,7 @@ test("an obstacle before the figure is clear, others are not", () => {
   assert.deepEqual(clear, [true, false]);
 });
 
-test("gaps of the way are bridged, sway is smoothed, travel is not", () => {
+test("gaps of the path are filled, sway is smoothed, travel is not", () => {
   assert.deepEqual([...filled(Float64Array.of(NONE, 1, NONE, 3, NONE))], [1, 1, 2, 3, 3]);
   assert.deepEqual([...filled(Float64Array.of(NONE, NONE))], [0, 0]);
   const ramp = Float64Array.from({ length: 50 }, (_, index) => 0.1 * index);
@@ -193,7 +193,7 @@ test("gaps of the way are bridged, sway is smoothed, travel is not", () => {
   close(smoothed(sway, 8)[25] ?? NONE, 0, 0.1);
 });
 
-test("the sample goes to +x and fits its extent", () => {
+test("the sample walks towards +x and fits its extent", () => {
   const numbers = new SampleNumbers();
   const [session] = samplePage(numbers).sessions;
   assert.ok(session?.view);
@@ -205,14 +205,14 @@ test("the sample goes to +x and fits its extent", () => {
   assert.ok(extent.along < 1 && extent.across < 0.5);
 });
 
-test("walking on the spot looks where the pelvis looks", () => {
+test("walking on the spot has the direction of the pelvis", () => {
   const numbers = new SampleNumbers();
   const [session] = samplePage(numbers, [{ ...ORDINARY, speed: 0 }]).sessions;
   assert.ok(session?.view);
   close(new Path(session.view, numbers, new Timeline(session.time)).heading.x, 1, 1e-6);
 });
 
-test("from the side the way goes to the right of the picture", () => {
+test("in the side view the path runs to the right of the picture", () => {
   for (const heading of [new Vector3(1, 0, 0), new Vector3(0, 0, -1), new Vector3(-1, 0, 0)]) {
     const towards = directionOf("side", heading);
     const right = new Vector3(0, 1, 0).cross(towards).normalize();
@@ -221,18 +221,18 @@ test("from the side the way goes to the right of the picture", () => {
   }
 });
 
-test("the narrower side of a picture decides about the distance", () => {
+test("the tighter dimension of a picture determines the distance", () => {
   close(fittingDistance(1, 0.1, 0, 1), fittingDistance(1, 0.5, 0, 2));
   assert.ok(fittingDistance(1, 0.8, 0, 0.4) > fittingDistance(1, 0.1, 0, 0.4));
 });
 
-test("metres get fewer marks on a long way", () => {
+test("a long path has fewer marks per metre", () => {
   assert.deepEqual(marks(-0.5, 2.2, 20), [0, 1, 2]);
   const long = marks(0, 1000, 20);
   assert.ok(long.length <= 21 && long[1] === 100);
 });
 
-test("only what there is can be shown or hidden", () => {
+test("only existing parts can be shown or hidden", () => {
   const [session] = samplePage(new SampleNumbers()).sessions;
   assert.ok(session?.view);
   const words = (view: View, ghosts: boolean) => togglesOf(view, ghosts).map(({ word }) => word);

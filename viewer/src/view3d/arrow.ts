@@ -15,42 +15,42 @@ import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { addAll } from "./layers";
 
 const UP = new Vector3(0, 1, 0);
-/** Head's length and radius, and the halo's breadth, in radii of the shaft. */
+/** Length and radius of the head and width of the halo, in radii of the shaft. */
 const HEAD_LENGTH = 6.5;
 const HEAD_RADIUS = 2.7;
 const HALO = 0.55;
-/** A head takes at most this part of an arrow. */
+/** Largest share of an arrow that its head may take. */
 const HEAD_PART = 0.45;
 
-/** A dash of a dashed shaft and the gap after it, in radii of the shaft, and how many there are at most. */
+/** Length of a dash and of the gap after it, in radii of the shaft, and the largest number of dashes. */
 const DASH = 6.5;
 const GAP = 3;
 const MOST_DASHES = 40;
 
-/** Length of the arrow of one body weight, in heights of the figure: it ends about at the navel. */
+/** Length of the arrow of one body weight, in heights of the figure: it ends near the navel. */
 const WEIGHT_HEIGHTS = 0.55;
 /** The longest arrow, in heights of the figure: the scale shrinks for larger peaks. */
 const LONGEST_HEIGHTS = 0.95;
 
-/** Length of an arrow for each body weight [m], where the largest force is `peak` body weights. */
+/** Length of an arrow per body weight [m], if the largest force is `peak` body weights. */
 export function arrowScale(height_m: number, peak: number): number {
   return height_m * Math.min(WEIGHT_HEIGHTS, peak > 0 ? LONGEST_HEIGHTS / peak : WEIGHT_HEIGHTS);
 }
 
-/** How an arrow of a length is parted [m]; short ones shrink as a whole. */
+/** Divides an arrow of a given length into shaft and head [m]; short arrows shrink as a whole. */
 export function arrowParts(length: number, radius: number): { shaft: number; head: number; headRadius: number } {
   const head = Math.min(HEAD_LENGTH * radius, HEAD_PART * length);
   return { shaft: length - head, head, headRadius: (HEAD_RADIUS / HEAD_LENGTH) * head };
 }
 
-/** How many dashes a shaft has, and what is one of their units [m] for them and the gaps to fill it. */
+/** Number of dashes in a shaft, and the unit of length [m] with which dashes and gaps fill it. */
 export function dashParts(length: number, radius: number): { count: number; unit: number } {
   const usual = (length / radius + GAP) / (DASH + GAP);
   const count = Math.min(MOST_DASHES, Math.max(1, Math.round(usual)));
   return { count, unit: length / (count * (DASH + GAP) - GAP) };
 }
 
-/** An arrow with a halo of the ground's colour, so that it stands out from what is behind; its shaft is solid or dashed. */
+/** An arrow with a solid or dashed shaft and a halo in the background colour, which separates it from objects behind it. */
 export class Arrow {
   readonly group = new Group();
   private readonly material = new MeshLambertMaterial();
@@ -77,7 +77,7 @@ export class Arrow {
     this.halo.color.copy(halo);
   }
 
-  /** From a point along a vector, both in metres; nothing is drawn if it is very short or not a number. */
+  /** Draws the arrow from a point along a vector, both in metres; hides it if the vector is very short or NaN. */
   set(point: Vector3, vector: Vector3): void {
     const length = vector.length();
     this.group.visible = Number.isFinite(point.x + point.y + point.z + length) && length > this.radius;
@@ -107,7 +107,7 @@ export class Arrow {
   }
 }
 
-/** Dashes one above the other, from the lowest on, of radius 1. */
+/** Geometry of the dashes, of radius 1, from the lowest upwards. */
 function dashes(): BufferGeometry {
   const one = new CylinderGeometry(1, 1, DASH, 14).translate(0, DASH / 2, 0);
   return mergeGeometries(Array.from({ length: MOST_DASHES }, (_, i) => one.clone().translate(0, i * (DASH + GAP), 0)));

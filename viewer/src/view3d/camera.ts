@@ -2,29 +2,29 @@ import { PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Extent } from "./extent";
 
-/** Where the figure is looked at from. */
+/** Viewpoint of the camera. */
 export type CameraKind = "side" | "front" | "free";
 
-/** Opening of the camera, upright [rad]: narrow, so that legs near and far are alike. */
+/** Vertical opening angle of the camera [rad]: narrow, so that near and far legs look alike. */
 const OPENING = (24 * Math.PI) / 180;
-/** Room left around the figure. */
+/** Margin around the figure. */
 const MARGIN = 1.06;
-/** Room below the floor for the numbers of the metres, in heights of the figure. */
+/** Margin below the floor for the metre numbers, in heights of the figure. */
 const BELOW = 0.09;
-/** Direction to the camera: turned from straight ahead to the figure's right, and raised [rad]. */
+/** Direction to the camera [rad]: azimuth from straight ahead towards the figure's right, and elevation. */
 const DIRECTIONS: Record<CameraKind, { turn: number; rise: number }> = {
   side: { turn: Math.PI / 2, rise: 0.1 },
   front: { turn: 0, rise: 0.1 },
   free: { turn: 0.9, rise: 0.26 },
 };
 
-/** Distance at which a box of this half height and half width fills a picture [m]. */
+/** Distance at which a box of a given half height and half width fills the picture [m]. */
 export function fittingDistance(halfHeight: number, halfWidth: number, depth: number, aspect: number): number {
   const slope = Math.tan(OPENING / 2);
   return MARGIN * Math.max(halfHeight / slope, halfWidth / (slope * aspect)) + depth;
 }
 
-/** Unit vector from the figure to the camera; `heading` is where the figure goes. */
+/** Unit vector from the figure to the camera; `heading` is the walking direction. */
 export function directionOf(kind: CameraKind, heading: Vector3): Vector3 {
   const { turn, rise } = DIRECTIONS[kind];
   const right = new Vector3(-heading.z, 0, heading.x);
@@ -36,7 +36,7 @@ export function directionOf(kind: CameraKind, heading: Vector3): Vector3 {
     .add(new Vector3(0, Math.sin(rise), 0));
 }
 
-/** Camera with its controls; it goes along with the figure and keeps what the reader turned. */
+/** Camera with controls; it follows the figure and keeps the reader's rotation. */
 export class CameraRig {
   readonly camera = new PerspectiveCamera((OPENING * 180) / Math.PI, 1, 0.1, 80);
   readonly controls: OrbitControls;
@@ -60,14 +60,14 @@ export class CameraRig {
     });
   }
 
-  /** Looks from a side at the figure where it is now. */
+  /** Moves to a viewpoint around the figure's current position. */
   set(kind: CameraKind): void {
     this.kind = kind;
     this.touched = false;
     this.fit();
   }
 
-  /** The figure is at a place of the floor. */
+  /** Follows the figure to a position on the floor. */
   follow(place: Vector3): void {
     const step = place.clone().sub(this.place);
     this.place.copy(place);
@@ -84,7 +84,7 @@ export class CameraRig {
     }
   }
 
-  /** Turns around the figure by angles [rad]. */
+  /** Rotates around the figure by angles [rad]. */
   turn(around: number, up: number): void {
     this.touched = true;
     const arm = this.camera.position.clone().sub(this.controls.target);
@@ -98,7 +98,7 @@ export class CameraRig {
     this.controls.update();
   }
 
-  /** Comes nearer by a factor. */
+  /** Zooms in by a factor. */
   zoom(factor: number): void {
     this.touched = true;
     const arm = this.camera.position.clone().sub(this.controls.target).divideScalar(factor);

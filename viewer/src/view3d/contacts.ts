@@ -7,7 +7,7 @@ import { type Palette, sideColor } from "./palette";
 
 /** Radius of a point, in heights of the figure. */
 const RADIUS = 0.007;
-/** A point of the sole this near to the floor touches it [m]. */
+/** Largest height at which a point of the sole touches the floor [m]. */
 const NEAR_M = 0.02;
 
 interface Point {
@@ -15,7 +15,7 @@ interface Point {
   mesh: Mesh<SphereGeometry, MeshBasicMaterial>;
 }
 
-/** Points of the soles, as long as their foot is loaded and they are at the floor. */
+/** Sole points, shown while their foot is loaded and they touch the floor. */
 export class Contacts {
   readonly group = new Group();
   private readonly points: Point[];

@@ -1,4 +1,4 @@
-/** A sentence where the picture would be. */
+/** Shows a sentence in place of the picture. */
 export function say(host: HTMLElement, sentence: string): HTMLElement {
   const paragraph = document.createElement("p");
   paragraph.className = "empty";

@@ -8,17 +8,17 @@ import type { Timeline } from "./timeline";
 
 const LOOKS = 30;
 
-/** Room that the figure takes up around its smoothed way [m]. */
+/** Space that the figure takes around its smoothed path [m]. */
 export interface Extent {
   bottom: number;
   top: number;
-  /** Furthest reach ahead and behind. */
+  /** Largest reach forwards and backwards. */
   along: number;
-  /** Furthest reach to a side. */
+  /** Largest reach sideways. */
   across: number;
 }
 
-/** Looks at the figure at some thirty instants. */
+/** Measures the figure at about thirty instants. */
 export function extentOf(view: View, numbers: SeriesReader, path: Path, timeline: Timeline): Extent {
   const extent: Extent = { bottom: view.floor_m, top: view.floor_m + 0.3, along: 0.3, across: 0.2 };
   const bodies = view.bodies.map((body) => ({
@@ -42,7 +42,7 @@ export function extentOf(view: View, numbers: SeriesReader, path: Path, timeline
   return extent;
 }
 
-/** Room for both. */
+/** The smallest extent that contains both. */
 export function union(a: Extent, b: Extent): Extent {
   return {
     bottom: Math.min(a.bottom, b.bottom),

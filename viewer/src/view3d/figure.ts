@@ -6,7 +6,7 @@ import { limbColor, type Palette } from "./palette";
 import type { SeriesReader } from "./reader";
 import { shapeMesh } from "./shape";
 
-/** Written where the main figure is seen. */
+/** Stencil value of pixels that show the main figure. */
 export const FIGURE_STENCIL = 1;
 
 interface Limb {
@@ -14,10 +14,10 @@ interface Limb {
   motion: Motion;
 }
 
-/** The bodies that move. */
+/** The moving bodies. */
 export class Figure {
   readonly group = new Group();
-  /** Bodies as they stand now, in the order of the page. */
+  /** Bodies in their current pose, in the order of the page. */
   readonly limbs: Limb[];
   private readonly materials: { material: MeshStandardMaterial; side: PageSide | null }[] = [];
 
@@ -49,7 +49,7 @@ export class Figure {
     }
   }
 
-  /** Takes the pose of a frame; a body in a gap is not drawn. */
+  /** Sets the pose of a frame; a body in a gap is not drawn. */
   pose(frame: number): void {
     for (const { group, motion } of this.limbs) {
       group.visible = motion.at(frame, group.position, group.quaternion);

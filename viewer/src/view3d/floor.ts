@@ -1,7 +1,7 @@
 import { Color, Group, Mesh, PlaneGeometry, ShaderMaterial, ShadowMaterial, type Vector3 } from "three";
 import type { Palette } from "./palette";
 
-/** Half of the floor's side, and where it begins to fade [m]. */
+/** Half the side length of the floor, and the distance at which it begins to fade [m]. */
 const REACH_M = 9;
 
 const VERTEX = `
@@ -15,7 +15,7 @@ void main() {
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
-/** Lines of one pixel and a half each 1 m, fainter ones each 0.25 m, fading with the distance. */
+/** Lines of 1.5 pixels every 1 m, fainter lines every 0.25 m, fading with distance. */
 const FRAGMENT = `
 varying vec2 place;
 varying vec2 fromMiddle;
@@ -34,7 +34,7 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-/** The floor: a grid of metres and the shadow of what stands on it. It goes with the figure; its lines do not. */
+/** The floor: a metre grid that receives shadows. It follows the figure, while its lines keep their place. */
 export class Floor {
   readonly group = new Group();
   private readonly grid: ShaderMaterial;

@@ -9,13 +9,13 @@ import { sample } from "./timeline";
 /** Radius of an arrow's shaft, in heights of the figure. */
 const THICK = 0.0068;
 const THIN = 0.0034;
-/** Vertical force from which on a foot is loaded [N], as in the events. */
+/** Vertical force above which a foot is loaded [N], as for the events. */
 const LOADED_N = 20;
 
-/** Forces beyond this part of all are impacts, for which the other arrows should not shrink. */
+/** Quantile above which forces count as impacts, which must not shrink the other arrows. */
 const ORDINARY_PART = 0.97;
 
-/** Largest force except for impacts [body weights]. */
+/** Largest force without impacts [body weights]. */
 export function peakOf(view: View, numbers: SeriesReader): number {
   const sizes: number[] = [];
   for (const { force } of view.forces) {
@@ -40,8 +40,8 @@ interface Force {
 }
 
 /**
- * The forces of the ground as arrows: those that the numbers rest on thick, what was measured beside them and a ghost's thin. As of
- * the curves, those of the left are dashed.
+ * Ground forces as arrows. The forces used in the computation are thick; forces measured in addition and those of a ghost are thin.
+ * Arrows of the left side are dashed, like its curves.
  */
 export class Forces {
   readonly group = new Group();
@@ -66,7 +66,7 @@ export class Forces {
     onLayer(this.group, OVER);
   }
 
-  /** `own`: one colour for all. */
+  /** `own`: one colour for all arrows. */
   recolor(colors: Palette, own: Color | null = null): void {
     for (const { arrow, source } of this.forces) {
       const color = source.role === "measured" ? colors.measured : sideColor(colors, source.side);
@@ -82,7 +82,7 @@ export class Forces {
     }
   }
 
-  /** Whether a foot of this side is loaded; null if nothing tells. */
+  /** Whether the foot of this side is loaded; null if unknown. */
   loaded(side: PageSide | null, frame: number): boolean | null {
     const own = this.forces.filter(
       ({ source }) => source.role === "main" && (source.side === side || source.side === null),

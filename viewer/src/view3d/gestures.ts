@@ -1,13 +1,13 @@
 import type { CameraRig } from "./camera";
 
-/** Angle of a key [rad] and factor of a zoom key. */
+/** Rotation per key press [rad], and factor per zoom key press. */
 const TURN = Math.PI / 24;
 const ZOOM = 1.15;
 
 /**
- * Leaves the page its scrolling: a finger turns the figure in the free view only, the wheel zooms only once the picture was clicked
- * or with Ctrl. With the picture focused, the keys a d w s turn it, e and q
- * come nearer and go away.
+ * Pointer, wheel and key control of the view that keeps the page scrollable: a finger turns the figure in the free view only, and the
+ * wheel zooms only after a click on the picture or with Ctrl. While the picture has the focus, the keys a d w s turn it, and e and q
+ * zoom in and out.
  */
 export function listen(canvas: HTMLCanvasElement, rig: CameraRig, changed: () => void): () => void {
   const ending = new AbortController();
@@ -42,7 +42,7 @@ export function listen(canvas: HTMLCanvasElement, rig: CameraRig, changed: () =>
   return () => ending.abort();
 }
 
-/** A finger may move the page unless it turns the figure. */
+/** Lets a finger scroll the page unless it turns the figure. */
 export function touchAction(canvas: HTMLCanvasElement, rig: CameraRig): void {
   canvas.style.touchAction = rig.kind === "free" ? "none" : "pan-y pinch-zoom";
 }

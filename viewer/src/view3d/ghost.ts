@@ -19,7 +19,7 @@ void main() {
   gl_Position = projectionMatrix * seen;
 }`;
 
-/** Clear in the middle, coloured at the edges. */
+/** Material that is clear in the middle and coloured at the edges. */
 const FRAGMENT = `
 varying vec3 outward;
 varying vec3 towards;
@@ -32,7 +32,7 @@ void main() {
 
 const UP = new Vector3(0, 1, 0);
 
-/** Another session's figure, translucent, at the same phase of its gait and with its hips where the main one's are. */
+/** Translucent figure of another session, at the same phase of gait and with its hips at the hips of the main figure. */
 export class Ghost {
   readonly group = new Group();
   private readonly extent: Extent;
@@ -70,7 +70,7 @@ export class Ghost {
     this.group.add(this.figure.group, this.forces.group);
   }
 
-  /** Its room on a floor of this height [m]. */
+  /** Its extent above a floor of this height [m]. */
   extentOn(floor: number): Extent {
     const lift = floor - this.view.floor_m;
     return { ...this.extent, bottom: this.extent.bottom + lift, top: this.extent.top + lift };
@@ -87,7 +87,7 @@ export class Ghost {
     this.forces.group.visible = options.forces;
   }
 
-  /** `hips`: where the main figure's are; `floor`: height of its floor [m]. */
+  /** `hips`: position of the main figure's hips; `floor`: height of its floor [m]. */
   pose(time: number, main: Gait, hips: Vector3, floor: number): void {
     const frame = this.gait.timeline.frameAt(matchingTime(time, main, this.gait));
     this.figure.pose(frame);
@@ -104,7 +104,7 @@ function angleOf(direction: Vector3): number {
   return Math.atan2(-direction.z, direction.x);
 }
 
-/** Of glass, and nowhere before the main figure. */
+/** Makes an object translucent, and hides it in front of the main figure. */
 function glass(): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: VERTEX,

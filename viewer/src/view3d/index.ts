@@ -19,25 +19,24 @@ export type { ViewOptions } from "./options";
 
 /** The figure in 3-D. */
 export interface View3D {
-  /** Whether there is a picture; else a sentence stands in its place. */
+  /** Whether there is a picture; otherwise a sentence replaces it. */
   readonly drawn: boolean;
   /** Whether another session can be shown as a ghost. */
   readonly ghosts: boolean;
-  /** What is shown now; not to be changed. */
+  /** Parts shown now; read only. */
   readonly options: Readonly<ViewOptions>;
   setCamera(kind: CameraKind): void;
   /** Shows or hides parts. */
   setOptions(options: Partial<ViewOptions>): void;
-  /** The picture of now as a PNG data URL; empty if there is none. */
+  /** The current picture as a PNG data URL; empty if there is none. */
   still(): string;
   dispose(): void;
 }
 
-const NO_WEBGL =
-  "This browser offers no WebGL, so the figure cannot be shown in 3-D; curves and tables do not need it.";
-const NO_VIEW = "There is no figure to be shown: the report holds no poses of a body.";
+const NO_WEBGL = "This browser has no WebGL, so the figure cannot be shown in 3-D. Curves and tables work without it.";
+const NO_VIEW = "No figure can be shown: the report contains no body poses.";
 
-/** Puts a canvas into the host and keeps it at the clock's time. */
+/** Adds a canvas to the host and keeps it at the clock's time. */
 export function createView(host: HTMLElement, page: Page, numbers: Numbers, clock: Clock): View3D {
   const view = page.sessions[0]?.view;
   if (!view || view.bodies.length === 0) {
@@ -122,7 +121,7 @@ class Picture implements View3D {
     this.toggles.bar.remove();
   }
 
-  /** Everything in its place for the next picture. */
+  /** Updates everything for the next picture. */
   private now(): CameraRig {
     this.measure();
     this.world.pose(this.clock.time, this.place);
@@ -137,7 +136,7 @@ class Picture implements View3D {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute(
       "aria-label",
-      `Figure of ${name} in 3-D with the forces of the ground. Keys a, d, w, s turn it, e and q zoom.`,
+      `Figure of ${name} in 3-D with the ground forces. Keys a, d, w, s rotate it, e and q zoom.`,
     );
     Object.assign(this.canvas.style, { display: "block", width: "100%", height: "100%" });
     this.host.append(this.canvas);
@@ -163,7 +162,7 @@ class Picture implements View3D {
     this.stage.invalidate();
   }
 
-  /** Takes the size of the host; whether it is another. An emptied canvas has to be drawn at once, or it flickers. */
+  /** Takes the size of the host; returns whether it changed. A resized canvas is empty and must be drawn at once, or it flickers. */
   private measure(): boolean {
     const { clientWidth, clientHeight } = this.host;
     const changed = clientWidth !== this.width || clientHeight !== this.height;

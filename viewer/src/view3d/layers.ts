@@ -5,20 +5,20 @@ export const SOLID = 0;
 /** Arrows and discs, drawn over the figure so that no limb hides them. */
 export const OVER = 1;
 
-/** Puts an object with all its parts on a layer. */
+/** Moves an object with all its parts to a layer. */
 export function onLayer<T extends Object3D>(object: T, layer: number): T {
   object.traverse((part) => part.layers.set(layer));
   return object;
 }
 
-/** Adds objects, of which there may be none. */
+/** Adds those objects that exist. */
 export function addAll(group: Object3D, objects: Object3D[]): void {
   for (const object of objects) {
     group.add(object);
   }
 }
 
-/** Frees what the graphics card holds of an object and its parts. */
+/** Frees the graphics memory of an object and its parts. */
 export function release(object: Object3D): void {
   object.traverse((part) => {
     const { geometry, material } = part as { geometry?: { dispose(): void }; material?: Disposable | Disposable[] };

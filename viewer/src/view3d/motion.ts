@@ -3,7 +3,7 @@ import type { ViewBody } from "../contract";
 import type { SeriesReader } from "./reader";
 import { sample } from "./timeline";
 
-/** Where a body is at any time: straight lines between positions, great arcs between orientations. */
+/** Pose of a body at any time: linear interpolation of positions, spherical linear interpolation of orientations. */
 export class Motion {
   private readonly position: Float64Array[];
   private readonly rotation: Float64Array[];
@@ -14,7 +14,7 @@ export class Motion {
     this.rotation = body.rotation.map((series) => numbers.read(series));
   }
 
-  /** Fills in the pose at a frame with its fraction; false in a gap. */
+  /** Writes the pose at a fractional frame; returns false in a gap. */
   at(frame: number, position: Vector3, rotation: Quaternion): boolean {
     const [x, y, z] = this.position as [Float64Array, Float64Array, Float64Array];
     position.set(sample(x, frame), sample(y, frame), sample(z, frame));

@@ -6,7 +6,7 @@ import { shapeMesh } from "./shape";
 
 const LOOK = { roughness: 0.8, metalness: 0 };
 
-/** What stands still in a scene; what stands between eye and figure is clear. */
+/** Fixed objects of a scene; those between camera and figure are translucent. */
 export class Obstacles {
   readonly group = new Group();
   private readonly solid = new MeshStandardMaterial(LOOK);
@@ -18,7 +18,7 @@ export class Obstacles {
   });
   private readonly meshes: Mesh[];
   private readonly ray = new Raycaster();
-  private readonly way = new Vector3();
+  private readonly direction = new Vector3();
 
   constructor(view: View) {
     this.meshes = view.fixed.map((shape) => shapeMesh(shape, this.solid));
@@ -30,11 +30,11 @@ export class Obstacles {
     this.clearing.color.copy(colors.obstacle);
   }
 
-  /** Lets the eye through to a place. */
+  /** Makes objects in front of a position translucent. */
   clear(eye: Vector3, target: Vector3): void {
-    this.way.copy(target).sub(eye);
-    this.ray.far = this.way.length();
-    this.ray.set(eye, this.way.normalize());
+    this.direction.copy(target).sub(eye);
+    this.ray.far = this.direction.length();
+    this.ray.set(eye, this.direction.normalize());
     for (const mesh of this.meshes) {
       mesh.material = this.ray.intersectObject(mesh).length > 0 ? this.clearing : this.solid;
     }

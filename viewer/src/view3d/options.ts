@@ -1,16 +1,16 @@
-/** What is shown beside the figure. */
+/** Parts shown in addition to the figure. */
 export interface ViewOptions {
-  /** Arrows of the ground's forces. */
+  /** Arrows of the ground forces. */
   forces: boolean;
   /** Arcs of the joint moments. */
   torques: boolean;
-  /** Ways of the centres of pressure. */
+  /** Paths of the centres of pressure. */
   trail: boolean;
-  /** Points of the soles that carry. */
+  /** Loaded sole points. */
   contacts: boolean;
-  /** The sessions compared with. */
+  /** Figures of the compared sessions. */
   ghost: boolean;
 }
 
-/** Moments wait to be asked for: with them the first picture has too much in it. */
+/** Moments are hidden at first: with them the picture is too full. */
 export const FIRST_OPTIONS: ViewOptions = { forces: true, torques: false, trail: true, contacts: true, ghost: true };

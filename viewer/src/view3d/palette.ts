@@ -2,14 +2,14 @@ import { Color } from "three";
 import looks from "../../../crates/ambulo-report/data/report/style.json";
 import type { PageSide } from "../contract";
 
-/** Colours of the view, of one theme. */
+/** Colours of the view in one theme. */
 export interface Palette {
   dark: boolean;
-  /** Trunk and everything without a side. */
+  /** Trunk and other bodies without a side. */
   neutral: Color;
   right: Color;
   left: Color;
-  /** Limbs: the side's colour mixed into the neutral one. */
+  /** Limbs: the side's colour mixed with the neutral colour. */
   rightLimb: Color;
   leftLimb: Color;
   measured: Color;
@@ -27,12 +27,12 @@ interface Pair {
   dark: string;
 }
 
-/** How much of a side's colour its limbs have. */
+/** Share of a side's colour in its limbs. */
 const TINT = 0.75;
-/** The same of the left limbs where both sides have the session's colour. */
+/** The same share for the left limbs if both sides have the session's colour. */
 const PALE = 0.35;
 
-/** The colours of a theme; in a comparison the figure has the colour of its session's curves, its left side paler. */
+/** The colours of a theme. In a comparison, the figure has the colour of its session's curves, and its left side is paler. */
 export function palette(dark: boolean, compared: boolean): Palette {
   const of = (pair: Pair): Color => new Color(dark ? pair.dark : pair.color);
   const neutral = new Color(dark ? "#b9c1ca" : "#d3d8de");

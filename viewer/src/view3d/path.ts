@@ -4,14 +4,14 @@ import { Motion } from "./motion";
 import type { SeriesReader } from "./reader";
 import { sample, type Timeline } from "./timeline";
 
-/** Half of the time over which the travel is smoothed [s]: about that of a step, so that the camera does not sway with it. */
+/** Half of the smoothing window of the path [s]: about the duration of a step, so that the camera does not sway. */
 const HALF_WINDOW_S = 0.6;
-/** Travel from which on its direction counts [m]. */
+/** Shortest travel that defines a walking direction [m]. */
 const TRAVEL_M = 0.5;
 
-/** The way of the figure over the floor: that of its pelvis. */
+/** Path of the figure over the floor: the path of its pelvis. */
 export class Path {
-  /** Unit vector of the way it goes, horizontal. */
+  /** Horizontal unit vector of the walking direction. */
   readonly heading: Vector3;
   private readonly root: Motion | null;
   private readonly thighs: Motion[];
@@ -33,12 +33,12 @@ export class Path {
     this.heading = this.direction(timeline);
   }
 
-  /** The smoothed place on the floor at a frame, height 0. */
+  /** Smoothed position on the floor at a frame, height 0. */
   smooth(frame: number, into: Vector3): Vector3 {
     return into.set(sample(this.smoothX, frame), 0, sample(this.smoothZ, frame));
   }
 
-  /** Midway between the hips at a frame, the same place in every model; without thighs the pelvis' origin. False in a gap. */
+  /** Midpoint of the hips at a frame, the same point in every model; without thighs, the origin of the pelvis. False in a gap. */
   hips(frame: number, into: Vector3): boolean {
     const sum = new Vector3();
     const all = this.thighs.every((thigh) => {
@@ -57,7 +57,7 @@ export class Path {
     return this.facing(timeline.frames);
   }
 
-  /** On the spot: mean direction of the pelvis' forward axis. */
+  /** Mean direction of the pelvis' forward axis, for walking on the spot. */
   private facing(frames: number): Vector3 {
     const sum = new Vector3();
     const place = new Vector3();
@@ -69,13 +69,13 @@ export class Path {
   }
 }
 
-/** Place of the body that leads the way: the pelvis, or else the first. */
+/** Index of the body that defines the path: the pelvis, or else the first body. */
 export function rootOf(view: View): number {
   const pelvis = view.bodies.findIndex((body) => /pelvis|hips/i.test(body.name));
   return Math.max(0, pelvis);
 }
 
-/** Gaps bridged on straight lines, ends held. */
+/** Fills gaps by linear interpolation and extends the ends as constants. */
 export function filled(values: Float64Array): Float64Array {
   const out = Float64Array.from(values);
   let last = -1;
@@ -91,7 +91,7 @@ export function filled(values: Float64Array): Float64Array {
   return out.fill(last < 0 ? 0 : (out[last] as number), last + 1);
 }
 
-/** Moving average over `half` frames to either side, fewer near the ends. */
+/** Moving average over `half` frames on each side, fewer near the ends. */
 export function smoothed(values: Float64Array, half: number): Float64Array {
   const sums = new Float64Array(values.length + 1);
   values.forEach((value, index) => {

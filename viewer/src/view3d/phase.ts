@@ -1,14 +1,14 @@
 import type { PageEvent, PageSide, Session } from "../contract";
 import { Timeline } from "./timeline";
 
-/** Gait of a session as far as needed to find the same phase in another. */
+/** Gait timing of a session, used to find the same phase in another session. */
 export interface Gait {
   timeline: Timeline;
-  /** Times of the strikes of either foot [s], ascending. */
+  /** Times of the foot strikes of each foot [s], ascending. */
   strikes: Record<PageSide, number[]>;
 }
 
-/** Gait of a session. */
+/** Gait timing of a session. */
 export function gaitOf(session: Session): Gait {
   return {
     timeline: new Timeline(session.time),
@@ -17,8 +17,8 @@ export function gaitOf(session: Session): Gait {
 }
 
 /**
- * Time of another session at which its gait is in the same phase as the main one at `time`: strikes of the same foot fall together.
- * Without a whole cycle in both, the same time from the start.
+ * Time at which another session is in the same phase of gait as the main session at `time`: foot strikes of the same foot coincide.
+ * Without a whole cycle in both sessions, the same time from the start.
  */
 export function matchingTime(time: number, main: Gait, other: Gait): number {
   const side = (["r", "l"] as const).find((foot) => main.strikes[foot].length > 1 && other.strikes[foot].length > 1);
@@ -33,7 +33,7 @@ export function matchingTime(time: number, main: Gait, other: Gait): number {
   return timeAt(phase - Math.floor(phase / cycles) * cycles, strikes);
 }
 
-/** Number of the cycle from 0, with its fraction; the outer cycles go on at their own pace. */
+/** Cycle number from 0, with its fraction; beyond the recording, extrapolated with the duration of the first or last cycle. */
 function phaseAt(time: number, strikes: number[]): number {
   const cycle = cycleBy(strikes, (start) => start <= time);
   const [start, end] = bounds(strikes, cycle);

@@ -12,10 +12,10 @@ import {
 import type { View, ViewPlate } from "../contract";
 import type { Palette } from "./palette";
 
-/** Above the floor [m]. */
+/** Height above the floor [m]. */
 const LIFT_M = 0.002;
 
-/** Force plates as panes in the floor. */
+/** Force plates as rectangles on the floor. */
 export class Plates {
   readonly group = new Group();
   private readonly pane = new MeshStandardMaterial({

@@ -1,13 +1,13 @@
 import { CanvasTexture, Group, Sprite, SpriteMaterial, type Vector3 } from "three";
 import type { Palette } from "./palette";
 
-/** Marks at most; longer ways get fewer of them for each metre. */
+/** Largest number of marks; longer paths get fewer marks per metre. */
 const MARKS = 24;
-/** Height of a mark's text [m]. */
+/** Text height of a mark [m]. */
 const TEXT_M = 0.085;
 const PIXELS = 64;
 
-/** Whole metres to be marked between two places: a step of 1, 2, 5, 10, ... m with at most `most` marks. */
+/** Whole metres to mark between two positions: every 1, 2, 5, 10, ... m, with at most `most` marks. */
 export function marks(from: number, to: number, most: number): number[] {
   const steps = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const step = steps.find((one) => (to - from) / one < most) ?? 5000;
@@ -16,12 +16,12 @@ export function marks(from: number, to: number, most: number): number[] {
   return Array.from({ length: count }, (_, index) => (first + index) * step);
 }
 
-/** Numbers of the metres along the way, beside it. */
+/** Metre numbers along the path. */
 export class Ruler {
   readonly group = new Group();
   private readonly labels: { text: string; sprite: Sprite }[] = [];
 
-  /** From and to: ends of the way on the floor; `aside`: how far beside it the numbers stand [m]. */
+  /** `from`, `to`: ends of the path on the floor; `aside`: distance of the numbers from the path [m]. */
   constructor(from: Vector3, to: Vector3, heading: Vector3, floor: number, aside: number) {
     const axis = Math.abs(heading.x) >= Math.abs(heading.z) ? "x" : "z";
     const other = axis === "x" ? "z" : "x";

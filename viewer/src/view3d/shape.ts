@@ -14,7 +14,7 @@ const UP = new Vector3(0, 1, 0);
 const ROUND = 28;
 const CAP = 10;
 
-/** A solid of the page as a mesh, in the axes that the solid is given in. */
+/** A solid of the page as a mesh, in the axes of the solid. */
 export function shapeMesh(shape: ViewShape, material: Material): Mesh {
   const mesh = placed(shape, material);
   mesh.castShadow = true;
@@ -22,7 +22,7 @@ export function shapeMesh(shape: ViewShape, material: Material): Mesh {
   return mesh;
 }
 
-/** Points whose hull, grown by `radius`, is the solid. */
+/** Points whose convex hull, grown by `radius`, is the solid. */
 export function shapePoints(shape: ViewShape): { points: Vector3[]; radius: number } {
   switch (shape.kind) {
     case "capsule":

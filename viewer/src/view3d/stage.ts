@@ -3,13 +3,13 @@ import type { CameraRig } from "./camera";
 import { OVER, SOLID } from "./layers";
 import type { Palette } from "./palette";
 
-/** Pixels of the picture for each of the page, at most: finer ones cost time and are hardly seen. */
+/** Largest number of picture pixels per page pixel: more cost time and are hardly visible. */
 const FINEST = 2;
 const SHADOW_PIXELS = 1024;
-/** Where the light comes from, as seen from the figure. */
+/** Direction from the figure to the light. */
 const LIGHT = new Vector3(1.5, 4.2, 2.4);
 
-/** Renderer, lights, and the picture when it has to be drawn anew. */
+/** Renderer and lights; redraws the picture when needed. */
 export class Stage {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
@@ -17,7 +17,7 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xffffff, 2.1);
   private asked = 0;
 
-  /** Throws where the browser has no WebGL. */
+  /** Throws if the browser has no WebGL. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     height: number,
@@ -39,7 +39,7 @@ export class Stage {
   }
 
   recolor(colors: Palette): void {
-    // An opaque ground: browsers may put a canvas that sticks to the window over black where it is transparent.
+    // The background is opaque: some browsers show black behind a transparent canvas with a sticky position.
     this.renderer.setClearColor(colors.paper, 1);
     this.renderer.setClearColor(colors.paper);
     this.sky.groundColor.set(colors.dark ? 0x2a2f36 : 0xb4bac2);
@@ -47,7 +47,7 @@ export class Stage {
     this.sun.intensity = colors.dark ? 2.0 : 1.9;
   }
 
-  /** Keeps the light above a place. */
+  /** Moves the light with a position. */
   follow(place: Vector3): void {
     this.sun.target.position.copy(place);
     this.sun.position.copy(place).add(LIGHT);
@@ -58,7 +58,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
   }
 
-  /** Asks for a picture at the browser's next chance. */
+  /** Requests a picture at the next animation frame. */
   invalidate(): void {
     if (this.asked === 0) {
       this.asked = requestAnimationFrame(() => this.draw());

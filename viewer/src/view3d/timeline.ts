@@ -1,6 +1,6 @@
 import type { TimeAxis } from "../contract";
 
-/** The uniform instants of a session, and numbers between them. */
+/** The uniform frames of a session, and interpolation between them. */
 export class Timeline {
   readonly start: number;
   readonly step: number;
@@ -17,14 +17,14 @@ export class Timeline {
     return this.start + this.step * Math.max(0, this.frames - 1);
   }
 
-  /** Frame at a time [s], with its fraction, within the recording. */
+  /** Fractional frame at a time [s], limited to the recording. */
   frameAt(time: number): number {
     const frame = this.step > 0 ? (time - this.start) / this.step : 0;
     return Math.min(Math.max(frame, 0), Math.max(0, this.frames - 1));
   }
 }
 
-/** A number between two frames on a straight line; not a number beside a gap. */
+/** Linear interpolation between two frames; NaN next to a gap. */
 export function sample(values: Float64Array, frame: number): number {
   const before = Math.floor(frame);
   const part = frame - before;

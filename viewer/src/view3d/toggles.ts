@@ -3,19 +3,19 @@ import { button, element } from "../element";
 import type { ViewOptions } from "./options";
 import { leavesTrail } from "./trail";
 
-/** A word for the reader and what it shows. */
+/** A button text and the parts that it shows. */
 interface Toggle {
   readonly word: string;
   readonly hint: string;
   readonly keys: readonly (keyof ViewOptions)[];
 }
 
-const FORCES: Toggle = { word: "Forces", hint: "Arrows of the ground's forces", keys: ["forces"] };
+const FORCES: Toggle = { word: "Forces", hint: "Arrows of the ground forces", keys: ["forces"] };
 const MOMENTS: Toggle = { word: "Moments", hint: "Arcs of the joint moments", keys: ["torques"] };
-const SOLES: Toggle = { word: "Soles", hint: "Centre of pressure and points that carry", keys: ["trail", "contacts"] };
-const GHOST: Toggle = { word: "Ghost", hint: "Figure of the session compared with", keys: ["ghost"] };
+const SOLES: Toggle = { word: "Soles", hint: "Centre of pressure and loaded sole points", keys: ["trail", "contacts"] };
+const GHOST: Toggle = { word: "Ghost", hint: "Figure of the compared session", keys: ["ghost"] };
 
-/** What of a view can be shown or hidden. */
+/** Toggles that have an effect in this view. */
 export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   return [
     ...(view.forces.length > 0 ? [FORCES] : []),
@@ -25,7 +25,7 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   ];
 }
 
-/** Buttons in a corner of the picture that show and hide parts of it; `refresh` after the options changed. */
+/** Buttons in a corner of the picture that show and hide its parts; call `refresh` after the options changed. */
 export function toggleBar(
   toggles: Toggle[],
   now: ViewOptions,

@@ -19,10 +19,10 @@ import { type Palette, sideColor } from "./palette";
 import type { SeriesReader } from "./reader";
 import { sample } from "./timeline";
 
-/** Radius of an arc and of its tube, in heights of the figure. */
+/** Radii of an arc and of its tube, in heights of the figure. */
 const RADIUS = 0.055;
 const TUBE = 0.0048;
-/** Moment of a full arc [N.m/kg], about the largest of walking, and the angle of that arc. */
+/** Moment of a full arc [N.m/kg], about the largest in walking, and the angle of that arc. */
 const FULL = 1.6;
 const FULL_ANGLE = 1.6 * Math.PI;
 /** Below this nothing is drawn [N.m/kg]. */
@@ -30,7 +30,7 @@ const SMALL = 0.04;
 const SEGMENTS = 72;
 const SIDES = 10;
 
-/** Angle of a moment's arc [rad], with its sign; it stops growing at a full arc. */
+/** Signed angle of a moment's arc [rad], limited to a full arc. */
 export function arcAngle(moment: number): number {
   if (!(Math.abs(moment) >= SMALL)) {
     return 0;
@@ -49,7 +49,7 @@ interface Arc {
   red: RedSpan[];
 }
 
-/** Joint moments as arcs with a head around the axes of the joints, on a faint disc. */
+/** Joint moments as arcs with arrow heads around the joint axes, on a faint disc. */
 export class Torques {
   readonly group = new Group();
   private readonly arcs: Arc[];
@@ -122,7 +122,7 @@ export class Torques {
 const AXIS = new Vector3(0, 0, 1);
 const turn = new Quaternion();
 
-/** Turns z to the joint's axis, or against it, so that arcs always run counter-clockwise in their own plane. */
+/** Rotates z to the joint's axis or its opposite, so that arcs always run counter-clockwise in their own plane. */
 function turnOf(source: ViewTorque, reversed: boolean): Quaternion {
   const axis = new Vector3(...source.axis).normalize();
   return turn.setFromUnitVectors(AXIS, reversed ? axis.negate() : axis);
@@ -154,7 +154,7 @@ function arc(
   return { source, values: numbers.read(source.values), group, tube, halo, head, disc, red: own };
 }
 
-/** A tube along an arc around z from x on; its triangles run along the arc, so that a draw range cuts it short. */
+/** A tube along an arc around z, starting at x; its triangles are ordered along the arc, so that a draw range shortens it. */
 function arcGeometry(radius: number, tube: number): BufferGeometry {
   const position: number[] = [];
   const normal: number[] = [];

@@ -4,15 +4,15 @@ import { OVER, onLayer } from "./layers";
 import { type Palette, sideColor } from "./palette";
 import type { SeriesReader } from "./reader";
 
-/** Radius of the line [m] and of the present point. */
+/** Radii of the line and of the current point [m]. */
 const LINE_M = 0.006;
 const POINT_M = 0.013;
-/** Corners around the line. */
+/** Corners in a cross-section of the line. */
 const SIDES = 6;
-/** Longest jump between two frames that is still one trail [m]. */
+/** Longest distance between two frames of one trail [m]. */
 const JUMP_M = 0.15;
 
-/** First frame of the contact that a frame is in: all from there on have a point; -1 out of contact. */
+/** First frame of the contact that contains a frame: all frames from there have a point; -1 outside contacts. */
 export function contactStart(x: Float64Array, frame: number): number {
   if (!Number.isFinite(x[frame] ?? Number.NaN)) {
     return -1;
@@ -24,10 +24,10 @@ export function contactStart(x: Float64Array, frame: number): number {
   return first;
 }
 
-/** A place in the world [m]. */
+/** A position in the world [m]. */
 export type Place = [x: number, y: number, z: number];
 
-/** Corners of level rings around points, `SIDES` for each, and how strong each ring is: 0.08 at the oldest point, 1 at the last. */
+/** Corners of horizontal rings around points, `SIDES` per ring, and the opacity of each ring: 0.08 at the oldest point, 1 at the last. */
 export function rings(points: Place[], radius: number): { corners: Place[]; strength: number[] } {
   const corners: Place[] = [];
   const strength: number[] = [];
@@ -48,13 +48,13 @@ export function rings(points: Place[], radius: number): { corners: Place[]; stre
 
 interface Track {
   source: ViewForce;
-  /** Where the force acts: x, y, z [m]. */
+  /** Point of application of the force: x, y, z [m]. */
   place: [Float64Array, Float64Array, Float64Array];
   line: Mesh<BufferGeometry, MeshBasicMaterial>;
   point: Mesh<SphereGeometry, MeshBasicMaterial>;
 }
 
-/** Where the centres of pressure of the present contacts have been. */
+/** Trails of the centres of pressure of the current contacts. */
 export class Trail {
   readonly group = new Group();
   private readonly tracks: Track[];
@@ -90,12 +90,12 @@ export class Trail {
   }
 }
 
-/** Feet leave trails; what lies on anything else does not. */
+/** Whether a force leaves a trail: forces on feet only. */
 export function leavesTrail(force: ViewForce): boolean {
   return force.role === "main" && force.side !== null;
 }
 
-/** Points of the contact up to a frame, after the last jump. */
+/** Points of the contact up to a frame, from the last jump. */
 export function trailPoints([x, y, z]: Track["place"], frame: number): Place[] {
   const start = contactStart(x, frame);
   const points: Place[] = [];
@@ -131,7 +131,7 @@ function fill(geometry: BufferGeometry, points: Place[]): void {
   geometry.setDrawRange(0, 6 * SIDES * (points.length - 1));
 }
 
-/** The corners' buffer, with room for so many rings. */
+/** Buffer for the corners of a given number of rings. */
 function room(geometry: BufferGeometry, count: number): BufferAttribute {
   const known = geometry.getAttribute("position") as BufferAttribute | undefined;
   if (known && known.count >= count * SIDES) {

@@ -18,7 +18,7 @@ import { Ruler } from "./ruler";
 import { Torques } from "./torques";
 import { Trail } from "./trail";
 
-/** Everything that is seen, at a time. */
+/** All visible objects at a time. */
 export class World {
   readonly path: Path;
   private readonly extent: Extent;
@@ -64,13 +64,13 @@ export class World {
     );
   }
 
-  /** All that has colours and stands in the scene. */
+  /** All coloured objects in the scene. */
   get parts(): (Figure | Floor | Forces | Torques | Trail | Contacts | Ghost | Plates | Obstacles | Ruler)[] {
     const { figure, floor, forces, torques, trail, contacts } = this;
     return [figure, floor, forces, torques, trail, contacts, ...this.ghosts, ...this.still];
   }
 
-  /** Room for the figure with its ghosts. */
+  /** Extent of the figure with its ghosts. */
   get room(): Extent {
     return this.ghosts.reduce((room, ghost) => union(room, ghost.extentOn(this.view.floor_m)), this.extent);
   }
@@ -96,12 +96,12 @@ export class World {
     }
   }
 
-  /** Lets the eye through to the figure. */
+  /** Makes obstacles in front of the figure translucent. */
   clear(eye: Vector3, target: Vector3): void {
     this.obstacles.clear(eye, target);
   }
 
-  /** Everything as it is at a time [s]; `place` becomes the figure's place on the floor. */
+  /** Updates everything to a time [s]; writes the figure's position on the floor to `place`. */
   pose(time: number, place: Vector3): void {
     const frame = this.gait.timeline.frameAt(time);
     this.path.smooth(frame, place);
