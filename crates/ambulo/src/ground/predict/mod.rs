@@ -205,13 +205,13 @@ pub enum PredictError {
 /// # Errors
 /// A model without feet or soles, prescribed series of another length than the motion: see [`PredictError`].
 ///
-/// The mean vertical force of a synthetic walk is the body weight:
+/// The predicted vertical force of a synthetic walk is on average what Newton's law requires:
 ///
 /// ```
 /// use ambulo::analysis::feasibility::Person;
 /// use ambulo::findings::Findings;
 /// use ambulo::gait::Gait;
-/// use ambulo::ground::predict::{PredictSettings, predict};
+/// use ambulo::ground::predict::{PredictSettings, predict, total_wrench};
 /// use ambulo::model::anthropometry::{Build, SegmentTable};
 /// use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, synthesise};
 ///
@@ -223,10 +223,9 @@ pub enum PredictError {
 /// let walk = synthesise(&settings, &mut findings)?;
 /// let (model, soles) = (&walk.human.model, Person::of_human(&walk.human).soles);
 /// let prediction = predict(model, &walk.trajectory, &soles, &PredictSettings::default(), &mut findings)?;
-/// let frames = walk.trajectory.grid().frames;
-/// let vertical = |frame: usize| prediction.ground.bodies.iter().map(|foot| foot.force[frame].y).sum::<f64>();
-/// let mean = (0..frames).map(vertical).sum::<f64>() / frames as f64;
-/// assert!((mean / (72.6 * 9.80665) - 1.0).abs() < 0.05, "{mean} N");
+/// let predicted: f64 = prediction.ground.bodies.iter().flat_map(|foot| &foot.force).map(|force| force.y).sum();
+/// let required: f64 = total_wrench(model, &walk.trajectory).iter().map(|wrench| wrench.force.y).sum();
+/// assert!((predicted / required - 1.0).abs() < 0.05, "{predicted} instead of {required}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn predict(

@@ -79,7 +79,7 @@ impl Scene {
     /// use ambulo::findings::Findings;
     /// use ambulo::simulation::scene::{Scene, SceneFile, SceneSettings};
     ///
-    /// let text = "duration = 0.1\n[[body]]\nname = \"ball\"\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 1, 0]";
+    /// let text = "step = 0.001\nduration = 0.1\n[[body]]\nname = \"ball\"\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 1, 0]";
     /// let mut findings = Findings::default();
     /// let mut no_files = |path: &str| Err(format!("{path}: this scene names no files"));
     /// let file = SceneFile::parse(text)?;
