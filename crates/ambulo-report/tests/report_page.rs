@@ -161,7 +161,7 @@ fn times_and_distances_are_those_of_the_summary() {
     }
     with_summary(&mut files, |summary| summary["times_and_distances"]["belt_speed_m_s"] = json!(1.25));
     assert!(shown.header("Walking direction").ends_with("world x"), "{}", shown.header("Walking direction"));
-    assert_eq!(Shown::of(&files).header("Walking direction"), "in place, on a belt that runs at 1.25 m/s");
+    assert_eq!(Shown::of(&files).header("Walking direction"), "in place, on a treadmill at 1.25 m/s");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn bands_need_a_leg_length() {
     files.remove("subject.osim");
     let bare = Shown::of(&files);
     assert!(bare.panel("hip_flexion_angle")["band"].is_null());
-    assert!(bare.misses("No bands of healthy people: the leg length is not known"));
+    assert!(bare.misses("No normative bands: the leg length is not known"));
     assert!(bare.session()["view"].is_null() && bare.misses("There is no body"));
     assert_eq!(bare.header("Leg length"), "not known");
 }

@@ -104,7 +104,7 @@ fn the_verdict_of_a_walker_stands_on_its_panel() {
     assert_eq!(feasibility["closest"]["rows"][0][1]["text"], "ann: left hip flexion moment");
     assert_eq!(feasibility["closest"]["rows"][0][6]["outside"], true);
     let facts = shown.session()["quality"]["facts"].as_array().unwrap();
-    let steps = facts.iter().find(|fact| fact["label"] == "Steps above the solver's tolerance").unwrap();
+    let steps = facts.iter().find(|fact| fact["label"] == "Time steps above the solver's tolerance").unwrap();
     assert_eq!((&steps["value"], &steps["good"]), (&json!("3"), &Value::Bool(false)));
     assert_eq!(shown.header("Scene"), "A door </script>");
 }

@@ -83,7 +83,7 @@ fn both_masses_are_said_where_they_differ() {
     with_summary(&mut files, |summary| summary["mass_model_kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
     assert!(!mass(&files).contains("dynamics"), "{}", mass(&files));
     with_summary(&mut files, |summary| (summary["mass_kg"], summary["mass_model_kg"]) = (json!(70.0), json!(72.84)));
-    assert_eq!(mass(&files), "70.0 kg (divides moments and powers); 72.8 kg (of the model, used by dynamics)");
+    assert_eq!(mass(&files), "70.0 kg (normalises moments and powers); 72.8 kg (model, used for the dynamics)");
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn the_header_says_what_was_done_to_the_motion() {
     assert_eq!(header_note(&shown, "Motion"), "at most pelvis tilt by 3.2 deg and pelvis ty by 7.0 mm");
     assert_eq!(shown.header("Axes"), "lab z up, mm → world y up, m");
     let cut = header_note(&shown, "Time");
-    assert!(cut.ends_with(", a part of the recording"), "{cut}");
+    assert!(cut.ends_with(", part of the recording"), "{cut}");
 }
 
 // ---- strides ----
@@ -122,8 +122,8 @@ fn one_stride_is_one_stride() {
     });
     let shown = Shown::of(&files);
     let note = note(&shown, "time_distance");
-    assert!(note.as_str().unwrap().starts_with("Of 1 right stride, between"), "{note}");
-    assert_eq!(header_note(&shown, "Cadence"), "of one stride");
+    assert!(note.as_str().unwrap().starts_with("Values of 1 right stride, between"), "{note}");
+    assert_eq!(header_note(&shown, "Cadence"), "one stride");
 }
 
 // ---- files left out ----
@@ -143,7 +143,9 @@ fn a_motion_without_ground_forces_keeps_its_cycles() {
     let shown = Shown::of(&files);
     assert!(!shown.panel("hip_flexion_angle")["means"].as_array().unwrap().is_empty());
     assert!(!shown.header("Filter").contains("forces"), "{}", shown.header("Filter"));
-    assert!(header_note(&shown, "Ground forces").contains("as asked") && shown.misses("without them, as asked"));
+    assert!(
+        header_note(&shown, "Ground forces").contains("as requested") && shown.misses("without them, as requested")
+    );
     assert!(header_note(&shown, "Speed").contains("without ground forces"));
     let tables = shown.session()["tables"].as_array().unwrap();
     let times = tables.iter().find(|table| table["id"] == "time_distance").unwrap();
@@ -157,7 +159,7 @@ fn each_file_left_out_is_named() {
         ("moments.sto", "No joint moments over time: the folder has no moments.sto"),
         ("powers.sto", "No joint powers over time: the folder has no powers.sto"),
         ("grf_sd.mot", "No uncertainty of the predicted forces"),
-        ("events.csv", "No foot strikes and toe-offs"),
+        ("events.csv", "No foot strikes and foot offs"),
     ] {
         let mut files = if file == "grf_sd.mot" { predicted() } else { recorded() };
         assert!(!Shown::of(&files).misses(words) && !whole.misses(words), "{file} is there");
@@ -166,7 +168,7 @@ fn each_file_left_out_is_named() {
     }
     let mut files = recorded();
     keep_lines(&mut files, "events.csv", |_| false);
-    assert!(Shown::of(&files).misses("No foot strikes and toe-offs"));
+    assert!(Shown::of(&files).misses("No foot strikes and foot offs"));
 }
 
 #[test]
@@ -180,7 +182,7 @@ fn a_column_of_one_side_left_out_is_named() {
     kept.in_degrees = Some(true);
     files.insert("kinematics.mot".to_owned(), kept.write_storage());
     let shown = Shown::of(&files);
-    assert!(shown.misses("since kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
+    assert!(shown.misses("because kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
     let traces = shown.panel("knee_flexion_angle")["traces"].as_array().unwrap().clone();
     assert_eq!(traces.iter().map(|trace| &trace["side"]).collect::<Vec<_>>(), ["l"]);
 }

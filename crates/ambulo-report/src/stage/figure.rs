@@ -4,7 +4,7 @@ use super::joint_places::JointPlaces;
 use super::limb::{dot, limb};
 use super::part::Part;
 use super::path::BodyPath;
-use super::{Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
+use super::{ForceRole, Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
 use crate::page::ViewShape;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, each_body_motion};
@@ -54,9 +54,9 @@ impl Stage {
         };
         let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
         stage.plates = plates(&summary);
-        for (file, beside) in [("grf.mot", false), ("grf_measured.mot", true)] {
+        for (file, role) in [("grf.mot", ForceRole::Main), ("grf_measured.mot", ForceRole::Measured)] {
             if let Some(table) = same_rows(folder, file, &angles)? {
-                stage.forces.extend(arrow::forces(&table, beside));
+                stage.forces.extend(arrow::forces(&table, role));
             }
         }
         if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {

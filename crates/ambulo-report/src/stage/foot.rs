@@ -8,7 +8,7 @@
 use super::capsule;
 use super::joint_places::JointPlaces;
 use super::part::Part;
-use super::{Stage, StageContact};
+use super::{ForceRole, Stage, StageContact};
 use crate::page::ViewShape;
 use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::model::anthropometry::{ContactSphere, Dimensions};
@@ -40,7 +40,7 @@ pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, su
 /// weight is on the foot, at most [`MOST_SUNK`].
 pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
     Side::BOTH.map(|side| {
-        let force = stage.forces.iter().find(|force| force.side == Some(side) && !force.beside);
+        let force = stage.forces.iter().find(|force| force.side == Some(side) && force.role == ForceRole::Main);
         let carries = |instant: &usize| force.is_some_and(|f| f.force[*instant].y > ENOUGH * stage.weight_n);
         let lowest = |instant: usize| {
             let soles = stage.contacts.iter().filter(|contact| contact.side == Some(side));
@@ -111,8 +111,8 @@ impl Foot {
         let (ball, tip) = (ball + up * size.toe_radius, tip + up * size.toe_radius);
         let aside = up.cross(&ahead) * (0.5 * size.foot_width - size.ball_radius).max(0.0);
         let shorter = tip - (tip - ball) * 0.12;
-        let beside = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
-        vec![capsule(ball, tip, size.toe_radius), beside(1.0), beside(-1.0)]
+        let outer = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
+        vec![capsule(ball, tip, size.toe_radius), outer(1.0), outer(-1.0)]
     }
 
     fn in_rear(&self, places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {

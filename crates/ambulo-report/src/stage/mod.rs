@@ -90,15 +90,24 @@ pub(crate) struct StagePlate {
     pub(crate) corners: [[f64; 3]; 4],
 }
 
-/// A force with its point, one entry an instant; both are not numbers where it does not act.
+/// What a force is shown for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ForceRole {
+    /// The results are based on it.
+    Main,
+    /// Force plates measured it; the results are based on a prediction.
+    Measured,
+}
+
+/// A force with its point of application, one entry per instant; both are NaN while it does not act.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StageForce {
     /// `right`, `left, plates`.
     pub(crate) name: String,
     /// Whose side.
     pub(crate) side: Option<Side>,
-    /// Whether it was measured beside a prediction.
-    pub(crate) beside: bool,
+    /// Whether results are based on it, or it is shown for comparison.
+    pub(crate) role: ForceRole,
     /// Where it acts [m].
     pub(crate) point: Vec<Vec3>,
     /// The force on the body [N].

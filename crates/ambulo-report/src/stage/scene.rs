@@ -2,7 +2,7 @@
 
 use super::csv_rows::Row;
 use super::path::BodyPath;
-use super::{Stage, StageBody, StageForce, contact_forces, ground_plane};
+use super::{ForceRole, Stage, StageBody, StageForce, contact_forces, ground_plane};
 use crate::page::ViewShape;
 use crate::scene_shapes::{FILE, FORMAT, ObstacleShapes, SceneShapes};
 use ambulo::model::Side;
@@ -179,6 +179,6 @@ impl StageForce {
     /// Without a force at any instant.
     pub(super) fn nowhere(name: String, side: Option<Side>, instants: usize) -> StageForce {
         let gap = vec![Vec3::repeat(f64::NAN); instants];
-        StageForce { name, side, beside: false, point: gap.clone(), force: gap }
+        StageForce { name, side, role: ForceRole::Main, point: gap.clone(), force: gap }
     }
 }

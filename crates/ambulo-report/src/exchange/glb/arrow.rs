@@ -2,8 +2,8 @@
 
 use super::material::Paint;
 use super::mesh::{Triangles, frame};
-use super::{METRES_PER_NEWTON, Making};
-use crate::stage::{BodyPath, Stage, StageForce};
+use super::{GlbBuilder, METRES_PER_NEWTON};
+use crate::stage::{BodyPath, ForceRole, Stage, StageForce};
 use ambulo::spatial::Vec3;
 use nalgebra::UnitQuaternion;
 use serde_json::json;
@@ -15,16 +15,16 @@ const HEAD: f64 = 0.024;
 const NECK: f64 = 0.88;
 
 /// Adds all forces of a stage.
-pub(super) fn add(stage: &Stage, making: &mut Making) {
+pub(super) fn add(stage: &Stage, builder: &mut GlbBuilder) {
     for force in &stage.forces {
-        let paint = if force.beside { Paint::Measured } else { Paint::of_side(force.side) };
-        let Some(mesh) = making.mesh(&format!("force {}", force.name), &arrow(), paint) else { continue };
+        let paint = if force.role == ForceRole::Measured { Paint::Measured } else { Paint::of_side(force.side) };
+        let Some(mesh) = builder.mesh(&format!("force {}", force.name), &arrow(), paint) else { continue };
         let mut node = json!({ "name": format!("force {}", force.name), "mesh": mesh });
         let Moving { place, turn, scale } = moving(force);
-        let number = making.nodes.len();
-        making.animation.place(number, &mut node, &place, &turn, &mut making.buffer);
-        making.animation.channel(number, &mut node, "scale", &scale, &mut making.buffer);
-        making.add_root(node);
+        let number = builder.nodes.len();
+        builder.animation.place(number, &mut node, &place, &turn, &mut builder.buffer);
+        builder.animation.channel(number, &mut node, "scale", &scale, &mut builder.buffer);
+        builder.add_root(node);
     }
 }
 

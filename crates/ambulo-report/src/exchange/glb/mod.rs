@@ -28,7 +28,7 @@ pub(super) const METRES_PER_NEWTON: f64 = 1e-3;
 
 /// A file under construction.
 #[derive(Default)]
-struct Making {
+struct GlbBuilder {
     buffer: Buffer,
     nodes: Vec<Value>,
     meshes: Vec<Value>,
@@ -42,16 +42,16 @@ struct Making {
 /// # Errors
 /// Data that JSON cannot hold.
 pub(super) fn glb(stage: &Stage, name: &str) -> Result<Vec<u8>, serde_json::Error> {
-    let mut making = Making::default();
+    let mut builder = GlbBuilder::default();
     let times: Vec<f64> = (0..stage.grid.frames).map(|frame| stage.grid.step_s * frame as f64).collect();
-    making.animation.time(&times, &mut making.buffer);
-    making.add_bodies(stage);
-    arrow::add(stage, &mut making);
-    making.add_still(stage);
-    container::file(&making.document(stage, name), making.buffer.bytes())
+    builder.animation.time(&times, &mut builder.buffer);
+    builder.add_bodies(stage);
+    arrow::add(stage, &mut builder);
+    builder.add_still(stage);
+    container::file(&builder.document(stage, name), builder.buffer.bytes())
 }
 
-impl Making {
+impl GlbBuilder {
     /// Nodes of all bodies, in their order, so that a body's place on the stage is the number of its node.
     fn add_bodies(&mut self, stage: &Stage) {
         for (number, body) in stage.bodies.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::{METRES_PER_NEWTON, glb};
 use crate::page::ViewShape;
-use crate::stage::{BodyPath, Stage, StageBody, StageForce, StagePlate};
+use crate::stage::{BodyPath, ForceRole, Stage, StageBody, StageForce, StagePlate};
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
@@ -11,7 +11,7 @@ use serde_json::Value;
 
 const FRAMES: usize = 12;
 
-/// A trunk that flies and turns, with a leg that swings on it, on a plate, beside a stone; a force that comes and goes.
+/// A trunk that flies and turns, with a swinging leg attached, over a plate, next to a stone; a force that acts at times.
 fn stage() -> Stage {
     let (mut trunk, mut leg) = (BodyPath::default(), BodyPath::default());
     for frame in 0..FRAMES {
@@ -46,7 +46,7 @@ fn stage() -> Stage {
         forces: vec![StageForce {
             name: "right".into(),
             side: Some(Side::Right),
-            beside: false,
+            role: ForceRole::Main,
             point: (0..FRAMES).map(point).collect(),
             force: (0..FRAMES).map(force).collect(),
         }],
