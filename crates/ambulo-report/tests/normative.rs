@@ -1,4 +1,4 @@
-//! Bands of healthy people: what the source says, read between its speeds, in the signs of the panels.
+//! Normative bands: values of the source, interpolated between its speeds, with the signs of the panels.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,4 +1,4 @@
-//! Markers as TRC, C3D and tables.
+//! Writes markers as TRC, C3D and tables.
 
 use ambulo::motion::MarkerRecording;
 use ambulo_formats::Error;
@@ -6,7 +6,7 @@ use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Marker, Trc};
 
-/// Markers as a TRC file in millimetres, which is what its readers expect.
+/// Markers as a TRC file in millimetres, as readers of TRC expect.
 ///
 /// # Errors
 /// Names that stand twice or that no file can hold.
@@ -35,7 +35,7 @@ pub fn c3d_of_markers(recording: &MarkerRecording) -> C3d {
     c3d
 }
 
-/// Markers as a table: `time`, then `<marker>_x`, `_y`, `_z` [m]; not-a-number where one was not seen.
+/// Markers as a table: `time`, then `<marker>_x`, `_y`, `_z` [m]; NaN while a marker is missing.
 ///
 /// # Errors
 /// Names that stand twice or that no file can hold.

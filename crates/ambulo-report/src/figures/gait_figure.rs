@@ -1,4 +1,4 @@
-//! Draws the joint angles of a walk over the gait cycle, with the sub-cycles of its state machines below: figure 1 of the 1997 paper, for
+//! Draws the joint angles of a walk over the gait cycle with the sub-cycles of its state machines below, as figure 1 of the 1997 paper, for
 //! any gait.
 
 use super::FigureError;
@@ -53,7 +53,7 @@ struct Row {
 }
 
 /// Hip, knee and ankle angle over the cycle of the right foot, in degrees, flexion and dorsiflexion positive; below, the sub-cycles of
-/// each joint and stance and swing of both feet, as the walking machine has them at the speed at which the walk begins.
+/// each joint, and stance and swing of both feet, from the walking machine at the initial speed of the walk.
 ///
 /// # Errors
 /// A style that cannot be read.

@@ -1,4 +1,4 @@
-//! Forces as arrows: a mesh one metre long upwards, whose node is moved to the point, turned to the force and stretched to its size.
+//! Forces as arrows: an upward mesh of one metre, whose node is moved to the point, turned along the force and scaled to its magnitude.
 
 use super::material::Paint;
 use super::mesh::{Triangles, frame};
@@ -28,14 +28,14 @@ pub(super) fn add(stage: &Stage, builder: &mut GlbBuilder) {
     }
 }
 
-/// A row an instant.
+/// One row per instant.
 struct Moving {
     place: Vec<[f64; 3]>,
     turn: Vec<[f64; 4]>,
     scale: Vec<[f64; 3]>,
 }
 
-/// While a force does not act its arrow stays where it last was, without size.
+/// While a force does not act, its arrow stays at its last place with scale zero.
 fn moving(force: &StageForce) -> Moving {
     let acts = |(point, force): &(&Vec3, &Vec3)| point.iter().chain(force.iter()).all(|x| x.is_finite());
     let rows = || force.point.iter().zip(&force.force);
@@ -59,7 +59,7 @@ fn moving(force: &StageForce) -> Moving {
     }
 }
 
-/// From the origin to one metre above it.
+/// An arrow from the origin to one metre above it.
 fn arrow() -> Triangles {
     let axes = frame(Vec3::y());
     let at = |height: f64| Vec3::y() * height;

@@ -98,7 +98,7 @@ pub(super) fn extracted(results: &Results, quantities: &[ClinicalQuantity]) -> V
         let quantity = quantities.iter().find(|quantity| quantity.id == id)?;
         let of = |side| {
             let curves = shown_cycles(results, quantity, side);
-            curves.iter().filter_map(|curve| read.off(&curve.values, toe_off(results, curve))).collect::<Vec<f64>>()
+            curves.iter().filter_map(|curve| read.off(&curve.values, foot_off(results, curve))).collect::<Vec<f64>>()
         };
         let sides = Side::BOTH.map(of);
         let some = sides.iter().any(|values| !values.is_empty());
@@ -165,14 +165,14 @@ fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-fn toe_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
+fn foot_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
     results.cycles_of(curve.side).find(|cycle| cycle.number == curve.number)?.toe_off_percent
 }
 
 impl Read {
     /// The value of a cycle; `None` if it needs a foot off that was not detected.
-    fn off(self, values: &[f64], toe_off: Option<f64>) -> Option<f64> {
-        let of = |part: Part| Some(values.get(part.samples(values.len(), toe_off)?)?.iter().copied());
+    fn off(self, values: &[f64], foot_off: Option<f64>) -> Option<f64> {
+        let of = |part: Part| Some(values.get(part.samples(values.len(), foot_off)?)?.iter().copied());
         let largest = |part| Some(of(part)?.fold(f64::NEG_INFINITY, f64::max));
         let smallest = |part| Some(of(part)?.fold(f64::INFINITY, f64::min));
         let value = match self {
@@ -187,10 +187,10 @@ impl Read {
 
 impl Part {
     /// Range of samples within a cycle of `count` samples; parts of the stance are shares of its duration.
-    fn samples(self, count: usize, toe_off: Option<f64>) -> Option<std::ops::Range<usize>> {
+    fn samples(self, count: usize, foot_off: Option<f64>) -> Option<std::ops::Range<usize>> {
         let at = |share: f64| ((count - 1) as f64 * share / 100.0).round() as usize;
         let stance = |from: f64, to: f64| {
-            let off = toe_off?;
+            let off = foot_off?;
             Some(at(from * off)..at(to * off) + 1)
         };
         match self {
@@ -199,7 +199,7 @@ impl Part {
             EarlyStance => stance(0.0, 0.5),
             MiddleOfStance => stance(0.25, 0.75),
             LateStance => stance(0.5, 1.0),
-            Swing => Some(at(toe_off?)..count),
+            Swing => Some(at(foot_off?)..count),
         }
     }
 }
