@@ -121,7 +121,7 @@ fn a_cut_summary_says_what_to_do() {
     let mut files = recorded();
     let whole = files["summary.json"].clone();
     files.insert("summary.json".to_owned(), whole[..whole.len() / 2].to_vec());
-    refused_by_page(&files, "hint: the file is cut or not JSON; run the command that wrote it again");
+    refused_by_page(&files, "hint: the file is truncated or not JSON; run the command that wrote it again");
 }
 
 #[test]
