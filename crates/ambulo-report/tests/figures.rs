@@ -1,4 +1,4 @@
-//! Figures over the gait cycle: the lines are the rows' numbers, nothing that a name holds gets out of its text, missing parts are left out.
+//! Figures over the gait cycle: lines show the numbers of the rows, names are escaped, missing parts are left out.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -61,7 +61,7 @@ fn named<'f>(figures: &'f [(String, Figure)], name: &str) -> &'f Figure {
     &figures.iter().find(|(found, _)| *found == wanted).unwrap_or_else(|| panic!("no {name}")).1
 }
 
-/// What a panel shows of a row: unit, sign and mass as docs/CONVENTIONS.md has them.
+/// The displayed value of a row: unit, sign and mass as in docs/CONVENTIONS.md.
 fn shown(id: &str, side: Side) -> (&'static str, f64) {
     let own = if side == Side::Right { -1.0 } else { 1.0 };
     match id {
@@ -130,7 +130,7 @@ fn bands_foot_off_and_units_are_drawn_and_the_source_is_named() {
         assert!(moments.texts.iter().any(|text| text == words), "{words}: {:?}", moments.texts);
     }
     assert!(moments.texts.iter().any(|text| text.contains("children") && text.contains("Schwartz")));
-    // Without a speed there is no band, and that is said.
+    // Without a speed there is no band, and a note reports it.
     let rows = rows(&Side::BOTH, 2);
     let bandless = CycleFigures {
         rows: &rows,

@@ -130,7 +130,7 @@ fn swing(case: &Case) -> Files {
     )
 }
 
-/// What a panel shows of the right side over time.
+/// The curve of the right side over time in a panel.
 fn over_time(shown: &Shown, panel: &str) -> Vec<f64> {
     let traces = shown.panel(panel)["traces"].as_array().unwrap();
     let right = traces.iter().find(|trace| trace["side"] == "r").unwrap_or_else(|| panic!("{panel}: {traces:?}"));

@@ -1,4 +1,4 @@
-//! The report page against the files that it is made of: every number drawn is the file's, and what is not there is said.
+//! The report page compared with its files: every drawn number is in the files, and missing parts are reported.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -136,7 +136,7 @@ fn cycles_are_found_in_time_though_some_are_left_out() {
     let cycles = |shown: &Shown| shown.session()["cycles"].as_array().unwrap().clone();
     let right: Vec<Value> = cycles(&all).into_iter().filter(|cycle| cycle["side"] == "r").collect();
     assert!(right.len() >= 2, "{right:?}");
-    // As after plates that saw only the second strike: the file counts what is left from 1.
+    // As if plates measured only the second strike: the file numbers the remaining cycles from 1.
     keep_lines(&mut files, "cycles.csv", |line| !line.contains(",r,1,"));
     let text = String::from_utf8(files["cycles.csv"].clone()).unwrap().replace(",r,2,", ",r,1,");
     files.insert("cycles.csv".to_owned(), text.into_bytes());
@@ -256,7 +256,7 @@ fn reasons_of_the_verdict_stand_on_their_panels() {
     assert!(sentence.contains("could not") && sentence.contains("6 times"), "{sentence}");
 }
 
-// ---- what is not there ----
+// ---- missing parts ----
 
 #[test]
 fn one_leg_alone_is_said() {
@@ -352,7 +352,7 @@ fn script_in_names_stays_text() {
     assert_eq!(shown.session()["quality"]["findings"][0]["message"], NASTY);
 }
 
-// ---- files that are not what their names say ----
+// ---- broken files ----
 
 #[test]
 fn malformed_files_are_refused_with_file_and_line() {

@@ -1,4 +1,4 @@
-//! Files that are not what their names say: refused with the file, the place, what was found and what was expected, by the page and by the
+//! Broken files are rejected with the file, the place, what was found and what was expected, by the page and by the
 //! exports.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]

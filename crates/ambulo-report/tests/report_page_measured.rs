@@ -1,4 +1,4 @@
-//! The page of a prediction beside plates, and of a recorded person.
+//! The page of a prediction compared with plates, and of a recorded person.
 
 mod report_pages;
 #[path = "../../ambulo/tests/shared_data/mod.rs"]

@@ -1,4 +1,4 @@
-//! What the page says about how far its numbers can be trusted: verdicts on part of a motion, friction, bands of predictions.
+//! Quality information on the page: verdicts on part of a motion, friction, uncertainty bands of predictions.
 
 mod report_pages;
 
@@ -6,7 +6,7 @@ use ambulo_formats::table::Table;
 use report_pages::{Shown, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
-// ---- how far a verdict reaches ----
+// ---- limits of a verdict ----
 
 #[test]
 fn a_verdict_on_part_of_the_motion_says_so() {

@@ -1,4 +1,4 @@
-//! What the page says of a recording that is not the usual one: turns, two masses, no ground forces, single strides, files left out.
+//! Texts of the page for unusual recordings: turns, two masses, no ground forces, single strides, missing files.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -126,7 +126,7 @@ fn one_stride_is_one_stride() {
     assert_eq!(header_note(&shown, "Cadence"), "one stride");
 }
 
-// ---- files left out ----
+// ---- missing files ----
 
 #[test]
 fn a_motion_without_ground_forces_keeps_its_cycles() {
