@@ -43,7 +43,7 @@ pub struct Fill {
 /// Widths of lines [pt].
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct LineWidths {
     pub mean: f64,
     pub cycle: f64,
@@ -57,7 +57,7 @@ pub struct LineWidths {
 /// Letters: family and sizes [pt].
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct Font {
     pub family: String,
     pub title_pt: f64,
@@ -80,7 +80,7 @@ pub struct Widths {
 /// The contents of the file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct Style {
     /// Note for readers of the file.
     pub note: String,

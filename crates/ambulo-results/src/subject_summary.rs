@@ -222,7 +222,7 @@ impl SegmentSummary {
 impl MarkersSummary {
     fn new(fit: &MarkerFit) -> MarkersSummary {
         let millimetres = |m: f64| m.is_finite().then_some(1e3 * m);
-        let seen: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
+        let used: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
         let errors = fit.errors.iter().map(|error| MarkerErrorSummary {
             name: error.name.clone(),
             rms_mm: millimetres(error.rms_m),
@@ -231,7 +231,7 @@ impl MarkersSummary {
             frames_refused: error.down_weighted,
         });
         MarkersSummary {
-            rms_mm: millimetres(seen.iter().sum::<f64>() / seen.len() as f64),
+            rms_mm: millimetres(used.iter().sum::<f64>() / used.len() as f64),
             frames_not_converged: fit.converged.iter().filter(|converged| !**converged).count(),
             errors: errors.collect(),
         }

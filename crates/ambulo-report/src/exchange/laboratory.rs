@@ -52,7 +52,7 @@ pub fn laboratory_recording(
     let mut platforms = Vec::new();
     for side in Side::BOTH {
         let is_own = |load: &&ForceRecording| human.model.anatomy().body_side(load.body) == Some(side);
-        // Rear foot and toes stand on one plate.
+        // Rear foot and toes are on one plate.
         let load = Load::sum(loads.iter().filter(is_own).map(|load| Load::on(load, &times)), times.len());
         for [from, to] in load.contacts(&times) {
             let middle = load.mean_place(from, to);

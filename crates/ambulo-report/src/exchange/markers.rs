@@ -9,7 +9,7 @@ use ambulo_formats::trc::{LengthUnit, Marker, Trc};
 /// Markers as a TRC file in millimetres, as readers of TRC expect.
 ///
 /// # Errors
-/// Names that stand twice or that no file can hold.
+/// Duplicate names, or names that the format cannot store.
 pub fn trc_of_markers(recording: &MarkerRecording) -> Result<Trc, Error> {
     let markers = recording.markers.iter().map(|marker| Marker {
         name: marker.name.clone(),
@@ -38,7 +38,7 @@ pub fn c3d_of_markers(recording: &MarkerRecording) -> C3d {
 /// Markers as a table: `time`, then `<marker>_x`, `_y`, `_z` [m]; NaN while a marker is missing.
 ///
 /// # Errors
-/// Names that stand twice or that no file can hold.
+/// Duplicate names, or names that the format cannot store.
 pub fn table_of_markers(recording: &MarkerRecording) -> Result<Table, Error> {
     let mut columns = vec![("time".to_owned(), recording.times.clone())];
     for marker in &recording.markers {

@@ -120,7 +120,7 @@ fn draw(drawing: &mut Drawing, style: &Style, slot: Slot, walk: &Walk, rows: &[R
     whole.draw_words(drawing, style, words);
 }
 
-/// Angle [deg] against percent of the cycle.
+/// Angle [deg] over percent of the cycle.
 fn curve(walk: &Walk, joint: &Joint) -> Vec<[f64; 2]> {
     let law_speed = walk.clock(0.0).law_speed;
     let point = |i: usize| {

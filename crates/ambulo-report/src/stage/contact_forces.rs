@@ -48,11 +48,11 @@ pub(super) fn read(
         forces.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
         forces.truncate(MOST_PAIRS);
     }
-    let said = format!(
+    let note = format!(
         "Of {} pairs of bodies in contact, only the {MOST_PAIRS} with the largest forces have arrows.",
         left + MOST_PAIRS
     );
-    Ok((forces, (left > 0).then_some(said)))
+    Ok((forces, (left > 0).then_some(note)))
 }
 
 fn arrow((first, second): &(String, String), sums: &BTreeMap<usize, Sum>, instants: usize) -> StageForce {

@@ -42,7 +42,7 @@ pub(super) fn all() -> Value {
 fn material(name: &str, color: &str) -> Value {
     json!({
         "name": name,
-        // Sheets are seen from both sides.
+        // Sheets are visible from both sides.
         "doubleSided": true,
         "pbrMetallicRoughness": { "baseColorFactor": linear(color), "metallicFactor": 0, "roughnessFactor": 0.8 },
     })

@@ -15,7 +15,7 @@ const LACKING: [(&str, &str); 5] = [
     ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
     ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
     ("knee_flexion_angle", "knee flexion (no body file shows which direction is flexion)"),
-    ("knee_adduction_angle", "knee varus and rotation (the knee of this model is a hinge)"),
+    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only flexes)"),
     ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
@@ -27,51 +27,51 @@ pub(super) fn missing(
     still: &[ClinicalQuantity],
 ) -> Vec<String> {
     let mut sentences = Vec::new();
-    let mut say = |when: bool, sentence: String| {
+    let mut add = |when: bool, sentence: String| {
         if when {
             sentences.push(sentence);
         }
     };
     let no_ground = results.source == PageSource::None;
-    say(
+    add(
         no_ground,
         "No ground forces: the motion was computed without them, as requested, so the joint moments are those of a body in the air."
             .to_owned(),
     );
-    say(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
-    say(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
-    say(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
+    add(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
+    add(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
+    add(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
     for sentence in absent_columns(results, quantities) {
-        say(true, sentence);
+        add(true, sentence);
     }
     let uncertain = results.source == PageSource::Predicted && results.ground.is_some();
-    say(
+    add(
         uncertain && results.deviations.is_none(),
         format!("No uncertainty of the predicted forces: the folder has no {DEVIATIONS}."),
     );
-    say(
+    add(
         !no_ground && results.events.is_empty(),
         "No foot strikes and foot offs: the folder's events.csv is missing or empty.".to_owned(),
     );
     let predicted_alone = results.source == PageSource::Predicted && results.measured.is_none();
-    say(predicted_alone, "No force plates: ground forces are predicted and were not measured.".to_owned());
+    add(predicted_alone, "No force plates: ground forces are predicted and were not measured.".to_owned());
     for side in Side::BOTH {
-        say(is_lost(results, side), leg(results, side));
+        add(is_lost(results, side), leg(results, side));
     }
     let none = Side::BOTH.iter().all(|side| !has_curves(results, *side));
-    say(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
+    add(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
     let untimed = !none && results.cycles.is_empty();
-    say(untimed, "The times of the cycles are not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
+    add(untimed, "The times of the cycles are not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
     let walking = &results.summary.times_and_distances;
     let no_lengths = !walking.quantities.is_empty() && walking.quantity(StrideQuantity::StrideLength).is_none();
-    say(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
-    say(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
-    say(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
+    add(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
+    add(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
+    add(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
     let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
     let mut lacking = still::words(results, still);
     let unknown = LACKING.iter().filter(|(id, _)| angles && !quantities.iter().any(|quantity| quantity.id == *id));
     lacking.extend(unknown.map(|(_, words)| (*words).to_owned()));
-    say(!lacking.is_empty(), format!("Not shown: {}.", lacking.join(", ")));
+    add(!lacking.is_empty(), format!("Not shown: {}.", lacking.join(", ")));
     sentences
 }
 

@@ -112,9 +112,9 @@ fn trace(
     let factor = if row.unit == Unit::BodyWeights { 1.0 / results.weight_n } else { 1.0 };
     let load = table.column(&format!("ground_force_{letter}_vy"))?;
     // An unloaded foot has zeros in the file: a valid force, but no centre of pressure.
-    let stands = |frame: usize| row.unit == Unit::BodyWeights || load[frame].abs() > 0.0;
+    let has_value = |frame: usize| row.unit == Unit::BodyWeights || load[frame].abs() > 0.0;
     let shown = |values: &[f64]| {
-        let shown = values.iter().enumerate().map(|(frame, x)| if stands(frame) { factor * x } else { f64::NAN });
+        let shown = values.iter().enumerate().map(|(frame, x)| if has_value(frame) { factor * x } else { f64::NAN });
         shown.collect::<Vec<f64>>()
     };
     let values = shown(table.column(&column)?);
