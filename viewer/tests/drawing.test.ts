@@ -26,7 +26,7 @@ function sourcesOf(page: Page, id: string): PanelSource[] {
 
 const count = (of: Drawing | null, role: string): number => of?.lines.filter((line) => line.role === role).length ?? 0;
 
-test("every cycle, a mean a side, the band and toe-offs are drawn over the cycle", async () => {
+test("every cycle, one mean per side, the band and foot offs are drawn over the cycle", async () => {
   const { page, numbers } = await pageOf(WHOLE);
   const now = drawing(sourcesOf(page, "knee_flexion"), numbers, BOTH);
   assert.equal(count(now, "cycle"), 5);

@@ -177,7 +177,7 @@ fn figures_have_the_widths_of_journals() {
 }
 
 #[test]
-fn what_is_not_feasible_is_red_in_its_own_panel_and_cycle() {
+fn infeasible_parts_are_red_in_their_panel_and_cycle() {
     let mark = |quantity: Option<&str>, percent| Mark {
         quantity: quantity.map(str::to_owned),
         side: Side::Left,

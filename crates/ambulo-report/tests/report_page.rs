@@ -220,7 +220,7 @@ fn sessions_to_compare_keep_their_own_numbers() {
 // ---- verdict ----
 
 #[test]
-fn reasons_of_the_verdict_stand_on_their_panels() {
+fn reasons_of_the_verdict_are_marked_on_their_panels() {
     let mut files = recorded();
     with_summary(&mut files, |summary| {
         let reason = |check: &str, quantity: &str, side: Option<&str>| {
@@ -259,7 +259,7 @@ fn reasons_of_the_verdict_stand_on_their_panels() {
 // ---- missing parts ----
 
 #[test]
-fn one_leg_alone_is_said() {
+fn a_recording_of_one_leg_is_reported() {
     let mut files = recorded();
     keep_lines(&mut files, "cycles.csv", |line| !line.contains(",l,"));
     let shown = Shown::of(&files);
@@ -290,7 +290,7 @@ fn no_whole_cycle_leaves_the_curves_over_time() {
 }
 
 #[test]
-fn no_ground_forces_are_said_where_they_would_stand() {
+fn missing_ground_forces_are_reported_in_their_group() {
     let mut files = recorded();
     for file in ["grf.mot", "events.csv", "cycles.csv"] {
         files.remove(file);
@@ -355,7 +355,7 @@ fn script_in_names_stays_text() {
 // ---- broken files ----
 
 #[test]
-fn malformed_files_are_refused_with_file_and_line() {
+fn malformed_files_are_rejected_with_file_and_line() {
     let text = |files: &Files, name: &str| String::from_utf8(files[name].clone()).unwrap();
     let files = recorded();
     let line = |name: &str, number: usize| text(&files, name).lines().nth(number - 1).unwrap().to_owned();
@@ -388,7 +388,7 @@ fn malformed_files_are_refused_with_file_and_line() {
 }
 
 #[test]
-fn a_table_of_other_instants_is_refused() {
+fn a_table_with_other_instants_is_rejected() {
     let mut files = recorded();
     let table = Table::read_storage(&files["powers.sto"]).unwrap().0;
     let shorter = table.columns().map(|(name, values)| (name.to_owned(), values[..50].to_vec()));

@@ -10,7 +10,7 @@ use report_pages::{Shown, analysed, predicted, with_summary};
 use serde_json::json;
 
 #[test]
-fn a_prediction_stands_over_the_plates_with_its_uncertainty() {
+fn a_prediction_is_drawn_over_the_plates_with_its_uncertainty() {
     let files = predicted();
     let shown = Shown::of(&files);
     assert_eq!(

@@ -107,7 +107,7 @@ fn friction_is_drawn_where_the_verdict_judges_it() {
 }
 
 #[test]
-fn a_band_is_promised_where_there_is_one() {
+fn the_note_mentions_a_band_only_if_there_is_one() {
     let mut files = predicted();
     let overlay = |shown: &Shown| {
         let groups = shown.session()["quality"]["groups"].as_array().unwrap();

@@ -77,7 +77,7 @@ fn a_turn_that_the_laboratory_saw_counts() {
 // ---- header ----
 
 #[test]
-fn both_masses_are_said_where_they_differ() {
+fn both_masses_are_shown_if_they_differ() {
     let mut files = recorded();
     let mass = |files: &Files| Shown::of(files).header("Body mass");
     with_summary(&mut files, |summary| summary["mass_model_kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
@@ -87,7 +87,7 @@ fn both_masses_are_said_where_they_differ() {
 }
 
 #[test]
-fn the_header_says_what_was_done_to_the_motion() {
+fn the_header_shows_how_the_motion_was_processed() {
     let mut files = recorded();
     assert!(!header_has(&Shown::of(&files), "Motion"));
     with_summary(&mut files, |summary| {
@@ -188,7 +188,7 @@ fn a_column_of_one_side_left_out_is_named() {
 }
 
 #[test]
-fn what_never_changes_has_no_panel() {
+fn constant_quantities_have_no_panel() {
     // The invented walk keeps pelvis and trunk upright.
     let mut files = recorded();
     let shown = Shown::of(&files);
@@ -206,7 +206,7 @@ fn what_never_changes_has_no_panel() {
 }
 
 #[test]
-fn a_locked_joint_is_said_to_be_locked() {
+fn a_locked_joint_is_reported_as_locked() {
     let Some(data) = shared_data::data() else { return };
     let folder = data.join("opensim-gait2392-subject01");
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();

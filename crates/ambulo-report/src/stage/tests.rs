@@ -327,7 +327,7 @@ fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
 }
 
 #[test]
-fn what_is_missing_or_wrong_is_said_with_its_place() {
+fn missing_and_wrong_data_are_reported_with_their_place() {
     let model = body();
     let lacks = |name: &str| {
         let mut files = folder(&model);
@@ -393,7 +393,7 @@ fn a_scene_has_its_bodies_obstacles_floor_and_sums_of_contact_forces() {
 }
 
 #[test]
-fn a_scene_that_is_damaged_is_refused_with_file_and_line() {
+fn a_damaged_scene_is_rejected_with_file_and_line() {
     let refused = |file: &str, from: &str, to: &str| {
         let mut files = scene();
         let text = String::from_utf8(files[file].clone()).unwrap();

@@ -154,7 +154,7 @@ fn neighbouring_rotations_never_jump() {
 }
 
 #[test]
-fn an_arrow_stands_on_its_point_along_its_force_and_vanishes_without() {
+fn an_arrow_starts_at_its_point_along_its_force_and_vanishes_without_force() {
     let (read, stage) = (read(), stage());
     let node = read.node("force right");
     let scale = read.path(node, "scale");

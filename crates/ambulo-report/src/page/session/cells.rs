@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_shown_is_what_is_compared() {
+    fn displayed_digits_decide_whether_a_number_is_marked() {
         let outside = |x: f64| number(Some(x), 4, Some([0.0052, 0.0064])).outside;
         assert!(!outside(0.005_16) && !outside(0.006_44), "shown as 0.0052 and 0.0064");
         assert!(outside(0.005_14) && outside(0.006_46));
