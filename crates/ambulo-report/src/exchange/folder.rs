@@ -26,7 +26,7 @@ pub enum ExchangeError {
     /// The format cannot store the data.
     #[error(transparent)]
     Format(#[from] ambulo_formats::Error),
-    /// Data that JSON cannot hold.
+    /// Data that JSON cannot store.
     #[error("the description could not be written: {0}")]
     Data(#[from] serde_json::Error),
 }

@@ -24,12 +24,12 @@ impl Stage {
     /// A file that cannot be read.
     pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(FILE)?) else {
-            return Ok(Err(format!("There is no {POSES} with {FILE}, so the 3-D view is not available.")));
+            return Ok(Err(format!("There is no {POSES} with {FILE}, so the motion cannot be drawn in 3-D.")));
         };
         let shapes = read_shapes(folder, &shapes)?;
         let Instants { times, paths } = paths(folder, &poses)?;
         let Some(kept) = Kept::of(&times) else {
-            return Ok(Err(format!("{POSES} has no rows, so the 3-D view is not available.")));
+            return Ok(Err(format!("{POSES} has no rows, so the motion cannot be drawn in 3-D.")));
         };
         let bodies = bodies(folder, &shapes, paths, &kept)?;
         let mut stage = Stage {
@@ -132,7 +132,7 @@ impl Kept {
         let start_s = *numbers.first()?;
         let one = TimeGrid { start_s, step_s: 0.0, frames: kept.len() };
         let grid = TimeGrid::spanning(&numbers).unwrap_or(one);
-        let thinned = format!("The 3-D view shows one of every {every} instants ({} in total).", times.len());
+        let thinned = format!("Only one of every {every} instants is drawn in 3-D ({} in total).", times.len());
         Some(Kept { every, times: kept, grid, missing: if every > 1 { vec![thinned] } else { Vec::new() } })
     }
 }

@@ -378,7 +378,11 @@ fn a_scene_has_its_bodies_obstacles_floor_and_sums_of_contact_forces() {
     let names: Vec<&str> = stage.bodies.iter().map(|body| body.name.as_str()).collect();
     assert_eq!(names, ["ball, red", "wall"]);
     assert_eq!((stage.grid.frames, stage.missing.len()), (1667, 1));
-    assert!(stage.missing[0].contains("one of every 3 instants (5000 in total)"), "{:?}", stage.missing);
+    assert!(
+        stage.missing[0].contains("one of every 3 instants is drawn in 3-D (5000 in total)"),
+        "{:?}",
+        stage.missing
+    );
     assert!((stage.bodies[0].path.position[1].x - 0.003).abs() < 1e-12 && (stage.grid.step_s - 0.003).abs() < 1e-9);
     assert!((stage.floor_m + 0.5).abs() < 1e-12 && (stage.weight_n - 19.6).abs() < 1e-9);
     // A stone, and a slab whose upper face goes through the point of the tilted plane.

@@ -189,7 +189,7 @@ impl Shown {
 
     /// Whether one of the sentences on missing parts contains this.
     pub(crate) fn misses(&self, words: &str) -> bool {
-        self.session()["missing"].as_array().unwrap().iter().any(|said| said.as_str().unwrap().contains(words))
+        self.session()["missing"].as_array().unwrap().iter().any(|sentence| sentence.as_str().unwrap().contains(words))
     }
 
     /// The value of a line of the header.
