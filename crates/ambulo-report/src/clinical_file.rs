@@ -35,7 +35,7 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 /// `clinical.csv` of a run, and the convention of its angles.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that a table cannot store.
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
     let (angles, convention) = angles_of(outcome, chosen);
     let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
