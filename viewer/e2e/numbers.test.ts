@@ -134,7 +134,7 @@ for (const name of ["demo", "recording", "predicted"]) {
   });
 }
 
-test("the friction used agrees with the ground forces in the file", async () => {
+test("the required friction is computed from the ground forces in the file", async () => {
   const table = readTable(readFileSync(join(PAGES, "demo", "grf.mot"), "utf8"));
   const column = (side: string, axis: string): number[] => table.get(`ground_force_${side}_v${axis}`)?.values ?? [];
   await withPage("demo", async ({ page }) => {

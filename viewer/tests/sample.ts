@@ -141,7 +141,7 @@ function session(block: Block, variant: Variant): Session {
           good: true,
         },
         { label: "Marker error, mean", value: "31 mm", allowed: "below 20 mm", good: false },
-        { label: "Friction used", value: "0.31", allowed: null, good: null },
+        { label: "Required friction coefficient", value: "0.31", allowed: null, good: null },
       ],
       groups: [emptyGroup(block)],
       tables: [],

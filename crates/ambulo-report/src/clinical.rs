@@ -1,26 +1,26 @@
-//! The quantities that page and figures show, and how a file's number becomes the one that clinicians read.
+//! Clinical quantities of page and figures, and their conversion from the numbers in the files.
 //!
-//! shown = factor x number of the file, with a factor of sign, side and body mass. Signs: docs/CONVENTIONS.md, "Signs in panels"; a test
+//! shown = factor x number in the file; the factor depends on sign, side and body mass. Signs: docs/CONVENTIONS.md, "Signs in panels"; a test
 //! reads every row of that table.
 
 use ambulo::model::anatomy::Meaning;
 use ambulo::model::{BySide, CoordinateId, Model, Movement, Side};
 
-/// The kind of a quantity: panels of one kind stand together.
+/// The kind of a quantity; panels of one kind form a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ClinicalGroup {
     /// Angles [deg].
     Kinematics,
     /// Internal moments of joints [N.m/kg].
     Moments,
-    /// Powers of joints [W/kg], given to the body where positive.
+    /// Joint powers [W/kg]; positive if generated.
     Powers,
-    /// Forces of the ground on a foot [body weights].
+    /// Ground reaction forces on a foot [body weights].
     Ground,
 }
 
 impl ClinicalGroup {
-    /// What the names of `cycles.csv` end with.
+    /// Ending of the names in `cycles.csv`.
     fn suffix(self) -> &'static str {
         match self {
             ClinicalGroup::Kinematics => "_angle",
@@ -30,7 +30,7 @@ impl ClinicalGroup {
         }
     }
 
-    /// Unit of what is shown.
+    /// Displayed unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -59,7 +59,7 @@ struct Entry {
 }
 
 impl ClinicalNames {
-    /// Of a model, by its anatomy.
+    /// Reads the names and signs of a model from its anatomy.
     #[must_use]
     pub fn of_model(model: &Model) -> ClinicalNames {
         let entry = |id: CoordinateId| {
@@ -89,7 +89,7 @@ impl ClinicalNames {
         ClinicalNames { entries: entries.collect() }
     }
 
-    /// The usual names for files without a body. Models disagree about the sign of `knee_angle`, so it has no meaning here.
+    /// The usual names, for files without a model. The sign of `knee_angle` differs between models, so it is left out.
     #[must_use]
     pub fn without_model() -> ClinicalNames {
         let mut names = ClinicalNames::usual();
@@ -97,7 +97,7 @@ impl ClinicalNames {
         names
     }
 
-    /// The coordinate of the pelvis or of the trunk that measures a movement.
+    /// The pelvis or trunk coordinate that measures a movement.
     #[must_use]
     pub fn central(&self, movement: Movement) -> Option<&str> {
         self.find(movement, Side::Right).filter(|entry| entry.side.is_none()).map(|entry| entry.coordinate.as_str())
@@ -135,33 +135,33 @@ fn is_central(movement: Movement) -> bool {
     movement <= Movement::PelvisRight || movement >= Movement::TrunkLean
 }
 
-/// A quantity as it is shown: its name, the meaning of its signs, and its columns in the files.
+/// A displayed quantity: its name, the meaning of its signs, and its columns in the files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClinicalQuantity {
-    /// A word without blanks, the same for every model: `hip_flexion_moment`, `knee_flexion_angle`.
+    /// Identifier, the same for every model: `hip_flexion_moment`, `knee_flexion_angle`.
     pub id: &'static str,
-    /// `Hip flexion`.
+    /// Title: `Hip flexion`.
     pub title: &'static str,
-    /// `deg`, `N.m/kg`, `W/kg` or `BW`.
+    /// Displayed unit: `deg`, `N.m/kg`, `W/kg` or `BW`.
     pub unit: &'static str,
-    /// What positive values mean: `extensor`.
+    /// Meaning of positive values: `extensor`.
     pub positive: &'static str,
-    /// What negative values mean: `flexor`.
+    /// Meaning of negative values: `flexor`.
     pub negative: &'static str,
     /// Its kind.
     pub group: ClinicalGroup,
-    /// Names in `cycles.csv`, of the cycles of each foot: `knee_angle_moment`.
+    /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,
-    /// The coordinates of each side, as files over time name them: `knee_angle_r`; of ground forces their name in `cycles.csv`.
+    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces their name in `cycles.csv`.
     pub coordinates: BySide<String>,
-    /// A coordinate of pelvis or trunk: files over time have one column of it, for both sides.
+    /// Whether it belongs to pelvis or trunk: files over time then have one column for both sides.
     pub central: bool,
-    /// +1 or -1: the file's number times this is the one shown.
+    /// +1 or -1 for each side: displayed number = sign x number in the file.
     signs: BySide<f64>,
 }
 
 impl ClinicalQuantity {
-    /// The number that turns the file's (deg, N.m, W, body weights) into the one shown, for the panel's `side`.
+    /// The factor from the number in the file (deg, N.m, W, body weights) to the displayed one, for the panel's `side`.
     #[must_use]
     pub fn factor(&self, mass_kg: f64, side: Side) -> f64 {
         match self.group {
@@ -170,28 +170,28 @@ impl ClinicalQuantity {
         }
     }
 
-    /// The column of a side in `clinical.csv`: `knee_flexion_r`, `knee_flexion_moment_r`.
+    /// Column of a side in `clinical.csv`: `knee_flexion_r`, `knee_flexion_moment_r`.
     #[must_use]
     pub fn clinical_column(&self, side: Side) -> String {
         format!("{}_{}", self.id.strip_suffix("_angle").unwrap_or(self.id), side.letter())
     }
 
-    /// Whether a name of `cycles.csv` is this quantity's.
+    /// Whether a name in `cycles.csv` belongs to this quantity.
     #[must_use]
     pub fn has_column(&self, name: &str) -> bool {
         self.columns.values().any(|column| column == name)
     }
 }
 
-/// The quantities that a table has, in the order to be shown; `has` says whether a name stands in its column `quantity`
-/// (`cycles.csv`: `knee_angle_angle`). What a model cannot do (varus of a hinged knee) is not in the list.
+/// The quantities in a table, in display order; `has` tells whether its column `quantity` contains a name
+/// (`cycles.csv`: `knee_angle_angle`). Movements that the model lacks (varus of a hinged knee) are left out.
 #[must_use]
 pub fn clinical_quantities(names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Vec<ClinicalQuantity> {
     ROWS.iter().filter_map(|row| row.found(names, &has)).collect()
 }
 
-/// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters make of a constant: a joint that is
-/// locked and the sideways force of a body that moves in a plane do not.
+/// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters change a constant. Joints that are
+/// locked, and the sideways force of a body that moves in a plane, do not.
 pub(crate) fn moves(unit: &str, values: &[f64]) -> bool {
     let least = if unit == "BW" { 1e-5 } else { 1e-3 };
     let finite = || values.iter().copied().filter(|x| x.is_finite());
@@ -210,9 +210,9 @@ struct Row {
 /// Where a row's numbers come from, and their sign.
 #[derive(Clone, Copy)]
 enum Source {
-    /// A movement: +1 if the movement is shown as positive.
+    /// A movement: +1 if the movement is displayed as positive.
     Movement(Movement, f64),
-    /// The same, where the movement is that of the right side: turned over for the left one.
+    /// The same for a movement defined for the right side: negated for the left side.
     Own(Movement, f64),
     /// A ground force, with its signs on the right and the left.
     Ground(&'static str, [f64; 2]),
@@ -228,7 +228,7 @@ impl Row {
             Source::Movement(movement, sign) => (movement, BySide { right: sign, left: sign }),
             Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
         };
-        // A leg that is not there has the names of the other one.
+        // A missing leg gets the names of the other leg.
         let entries = BySide::from_fn(|side| names.find(movement, side).or_else(|| names.find(movement, side.other())));
         let entries = entries.both()?;
         let columns = entries.map(|entry| format!("{}{}", entry.stem, self.group.suffix()));
@@ -274,7 +274,7 @@ const fn same(movement: Movement) -> Source {
     Source::Movement(movement, 1.0)
 }
 
-/// Moments are internal: the muscles that work against the movement are shown as positive.
+/// Moments are internal: muscles that oppose the movement are positive.
 const fn against(movement: Movement) -> Source {
     Source::Movement(movement, -1.0)
 }

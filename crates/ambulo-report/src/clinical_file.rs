@@ -1,4 +1,4 @@
-//! `clinical.csv`: the motion and its forces in clinical signs and units, as the page draws them.
+//! Writes `clinical.csv`: the motion and its forces in clinical signs and units, as on the report page.
 //!
 //! | group     | unit         | column                     |
 //! |-----------|--------------|----------------------------|
@@ -7,8 +7,8 @@
 //! | powers    | W/kg         | `knee_flexion_power_r`     |
 //! | ground    | body weights | `ground_force_vertical_r`  |
 //!
-//! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips are those of
-//! [`clinical_angles`]; all other numbers are those of the files in OpenSim's signs times a constant.
+//! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
+//! [`clinical_angles`]; all other numbers are those of the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;
@@ -22,7 +22,7 @@ use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
 use std::collections::BTreeSet;
 
-/// The angles that the conventions measure differently ([`ClinicalQuantity::id`]).
+/// The angles that differ between the conventions ([`ClinicalQuantity::id`]).
 pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
     "pelvis_tilt_angle",
     "pelvis_obliquity_angle",
@@ -35,7 +35,7 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 /// `clinical.csv` of a run, and the convention of its angles.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that a table cannot store.
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFile, ConventionSummary), Error> {
     let (angles, convention) = angles_of(outcome, chosen);
     let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
@@ -43,7 +43,7 @@ pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> Result<(OutputFil
     Ok((OutputFile::csv(CLINICAL, table), convention))
 }
 
-/// Angles of pelvis and hips in the clinical convention where it is chosen and possible.
+/// Angles of pelvis and hips in the clinical convention, if it is chosen and possible.
 pub(crate) fn angles_of(outcome: &Outcome, chosen: Convention) -> (Option<ClinicalAngles>, ConventionSummary) {
     let opensim = |reason| (None, ConventionSummary { used: Convention::Opensim, reason });
     if chosen == Convention::Opensim {
@@ -58,7 +58,7 @@ pub(crate) fn angles_of(outcome: &Outcome, chosen: Convention) -> (Option<Clinic
     }
 }
 
-/// By markers on the iliac spines; built-in bodies without markers have the usual tilt.
+/// Clinical angles from markers on the iliac spines; built-in bodies without markers get the usual tilt.
 fn pelvic_frame(outcome: &Outcome) -> Result<PelvicFrame, PelvicFrameError> {
     let of_skeleton = matches!(outcome.tracking, Some(Tracking::Skeleton { .. }));
     let is_synthetic = matches!(outcome.force_origin, ForceOrigin::Simulated { .. });
@@ -69,7 +69,7 @@ fn pelvic_frame(outcome: &Outcome) -> Result<PelvicFrame, PelvicFrameError> {
     })
 }
 
-/// Everything that the columns are made of.
+/// The data for the columns.
 struct Curves<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
@@ -133,7 +133,7 @@ impl<'a> Curves<'a> {
         }
     }
 
-    /// The coordinate of a quantity on a side; `None` of a leg that the model lacks.
+    /// The coordinate of a quantity on a side; `None` if the model lacks the leg.
     fn coordinate(&self, quantity: &ClinicalQuantity, side: Side) -> Option<CoordinateId> {
         let id = self.model.coordinate(&quantity.coordinates[side])?;
         let is_own = quantity.central || self.model.anatomy().coordinate_side(id) == Some(side);
@@ -141,7 +141,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// An angle of pelvis or hip in the clinical convention [deg], for the panel's side; `None` of other quantities.
+/// An angle of pelvis or hip in the clinical convention [deg], for the panel's side; `None` for other quantities.
 pub(crate) fn clinical_angle(angles: &ClinicalAngles, quantity_id: &str, side: Side) -> Option<Vec<f64>> {
     let own = if side == Side::Right { 1.0 } else { -1.0 };
     let hip = || angles.hips[side].as_ref();

@@ -1,4 +1,4 @@
-//! The figures of a run, as names and bytes.
+//! Makes the figure files of a run.
 
 use crate::clinical::{ClinicalNames, clinical_quantities};
 use crate::clinical_file::{angles_of, clinical_angle};
@@ -11,7 +11,7 @@ use ambulo::model::{Model, Side};
 use ambulo::study::Outcome;
 use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows, predicted_analysis};
 
-/// `figures/quality.svg` and the figures of gait cycles. Pelvis and hips have these angles; without them, those of the model.
+/// `figures/quality.svg` and the figures of gait cycles. Pelvis and hips have the given angles, otherwise the coordinates of the model.
 ///
 /// # Errors
 /// A figure that could not be drawn.
@@ -45,7 +45,7 @@ pub fn figure_files(
     Ok(files)
 }
 
-/// Gives the rows of pelvis and hips the angles of the clinical convention, in the signs of `cycles.csv`.
+/// Replaces the rows of pelvis and hips by clinical angles, with the signs of `cycles.csv`.
 fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &ClinicalNames, analysis: &Analysis) {
     let grid = analysis.trajectory.grid();
     for quantity in clinical_quantities(names, |_| true) {
@@ -53,7 +53,7 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
             let own = |cycle: &&Cycle| (cycle.side, cycle.number) == (row.side, row.cycle);
             let Some(cycle) = analysis.cycles.iter().find(own) else { continue };
             let Some(degrees) = clinical_angle(angles, quantity.id, row.side) else { continue };
-            // The factor is +1 or -1, so that it also turns what is shown into what the file has.
+            // The factor is +1 or -1, so it also converts displayed numbers back to those of the file.
             let factor = quantity.factor(analysis.mass.kg, row.side);
             row.values = over_cycle(grid, &degrees, cycle).iter().map(|x| factor * x).collect();
         }
@@ -73,7 +73,7 @@ pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<Outp
     Ok(files)
 }
 
-/// `figures/prediction.svg`; `None` where nothing was predicted that could be drawn.
+/// `figures/prediction.svg`; `None` without a prediction to draw.
 ///
 /// # Errors
 /// A figure that could not be drawn.
@@ -82,19 +82,19 @@ pub fn prediction_figure_file(model: &Model, predicted: &PredictedAnalysis) -> R
     Ok(svg.map(|svg| OutputFile::new("figures/prediction.svg", svg.into_bytes())))
 }
 
-/// V / sqrt(g L), where the speed is known and the model has legs.
+/// V / sqrt(g L), if the speed is known and the model has legs.
 fn speed_dimensionless(model: &Model, analysis: &Analysis) -> Option<f64> {
     dimensionless_speed(analysis.speed_m_s?, model.gravity().norm(), Person::of_model(model).leg_length_m)
 }
 
-/// Whose walk a figure shows: `subject01, 72.8 kg, 1.12 m/s (V* 0.37)`.
+/// The caption that describes the walk: `subject01, 72.8 kg, 1.12 m/s (V* = 0.37)`.
 fn caption(model: &Model, analysis: &Analysis) -> String {
     let speed = analysis.speed_m_s.map(|v| format!(", {v:.2} m/s")).unwrap_or_default();
     let scaled = speed_dimensionless(model, analysis).map(|v| format!(" (V* = {v:.2})")).unwrap_or_default();
     format!("{}, {:.1} kg{speed}{scaled}", model.name(), analysis.mass.kg)
 }
 
-/// What stands against the motion, by gait cycle. What has no side stands in the cycles of both feet.
+/// Reasons of the verdict by gait cycle. Reasons without a side are marked in the cycles of both feet.
 fn marks(analysis: &Analysis) -> Vec<Mark> {
     let reasons = analysis.verdict.iter().flat_map(|verdict| &verdict.reasons);
     let pairs = reasons.flat_map(|reason| analysis.cycles.iter().map(move |cycle| (reason, cycle)));
@@ -111,7 +111,7 @@ fn marks(analysis: &Analysis) -> Vec<Mark> {
     of_side.filter_map(mark).collect()
 }
 
-/// The quantity of `cycles.csv` that a reason is about; `None` for those of feet and body.
+/// The quantity of a reason in `cycles.csv`; `None` for reasons that concern feet or the whole body.
 fn quantity(reason: &Reason) -> Option<String> {
     let suffix = match reason.check {
         Check::Strength | Check::Power => "",

@@ -1,4 +1,4 @@
-//! HTML: the document around a page, and text within it.
+//! Writes HTML documents and escapes text in them.
 
 /// An HTML document that loads nothing from any network.
 pub(super) struct Document<'a> {
@@ -36,7 +36,7 @@ impl Document<'_> {
     }
 }
 
-/// Text that HTML shows as it is, in content and in attributes with double quotes.
+/// Escapes text for content and for attributes in double quotes.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

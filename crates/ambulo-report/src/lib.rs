@@ -1,4 +1,4 @@
-//! Pictures and pages from results: clinical curves and norms, figures, the report page, exchange formats.
+//! Presents results: clinical curves with normative data, figures, the report page, and exchange formats.
 
 pub mod clinical;
 mod clinical_file;

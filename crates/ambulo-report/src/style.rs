@@ -1,4 +1,4 @@
-//! How page and figures look: `data/report/style.json`, which the viewer reads as well.
+//! Colours, lines and fonts of page and figures: `data/report/style.json`, which the viewer also reads.
 
 use ambulo::model::Side;
 use serde::Deserialize;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 const STYLE: &str = include_str!("../data/report/style.json");
 
-/// A colour on light and on dark ground, as `#RRGGBB`.
+/// A colour on light and on dark background, as `#RRGGBB`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Color {
@@ -28,7 +28,7 @@ pub struct Line {
     pub dash: Vec<f64>,
 }
 
-/// The grey of healthy people.
+/// The grey of normative bands.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fill {
@@ -43,7 +43,7 @@ pub struct Fill {
 /// Widths of lines [pt].
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct LineWidths {
     pub mean: f64,
     pub cycle: f64,
@@ -57,7 +57,7 @@ pub struct LineWidths {
 /// Letters: family and sizes [pt].
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct Font {
     pub family: String,
     pub title_pt: f64,
@@ -77,32 +77,32 @@ pub struct Widths {
     pub two_columns: f64,
 }
 
-/// The file.
+/// The contents of the file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are sufficient")]
 pub struct Style {
-    /// What the file is, for those who open it.
+    /// Note for readers of the file.
     pub note: String,
     pub right: Line,
     pub left: Line,
-    /// Of healthy people.
+    /// Normative bands.
     pub band: Fill,
-    /// Of a band of uncertainty in its line's colour.
+    /// Opacity of bands of uncertainty, which have the colour of their line.
     pub uncertainty_opacity: f64,
     pub infeasible: Color,
-    /// What plates measured, beside a prediction.
+    /// Measured forces shown with a prediction.
     pub measured: Color,
     pub text: Color,
     /// Axes, notes, zero lines.
     pub quiet: Color,
     pub grid: Color,
-    /// The ground.
+    /// The background.
     pub paper: Color,
-    /// One a session where several are compared.
+    /// One line per session if several are compared.
     pub sessions: Vec<Line>,
     pub lines_pt: LineWidths,
-    /// Of a single cycle's line.
+    /// Opacity of the line of a single cycle.
     pub cycle_opacity: f64,
     pub font: Font,
     pub widths_mm: Widths,

@@ -1,4 +1,4 @@
-//! Charts: curves can be read back from the file, legends are drawn once if all panels share them, scales are equal where asked for.
+//! Charts: curves can be read back from the file, legends are drawn once if all panels share them, scales are equal if requested.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 

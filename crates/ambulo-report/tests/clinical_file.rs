@@ -1,4 +1,4 @@
-//! `clinical.csv`: what the page draws, in both conventions.
+//! `clinical.csv` has the numbers that the page draws, in both conventions.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 

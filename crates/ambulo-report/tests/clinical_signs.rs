@@ -125,7 +125,7 @@ fn quantities_that_a_model_lacks_are_not_there_and_other_names_are_known() {
     };
     assert_eq!(of("ankle_dorsiflexion_power").columns.left, "ankle_flex_power");
     assert_eq!(of("hip_adduction_angle").coordinates.left, "Hueftadduktion_l");
-    // Without a body nothing says which way the knee counts.
+    // Without a model the sign of the knee angle is unknown.
     assert!(
         !clinical_quantities(&ClinicalNames::without_model(), |_| true)
             .iter()

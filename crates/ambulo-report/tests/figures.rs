@@ -1,4 +1,4 @@
-//! Figures over the gait cycle: the lines are the rows' numbers, nothing that a name holds gets out of its text, missing parts are left out.
+//! Figures over the gait cycle: lines show the numbers of the rows, names are escaped, missing parts are left out.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -61,7 +61,7 @@ fn named<'f>(figures: &'f [(String, Figure)], name: &str) -> &'f Figure {
     &figures.iter().find(|(found, _)| *found == wanted).unwrap_or_else(|| panic!("no {name}")).1
 }
 
-/// What a panel shows of a row: unit, sign and mass as docs/CONVENTIONS.md has them.
+/// The displayed value of a row: unit, sign and mass as in docs/CONVENTIONS.md.
 fn shown(id: &str, side: Side) -> (&'static str, f64) {
     let own = if side == Side::Right { -1.0 } else { 1.0 };
     match id {
@@ -113,24 +113,24 @@ fn every_line_is_a_row_in_clinical_sign_and_the_thick_one_their_mean() {
             }
         }
     }
-    // Eight quantities, two sides, three cycles and a mean, those of the sagittal plane once or twice more.
+    // Eight quantities, two sides, three cycles and a mean; the sagittal quantities once or twice more.
     assert_eq!(compared, 8 * (8 + 5 + 3));
     assert_eq!(figures.len(), 6);
 }
 
 #[test]
-fn bands_toe_off_and_units_are_there_and_the_source_is_named() {
+fn bands_foot_off_and_units_are_drawn_and_the_source_is_named() {
     let figures = draw(&rows(&Side::BOTH, 2), "someone", &[]);
     let moments = named(&figures, "moments.svg");
     assert!(moments.panels.iter().all(|panel| panel.bands == 1), "{:?}", moments.panels);
     let forces = named(&figures, "ground_forces.svg");
     let bands: Vec<_> = forces.panels.iter().map(|panel| (panel.id.as_str(), panel.bands)).collect();
     assert_eq!(bands, [("ground_force_vertical", 1), ("ground_force_lateral", 0)]);
-    for words in ["extensor →", "← flexor", "N·m/kg", "gait cycle (%)", "toe-off", "right, mean of 2 cycles"] {
+    for words in ["extensor →", "← flexor", "N·m/kg", "gait cycle (%)", "foot off", "right, mean of 2 cycles"] {
         assert!(moments.texts.iter().any(|text| text == words), "{words}: {:?}", moments.texts);
     }
     assert!(moments.texts.iter().any(|text| text.contains("children") && text.contains("Schwartz")));
-    // Without a speed there is no band, and that is said.
+    // Without a speed there is no band, and a note reports it.
     let rows = rows(&Side::BOTH, 2);
     let bandless = CycleFigures {
         rows: &rows,
@@ -154,7 +154,7 @@ fn a_run_is_not_compared_with_walks() {
     for (name, figure) in draw(&rows, "someone", &[]) {
         assert!(figure.panels.iter().all(|panel| panel.bands == 0), "{name}");
         assert!(
-            figure.texts.iter().any(|text| text.contains("the feet stand for less than half")),
+            figure.texts.iter().any(|text| text.contains("stance is shorter than half")),
             "{name}: {:?}",
             figure.texts
         );
@@ -177,7 +177,7 @@ fn figures_have_the_widths_of_journals() {
 }
 
 #[test]
-fn what_is_not_feasible_is_red_in_its_own_panel_and_cycle() {
+fn infeasible_parts_are_red_in_their_panel_and_cycle() {
     let mark = |quantity: Option<&str>, percent| Mark {
         quantity: quantity.map(str::to_owned),
         side: Side::Left,

@@ -1,4 +1,4 @@
-//! Bands of healthy people: what the source says, read between its speeds, in the signs of the panels.
+//! Normative bands: values of the source, interpolated between its speeds, with the signs of the panels.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -9,7 +9,7 @@ use ambulo_results::Convention;
 /// Dimensionless speeds that were measured.
 const SPEEDS: [f64; 5] = [0.172, 0.290, 0.429, 0.560, 0.694];
 const FREE: f64 = 0.429;
-/// Quantities that nobody measured against the same zero or in the same way, or that the source lacks.
+/// Quantities that were measured from another zero or by another method, or that the source lacks.
 const BANDLESS: [&str; 7] = [
     "subtalar_angle",
     "trunk_lean_angle",

@@ -1,4 +1,4 @@
-//! A knee that bends backward further than it flexes keeps its signs: in the panels, in the figures and in the picture in space.
+//! A knee that bends backward further than it flexes keeps its signs: in the panels, in the figures and in the 3-D view.
 //!
 //! Gait2392 counts extension of the knee positive, Rajagopal's model flexion. The recording goes from 6 degrees of flexion to 10 degrees
 //! of hyperextension, so its largest angle is no flexion in either.
@@ -130,7 +130,7 @@ fn swing(case: &Case) -> Files {
     )
 }
 
-/// What a panel shows of the right side over time.
+/// The curve of the right side over time in a panel.
 fn over_time(shown: &Shown, panel: &str) -> Vec<f64> {
     let traces = shown.panel(panel)["traces"].as_array().unwrap();
     let right = traces.iter().find(|trace| trace["side"] == "r").unwrap_or_else(|| panic!("{panel}: {traces:?}"));

@@ -1,4 +1,4 @@
-//! The report page against the files that it is made of: every number drawn is the file's, and what is not there is said.
+//! The report page compared with its files: every drawn number is in the files, and missing parts are reported.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -136,7 +136,7 @@ fn cycles_are_found_in_time_though_some_are_left_out() {
     let cycles = |shown: &Shown| shown.session()["cycles"].as_array().unwrap().clone();
     let right: Vec<Value> = cycles(&all).into_iter().filter(|cycle| cycle["side"] == "r").collect();
     assert!(right.len() >= 2, "{right:?}");
-    // As after plates that saw only the second strike: the file counts what is left from 1.
+    // As if plates measured only the second strike: the file numbers the remaining cycles from 1.
     keep_lines(&mut files, "cycles.csv", |line| !line.contains(",r,1,"));
     let text = String::from_utf8(files["cycles.csv"].clone()).unwrap().replace(",r,2,", ",r,1,");
     files.insert("cycles.csv".to_owned(), text.into_bytes());
@@ -161,7 +161,7 @@ fn times_and_distances_are_those_of_the_summary() {
     }
     with_summary(&mut files, |summary| summary["times_and_distances"]["belt_speed_m_s"] = json!(1.25));
     assert!(shown.header("Walking direction").ends_with("world x"), "{}", shown.header("Walking direction"));
-    assert_eq!(Shown::of(&files).header("Walking direction"), "in place, on a belt that runs at 1.25 m/s");
+    assert_eq!(Shown::of(&files).header("Walking direction"), "in place, on a treadmill at 1.25 m/s");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn bands_need_a_leg_length() {
     files.remove("subject.osim");
     let bare = Shown::of(&files);
     assert!(bare.panel("hip_flexion_angle")["band"].is_null());
-    assert!(bare.misses("No bands of healthy people: the leg length is not known"));
+    assert!(bare.misses("No normative bands: the leg length is not known"));
     assert!(bare.session()["view"].is_null() && bare.misses("There is no body"));
     assert_eq!(bare.header("Leg length"), "not known");
 }
@@ -220,7 +220,7 @@ fn sessions_to_compare_keep_their_own_numbers() {
 // ---- verdict ----
 
 #[test]
-fn reasons_of_the_verdict_stand_on_their_panels() {
+fn reasons_of_the_verdict_are_marked_on_their_panels() {
     let mut files = recorded();
     with_summary(&mut files, |summary| {
         let reason = |check: &str, quantity: &str, side: Option<&str>| {
@@ -256,10 +256,10 @@ fn reasons_of_the_verdict_stand_on_their_panels() {
     assert!(sentence.contains("could not") && sentence.contains("6 times"), "{sentence}");
 }
 
-// ---- what is not there ----
+// ---- missing parts ----
 
 #[test]
-fn one_leg_alone_is_said() {
+fn a_recording_of_one_leg_is_reported() {
     let mut files = recorded();
     keep_lines(&mut files, "cycles.csv", |line| !line.contains(",l,"));
     let shown = Shown::of(&files);
@@ -290,7 +290,7 @@ fn no_whole_cycle_leaves_the_curves_over_time() {
 }
 
 #[test]
-fn no_ground_forces_are_said_where_they_would_stand() {
+fn missing_ground_forces_are_reported_in_their_group() {
     let mut files = recorded();
     for file in ["grf.mot", "events.csv", "cycles.csv"] {
         files.remove(file);
@@ -352,10 +352,10 @@ fn script_in_names_stays_text() {
     assert_eq!(shown.session()["quality"]["findings"][0]["message"], NASTY);
 }
 
-// ---- files that are not what their names say ----
+// ---- broken files ----
 
 #[test]
-fn malformed_files_are_refused_with_file_and_line() {
+fn malformed_files_are_rejected_with_file_and_line() {
     let text = |files: &Files, name: &str| String::from_utf8(files[name].clone()).unwrap();
     let files = recorded();
     let line = |name: &str, number: usize| text(&files, name).lines().nth(number - 1).unwrap().to_owned();
@@ -388,7 +388,7 @@ fn malformed_files_are_refused_with_file_and_line() {
 }
 
 #[test]
-fn a_table_of_other_instants_is_refused() {
+fn a_table_with_other_instants_is_rejected() {
     let mut files = recorded();
     let table = Table::read_storage(&files["powers.sto"]).unwrap().0;
     let shorter = table.columns().map(|(name, values)| (name.to_owned(), values[..50].to_vec()));

@@ -1,4 +1,4 @@
-//! Files that are not what their names say: refused with the file, the place, what was found and what was expected, by the page and by the
+//! Broken files are rejected with the file, the place, what was found and what was expected, by the page and by the
 //! exports.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
@@ -12,13 +12,13 @@ use report_pages::{Files, page_of, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
 #[track_caller]
-fn refused_by_page(files: &Files, expected: &str) {
+fn rejected_by_page(files: &Files, expected: &str) {
     let error = page_of("folder", files).unwrap_err().to_string();
     assert!(error.contains(expected), "{error}\nexpected {expected}");
 }
 
 #[track_caller]
-fn refused_by_exports(files: &Files, expected: &str) {
+fn rejected_by_exports(files: &Files, expected: &str) {
     let file = |name: &str| files.get(name).cloned();
     let folder = Folder::of_files("folder", &file);
     for error in [glb_of_folder(&folder).unwrap_err(), csv_of_folder(&folder).unwrap_err()] {
@@ -45,17 +45,17 @@ fn with_number(files: &Files, name: &str, number: f64) -> (Files, String) {
 }
 
 #[test]
-fn numbers_that_no_result_can_be_are_refused() {
+fn numbers_that_cannot_be_results_are_rejected() {
     let files = predicted();
     for number in [1e300, -1e300, f64::INFINITY, f64::NAN] {
         for name in ["kinematics.mot", "grf.mot", "grf_sd.mot", "grf_measured.mot", "moments.sto", "powers.sto"] {
             let (broken, column) = with_number(&files, name, number);
             let expected =
                 format!(", column `{column}`: found {number:?}; expected a finite number, at most 1e12 in size");
-            refused_by_page(&broken, &format!("folder/{name}: line "));
-            refused_by_page(&broken, &expected);
+            rejected_by_page(&broken, &format!("folder/{name}: line "));
+            rejected_by_page(&broken, &expected);
             if ["kinematics.mot", "grf.mot", "grf_measured.mot", "moments.sto"].contains(&name) {
-                refused_by_exports(&broken, &expected);
+                rejected_by_exports(&broken, &expected);
             }
         }
     }
@@ -75,11 +75,11 @@ fn a_body_light_years_long_is_not_drawn() {
     let file = |name: &str| broken.get(name).cloned();
     let error = glb_of_folder(&Folder::of_files("folder", &file)).unwrap_err().to_string();
     assert!(error.contains("expected a finite number, at most 1e12"), "{error}");
-    refused_by_page(&broken, "expected a finite number, at most 1e12");
+    rejected_by_page(&broken, "expected a finite number, at most 1e12");
 }
 
 #[test]
-fn a_summary_of_other_types_is_refused_with_its_key() {
+fn a_summary_with_wrong_types_is_rejected_with_its_key() {
     type Change = fn(&mut Value);
     let cases: [(Change, &str); 13] = [
         (
@@ -111,17 +111,17 @@ fn a_summary_of_other_types_is_refused_with_its_key() {
     for (change, expected) in cases {
         let mut files = recorded();
         with_summary(&mut files, change);
-        refused_by_page(&files, expected);
-        refused_by_page(&files, "folder/summary.json: ");
+        rejected_by_page(&files, expected);
+        rejected_by_page(&files, "folder/summary.json: ");
     }
 }
 
 #[test]
-fn a_cut_summary_says_what_to_do() {
+fn the_error_of_a_truncated_summary_says_what_to_do() {
     let mut files = recorded();
     let whole = files["summary.json"].clone();
     files.insert("summary.json".to_owned(), whole[..whole.len() / 2].to_vec());
-    refused_by_page(&files, "hint: the file is cut or not JSON; run the command that wrote it again");
+    rejected_by_page(&files, "hint: the file is truncated or not JSON; run the command that wrote it again");
 }
 
 #[test]
@@ -130,13 +130,13 @@ fn causes_of_errors_are_not_lost() {
     let text = String::from_utf8(files["subject.osim"].clone()).unwrap();
     let (before, after) = text.split_once("<mass>").unwrap();
     files.insert("subject.osim".to_owned(), format!("{before}<mass>-{after}").into_bytes());
-    refused_by_page(&files, "folder/subject.osim: ");
-    refused_by_page(&files, "mass");
-    refused_by_page(&files, "expected");
+    rejected_by_page(&files, "folder/subject.osim: ");
+    rejected_by_page(&files, "mass");
+    rejected_by_page(&files, "expected");
 }
 
 #[test]
-fn a_byte_order_mark_is_no_text_and_zero_bytes_are_said() {
+fn a_byte_order_mark_is_skipped_and_zero_bytes_are_reported() {
     let files = recorded();
     for name in ["summary.json", "cycles.csv", "events.csv", "kinematics.mot", "subject.osim"] {
         let mut marked = files.clone();
@@ -146,7 +146,7 @@ fn a_byte_order_mark_is_no_text_and_zero_bytes_are_said() {
     for name in ["summary.json", "cycles.csv", "events.csv", "kinematics.mot", "grf.mot"] {
         let mut binary = files.clone();
         binary.insert(name.to_owned(), b"PK\x03\x04\x00\x00\xffdata".to_vec());
-        refused_by_page(&binary, &format!("folder/{name}: byte 4 is zero, so this is not text"));
+        rejected_by_page(&binary, &format!("folder/{name}: byte 4 is zero, so this is not text"));
     }
 }
 

@@ -1,4 +1,4 @@
-//! The page of a prediction beside plates, and of a recorded person.
+//! The page of a prediction compared with plates, and of a recorded person.
 
 mod report_pages;
 #[path = "../../ambulo/tests/shared_data/mod.rs"]
@@ -10,7 +10,7 @@ use report_pages::{Shown, analysed, predicted, with_summary};
 use serde_json::json;
 
 #[test]
-fn a_prediction_stands_over_the_plates_with_its_uncertainty() {
+fn a_prediction_is_drawn_over_the_plates_with_its_uncertainty() {
     let files = predicted();
     let shown = Shown::of(&files);
     assert_eq!(
@@ -88,7 +88,7 @@ fn metrics_markers_and_plates_are_tables_of_quality() {
     assert_eq!(quality["assumptions"], json!(["arms hang"]));
     let tables = quality["tables"].as_array().unwrap();
     let markers = tables.iter().find(|table| table["id"] == "markers").unwrap();
-    assert_eq!(markers["rows"][0][0]["text"], "RASI", "the worst first");
+    assert_eq!(markers["rows"][0][0]["text"], "RASI", "the largest error first");
     assert_eq!((&markers["rows"][0][1]["outside"], &markers["rows"][1][1]["outside"]), (&json!(true), &json!(false)));
     let fact = quality["facts"].as_array().unwrap().iter().find(|fact| fact["value"] == "25.0 mm").unwrap();
     assert_eq!(fact["good"], false);
@@ -108,12 +108,12 @@ fn a_recorded_person_walks_as_people_do() {
     );
     let shown = Shown::of(&files);
     let mean = |table: &str, row: &str| (shown.value(table, row, 2) + shown.value(table, row, 3)) / 2.0;
-    assert!((55.0..75.0).contains(&mean("extracted", "Knee flexion, largest in swing")));
-    assert!((1.0..2.0).contains(&mean("extracted", "Ankle plantarflexor moment, largest")));
+    assert!((55.0..75.0).contains(&mean("extracted", "Knee flexion, maximum in swing")));
+    assert!((1.0..2.0).contains(&mean("extracted", "Ankle plantarflexor moment, peak")));
     assert!((0.9..1.3).contains(&mean("extracted", "Vertical force, first peak")));
     assert!((58.0..68.0).contains(&mean("time_distance", "Stance")));
     assert!((0.4..0.9).contains(&mean("time_distance", "Step length")), "on the belt");
-    assert!(shown.header("Walking direction").contains("belt"));
+    assert!(shown.header("Walking direction").contains("treadmill"));
     let band = &shown.panel("knee_flexion_angle")["band"];
     let (normal, found) =
         (shown.series(&band["mean"]), shown.series(&shown.panel("knee_flexion_angle")["means"][0]["values"]));

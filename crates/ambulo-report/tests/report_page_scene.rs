@@ -95,7 +95,7 @@ fn curves_of_a_scene_are_those_of_its_tables() {
 }
 
 #[test]
-fn the_verdict_of_a_walker_stands_on_its_panel() {
+fn the_verdict_of_a_walker_is_marked_on_its_panel() {
     let shown = Shown::of(&scene());
     let red = shown.panel("hip_flexion_moment")["red"].as_array().unwrap();
     assert_eq!((red.len(), red[0]["sentence"].as_str()), (1, Some("ann: the hip needs 300 N.m")));
@@ -104,7 +104,7 @@ fn the_verdict_of_a_walker_stands_on_its_panel() {
     assert_eq!(feasibility["closest"]["rows"][0][1]["text"], "ann: left hip flexion moment");
     assert_eq!(feasibility["closest"]["rows"][0][6]["outside"], true);
     let facts = shown.session()["quality"]["facts"].as_array().unwrap();
-    let steps = facts.iter().find(|fact| fact["label"] == "Steps above the solver's tolerance").unwrap();
+    let steps = facts.iter().find(|fact| fact["label"] == "Time steps above the solver's tolerance").unwrap();
     assert_eq!((&steps["value"], &steps["good"]), (&json!("3"), &Value::Bool(false)));
     assert_eq!(shown.header("Scene"), "A door </script>");
 }
@@ -124,7 +124,7 @@ fn a_scene_without_tables_says_so() {
 }
 
 #[test]
-fn malformed_tables_of_a_scene_are_refused_with_their_line() {
+fn malformed_tables_of_a_scene_are_rejected_with_their_line() {
     for (name, from, to, expected) in [
         ("joints.csv", "0.02,\"door", "soon,\"door", "joints.csv: line 5, column 1: found `soon`"),
         ("energy.csv", "time,kinetic", "time,warmth", "energy.csv: line 1: found `time,warmth"),

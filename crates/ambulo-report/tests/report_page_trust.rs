@@ -1,4 +1,4 @@
-//! What the page says about how far its numbers can be trusted: verdicts on part of a motion, friction, bands of predictions.
+//! Quality information on the page: verdicts on part of a motion, friction, uncertainty bands of predictions.
 
 mod report_pages;
 
@@ -6,7 +6,7 @@ use ambulo_formats::table::Table;
 use report_pages::{Shown, predicted, recorded, with_summary};
 use serde_json::{Value, json};
 
-// ---- how far a verdict reaches ----
+// ---- limits of a verdict ----
 
 #[test]
 fn a_verdict_on_part_of_the_motion_says_so() {
@@ -25,11 +25,11 @@ fn a_verdict_on_part_of_the_motion_says_so() {
             "frames": 100, "frames_unmeasured": unmeasured, "mass_kg": 75.0, "height_m": 1.75});
         summary["residual"]["force_rms_bw"] = json!(residual_bw);
     };
-    let said = "A person of 75.0 kg and 1.75 m could do this: every check that was made is within its limit.";
-    let part = "44 % of the time was not judged, since a foot may stand where nothing measures";
-    let trust = "motion, forces and body disagree by 63 % of body weight: the moments are not to be trusted.";
+    let feasible = "A person of 75.0 kg and 1.75 m could do this: all checks that could be made passed.";
+    let part = "44 % of the time was not judged, because a foot may have been on the ground outside the force plates";
+    let trust = "the residual force is 63 % of body weight: motion, forces and body are not consistent, so do not rely on the moments.";
     with_summary(&mut files, |summary| judge(summary, true, 0, 0.05));
-    assert_eq!(sentence(&Shown::of(&files)), said);
+    assert_eq!(sentence(&Shown::of(&files)), feasible);
     for (unmeasured, residual_bw, ends) in [
         (44, 0.05, format!("but {part}.")),
         (0, 0.63, format!("but {trust}")),
@@ -37,19 +37,19 @@ fn a_verdict_on_part_of_the_motion_says_so() {
     ] {
         with_summary(&mut files, |summary| judge(summary, true, unmeasured, residual_bw));
         let found = sentence(&Shown::of(&files));
-        assert!(found.starts_with("What was judged is within the limits of a person of 75.0 kg"), "{found}");
+        assert!(found.starts_with("All checks passed for a person of 75.0 kg"), "{found}");
         assert!(found.ends_with(&ends) && !found.contains("could do"), "{found}");
     }
     with_summary(&mut files, |summary| judge(summary, false, 0, 0.63));
     let found = sentence(&Shown::of(&files));
     assert!(
-        found.contains("could not do this") && found.contains("Motion, forces and body disagree by 63 %"),
+        found.contains("could not do this") && found.contains("The residual force is 63 % of body weight"),
         "{found}"
     );
 }
 
 #[test]
-fn without_ground_forces_nothing_is_said_of_the_whole() {
+fn without_ground_forces_there_is_no_verdict_on_the_whole_motion() {
     let mut files = recorded();
     for file in ["grf.mot", "events.csv", "cycles.csv"] {
         files.remove(file);
@@ -65,7 +65,7 @@ fn without_ground_forces_nothing_is_said_of_the_whole() {
     });
     let shown = Shown::of(&files);
     assert!(shown.session()["feasibility"].is_null());
-    assert!(shown.misses("No verdict: without ground forces only ranges of motion were judged"));
+    assert!(shown.misses("No verdict: without ground forces only ranges of motion could be checked"));
     let quality = &shown.session()["quality"];
     assert!(quality["tables"].as_array().unwrap().iter().any(|table| table["id"] == "closest"));
     let facts = quality["facts"].as_array().unwrap();
@@ -103,11 +103,11 @@ fn friction_is_drawn_where_the_verdict_judges_it() {
     assert!((left[101] - 0.5_f64.hypot(0.5)).abs() < 1e-3, "{}", left[101]);
     let groups = shown.session()["quality"]["groups"].as_array().unwrap();
     let note = groups.iter().find(|group| group["id"] == "friction").unwrap()["note"].as_str().unwrap();
-    assert!(note.contains("less than 0.03 s"), "{note}");
+    assert!(note.contains("shorter than 0.03 s"), "{note}");
 }
 
 #[test]
-fn a_band_is_promised_where_there_is_one() {
+fn the_note_mentions_a_band_only_if_there_is_one() {
     let mut files = predicted();
     let overlay = |shown: &Shown| {
         let groups = shown.session()["quality"]["groups"].as_array().unwrap();

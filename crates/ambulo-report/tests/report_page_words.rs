@@ -1,4 +1,4 @@
-//! What the page says of a recording that is not the usual one: turns, two masses, no ground forces, single strides, files left out.
+//! Texts of the page for unusual recordings: turns, two masses, no ground forces, single strides, missing files.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -77,17 +77,17 @@ fn a_turn_that_the_laboratory_saw_counts() {
 // ---- header ----
 
 #[test]
-fn both_masses_are_said_where_they_differ() {
+fn both_masses_are_shown_if_they_differ() {
     let mut files = recorded();
     let mass = |files: &Files| Shown::of(files).header("Body mass");
     with_summary(&mut files, |summary| summary["mass_model_kg"] = json!(1.004 * summary["mass_kg"].as_f64().unwrap()));
     assert!(!mass(&files).contains("dynamics"), "{}", mass(&files));
     with_summary(&mut files, |summary| (summary["mass_kg"], summary["mass_model_kg"]) = (json!(70.0), json!(72.84)));
-    assert_eq!(mass(&files), "70.0 kg (divides moments and powers); 72.8 kg (of the model, used by dynamics)");
+    assert_eq!(mass(&files), "70.0 kg (normalises moments and powers); 72.8 kg (model, used for the dynamics)");
 }
 
 #[test]
-fn the_header_says_what_was_done_to_the_motion() {
+fn the_header_shows_how_the_motion_was_processed() {
     let mut files = recorded();
     assert!(!header_has(&Shown::of(&files), "Motion"));
     with_summary(&mut files, |summary| {
@@ -105,7 +105,7 @@ fn the_header_says_what_was_done_to_the_motion() {
     assert_eq!(header_note(&shown, "Motion"), "at most pelvis tilt by 3.2 deg and pelvis ty by 7.0 mm");
     assert_eq!(shown.header("Axes"), "lab z up, mm → world y up, m");
     let cut = header_note(&shown, "Time");
-    assert!(cut.ends_with(", a part of the recording"), "{cut}");
+    assert!(cut.ends_with(", part of the recording"), "{cut}");
 }
 
 // ---- strides ----
@@ -122,11 +122,11 @@ fn one_stride_is_one_stride() {
     });
     let shown = Shown::of(&files);
     let note = note(&shown, "time_distance");
-    assert!(note.as_str().unwrap().starts_with("Of 1 right stride, between"), "{note}");
-    assert_eq!(header_note(&shown, "Cadence"), "of one stride");
+    assert!(note.as_str().unwrap().starts_with("Values of 1 right stride, between"), "{note}");
+    assert_eq!(header_note(&shown, "Cadence"), "one stride");
 }
 
-// ---- files left out ----
+// ---- missing files ----
 
 #[test]
 fn a_motion_without_ground_forces_keeps_its_cycles() {
@@ -143,7 +143,9 @@ fn a_motion_without_ground_forces_keeps_its_cycles() {
     let shown = Shown::of(&files);
     assert!(!shown.panel("hip_flexion_angle")["means"].as_array().unwrap().is_empty());
     assert!(!shown.header("Filter").contains("forces"), "{}", shown.header("Filter"));
-    assert!(header_note(&shown, "Ground forces").contains("as asked") && shown.misses("without them, as asked"));
+    assert!(
+        header_note(&shown, "Ground forces").contains("as requested") && shown.misses("without them, as requested")
+    );
     assert!(header_note(&shown, "Speed").contains("without ground forces"));
     let tables = shown.session()["tables"].as_array().unwrap();
     let times = tables.iter().find(|table| table["id"] == "time_distance").unwrap();
@@ -157,7 +159,7 @@ fn each_file_left_out_is_named() {
         ("moments.sto", "No joint moments over time: the folder has no moments.sto"),
         ("powers.sto", "No joint powers over time: the folder has no powers.sto"),
         ("grf_sd.mot", "No uncertainty of the predicted forces"),
-        ("events.csv", "No foot strikes and toe-offs"),
+        ("events.csv", "No foot strikes and foot offs"),
     ] {
         let mut files = if file == "grf_sd.mot" { predicted() } else { recorded() };
         assert!(!Shown::of(&files).misses(words) && !whole.misses(words), "{file} is there");
@@ -166,7 +168,7 @@ fn each_file_left_out_is_named() {
     }
     let mut files = recorded();
     keep_lines(&mut files, "events.csv", |_| false);
-    assert!(Shown::of(&files).misses("No foot strikes and toe-offs"));
+    assert!(Shown::of(&files).misses("No foot strikes and foot offs"));
 }
 
 #[test]
@@ -180,13 +182,13 @@ fn a_column_of_one_side_left_out_is_named() {
     kept.in_degrees = Some(true);
     files.insert("kinematics.mot".to_owned(), kept.write_storage());
     let shown = Shown::of(&files);
-    assert!(shown.misses("since kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
+    assert!(shown.misses("because kinematics.mot lacks the columns: right knee flexion (knee_angle_r)."));
     let traces = shown.panel("knee_flexion_angle")["traces"].as_array().unwrap().clone();
     assert_eq!(traces.iter().map(|trace| &trace["side"]).collect::<Vec<_>>(), ["l"]);
 }
 
 #[test]
-fn what_never_changes_has_no_panel() {
+fn constant_quantities_have_no_panel() {
     // The invented walk keeps pelvis and trunk upright.
     let mut files = recorded();
     let shown = Shown::of(&files);
@@ -204,7 +206,7 @@ fn what_never_changes_has_no_panel() {
 }
 
 #[test]
-fn a_locked_joint_is_said_to_be_locked() {
+fn a_locked_joint_is_reported_as_locked() {
     let Some(data) = shared_data::data() else { return };
     let folder = data.join("opensim-gait2392-subject01");
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();

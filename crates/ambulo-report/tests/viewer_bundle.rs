@@ -69,7 +69,7 @@ fn another_source_is_another_hash() {
     assert_ne!(all, hash(&sources));
 }
 
-/// The notices that the licences of what is bundled ask for.
+/// The notices that the licences of bundled packages require.
 #[test]
 fn the_bundle_carries_its_licences() {
     let bundle = fs::read_to_string(repository().join("crates/ambulo-report/data/report/viewer.js")).unwrap();

@@ -1,37 +1,37 @@
-//! The part of `summary.json` that motions made to agree with the forces have.
+//! The part of `summary.json` for motions changed by residual reduction.
 
 use ambulo::dynamics::residual_reduction::{ReducedMotion, RootResidual};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// How a motion was changed to obey the forces.
+/// How residual reduction changed a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConsistencySummary {
-    /// First and last instant at which the laws were enforced [s].
+    /// First and last instant at which the equations of motion were enforced [s].
     pub window_s: [f64; 2],
-    /// What was left at the root before, in that time.
+    /// Residual at the root before, in that time.
     pub residual_before: ResidualSize,
-    /// What is left now.
+    /// Residual at the root after, in that time.
     pub residual_after: ResidualSize,
-    /// How each coordinate was changed.
+    /// Change of each coordinate.
     pub changes: BTreeMap<String, CoordinateSize>,
-    /// How far each body that carries a load was moved [mm].
+    /// Displacement of each loaded body [mm].
     pub feet_mm: BTreeMap<String, FootSize>,
-    /// By how much the body's mass was changed [%].
+    /// Change of the body mass [%].
     pub mass_percent: f64,
-    /// The segment whose mass centre was moved.
+    /// Name of the segment whose mass centre was moved.
     pub trunk: String,
-    /// By how much, in its own axes [mm].
+    /// Displacement of this mass centre, in the axes of the segment [mm].
     pub trunk_center_mm: [f64; 3],
-    /// Iterations taken.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Whether the last one changed nothing that counts.
+    /// Whether the last iteration changed less than the tolerance.
     pub converged: bool,
 }
 
-/// Size of what nothing supplies at the root.
+/// Size of the residual at the root.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResidualSize {
@@ -80,7 +80,7 @@ impl ChangeUnit {
     }
 }
 
-/// How far a foot was moved [mm].
+/// Size of the displacement of a foot [mm].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FootSize {
@@ -91,7 +91,7 @@ pub struct FootSize {
 }
 
 impl ConsistencySummary {
-    /// Of a motion that was changed.
+    /// Makes the summary of a changed motion.
     #[must_use]
     pub fn of(consistent: &ReducedMotion) -> ConsistencySummary {
         let changes = consistent.changes.iter().map(|change| {

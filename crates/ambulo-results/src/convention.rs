@@ -1,4 +1,4 @@
-//! How angles of pelvis and hips are measured in `clinical.csv` and on the page.
+//! Conventions for the angles of pelvis and hips in `clinical.csv` and on the report page.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -8,7 +8,7 @@ use std::fmt;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Convention {
-    /// As clinics measure them: pelvic tilt is the angle between the ground and the line from the posterior to the anterior iliac
+    /// Clinical convention: pelvic tilt is the angle between the ground and the line from the posterior to the anterior iliac
     /// spines, and hip angles are relative to that pelvis.
     #[default]
     Clinical,
@@ -39,6 +39,6 @@ impl fmt::Display for Convention {
 pub struct ConventionSummary {
     /// The convention that was used.
     pub used: Convention,
-    /// Why it is not the one that was chosen; `null` if it is.
+    /// Why it differs from the chosen convention; `null` if it does not.
     pub reason: Option<String>,
 }

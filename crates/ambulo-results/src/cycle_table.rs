@@ -1,4 +1,4 @@
-//! Curves over the gait cycle, as rows.
+//! Time-normalised curves over the gait cycle, as rows of `cycles.csv`.
 
 use crate::sound::{EXPECTED, is_sound};
 use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle};
@@ -9,7 +9,7 @@ use ambulo::motion::TimeGrid;
 /// One curve of one cycle: 101 values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CycleRow {
-    /// What it is, without the side: `knee_angle_moment`.
+    /// The quantity, without the side: `knee_angle_moment`.
     pub quantity: String,
     /// The foot whose cycle it is.
     pub side: Side,
@@ -19,12 +19,12 @@ pub struct CycleRow {
     pub unit: &'static str,
     /// Values at 0, 1, ... 100 %.
     pub values: Vec<f64>,
-    /// Foot off [% of the cycle], where it is known; the file does not have it.
+    /// Foot off [% of the cycle], if known; not written to the file.
     pub toe_off_percent: Option<f64>,
 }
 
-/// Angle, moment and power of every coordinate, and the ground forces, over every cycle. A leg's coordinates follow
-/// that leg's cycles; pelvis and trunk follow both.
+/// Angle, moment and power of every coordinate, and the ground forces, over every cycle. Coordinates of a leg are cut
+/// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
     let grid = analysis.trajectory.grid();
@@ -113,7 +113,7 @@ struct Line<'a> {
     unit: &'static str,
 }
 
-/// Reads `cycles.csv`; an error says which line, what was found and what was expected.
+/// Reads `cycles.csv`; an error reports the line, what was found and what was expected.
 pub(crate) fn read(text: &str) -> Result<Vec<CycleRow>, String> {
     let mut lines = text.lines().enumerate();
     let head = lines.next().map_or("", |(_, line)| line);
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_curve_is_refused_with_its_line() {
+    fn invalid_curves_are_rejected_with_their_line() {
         for (text, words) in [
             (file((0..50).chain(51..101)), "line 52: found 51 % of `knee_angle_angle`"),
             (file(0..100), "has 100 rows; expected 101"),

@@ -1,4 +1,4 @@
-//! The files of a run, as names and bytes.
+//! Makes the files of a run: names and contents.
 
 use crate::cycle_table::{self, CycleRow, cycle_rows};
 use crate::{CYCLES, EVENTS, tables};
@@ -7,7 +7,7 @@ use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
 use ambulo_formats::table::Table;
 
-/// A file to be written, and what it was made of, so that a page of the same run parses nothing.
+/// A file to be written, and the values it was made from, so that a report page of the same run needs no parsing.
 #[derive(Debug, Clone)]
 pub struct OutputFile {
     /// Name, relative to the output folder.
@@ -17,7 +17,7 @@ pub struct OutputFile {
     pub(crate) value: FileValue,
 }
 
-/// What a file was made of.
+/// The value that a file was made from.
 #[derive(Debug, Clone)]
 pub(crate) enum FileValue {
     /// A table of time series.
@@ -26,20 +26,20 @@ pub(crate) enum FileValue {
     Events(Vec<Event>),
     /// The curves of `cycles.csv`.
     Cycles(Vec<CycleRow>),
-    /// A body.
+    /// A model.
     Body(Box<Model>),
-    /// Only its bytes are known.
+    /// Bytes only.
     Bytes,
 }
 
 impl OutputFile {
-    /// A file that results are not read from: a picture, a page, the text of a scene.
+    /// A file from which no results are read: a picture, a page, the text of a scene.
     #[must_use]
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> OutputFile {
         OutputFile { name: name.into(), bytes, value: FileValue::Bytes }
     }
 
-    /// A table as OpenSim's storage file.
+    /// A table as an OpenSim storage file.
     #[must_use]
     pub fn storage(name: impl Into<String>, table: Table) -> OutputFile {
         OutputFile { name: name.into(), bytes: table.write_storage(), value: FileValue::Table(table) }
@@ -68,32 +68,32 @@ impl OutputFile {
         }
     }
 
-    /// A body as an OpenSim model.
+    /// A model as an OpenSim file.
     ///
     /// # Errors
-    /// A body that the format cannot hold.
+    /// A model that the format cannot store.
     pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile, BodyFileError> {
         let bytes = to_osim(model)?.write()?;
         Ok(OutputFile { name: name.into(), bytes, value: FileValue::Body(Box::new(model.clone())) })
     }
 }
 
-/// Why a body makes no file.
+/// Why a model cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum BodyFileError {
-    /// What OpenSim models lack.
+    /// OpenSim models cannot represent the body.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// What the format lacks.
+    /// The file format cannot store the model.
     #[error(transparent)]
     Format(#[from] Error),
 }
 
-/// Every table of a run. `device`, if worn, is its generalised forces: one column a coordinate [N.m or N], one
-/// entry a frame; what remains for the body is written beside the total.
+/// Every table of a run. `device` is the generalised forces of a worn device: one column per coordinate [N.m or N], one
+/// entry per frame; the remaining forces of the body are written in addition to the total.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that a table cannot store.
 pub fn output_files(model: &Model, analysis: &Analysis, device: Option<&[Vec<f64>]>) -> Result<Vec<OutputFile>, Error> {
     let rows = cycle_rows(model, analysis);
     let mut files = vec![

@@ -16,9 +16,9 @@ type ReadTable = fn(&[u8]) -> Result<(Table, Vec<Remark>), FormatError>;
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// A result folder: the files that a shell reads, or those that a run has just made.
+/// A result folder: files on disk, or the files that a run has just made.
 pub struct Folder<'a> {
-    /// What the folder is called.
+    /// Name of the folder.
     pub name: String,
     content: Content<'a>,
 }
@@ -26,11 +26,11 @@ pub struct Folder<'a> {
 enum Content<'a> {
     /// The bytes of a file, if it exists.
     Files(&'a dyn Fn(&str) -> Option<Vec<u8>>),
-    /// Values; nothing is parsed but the text of scenes.
+    /// Values in memory; only the text of scenes is parsed.
     Written { files: &'a [OutputFile], summary: RunSummary },
 }
 
-/// Names that the body of a run may have: of a recording, of a synthetic walk.
+/// File names of the model of a run: of a recording, of a synthetic walk.
 pub const BODIES: [&str; 2] = ["subject.osim", "figure.osim"];
 
 /// Why results cannot be read or shown.
@@ -55,25 +55,25 @@ pub enum ResultsError {
         /// What was found, what was expected and what to do.
         reason: String,
     },
-    /// Data that JSON cannot hold.
+    /// Data that JSON cannot store.
     #[error("the page's data could not be written: {0}")]
     Data(#[from] serde_json::Error),
 }
 
 impl<'a> Folder<'a> {
-    /// A folder whose files are read by `file`, which has the bytes of a file if it exists.
+    /// A folder whose files are read by `file`, which returns the bytes of a file if it exists.
     #[must_use]
     pub fn of_files(name: impl Into<String>, file: &'a dyn Fn(&str) -> Option<Vec<u8>>) -> Folder<'a> {
         Folder { name: name.into(), content: Content::Files(file) }
     }
 
-    /// The folder of a run that has its results in memory.
+    /// The folder of a run whose results are in memory.
     #[must_use]
     pub fn of_run(name: impl Into<String>, files: &'a [OutputFile], summary: RunSummary) -> Folder<'a> {
         Folder { name: name.into(), content: Content::Written { files, summary } }
     }
 
-    /// Whether the folder has a file.
+    /// Whether the folder contains a file.
     #[must_use]
     pub fn has(&self, file: &str) -> bool {
         match &self.content {
@@ -91,7 +91,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// What a file of a run in memory was made of.
+    /// The value that a file of a run in memory was made from.
     fn value(&self, file: &str) -> Option<&FileValue> {
         match &self.content {
             Content::Files(_) => None,
@@ -102,7 +102,7 @@ impl<'a> Folder<'a> {
     /// `summary.json`.
     ///
     /// # Errors
-    /// No such file; a file that this version did not write.
+    /// A missing file; a file that this version did not write.
     pub fn summary(&self) -> Result<RunSummary, ResultsError> {
         if let Content::Written { summary, .. } = &self.content {
             return Ok(summary.clone());
@@ -112,7 +112,7 @@ impl<'a> Folder<'a> {
         RunSummary::from_json(&text).map_err(|reason| self.unreadable(file, reason))
     }
 
-    /// `events.csv`, in the order of the file; none without the file.
+    /// `events.csv`, in the order of the file; empty without the file.
     ///
     /// # Errors
     /// A file that holds anything else.
@@ -124,7 +124,7 @@ impl<'a> Folder<'a> {
         tables::read_events(&text).map_err(|reason| self.unreadable(EVENTS, reason))
     }
 
-    /// `cycles.csv`, in the order of the file; none without the file.
+    /// `cycles.csv`, in the order of the file; empty without the file.
     ///
     /// # Errors
     /// A file that holds anything else.
@@ -136,10 +136,10 @@ impl<'a> Folder<'a> {
         cycle_table::read(&text).map_err(|reason| self.unreadable(CYCLES, reason))
     }
 
-    /// The body of the run and the name of its file; none without the file.
+    /// The model of the run and the name of its file; `None` without the file.
     ///
     /// # Errors
-    /// A file that is no model.
+    /// A file that is not a model.
     pub fn body(&self) -> Result<Option<(&'static str, Model)>, ResultsError> {
         for file in BODIES {
             if let Some(FileValue::Body(model)) = self.value(file) {
@@ -153,7 +153,7 @@ impl<'a> Folder<'a> {
         Ok(None)
     }
 
-    /// A table of time series, if the folder has it; its numbers are finite.
+    /// A table of time series, if the folder contains it; its numbers are finite.
     ///
     /// # Errors
     /// A file that is not a table, or holds numbers that no result can be.
@@ -161,7 +161,7 @@ impl<'a> Folder<'a> {
         self.table_by(file, Table::read_storage)
     }
 
-    /// A table in CSV, if the folder has it; its numbers are finite.
+    /// A table in CSV, if the folder contains it; its numbers are finite.
     ///
     /// # Errors
     /// A file that is not a table, or holds numbers that no result can be.
@@ -182,7 +182,7 @@ impl<'a> Folder<'a> {
         Ok(Some(table))
     }
 
-    /// A text file, if the folder has it, without a byte order mark.
+    /// A text file, if the folder contains it, without a byte order mark.
     ///
     /// # Errors
     /// A file that is not UTF-8.
@@ -198,7 +198,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Text has no zero bytes, but UTF-16 and binary files do.
+    /// Rejects files with zero bytes: UTF-16 and binary files.
     fn refuse_binary(&self, file: &str, bytes: &[u8]) -> Result<(), ResultsError> {
         match bytes.iter().position(|byte| *byte == 0) {
             Some(place) => {
@@ -208,7 +208,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// All cells of a table of results, which has no gaps.
+    /// Checks all cells of a table of results, which has no gaps.
     fn check_numbers(&self, file: &str, table: &Table) -> Result<(), ResultsError> {
         for (name, values) in table.columns() {
             if let Some(row) = values.iter().position(|x| !is_sound(*x)) {
@@ -227,7 +227,7 @@ impl<'a> Folder<'a> {
         ResultsError::Unreadable { folder: self.name.clone(), file: file.to_owned(), reason }
     }
 
-    /// The same from an error with all its causes.
+    /// The same, with the message of an error and all its causes.
     #[must_use]
     pub fn refused(&self, file: &str, error: &(dyn Error + 'static)) -> ResultsError {
         self.unreadable(file, error_chain(error))

@@ -1,4 +1,4 @@
-//! What a run found, as types that are written to files and read back: summary, tables and file names.
+//! Results of a run as types that are written to files and read back: summary, tables and file names.
 
 mod consistency_summary;
 mod convention;

@@ -1,4 +1,4 @@
-//! Tables and summary of an outcome of `ambulo::study`.
+//! Makes tables and summary from an outcome of `ambulo::study`.
 
 use crate::consistency_summary::ConsistencySummary;
 use crate::files::{OutputFile, output_files};
@@ -11,10 +11,10 @@ use ambulo::findings::Findings;
 use ambulo::study::{self, ForceOrigin, Outcome, Processing, Tracking};
 use ambulo_formats::Error;
 
-/// Every table of a run, with those that only a prediction has.
+/// Every table of a run, including those of a prediction.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that a table cannot store.
 pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
     let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref())?;
     let walking = WalkingSummary::of(&outcome.times_and_distances);
@@ -27,7 +27,7 @@ pub fn outcome_tables(outcome: &Outcome) -> Result<Vec<OutputFile>, Error> {
     Ok(files)
 }
 
-/// The motion with predicted and with measured forces; `None` where nothing was predicted.
+/// The motion with predicted and with measured forces; `None` without a prediction.
 #[must_use]
 pub fn predicted_analysis(outcome: &Outcome) -> Option<PredictedAnalysis> {
     let found = outcome.prediction.as_ref()?;
@@ -38,7 +38,7 @@ pub fn predicted_analysis(outcome: &Outcome) -> Option<PredictedAnalysis> {
     })
 }
 
-/// The summary of a run. `input` names what went in; where the ground forces come from is taken from the outcome.
+/// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome.
 #[must_use]
 pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> Summary {
     let Processing { smoother, force_filter, window } = outcome.processing;

@@ -1,4 +1,4 @@
-//! Files of a run with predicted ground forces: their standard deviations, and what plates measured.
+//! Files of a run with predicted ground forces: standard deviations and measured forces.
 
 use crate::files::OutputFile;
 use crate::tables::{self, Column};
@@ -8,10 +8,10 @@ use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 
-/// `grf_sd.mot` and, where plates measured, `grf_measured.mot`, on the instants of `kinematics.mot`.
+/// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`.
 ///
 /// # Errors
-/// Column names that no table can hold.
+/// Column names that a table cannot store.
 pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<Vec<OutputFile>, Error> {
     let deviations = deviation_columns(&predicted.prediction.deviations, predicted.analysis.trajectory.grid().frames);
     let deviations = tables::table("Standard Deviations of Ground Reactions", &predicted.analysis, deviations)?;
@@ -22,7 +22,7 @@ pub fn prediction_files(model: &Model, predicted: &PredictedAnalysis) -> Result<
     Ok(files)
 }
 
-/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot does not stand.
+/// `ground_force_{s}_vx_sd` .. `vz_sd` [N], `px_sd` .. `pz_sd` [m], `ground_torque_{s}_y_sd` [N.m]; zeros while a foot is unloaded.
 fn deviation_columns(deviations: &[FootDeviation], frames: usize) -> Vec<Column> {
     let mut columns = Vec::new();
     for side in Side::BOTH {

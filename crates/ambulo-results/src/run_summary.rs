@@ -1,4 +1,4 @@
-//! `summary.json` of any run, read and written by the same types.
+//! Reads and writes `summary.json` of any run with the same types.
 
 use crate::scene_summary::SceneSummary;
 use crate::sound::{EXPECTED, unsound};
@@ -14,9 +14,9 @@ const AGAIN: &str = "hint: run the command that wrote this folder again, with th
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum RunSummary {
-    /// Of a simulated scene.
+    /// Summary of a simulated scene.
     Scene(Box<SceneSummary>),
-    /// Of a recording or a synthetic walk.
+    /// Summary of a recording or a synthetic walk.
     Motion(Box<Summary>),
 }
 
@@ -24,11 +24,11 @@ impl RunSummary {
     /// Reads `summary.json`.
     ///
     /// # Errors
-    /// What was found, what was expected and what to do, in words: text that is not JSON, keys that are missing or of another type,
-    /// numbers that no result can be.
+    /// A message with what was found, what was expected and what to do, for text that is not JSON, keys that are missing or of the wrong type,
+    /// and numbers that are not valid results.
     pub fn from_json(text: &str) -> Result<RunSummary, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| {
-            format!("{error}. hint: the file is cut or not JSON; run the command that wrote it again")
+            format!("{error}. hint: the file is truncated or not JSON; run the command that wrote it again")
         })?;
         if !value.is_object() {
             return Err(format!("found {value}; expected an object with the keys of docs/OUTPUTS.md. {AGAIN}"));
@@ -42,7 +42,7 @@ impl RunSummary {
         }
     }
 
-    /// Stature [m], where it was given.
+    /// Stature [m], if it was given.
     #[must_use]
     pub fn height_m(&self) -> Option<f64> {
         match self {
@@ -73,7 +73,7 @@ pub fn summary_schema() -> Result<Vec<u8>, serde_json::Error> {
 /// A summary as the content of `summary.json`.
 ///
 /// # Errors
-/// None for summaries of this crate, which hold nothing that JSON lacks.
+/// None for summaries of this crate, because JSON can store all their values.
 pub fn summary_json(summary: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     let mut json = serde_json::to_vec_pretty(summary)?;
     json.push(b'\n');

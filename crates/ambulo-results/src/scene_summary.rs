@@ -8,73 +8,73 @@ use ambulo::simulation::{Integrator, Owner};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The summary of one run. Keys that a run cannot fill are `null`.
+/// The summary of one run. Keys that do not apply to a run are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneSummary {
     /// Version of the program.
     pub version: String,
-    /// What went in.
+    /// Input files.
     pub input: SceneInput,
-    /// What the scene is called.
+    /// Title of the scene.
     pub title: Option<String>,
-    /// How many of each there are.
+    /// Numbers of bodies, joints and shapes.
     pub world: WorldSummary,
-    /// How positions and velocities follow from forces.
+    /// The integrator.
     pub integrator: Integrator,
     /// Time step [s].
     pub step_s: f64,
-    /// Steps made in this run.
+    /// Number of time steps in this run.
     pub steps: usize,
     /// First and last instant of this run [s].
     pub window_s: [f64; 2],
-    /// Instants that have rows.
+    /// Number of output instants (rows of the tables).
     pub frames: usize,
-    /// Energies at the instants that have rows [J].
+    /// Energies at the output instants [J].
     pub energy: EnergySummary,
-    /// Largest distance of a joint or closure from where it holds, at the instants that have rows [m].
+    /// Largest constraint error of a joint or closure at the output instants [m].
     pub joint_error_max_m: f64,
-    /// Contacts at the instants that have rows.
+    /// Contacts at the output instants.
     pub contacts: ContactSummary,
-    /// Extremes of every coordinate's effort.
+    /// Extremes of the effort (moment or force) of every coordinate.
     pub peaks: Vec<PeakSummary>,
-    /// How the solver did.
+    /// Convergence of the solver.
     pub convergence: ConvergenceSummary,
-    /// What was odd on the way.
+    /// Warnings and notes.
     pub findings: Vec<Finding>,
-    /// Whether people could do what the figures that walk do; `None` if none does.
+    /// Whether a person could do the motion of the walking figures; `null` without walking figures.
     pub verdict: Option<SceneVerdict>,
-    /// Time that each stage took [ms].
+    /// Computing time of each stage [ms].
     pub timing_ms: BTreeMap<String, f64>,
 }
 
-/// What went in.
+/// Input files.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SceneInput {
     /// The scene file.
     pub scene: String,
-    /// Models and recordings that it names.
+    /// Models and recordings that the scene uses.
     pub files: Vec<String>,
     /// The saved state that was resumed.
     pub resumed: Option<String>,
 }
 
-/// How many of each there are.
+/// Numbers of bodies, joints and shapes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorldSummary {
-    /// Bodies that forces move, those of figures too.
+    /// Bodies that forces move, including those of figures.
     pub bodies: usize,
-    /// Joints of the trees at the end.
+    /// Joints of the kinematic trees at the end.
     pub joints: usize,
-    /// Joints that close loops, whether they hold or not.
+    /// Joints that close loops, active or not.
     pub closures: usize,
-    /// What forces do not move.
+    /// Obstacles, which forces do not move.
     pub obstacles: usize,
-    /// Figures from OpenSim models.
+    /// Figures made from OpenSim models.
     pub figures: usize,
-    /// Shapes that may touch.
+    /// Shapes with contact.
     pub surfaces: usize,
     /// Mass of all bodies [kg].
     pub mass_kg: f64,
@@ -100,35 +100,35 @@ pub struct EnergySummary {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ContactSummary {
-    /// Most points that push at once.
+    /// Largest number of simultaneously loaded contact points.
     pub points_max: usize,
     /// Largest normal force at one point [N].
     pub normal_force_max_n: f64,
     /// Largest overlap [m].
     pub overlap_max_m: f64,
-    /// Largest sum of forces of obstacles on bodies [N].
+    /// Largest total force of obstacles on bodies [N].
     pub obstacles_force_max_n: f64,
     /// Collisions found within steps of the integrator `runge-kutta`.
     pub impacts: usize,
 }
 
-/// How the solver did over all steps.
+/// Convergence of the solver over all time steps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConvergenceSummary {
-    /// Tree solves a step.
+    /// Mean number of tree solves per time step.
     pub iterations_mean: f64,
-    /// Most tree solves of a step.
+    /// Largest number of tree solves in a time step.
     pub iterations_max: usize,
-    /// Factorisations a step.
+    /// Mean number of factorisations per time step.
     pub factorizations_mean: f64,
-    /// Largest residual of a step.
+    /// Largest relative residual of a time step.
     pub residual_max: f64,
-    /// Steps above the tolerance.
+    /// Time steps whose residual is above the tolerance.
     pub not_converged: usize,
 }
 
-/// Extremes of a run, gathered frame by frame.
+/// Collects the extremes of a run frame by frame.
 #[derive(Debug, Clone, Default)]
 pub struct SceneExtremes {
     frames: usize,
@@ -141,7 +141,7 @@ pub struct SceneExtremes {
 }
 
 impl SceneExtremes {
-    /// Takes in one instant.
+    /// Adds one instant.
     pub fn add(&mut self, frame: &SceneFrame<'_>) {
         let total = frame.energy.total();
         let time_s = frame.scene.state().time_s;
@@ -219,7 +219,7 @@ impl SceneExtremes {
         }
     }
 
-    /// The summary of a run that has ended; the shell adds the timings.
+    /// The summary of a finished run; the caller adds the timings.
     #[must_use]
     pub fn summary(
         self,

@@ -1,4 +1,4 @@
-//! Tables of a simulated scene: one row an instant of output and body, joint coordinate, contact or closure.
+//! Tables of a simulated scene: one row per output instant and body, joint coordinate, contact or closure.
 
 use crate::files::OutputFile;
 use ambulo::simulation::scene::{Outputs, Scene, SceneFrame};
@@ -9,7 +9,7 @@ use ambulo_formats::table::Table;
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::fmt::Write;
 
-/// Rows of a run, gathered frame by frame.
+/// Collects the rows of a run frame by frame.
 #[derive(Debug, Clone)]
 pub struct SceneTables {
     kept: Outputs,
@@ -69,16 +69,16 @@ impl SceneTables {
         }
     }
 
-    /// Instants that were added.
+    /// Number of instants added.
     #[must_use]
     pub fn instants(&self) -> usize {
         self.rows
     }
 
-    /// The files; those that the scene has nothing for are left out.
+    /// The files; files without content are left out.
     ///
     /// # Errors
-    /// Column names that no table can hold.
+    /// Column names that a table cannot store.
     pub fn files(self, scene: &Scene) -> Result<Vec<OutputFile>, Error> {
         let world = scene.world();
         let (kept, jointed) = (&self.kept, !scene.world().joints.is_empty() || self.joints.lines().count() > 1);
@@ -205,7 +205,7 @@ impl SceneTables {
 
     fn add_contact(&mut self, world: &World, time_s: f64, kind: &str, contact: &ContactForce) {
         let (a, b) = (world.surfaces[contact.surfaces.0].owner, world.surfaces[contact.surfaces.1].owner);
-        // A body stands first, and what it feels.
+        // The body comes first; the force is the one on it.
         let (first, second, sign) = if matches!(a, Owner::Obstacle(_)) { (b, a, -1.0) } else { (a, b, 1.0) };
         let friction = contact.force - contact.normal * contact.normal_force;
         let text = &mut self.contacts;
@@ -249,7 +249,7 @@ impl SceneTables {
     }
 }
 
-/// A coordinate's row.
+/// A row of a coordinate.
 struct Coordinate {
     value: f64,
     rate: f64,
@@ -257,7 +257,7 @@ struct Coordinate {
 }
 
 fn begin(text: &mut String, time_s: f64, names: &[&str]) {
-    // 350 steps of 1 ms are 0.35000000000000003 s: the last digits say nothing.
+    // 350 steps of 1 ms are 0.35000000000000003 s: the last digits are rounding errors.
     let _ = write!(text, "{}", (time_s * 1e12).round() / 1e12);
     for name in names {
         if name.contains([',', '"']) {

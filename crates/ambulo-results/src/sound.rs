@@ -1,20 +1,20 @@
-//! Which numbers files of results may hold.
+//! Checks that numbers in result files are plausible.
 
 use serde_json::Value;
 
-/// Larger than any result in any of our units. What is larger comes from a broken file; animation files, whose floats have 32 bits, and
-/// sums of squares could not hold it.
+/// Larger than any result in any of our units. Larger numbers come from a broken file; 32-bit floats of animation files, and
+/// sums of squares, could not represent them.
 const LARGEST: f64 = 1e12;
-/// What is expected of a number, for messages.
+/// The expected range of a number, for messages.
 pub const EXPECTED: &str = "a finite number, at most 1e12 in size";
 
-/// Whether a number can be a result.
+/// Whether a number is finite and not too large.
 #[must_use]
 pub fn is_sound(number: f64) -> bool {
     number.abs() <= LARGEST
 }
 
-/// The first number of a JSON text that no result can be, with the path to it.
+/// The first invalid number of a JSON value, with its path.
 pub(crate) fn unsound(value: &Value, path: &str) -> Option<(String, f64)> {
     match value {
         Value::Number(number) if number.is_f64() => {

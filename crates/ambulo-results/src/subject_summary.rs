@@ -1,4 +1,4 @@
-//! How markers became a body in motion: `subject` of `summary.json` (docs/OUTPUTS.md).
+//! `subject` of `summary.json`: marker fit, segments, plates and events (docs/OUTPUTS.md).
 
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
 use ambulo::ground::plates::{ContactQuality, PlateContact};
@@ -9,46 +9,46 @@ use ambulo::motion::PlateRecording;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How markers became a body in motion.
+/// The subject: marker fit, segments, plates and events.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SubjectSummary {
-    /// How the laboratory's axes and unit were turned into the world's, in one line.
+    /// Conversion of the axes and unit of the laboratory to those of the world, in one line.
     pub axes: String,
-    /// How far the body turns on its way [deg]; `null` where it walks straight or not at all.
+    /// Turn of the walking direction [deg]; `null` if the subject walks straight or not at all.
     pub turn_deg: Option<f64>,
-    /// The sets of markers whose names were found; none with an OpenSim model.
+    /// The detected marker sets; empty with an OpenSim model.
     pub marker_sets: Vec<String>,
-    /// How well the body follows the markers.
+    /// Quality of the marker fit.
     pub markers: MarkersSummary,
-    /// Sizes of the built-in body's segments.
+    /// Sizes of the segments of the built-in body.
     pub segments: Vec<SegmentSummary>,
-    /// Whose foot loaded which plate, and when.
+    /// Which foot loaded which plate, and when.
     pub plates: Vec<PlateContactSummary>,
-    /// Where the plates lie.
+    /// Positions of the plates.
     pub plate_corners_m: Vec<PlateCornersSummary>,
-    /// Times during which every foot on the ground stood on a plate that saw all of it [s], the longest first: only there do totals
-    /// and the forces at the pelvis mean anything.
+    /// Times in which every loaded foot is wholly on a plate [s], the longest first: only then are total forces
+    /// and the forces at the pelvis meaningful.
     pub instrumented_windows_s: Vec<[f64; 2]>,
-    /// How well foot strikes and toe-offs of several sources agree.
+    /// Agreement of foot strikes and foot offs from several sources.
     pub events: Vec<EventAgreementSummary>,
-    /// What the built-in body assumes of this person, in sentences.
+    /// Assumptions of the built-in body about this person, in sentences.
     pub assumptions: Vec<String>,
 }
 
-/// How well a body follows markers.
+/// Quality of the marker fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkersSummary {
-    /// Mean over the frames of the root mean square distance of the markers [mm].
+    /// Root mean square distance of the markers, averaged over the frames [mm].
     pub rms_mm: Option<f64>,
-    /// Frames in which the iteration did not come to rest.
+    /// Frames in which the fit did not converge.
     pub frames_not_converged: usize,
-    /// Each marker.
+    /// Errors of each marker.
     pub errors: Vec<MarkerErrorSummary>,
 }
 
-/// How far one marker stayed from its place on the body.
+/// Distance of one marker from its place on the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkerErrorSummary {
@@ -58,9 +58,9 @@ pub struct MarkerErrorSummary {
     pub rms_mm: Option<f64>,
     /// Largest [mm].
     pub max_mm: Option<f64>,
-    /// Frames in which it was seen.
+    /// Frames in which it is visible.
     pub frames_seen: usize,
-    /// Frames in which it was seen and not believed.
+    /// Frames in which it is visible but was rejected.
     pub frames_refused: usize,
 }
 
@@ -70,7 +70,7 @@ pub struct MarkerErrorSummary {
 pub struct PlateContactSummary {
     /// Name of the plate.
     pub plate: String,
-    /// The foot on it; `null` where it is not known.
+    /// The foot on it; `null` if not known.
     pub side: Option<Side>,
     /// First loaded instant [s].
     pub start_s: f64,
@@ -78,13 +78,13 @@ pub struct PlateContactSummary {
     pub end_s: f64,
     /// Largest vertical force [N].
     pub peak_n: f64,
-    /// How much of the foot's load the plate measured.
+    /// Whether the plate measured the whole load of the foot.
     pub quality: ContactQuality,
-    /// Why it is not clean; empty if it is.
+    /// Why the contact is not clean; empty if it is.
     pub reason: String,
 }
 
-/// Where a force plate lies.
+/// Position of a force plate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlateCornersSummary {
@@ -94,7 +94,7 @@ pub struct PlateCornersSummary {
     pub corners_m: [[f64; 3]; 4],
 }
 
-/// How well two sources of foot strikes and toe-offs agree.
+/// Agreement of two sources of foot strikes and foot offs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EventAgreementSummary {
@@ -102,11 +102,11 @@ pub struct EventAgreementSummary {
     pub found: EventOrigin,
     /// The events that they are compared with.
     pub reference: EventOrigin,
-    /// Strikes, then offs.
+    /// Agreement of foot strikes, then of foot offs.
     pub kinds: Vec<EventAgreement>,
 }
 
-/// Where events come from.
+/// Source of events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -137,14 +137,14 @@ impl EventOrigin {
 pub struct SegmentSummary {
     /// Name of the body.
     pub body: String,
-    /// Length over the table's for the stature.
+    /// Length relative to the table for the stature.
     pub factor: f64,
-    /// Whether markers say so, or the table.
+    /// Whether it was measured by markers; otherwise it is from the table.
     pub measured: bool,
 }
 
 impl SubjectSummary {
-    /// Of a body that was fitted to the markers of a laboratory; `listed` are the events that the file lists.
+    /// Makes the summary of a body fitted to markers; `listed` are the events in the file.
     #[must_use]
     pub fn of_markers(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> SubjectSummary {
         let report = body.subject.calibration.as_ref();
@@ -162,7 +162,7 @@ impl SubjectSummary {
         }
     }
 
-    /// Of a body that was fitted to a skeleton.
+    /// Makes the summary of a body fitted to a skeleton.
     #[must_use]
     pub fn of_skeleton(axes: &str, fit: &MarkerFit) -> SubjectSummary {
         SubjectSummary {
@@ -193,7 +193,7 @@ fn plate_contacts(body: &BodyInMotion) -> Vec<PlateContactSummary> {
     body.on_plates.contacts.iter().map(summary).collect()
 }
 
-/// Motion and file against plates; the file against the motion where there are no plates.
+/// Compares motion and file with plates; without plates, the file with the motion.
 fn agreements(body: &BodyInMotion, listed: &[Event], measured: &[Event]) -> Vec<EventAgreementSummary> {
     let sources =
         [(EventOrigin::Plates, measured), (EventOrigin::Motion, &body.feet.events[..]), (EventOrigin::File, listed)];
@@ -222,7 +222,7 @@ impl SegmentSummary {
 impl MarkersSummary {
     fn new(fit: &MarkerFit) -> MarkersSummary {
         let millimetres = |m: f64| m.is_finite().then_some(1e3 * m);
-        let seen: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
+        let used: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
         let errors = fit.errors.iter().map(|error| MarkerErrorSummary {
             name: error.name.clone(),
             rms_mm: millimetres(error.rms_m),
@@ -231,7 +231,7 @@ impl MarkersSummary {
             frames_refused: error.down_weighted,
         });
         MarkersSummary {
-            rms_mm: millimetres(seen.iter().sum::<f64>() / seen.len() as f64),
+            rms_mm: millimetres(used.iter().sum::<f64>() / used.len() as f64),
             frames_not_converged: fit.converged.iter().filter(|converged| !**converged).count(),
             errors: errors.collect(),
         }

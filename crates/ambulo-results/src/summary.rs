@@ -1,4 +1,4 @@
-//! `summary.json`: what was done and what came out, in stable keys (docs/OUTPUTS.md).
+//! `summary.json` of a recording or synthetic walk: input, settings and results with stable keys (docs/OUTPUTS.md).
 
 use crate::consistency_summary::ConsistencySummary;
 use crate::convention::ConventionSummary;
@@ -16,13 +16,13 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The summary of one run. Keys that a run cannot fill are `null`.
+/// The summary of one run. Keys that do not apply to a run are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Version of the program.
     pub version: String,
-    /// What went in.
+    /// Input files and settings.
     pub input: Input,
     /// Name of the model.
     pub model: String,
@@ -30,55 +30,55 @@ pub struct Summary {
     pub mass_kg: f64,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
-    /// The model's mass, which the dynamics use [kg].
+    /// Mass of the model, used for the dynamics [kg].
     pub mass_model_kg: f64,
-    /// Where the body mass comes from.
+    /// Source of the body mass.
     pub mass_source: MassSource,
-    /// Whether anything but the model vouches for the mass.
+    /// Whether the mass is given or measured, or known from the model only.
     pub mass: MassKnowledge,
-    /// Stature [m], where it was given.
+    /// Stature [m], if it was given.
     pub height_m: Option<f64>,
-    /// Walking speed over the ground or the belt [m/s].
+    /// Walking speed relative to the floor or belt [m/s].
     pub speed_m_s: Option<f64>,
     /// First and last instant [s].
     pub window_s: [f64; 2],
-    /// The range that was asked for [s]; `null` where it was left open.
+    /// The requested time range [s]; `null` where it was left open.
     pub window_asked_s: [Option<f64>; 2],
-    /// Frames a second [Hz].
+    /// Frame rate [Hz].
     pub rate_hz: f64,
     /// Number of frames.
     pub frames: usize,
     /// Filters of motion and forces, in words.
     pub filter: Filters,
-    /// How angles of pelvis and hips are measured in `clinical.csv`; `null` without that file.
+    /// Convention for the angles of pelvis and hips in `clinical.csv`; `null` without that file.
     pub convention: Option<ConventionSummary>,
     /// Times and distances of the strides.
     pub times_and_distances: WalkingSummary,
-    /// Where the ground forces come from.
+    /// Source of the ground forces.
     pub ground: Ground,
-    /// What motion and forces disagree by, at the root.
+    /// Residual force and moment at the root.
     pub residual: Option<ResidualSummary>,
     /// Extremes of every generalised force.
     pub peaks: Vec<PeakSummary>,
-    /// What was odd on the way.
+    /// Warnings and notes.
     pub findings: Vec<Finding>,
-    /// Whether a person could do this.
+    /// Verdict: whether a person could do this motion.
     pub verdict: Option<Verdict>,
-    /// Whether predicted forces can be right; `null` where none were predicted.
+    /// Checks of predicted forces; `null` without a prediction.
     pub prediction: Option<PredictionChecks>,
-    /// Prediction against plates; filled when forces are predicted and plates saw something in full.
+    /// Comparison of predicted forces with force plates; `null` without a prediction or a wholly measured stance.
     pub comparison: Option<GroundAgreement>,
-    /// How markers became a body in motion; `null` where coordinates were given.
+    /// Marker fit, segments, plates and events; `null` for recorded coordinates.
     pub subject: Option<SubjectSummary>,
-    /// How the motion was changed to obey the forces; `null` where it was not.
+    /// Residual reduction; `null` if the motion was not changed.
     pub consistency: Option<ConsistencySummary>,
     /// How a synthetic walk was made; `null` for recordings.
     pub walk: Option<WalkSummary>,
-    /// Time that each stage took [ms].
+    /// Computing time of each stage [ms].
     pub timing_ms: BTreeMap<String, f64>,
 }
 
-/// What went in.
+/// Input files and settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Input {
@@ -93,28 +93,28 @@ pub struct Input {
     pub ground: Option<String>,
     /// The description of the loads.
     pub loads: Option<String>,
-    /// What a worn device contributes.
+    /// The forces of a worn device.
     pub device: Option<String>,
-    /// Masses that were added to the model, as `BODY:KG:X,Y,Z`.
+    /// Masses added to the model, as `BODY:KG:X,Y,Z`.
     pub added_mass: Vec<String>,
-    /// How the ground forces came about; reported under `ground`.
+    /// Source of the ground forces; reported under `ground`.
     #[serde(skip)]
     pub ground_source: GroundSource,
 }
 
-/// How ground forces came about.
+/// Source of the ground forces.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum GroundSource {
-    /// By force plates or other sensors.
+    /// Force plates or other sensors.
     Measured,
-    /// From the motion itself; `rule` says how double support was split.
+    /// Predicted from the motion; `rule` is the method for double support.
     Predicted {
-        /// The rule, in words.
+        /// The method, in words.
         rule: &'static str,
     },
-    /// By a simulation of the motion; `rule` says how double support was split.
+    /// A simulation of the motion; `rule` is the method for double support.
     Simulated {
-        /// The rule, in words.
+        /// The method, in words.
         rule: &'static str,
     },
     /// There are none.
@@ -122,17 +122,17 @@ pub enum GroundSource {
     None,
 }
 
-/// Whether a mass is known from more than a model. From motion alone every force scales with the mass, so that a wrong one shows only
-/// against plates, a standing trial or what somebody states.
+/// Whether the body mass is known from more than the model. Forces predicted from motion scale with the mass, so only force plates,
+/// a standing trial or a given mass can reveal a wrong one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum MassKnowledge {
-    /// Weighed by plates, or stated.
+    /// Measured by force plates, or given.
     Verified,
-    /// The model's own.
+    /// Known from the model only.
     Unverified,
-    /// Plates carry another mass than the model has.
+    /// Force plates measured a different mass than the model has.
     Contradicted,
 }
 
@@ -150,7 +150,7 @@ pub struct Filters {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FilterSummary {
-    /// What kind of filter it is.
+    /// Kind of filter.
     pub kind: FilterKind,
     /// Cut-off of one pass [Hz].
     pub cutoff_hz: Option<f64>,
@@ -183,7 +183,7 @@ impl FilterKind {
     }
 }
 
-/// Where the ground forces of a run come from, as a word.
+/// Source of the ground forces of a run, as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -211,15 +211,15 @@ impl GroundOrigin {
     }
 }
 
-/// Where the ground forces come from.
+/// Source of the ground forces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ground {
-    /// Their source.
+    /// Source of the ground forces.
     pub source: GroundOrigin,
-    /// How double support was resolved; measured forces need no rule.
+    /// Method for double support; `null` for measured forces.
     pub rule: Option<String>,
-    /// Below this vertical force a foot counts as unloaded [N].
+    /// A foot counts as unloaded below this vertical force [N].
     pub threshold_n: f64,
 }
 
@@ -249,11 +249,11 @@ pub struct PeakSummary {
     pub unit: ForceUnit,
     /// Largest value.
     pub max: f64,
-    /// When [s].
+    /// Time of the largest value [s].
     pub max_at_s: f64,
     /// Smallest value.
     pub min: f64,
-    /// When [s].
+    /// Time of the smallest value [s].
     pub min_at_s: f64,
 }
 
@@ -261,16 +261,16 @@ pub struct PeakSummary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ForceUnit {
-    /// Of moments about rotations.
+    /// For moments of rotations.
     #[serde(rename = "N.m")]
     NewtonMetre,
-    /// Of forces along translations.
+    /// For forces along translations.
     #[serde(rename = "N")]
     Newton,
 }
 
 impl ForceUnit {
-    /// The unit as in files.
+    /// The unit in files.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
@@ -285,7 +285,7 @@ impl ForceUnit {
     }
 }
 
-/// The summary of an analysis; the shell adds the last timings.
+/// The summary of an analysis; the caller adds the last timings.
 #[must_use]
 pub fn summary(
     model: &Model,

@@ -1,4 +1,4 @@
-//! Time series as tables with the names that OpenSim's tools know.
+//! Makes tables of time series with the column names of OpenSim.
 
 use crate::sound::is_sound;
 use ambulo::analysis::{Analysis, Event, EventKind};
@@ -18,7 +18,7 @@ pub(crate) fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Re
     Ok(table)
 }
 
-/// `kinematics.mot`: the coordinates that were used, rotations in degrees.
+/// `kinematics.mot`: the coordinates used for the analysis, rotations in degrees.
 pub(crate) fn kinematics(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
     let columns = model.coordinate_ids().map(|id| {
         let coordinate = &model.coordinates()[id.index()];
@@ -50,14 +50,14 @@ pub(crate) fn moments(model: &Model, analysis: &Analysis, device: Option<&[Vec<f
     table(title, analysis, columns)
 }
 
-/// `powers.sto`: what each coordinate's force delivers [W].
+/// `powers.sto`: power of the generalised force of each coordinate [W].
 pub(crate) fn powers(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
     let names = model.coordinates().iter().map(|c| format!("{}_power", c.name));
     table("Joint Powers", analysis, names.zip(analysis.forces.powers.iter().cloned()).collect())
 }
 
 /// `reactions.sto`: for each joint `<joint>_on_<child>_in_ground_` and force `f` [N], moment `m` about the joint centre
-/// [N.m] and that centre `p` [m], of the parent on the child in world axes.
+/// [N.m] and that centre `p` [m], all of the parent on the child in world axes.
 pub(crate) fn reactions(model: &Model, analysis: &Analysis) -> Result<Table, Error> {
     let mut columns = Vec::new();
     for (body, series) in model.bodies().iter().zip(&analysis.forces.reactions) {
@@ -98,7 +98,7 @@ pub fn ground_columns(feet: &[(Side, BodyForces)], frames: usize) -> Vec<(String
     columns
 }
 
-/// `external_loads.xml`: how OpenSim's tools apply `grf.mot`.
+/// `external_loads.xml`: tells OpenSim how to apply `grf.mot`.
 pub(crate) fn external_loads(model: &Model, analysis: &Analysis) -> ExternalLoads {
     let force = |(side, foot): (Side, BodyForces)| {
         let prefix = format!("ground_force_{}_", side.letter());
@@ -122,7 +122,7 @@ pub(crate) fn events_csv(events: &[Event]) -> String {
 
 const EVENTS_HEAD: &str = "side,event,time";
 
-/// Reads `events.csv`; an error says which line, what was found and what was expected.
+/// Reads `events.csv`; an error reports the line, what was found and what was expected.
 pub(crate) fn read_events(text: &str) -> Result<Vec<Event>, String> {
     let event = |(i, line): (usize, &str)| {
         let refused = || format!("line {}: found `{line}`; expected side (r, l), event (strike, off) and time", i + 1);
@@ -150,5 +150,5 @@ fn push_vector(columns: &mut Vec<Column>, stem: &str, series: impl IntoIterator<
     columns.extend(["x", "y", "z"].iter().zip(axes).map(|(axis, values)| (format!("{stem}{axis}"), values)));
 }
 
-/// The load below which a foot counts as unloaded, for the summary.
+/// The vertical force below which a foot counts as unloaded [N], for the summary.
 pub(crate) const UNLOADED_N: f64 = CENTER_OF_PRESSURE_LOAD_N;

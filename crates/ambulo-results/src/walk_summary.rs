@@ -1,4 +1,4 @@
-//! The part of `summary.json` that only synthetic walks have.
+//! The part of `summary.json` for synthetic walks.
 
 use ambulo::model::Model;
 use ambulo::simulation::consistent_walk::Magnitude;
@@ -6,51 +6,51 @@ use ambulo::simulation::synthetic::{CorrectionReport, Progress, WalkReport};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How a walk was made.
+/// How a synthetic walk was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WalkSummary {
     /// Name of the gait.
     pub gait: String,
-    /// How its curves run: `knots` or `1997`.
+    /// Style of the joint curves: `knots` or `1997`.
     pub style: String,
-    /// `corrected` or `paper`.
+    /// Mode: `corrected` or `paper`.
     pub mode: String,
-    /// Table of the figure's segments.
+    /// Name of the table of segments.
     pub figure: String,
-    /// Speed that the gait asks for [m/s].
+    /// Requested speed [m/s].
     pub speed_asked_m_s: f64,
-    /// The same as V/√(gL).
+    /// The same, dimensionless: V/√(gL).
     pub speed_dimensionless: f64,
-    /// Contact of one foot to contact of the other [m].
+    /// Step length, from the contact of one foot to that of the other [m].
     pub step_length_m: f64,
-    /// Steps a minute.
+    /// Cadence [steps/min].
     pub cadence_steps_min: f64,
     /// Duration of a cycle [s].
     pub cycle_s: f64,
-    /// Hip to floor, standing [m].
+    /// Leg length, hip to floor in standing [m].
     pub leg_length_m: f64,
-    /// How many numbers were adjusted; `null` in paper mode.
+    /// Number of adjusted parameters; `null` in paper mode.
     pub parameters_adjusted: Option<usize>,
-    /// By coordinate, the change of its angle [deg]; `null` in paper mode.
+    /// Change of the angle of each coordinate [deg]; `null` in paper mode.
     pub adjustment_deg: Option<BTreeMap<String, Size>>,
-    /// The pelvis' path against even motion [mm]; `null` in paper mode.
+    /// Deviation of the path of the pelvis from uniform motion [mm]; `null` in paper mode.
     pub pelvis_path_mm: Option<PelvisPath>,
-    /// What the plan's root lacks [N]; `null` in paper mode.
+    /// Residual force at the root of the planned motion [N]; `null` in paper mode.
     pub lacking_force_n: Option<Size>,
-    /// What the plan's root lacks [N.m]; `null` in paper mode.
+    /// Residual moment at the root of the planned motion [N.m]; `null` in paper mode.
     pub lacking_moment_nm: Option<Size>,
-    /// How the solver got there, by stage; `null` in paper mode.
+    /// Progress of the solver by stage; `null` in paper mode.
     pub solver: Option<Vec<SolverStage>>,
-    /// Torque that holds the trunk from outside [N.m].
+    /// External torque that supports the trunk [N.m].
     pub trunk_torque_nm: Size,
-    /// The same by kg of body mass [N.m/kg].
+    /// The same per kilogram of body mass [N.m/kg].
     pub trunk_torque_nm_kg: Size,
-    /// How far a loaded sole gets from where it stood, in the worst stance [mm]; `null` without a whole stance.
+    /// Largest displacement of a loaded sole in the worst stance [mm]; `null` without a whole stance.
     pub foot_slip_mm: Option<f64>,
-    /// Its way there and back [mm].
+    /// Length of the path of that displacement [mm].
     pub foot_slip_path_mm: Option<f64>,
-    /// Time that no foot is loaded [s].
+    /// Time without a loaded foot [s].
     pub flight_s: f64,
     /// Impacts of rigid soles on the ground.
     pub impacts: usize,
@@ -58,13 +58,13 @@ pub struct WalkSummary {
     pub largest_impact_n_s: f64,
     /// Largest difference of the mid-hip's speed from one cycle to the next [m/s].
     pub speed_drift_m_s: f64,
-    /// Steps of the simulator a second [Hz].
+    /// Time steps of the simulator per second [Hz].
     pub simulator_hz: f64,
-    /// Steps whose contacts were not solved to the tolerance.
+    /// Time steps whose contacts were not solved to the tolerance.
     pub unsolved_steps: usize,
 }
 
-/// Root mean square and largest size.
+/// Root mean square and maximum of the magnitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Size {
@@ -74,13 +74,13 @@ pub struct Size {
     pub largest: f64,
 }
 
-/// A path forwards and up.
+/// Deviation of a path, forward and up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PelvisPath {
-    /// Against constant speed.
+    /// Forward, from constant speed.
     pub forward: Size,
-    /// Against its mean height.
+    /// Upward, from the mean height.
     pub up: Size,
 }
 
@@ -103,7 +103,7 @@ impl Size {
 }
 
 impl WalkSummary {
-    /// From the report of a walk.
+    /// Makes the summary from the report of a walk.
     #[must_use]
     pub fn new(model: &Model, report: &WalkReport) -> WalkSummary {
         let correction = report.correction.as_ref();

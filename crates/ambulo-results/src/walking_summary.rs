@@ -19,7 +19,7 @@ pub struct WalkingSummary {
     pub pelvis_velocity_m_s: Option<[f64; 2]>,
     /// Largest angle between the directions of two strides [deg]; `null` with fewer than two strides.
     pub turn_deg: Option<f64>,
-    /// Each quantity that is known of at least one stride.
+    /// Every quantity known for at least one stride.
     pub quantities: Vec<QuantitySummary>,
 }
 
@@ -27,7 +27,7 @@ pub struct WalkingSummary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QuantitySummary {
-    /// Its name: `cadence`, `step_length`.
+    /// Name: `cadence`, `step_length`.
     pub quantity: String,
     /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`.
     pub unit: String,
@@ -37,7 +37,7 @@ pub struct QuantitySummary {
     pub left: Option<SpreadSummary>,
     /// Strides of both feet.
     pub both: Option<SpreadSummary>,
-    /// (right - left) over the mean of both; `null` where it means nothing.
+    /// (right - left) / mean of both; `null` if not meaningful.
     pub symmetry: Option<f64>,
 }
 
@@ -54,7 +54,7 @@ pub struct SpreadSummary {
 }
 
 impl WalkingSummary {
-    /// In the units of files.
+    /// Converts to the units of files.
     #[must_use]
     pub fn of(found: &TimesAndDistances) -> WalkingSummary {
         let quantities = StrideQuantity::ALL.into_iter().map(|quantity| {
@@ -79,13 +79,13 @@ impl WalkingSummary {
         }
     }
 
-    /// A quantity by its name; `None` where no stride has it.
+    /// A quantity by its name; `None` if no stride has it.
     #[must_use]
     pub fn quantity(&self, quantity: StrideQuantity) -> Option<&QuantitySummary> {
         self.quantities.iter().find(|known| known.quantity == quantity.word())
     }
 
-    /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; an empty cell where a number is not
+    /// `times_and_distances.csv`: `quantity,unit,side,mean,sd,strides` with side `r`, `l` or `both`; a cell is empty if its number is not
     /// known.
     #[must_use]
     pub fn file(&self) -> OutputFile {

@@ -1,4 +1,4 @@
-//! Ground forces as the files of a run hold them.
+//! Ground forces in the files of a run.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -32,7 +32,7 @@ fn right(model: &Model) -> BodyId {
     model.body("calcn_r").unwrap()
 }
 
-/// A plate on the frames' own instants.
+/// A plate sampled at the instants of the frames.
 fn plate(body: BodyId, at: impl Fn(f64) -> (Vec3, Vec3, Vec3)) -> ForceRecording {
     let times = grid().times();
     let (mut force, mut point, mut moment) = (Vec::new(), Vec::new(), Vec::new());
@@ -81,9 +81,9 @@ fn an_unloaded_foot_is_zero_in_the_written_file_and_a_loaded_one_is_not() {
 }
 
 #[test]
-fn the_written_ground_forces_hold_everything_that_pushed_a_side() {
-    // Heel and toes of one foot on a plate each, applied to two bodies: the file has room for one load a side, and must
-    // hold their sum, since the dynamics felt both.
+fn the_written_ground_force_of_a_side_is_the_sum_of_all_its_loads() {
+    // Heel and toes of one foot on a plate each, applied to two bodies: the file has one load per side, which must
+    // be their sum, because the dynamics used both.
     let model = free_bodies(DOWN_Y, &[("calcn_r", 35.0), ("toes_r", 35.0)]);
     let push = |body: &str, load: f64| {
         plate(model.body(body).unwrap(), move |_| {

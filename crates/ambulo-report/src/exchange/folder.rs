@@ -1,4 +1,4 @@
-//! A result folder in the formats of other programs.
+//! Converts a result folder to the formats of other programs.
 
 use super::glb::glb;
 use super::long_table::long_table;
@@ -8,14 +8,14 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::Model;
 use ambulo_results::{Folder, ResultsError};
 
-/// Why a folder, or a motion, makes no file.
+/// Why a folder or a motion cannot be converted.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExchangeError {
-    /// A file of the folder that is not what its name says.
+    /// A file of the folder cannot be read.
     #[error(transparent)]
     Folder(#[from] ResultsError),
-    /// A folder that lacks what the file is made of.
+    /// The folder lacks the required data.
     #[error("{folder}: {reason}")]
     Nothing {
         /// The folder.
@@ -23,10 +23,10 @@ pub enum ExchangeError {
         /// What is missing, in a sentence.
         reason: String,
     },
-    /// What the format cannot hold.
+    /// The format cannot store the data.
     #[error(transparent)]
     Format(#[from] ambulo_formats::Error),
-    /// Data that JSON cannot hold.
+    /// Data that JSON cannot store.
     #[error("the description could not be written: {0}")]
     Data(#[from] serde_json::Error),
 }
@@ -36,14 +36,14 @@ pub enum ExchangeError {
 pub struct Glb {
     /// The file.
     pub bytes: Vec<u8>,
-    /// How many forces are arrows in it.
+    /// Number of forces shown as arrows.
     pub arrows: usize,
 }
 
 /// An animated glTF file (`.glb`) of a result folder: the figure or the scene, ground forces as arrows.
 ///
 /// # Errors
-/// A folder without bodies in motion, or with a file that is not what its name says.
+/// A folder without moving bodies, or with a file that cannot be read.
 pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Glb, ExchangeError> {
     let stage = Stage::of_folder(folder)?.map_err(|reason| nothing(folder, reason))?;
     Ok(Glb { bytes: glb(&stage, &folder.name)?, arrows: stage.forces.len() })
@@ -52,7 +52,7 @@ pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Glb, ExchangeError> {
 /// An animated glTF file (`.glb`) of a model's motion.
 ///
 /// # Errors
-/// A motion that leads out of what can be drawn, data that JSON cannot hold.
+/// A motion with numbers beyond the limit for drawing; data that JSON cannot store.
 pub fn glb_of_motion(model: &Model, trajectory: &Trajectory) -> Result<Vec<u8>, ExchangeError> {
     let stage = Stage::of_motion(model, trajectory, None);
     if let Some(reason) = stage.defect() {
@@ -64,7 +64,7 @@ pub fn glb_of_motion(model: &Model, trajectory: &Trajectory) -> Result<Vec<u8>, 
 /// A BVH skeleton of a result folder's figure.
 ///
 /// # Errors
-/// A folder without a figure in motion, or with a file that is not what its name says; bodies that a skeleton cannot hold.
+/// A folder without a moving figure, or with a file that cannot be read; bodies that BVH cannot store.
 pub fn bvh_of_folder(folder: &Folder<'_>) -> Result<Vec<u8>, ExchangeError> {
     let FolderMotion { model, trajectory, .. } = folder_motion(folder)?.map_err(|reason| nothing(folder, reason))?;
     Ok(skeleton_of(&model, &trajectory)?.write())
@@ -73,7 +73,7 @@ pub fn bvh_of_folder(folder: &Folder<'_>) -> Result<Vec<u8>, ExchangeError> {
 /// The results of a folder over time as one long table: `time,quantity,unit,value`.
 ///
 /// # Errors
-/// A folder without results over time, or with a file that is not what its name says.
+/// A folder without results over time, or with a file that cannot be read.
 pub fn csv_of_folder(folder: &Folder<'_>) -> Result<String, ExchangeError> {
     long_table(folder)?.map_err(|reason| nothing(folder, reason))
 }

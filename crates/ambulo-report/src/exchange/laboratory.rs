@@ -1,9 +1,9 @@
-//! The walk of a figure as a laboratory would have recorded it: a C3D with Plug-in-Gait markers and a force plate under every step.
+//! Writes a synthetic walk as a laboratory recording: a C3D file with Plug-in-Gait markers and a force plate under every step.
 //!
 //! Laboratory: millimetres, x to the right, y along the walk, z up. A plate is of type 2: forces on the foot [N] and moments about a
 //! sensor [N.mm] below the middle of its surface, in axes of its own that look down: x_p = -x, y_p = y, z_p = -z. With o from
 //! the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the middle.
-//! Nobody was measured; noise is left out.
+//! The data are synthetic, without noise.
 //! Pinned by: tests/exchange.rs of the command
 
 use ambulo::kinematics::{Trajectory, TrajectoryError, each_body_motion};
@@ -22,7 +22,7 @@ const PLATE: [f64; 2] = [0.5, 0.6];
 const SENSOR_DEPTH: f64 = 0.04;
 /// A foot is on the ground above this load [N].
 const LOADED_N: f64 = 20.0;
-/// What is shorter is no step [s].
+/// Shorter loads are not steps [s].
 const SHORTEST: f64 = 0.1;
 const MILLIMETRES: f64 = 1000.0;
 
@@ -33,12 +33,12 @@ pub enum LaboratoryError {
     /// The markers.
     #[error(transparent)]
     Markers(#[from] MarkerSetError),
-    /// A figure that cannot stand.
+    /// The figure cannot stand.
     #[error(transparent)]
     Standing(#[from] TrajectoryError),
 }
 
-/// A walk: markers of the figure, forces on its feet (in world axes, about points that are stated), a plate for each contact.
+/// The recording of a walk: markers of the figure, forces on its feet (world axes, about given points), one plate per contact.
 ///
 /// # Errors
 /// A built-in marker set that cannot be read, which a test rules out.
@@ -52,7 +52,7 @@ pub fn laboratory_recording(
     let mut platforms = Vec::new();
     for side in Side::BOTH {
         let is_own = |load: &&ForceRecording| human.model.anatomy().body_side(load.body) == Some(side);
-        // Rear foot and toes stand on one plate.
+        // Rear foot and toes are on one plate.
         let load = Load::sum(loads.iter().filter(is_own).map(|load| Load::on(load, &times)), times.len());
         for [from, to] in load.contacts(&times) {
             let middle = load.mean_place(from, to);
@@ -90,7 +90,7 @@ pub fn standing_recording(human: &Human, rate_hz: f64) -> Result<C3d, Laboratory
     Ok(c3d)
 }
 
-/// Markers and what a laboratory notes of a person.
+/// Markers, body mass and stature.
 fn recording(human: &Human, trajectory: &Trajectory) -> Result<C3d, LaboratoryError> {
     let grid = trajectory.grid();
     let rate_hz = 1.0 / grid.step_s;
@@ -114,7 +114,7 @@ fn points(human: &Human, trajectory: &Trajectory, markers: &[Marker]) -> Vec<Poi
     paths.into_iter().map(point).collect()
 }
 
-/// The paths of markers on a model that moves, in world axes.
+/// Marker trajectories of a moving model, in world axes.
 #[must_use]
 pub fn marker_paths(model: &Model, trajectory: &Trajectory, markers: &[Marker]) -> MarkerRecording {
     let grid = trajectory.grid();
@@ -140,7 +140,7 @@ fn analog_times(grid: TimeGrid) -> Vec<f64> {
     (0..grid.frames * SAMPLES).map(|sample| grid.start_s + sample as f64 * step).collect()
 }
 
-/// A load on the analog samples: force, and its moment about the world's origin.
+/// A load at the analog samples: force, and its moment about the world's origin.
 struct Load {
     force: Vec<Vec3>,
     moment: Vec<Vec3>,
@@ -199,12 +199,12 @@ impl Load {
     }
 }
 
-/// Zero in place of what is no number.
+/// Replaces NaN by zero.
 fn finite(v: &Vec3) -> Vec3 {
     v.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
-/// A plate around a place, with six channels that are zero but from sample `from` to `to`, edges of the load included.
+/// A plate around a point, with six channels that are zero except from sample `from` to `to`, including the edges of the load.
 fn plate(c3d: &mut C3d, load: &Load, middle: Vec3, from: usize, to: usize) -> Platform {
     let plate_from_lab = Mat3::from_diagonal(&Vec3::new(-1.0, 1.0, -1.0));
     let to_surface = -Vec3::z() * SENSOR_DEPTH;
@@ -247,7 +247,7 @@ fn add_events(c3d: &mut C3d, side: Side, times: &[f64], from: usize, to: usize) 
         Side::Right => "Right",
         Side::Left => "Left",
     };
-    // What was on the ground at an end of the recording neither met nor left it there.
+    // A foot on the ground at an end of the recording has no foot strike or foot off there.
     if from > 0 {
         c3d.events.push(Event::new("Foot Strike", context, times[from]));
     }

@@ -1,7 +1,7 @@
-//! Results over time as one long table, a number a row: for programs that group and draw by quantity.
+//! Results over time as one long table with one number per row, for programs that group and draw by quantity.
 //!
 //! `time` [s], `quantity` (the column in its file), `unit`, `value`. Where a foot is unloaded its centre of pressure and free moment have
-//! no rows: the zeros of `grf.mot` there are no measurements.
+//! no rows, because the zeros of `grf.mot` there are not measurements.
 
 use crate::stage::folder_motion;
 use ambulo::model::{CoordinateKind, Model};
@@ -10,7 +10,7 @@ use ambulo_results::{Folder, ResultsError};
 use std::fmt::Write;
 
 const HEAD: &str = "time,quantity,unit,value\n";
-/// Tables whose columns state their unit by their ending, and what is put behind their names.
+/// Tables whose column endings imply the unit, and the suffix added to the names.
 const TABLES: [(&str, &str); 6] = [
     ("moments.sto", ""),
     ("moments_biological.sto", "_biological"),
@@ -22,7 +22,7 @@ const TABLES: [(&str, &str); 6] = [
 /// Endings of columns and units.
 const UNITS: [(&str, &str); 3] = [("_moment", "N.m"), ("_force", "N"), ("_power", "W")];
 
-/// The table of a folder; else why there is none.
+/// The table of a folder, or why there is none.
 pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, ResultsError> {
     let mut text = HEAD.to_owned();
     let motion = folder_motion(folder)?;
@@ -41,11 +41,11 @@ pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, 
             add(&mut text, &table, &quantity, unit(name), shown);
         }
     }
-    let reason = || motion.err().unwrap_or_else(|| "there are no numbers over time".to_owned());
+    let reason = || motion.err().unwrap_or_else(|| "there are no results over time".to_owned());
     Ok(if text.len() > HEAD.len() { Ok(text) } else { Err(reason()) })
 }
 
-/// A row for every finite number.
+/// Writes a row for every finite number.
 fn add(text: &mut String, table: &Table, quantity: &str, unit: &str, value: impl Fn(usize) -> Option<f64>) {
     let times = table.times().unwrap_or_default();
     let quantity = quoted(quantity);
@@ -77,7 +77,7 @@ fn unit(name: &str) -> &'static str {
     UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map_or("", |(_, unit)| unit)
 }
 
-/// The vertical force that decides whether a column of a foot means something; none where it always does.
+/// The vertical force that decides whether a column of a foot is meaningful; `None` if it always is.
 fn load<'a>(table: &'a Table, name: &str) -> Option<&'a [f64]> {
     let rest = name.strip_prefix("ground_torque_").or_else(|| {
         let rest = name.strip_prefix("ground_force_")?;

@@ -1,4 +1,4 @@
-//! Markers as TRC, C3D and tables.
+//! Writes markers as TRC, C3D and tables.
 
 use ambulo::motion::MarkerRecording;
 use ambulo_formats::Error;
@@ -6,10 +6,10 @@ use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::{LengthUnit, Marker, Trc};
 
-/// Markers as a TRC file in millimetres, which is what its readers expect.
+/// Markers as a TRC file in millimetres, as readers of TRC expect.
 ///
 /// # Errors
-/// Names that stand twice or that no file can hold.
+/// Duplicate names, or names that the format cannot store.
 pub fn trc_of_markers(recording: &MarkerRecording) -> Result<Trc, Error> {
     let markers = recording.markers.iter().map(|marker| Marker {
         name: marker.name.clone(),
@@ -35,10 +35,10 @@ pub fn c3d_of_markers(recording: &MarkerRecording) -> C3d {
     c3d
 }
 
-/// Markers as a table: `time`, then `<marker>_x`, `_y`, `_z` [m]; not-a-number where one was not seen.
+/// Markers as a table: `time`, then `<marker>_x`, `_y`, `_z` [m]; NaN while a marker is missing.
 ///
 /// # Errors
-/// Names that stand twice or that no file can hold.
+/// Duplicate names, or names that the format cannot store.
 pub fn table_of_markers(recording: &MarkerRecording) -> Result<Table, Error> {
     let mut columns = vec![("time".to_owned(), recording.times.clone())];
     for marker in &recording.markers {

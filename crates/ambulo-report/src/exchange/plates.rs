@@ -1,4 +1,4 @@
-//! Force plates as OpenSim's ground reactions.
+//! Writes force plates as ground reactions for OpenSim.
 
 use ambulo::ground::plates::FeetOnPlates;
 use ambulo::model::Side;
@@ -8,21 +8,21 @@ use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
 use ambulo_results::ground_columns;
 
-/// Plates of different height than this give no common surface [m].
+/// Plates whose heights differ by more have no common surface [m].
 const SAME_HEIGHT: f64 = 0.005;
 
-/// What plates measured, by foot, as OpenSim's tools read it.
+/// Measured forces by foot, in the form that OpenSim reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundReactions {
     /// `time`, then for both sides `ground_force_{s}_v`, `ground_force_{s}_p`, `ground_torque_{s}_` with x, y, z.
     pub table: Table,
-    /// Which body they act on: `calcn_r` and `calcn_l`. The name of the data file is still missing.
+    /// The bodies they act on: `calcn_r` and `calcn_l`. The name of the data file is not set yet.
     pub loads: ExternalLoads,
-    /// Whether the loaded plates have one height. If not, the centres of pressure stand at the height of the first.
+    /// Whether the loaded plates have the same height. If not, the centres of pressure are at the height of the first.
     pub is_level: bool,
 }
 
-/// The forces of plates in the world's axes, each at the foot that stood on it. `None` without plates.
+/// Forces of plates in world axes, assigned to the feet on them. `None` without plates.
 ///
 /// # Errors
 /// None that tests let through: the names of the columns are fixed.

@@ -1,11 +1,11 @@
-//! A model's motion as a BVH skeleton: every body a joint, every pose an offset and three angles.
+//! Writes the motion of a model as a BVH skeleton: one joint per body, with an offset and three angles.
 //!
-//! Lengths are centimetres and axes the world's: x forward, y up, z right. R = R_z R_x R_y, so that
+//! Lengths are in centimetres, axes are the world's: x forward, y up, z right. R = R_z R_x R_y, so that
 //!
 //!   x = asin R₃₂        y = atan2(-R₃₁, R₃₃)        z = atan2(-R₁₂, R₂₂)
 //!
-//! Derived by multiplying out; at x = ±90° y and z are not unique. A joint whose place in its parent moves (a knee that rolls) has
-//! channels of position that replace its offset. Bodies of the usual models get the names that animation programs know.
+//! Derived by multiplying out; at x = ±90° y and z are not unique. A joint that moves in its parent (a rolling knee) has
+//! position channels that replace its offset. Bodies of common models get the names that animation programs expect.
 
 use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anatomy::Leg;
@@ -15,7 +15,7 @@ use ambulo_formats::Error;
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
 
 const CENTIMETRES: f64 = 100.0;
-/// A place in the parent that moves less than this is an offset [m].
+/// A joint that moves by less than this in its parent has a constant offset [m].
 const FIXED: f64 = 1e-9;
 
 /// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry; `{}` is Right or
@@ -32,7 +32,7 @@ const NAMES: [(&str, &str); 6] = [
 /// The motion as a skeleton.
 ///
 /// # Errors
-/// More bodies than a BVH file may have, or names that none can hold.
+/// More bodies than a BVH file may have, or names that it cannot store.
 pub fn skeleton_of(model: &Model, trajectory: &Trajectory) -> Result<Bvh, Error> {
     let order = depth_first(model);
     let poses = relative_poses(model, trajectory);
@@ -62,10 +62,10 @@ pub fn skeleton_of(model: &Model, trajectory: &Trajectory) -> Result<Bvh, Error>
     Bvh::new(joints, trajectory.grid().step_s, &frames)
 }
 
-/// Bodies so that each stands directly before all that it carries.
+/// Sorts bodies so that each comes directly before all of its descendants.
 fn depth_first(model: &Model) -> Vec<BodyId> {
     let parent = |id: &BodyId| model.bodies()[id.index()].joint.parent;
-    // The last comes first off the stack.
+    // The stack returns the last one first.
     let mut open: Vec<BodyId> = model.body_ids().filter(|id| parent(id).is_none()).collect();
     open.reverse();
     let mut order = Vec::new();
@@ -90,7 +90,7 @@ fn relative_poses(model: &Model, trajectory: &Trajectory) -> Vec<Vec<Pose>> {
     poses
 }
 
-/// Where a joint is while all channels are zero, and whether it slides. A root stands in the origin.
+/// The offset of a joint while all channels are zero, and whether it translates. A root is at the origin.
 fn place(poses: &[Pose], is_root: bool) -> (Vec3, bool) {
     let first = poses.first().map_or(Vec3::zeros(), |pose| pose.translation);
     let slides = poses.iter().any(|pose| (pose.translation - first).amax() > FIXED);
@@ -110,7 +110,7 @@ fn angles_deg(r: &Mat3) -> [f64; 3] {
     [z, x, y].map(f64::to_degrees)
 }
 
-/// The end of a body that carries nothing, and the top of the head: the marker that is furthest out, or else twice the mass centre.
+/// The end of a body without children, and the top of the head: the outermost marker, otherwise twice the mass centre.
 fn end_sites(model: &Model, id: BodyId) -> Vec<[f64; 3]> {
     let markers = || model.markers().iter().filter(|marker| marker.body == Some(id));
     let is_leaf = model.bodies().iter().all(|body| body.joint.parent != Some(id));
@@ -124,7 +124,7 @@ fn end_sites(model: &Model, id: BodyId) -> Vec<[f64; 3]> {
     end.map(|place| (place * CENTIMETRES).into()).into_iter().collect()
 }
 
-/// Legs, pelvis and trunk by the anatomy, other bodies by their names.
+/// Joint names: legs, pelvis and trunk from the anatomy, other bodies from their names.
 fn name(model: &Model, id: BodyId) -> String {
     let own = &model.bodies()[id.index()].name;
     let anatomy = model.anatomy();

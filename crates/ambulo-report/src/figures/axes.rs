@@ -1,9 +1,9 @@
-//! Draws the axes of a panel and converts numbers to positions on the paper.
+//! Draws the axes of a panel and converts numbers to positions in the figure.
 
 use super::svg::{Anchor, Drawing, Letters, Stroke, text_width};
 use crate::style::Style;
 
-/// A rectangle on the paper and the range of numbers that it shows.
+/// A rectangle in the figure and the range of numbers that it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axes<'a> {
     /// Left, top, right, bottom [pt].
@@ -29,7 +29,7 @@ pub(super) enum Ticks<'a> {
 #[derive(Debug, Clone, PartialEq)]
 struct Labels {
     ticks: Vec<(f64, String)>,
-    /// The labels have to be multiplied by this power of ten.
+    /// Labels are to be multiplied by this power of ten.
     power: i32,
 }
 
@@ -56,7 +56,7 @@ pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;
-/// Numbers up to this size are written in full; larger and much smaller ones have a power of ten in common.
+/// Numbers up to this size are written in full; larger and much smaller ones share a power of ten.
 const LARGEST: f64 = 1e5;
 const SMALLEST: f64 = 1e-3;
 
@@ -222,7 +222,7 @@ impl Ticks<'_> {
 fn round_labels([low, high]: [f64; 2]) -> Labels {
     let size = low.abs().max(high.abs());
     let written_in_full = !size.is_normal() || (SMALLEST..LARGEST).contains(&size);
-    // A power that a prefix of a unit has, too.
+    // Multiples of three, as for prefixes of units.
     let power = if written_in_full { 0 } else { 3 * (size.log10() / 3.0).floor() as i32 };
     let scale = 10.0_f64.powi(power);
     let (numbers, digits) = ticks([low / scale, high / scale]);
@@ -251,7 +251,7 @@ fn with_power(unit: &str, power: i32) -> String {
 fn number_text(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$}");
     let zero = text.trim_start_matches('-').chars().all(|letter| matches!(letter, '0' | '.'));
-    // A minus as long as a plus is wide.
+    // A minus sign instead of a hyphen.
     if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 

@@ -12,13 +12,13 @@ pub const CURVE_COLORS: [&str; 8] =
 /// The colour of curves that are only for comparison.
 pub const PALE: &str = "#A0A0A0";
 
-/// Longer curves are drawn with one point in so many.
+/// Longer curves are thinned to this number of points.
 const MOST_POINTS: usize = 2000;
 /// Radius of points [pt].
 const DOT: f64 = 1.7;
 /// Height of the bar that marks an infeasible part [pt].
 const BAR: f64 = 2.5;
-/// Margin of panels to scale, share of the range.
+/// Margin of panels with equal scales, as a share of the range.
 const SCALE_MARGIN: f64 = 0.03;
 /// The smallest range of an ordinate, as a share of its largest number, and as a number.
 const LEAST_SHARE: f64 = 1e-4;

@@ -1,4 +1,4 @@
-//! The figures over the gait cycle, drawn from the rows of `cycles.csv`.
+//! Draws the figures over the gait cycle from the rows of `cycles.csv`.
 
 use super::cycle_panel::{CyclePanel, MOST_CYCLES, dashes};
 use super::sheet::{Sample, Sheet};
@@ -13,7 +13,7 @@ use ambulo_results::CycleRow;
 use ambulo_results::OutputFile;
 use std::ops::Range;
 
-/// What the figures over the gait cycle are drawn from.
+/// The data of the figures over the gait cycle.
 #[derive(Debug, Clone, Copy)]
 pub struct CycleFigures<'a> {
     /// The rows of `cycles.csv`.
@@ -24,11 +24,11 @@ pub struct CycleFigures<'a> {
     pub convention: Convention,
     /// Body mass that moments and powers are divided by [kg].
     pub mass_kg: f64,
-    /// Whose walk it is.
+    /// Caption: subject, mass and speed.
     pub caption: &'a str,
-    /// What is not feasible.
+    /// Infeasible parts.
     pub marks: &'a [Mark],
-    /// V / sqrt(g L); `None` where the speed is not known: there are no bands then.
+    /// V / sqrt(g L); `None` if the speed is not known: there are no bands then.
     pub speed_dimensionless: Option<f64>,
 }
 
@@ -37,7 +37,7 @@ struct Plan {
     name: &'static str,
     title: &'static str,
     groups: &'static [ClinicalGroup],
-    /// The only quantities to be shown, in this order; all of the groups if it is empty.
+    /// The quantities to show, in this order; all of the groups if empty.
     only: &'static [&'static str],
     one_column: bool,
     columns: usize,
@@ -118,7 +118,7 @@ const PLANS: [Plan; 6] = [
     },
 ];
 
-/// Panels in rows of so many; where the pelvis has a row of its own, the hip and the trunk begin one, too.
+/// Arranges panels in rows; if the pelvis has a row of its own, hip and trunk also begin a row.
 fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
     let central = |number: usize| panels[number].quantity.central;
     let pelvis = (0..panels.len()).take_while(|number| central(*number)).count();
@@ -134,7 +134,7 @@ fn rows(panels: &[CyclePanel<'_>], columns: usize) -> Vec<Range<usize>> {
 }
 
 impl CycleFigures<'_> {
-    /// The figures that the rows have something for: `figures/kinematics.svg`, `moments.svg`, `powers.svg`, `ground_forces.svg` in the
+    /// The figures for which there are rows: `figures/kinematics.svg`, `moments.svg`, `powers.svg`, `ground_forces.svg` in the
     /// width of two columns of a journal, and the sagittal plane in the width of two and of one.
     ///
     /// # Errors
@@ -176,7 +176,7 @@ impl CycleFigures<'_> {
             quantities.retain(|quantity| plan.only.contains(&quantity.id));
             quantities.sort_by_key(|quantity| plan.only.iter().position(|id| *id == quantity.id));
         }
-        // Sideways forces of a figure that moves in a plane, joints that are locked.
+        // Leaves out sideways forces of a figure that moves in a plane, and locked joints.
         quantities.retain(|q| self.rows.iter().any(|row| q.has_column(&row.quantity) && moves(row.unit, &row.values)));
         let speed = self.speed_dimensionless.filter(|_| !self.runs());
         let band = |id: &str| speed.and_then(|speed| normative::band(id, speed, self.convention));
@@ -187,7 +187,7 @@ impl CycleFigures<'_> {
         quantities.into_iter().map(panel).collect()
     }
 
-    /// Whether both feet are in the air at times: the feet leave the ground before the middle of their cycles.
+    /// Whether there are flight phases: the feet leave the ground before the middle of their cycles.
     fn runs(&self) -> bool {
         let offs: Vec<f64> = self.rows.iter().filter_map(|row| row.toe_off_percent).collect();
         !offs.is_empty() && offs.iter().sum::<f64>() < 50.0 * offs.len() as f64
@@ -211,7 +211,7 @@ impl CycleFigures<'_> {
             legend.push((Sample::Line(stroke), "single cycles".to_owned()));
         }
         if self.rows.iter().any(|row| row.toe_off_percent.is_some()) {
-            legend.push((Sample::Tick(Stroke::solid(first, style.lines_pt.tick)), "toe-off".to_owned()));
+            legend.push((Sample::Tick(Stroke::solid(first, style.lines_pt.tick)), "foot off".to_owned()));
         }
         if panels.iter().any(|panel| panel.band.is_some()) {
             legend.push((Sample::Patch(&style.band.color, style.band.opacity), "children, mean ± SD".to_owned()));
@@ -227,22 +227,21 @@ impl CycleFigures<'_> {
         let mut notes: Vec<String> = Vec::new();
         let bands = panels.iter().filter_map(|panel| panel.band.as_ref());
         if let Some(shortest) = bands.clone().min_by_key(|band| band.citation.len()) {
-            notes.push(format!("Grey: {}", shortest.citation));
+            notes.push(format!("Grey band: {}", shortest.citation));
             let longest = bands.max_by_key(|band| band.citation.len());
             let shifted = longest.and_then(|band| band.citation.strip_prefix(&shortest.citation));
             if let Some(shifted) = shifted.filter(|text| !text.trim().is_empty()) {
-                notes.push(format!("Grey of pelvic tilt and hip flexion: {}", shifted.trim()));
+                notes.push(format!("Grey band of pelvic tilt and hip flexion: {}", shifted.trim()));
             }
         } else if self.runs() {
             notes.push(
-                "No band of healthy people: the feet stand for less than half of the cycle, which is no walk."
-                    .to_owned(),
+                "No normative band: stance is shorter than half of the cycle, so this is not walking.".to_owned(),
             );
         } else if self.speed_dimensionless.is_none() {
-            notes.push("No band of healthy people: the walking speed is not known.".to_owned());
+            notes.push("No normative band: the walking speed is not known.".to_owned());
         }
         if panels.iter().any(CyclePanel::is_thinned) {
-            notes.push(format!("Of more than {MOST_CYCLES} cycles of a side, some are drawn; means are of all."));
+            notes.push(format!("Of more than {MOST_CYCLES} cycles per side, only some are drawn; means are over all."));
         }
         notes
     }

@@ -1,4 +1,4 @@
-//! One quantity over the gait cycle: band of healthy people, every cycle thin, means thick, toe-off, what is not feasible.
+//! Draws one quantity over the gait cycle: normative band, single cycles (thin), means (thick), foot off, infeasible parts.
 
 use super::Mark;
 use super::axes::{Axes, AxisWords, range};
@@ -11,21 +11,21 @@ use ambulo::model::Side;
 use ambulo::motion::interpolate;
 use ambulo_results::CycleRow;
 
-/// More cycles of a side than this are drawn one in so many; the mean is of all.
+/// Maximum number of cycles drawn per side; means are over all.
 pub(super) const MOST_CYCLES: usize = 30;
-/// Height of toe-off ticks, as a share of the panel's.
+/// Height of the ticks at foot off, as a share of the panel's.
 const TICK: f64 = 0.06;
 /// Thickness of the bars at the bottom [pt].
 const BAR: f64 = 1.5;
 
-/// A row of `cycles.csv` in clinical sign and unit.
+/// A row of `cycles.csv` with clinical sign and unit.
 #[derive(Debug, Clone)]
 struct Curve<'a> {
     row: &'a CycleRow,
     values: Vec<f64>,
 }
 
-/// What a panel shows.
+/// The content of a panel.
 #[derive(Debug, Clone)]
 pub(super) struct CyclePanel<'a> {
     pub(super) quantity: ClinicalQuantity,
@@ -53,14 +53,14 @@ impl<'a> CyclePanel<'a> {
         self.curves.iter().filter(|curve| curve.row.side == side).collect()
     }
 
-    /// The mean over a side's cycles; `None` without any.
+    /// The mean over the cycles of a side; `None` without cycles.
     pub(super) fn mean(&self, side: Side) -> Option<Vec<f64>> {
         let curves = self.of_side(side);
         let length = curves.iter().map(|curve| curve.values.len()).min()?;
         Some((0..length).map(|i| curves.iter().map(|c| c.values[i]).sum::<f64>() / curves.len() as f64).collect())
     }
 
-    /// How many cycles of a side there are.
+    /// Number of cycles of a side.
     pub(super) fn cycles(&self, side: Side) -> usize {
         self.of_side(side).len()
     }
@@ -70,7 +70,7 @@ impl<'a> CyclePanel<'a> {
         Side::BOTH.iter().any(|side| self.cycles(*side) > MOST_CYCLES)
     }
 
-    /// What there is to be seen, in words.
+    /// Describes the panel for screen readers.
     pub(super) fn description(&self) -> String {
         let of_side = |side: Side| {
             let mean = self.mean(side)?;
@@ -83,7 +83,7 @@ impl<'a> CyclePanel<'a> {
         format!("{title} ({unit}, {positive} positive): mean {}.", sides.join(", "))
     }
 
-    /// Ordinates that hold the curves, the band and zero.
+    /// Range of the ordinate, including curves, band and zero.
     fn range(&self) -> [f64; 2] {
         let least = match self.quantity.group {
             ClinicalGroup::Kinematics => 10.0,
@@ -135,7 +135,7 @@ impl<'a> CyclePanel<'a> {
         }
         let [_, top, _, bottom] = axes.place;
         let height = TICK * (bottom - top);
-        // The left's ticks stand above the right's, so that both are seen where the feet leave together.
+        // Ticks of the left foot are above those of the right, so that both are visible at the same percentage.
         let from = bottom - if side == Side::Right { 0.0 } else { height };
         for off in curves.iter().step_by(every).filter_map(|curve| curve.row.toe_off_percent) {
             let stroke =
@@ -201,7 +201,7 @@ fn placed(axes: &Axes<'_>, values: &[f64]) -> Vec<[f64; 2]> {
     values.iter().enumerate().map(|(i, y)| axes.at([100.0 * i as f64 / last, *y])).collect()
 }
 
-/// The curve between two percentages, with its ends read on straight lines.
+/// The curve between two percentages, with linearly interpolated ends.
 fn within(values: &[f64], [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let percents: Vec<f64> = (0..values.len()).map(|i| i as f64).collect();
     let between: Vec<f64> = percents.iter().copied().filter(|p| (from..to).contains(p)).collect();

@@ -1,4 +1,4 @@
-//! Draws the joint angles of a walk over the gait cycle, with the sub-cycles of its state machines below: figure 1 of the 1997 paper, for
+//! Draws the joint angles of a walk over the gait cycle with the sub-cycles of its state machines below, as figure 1 of the 1997 paper, for
 //! any gait.
 
 use super::FigureError;
@@ -53,7 +53,7 @@ struct Row {
 }
 
 /// Hip, knee and ankle angle over the cycle of the right foot, in degrees, flexion and dorsiflexion positive; below, the sub-cycles of
-/// each joint and stance and swing of both feet, as the walking machine has them at the speed at which the walk begins.
+/// each joint, and stance and swing of both feet, from the walking machine at the initial speed of the walk.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -120,7 +120,7 @@ fn draw(drawing: &mut Drawing, style: &Style, slot: Slot, walk: &Walk, rows: &[R
     whole.draw_words(drawing, style, words);
 }
 
-/// Angle [deg] against percent of the cycle.
+/// Angle [deg] over percent of the cycle.
 fn curve(walk: &Walk, joint: &Joint) -> Vec<[f64; 2]> {
     let law_speed = walk.clock(0.0).law_speed;
     let point = |i: usize| {

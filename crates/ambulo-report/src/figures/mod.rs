@@ -1,4 +1,4 @@
-//! Figures as SVG for papers and reports, made without a browser.
+//! Draws figures as SVG for papers and reports, without a browser.
 
 mod axes;
 mod chart;
@@ -33,12 +33,12 @@ pub struct FigureError {
 /// A part of a cycle in which a motion is not feasible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// What is not: a quantity of `cycles.csv`, or `None` for what concerns feet and body as a whole.
+    /// The infeasible quantity of `cycles.csv`, or `None` if feet or the whole body are concerned.
     pub quantity: Option<String>,
     /// The foot whose cycle it is.
     pub side: Side,
     /// Number of the cycle of this foot, from 1.
     pub cycle: usize,
-    /// From where to where [% of the cycle].
+    /// Start and end [% of the cycle].
     pub percent: [f64; 2],
 }

@@ -10,15 +10,15 @@ use std::collections::BTreeMap;
 /// Width of the figures [mm] and height of one panel [pt].
 const WIDTH_MM: f64 = 178.0;
 const HEIGHT: f64 = 100.0;
-/// Of more curves than there are colours, those with the largest values are drawn.
+/// Maximum number of curves (one per colour); those with the largest values are drawn.
 const MOST_CURVES: usize = CURVE_COLORS.len();
-/// Forces below this along slides are rounding of coordinates that nothing holds [N].
+/// Forces along sliding joints below this are rounding errors of free coordinates [N].
 const ROUNDING_N: f64 = 1e-6;
 
 /// A quantity over time: instant [s] and value.
 type Curve = Vec<[f64; 2]>;
 
-/// What is drawn of one coordinate of a joint.
+/// The curves of one coordinate of a joint.
 #[derive(Debug, Clone, Default)]
 struct JointCurves {
     /// Whether it is an angle.
@@ -29,7 +29,7 @@ struct JointCurves {
     effort: Curve,
 }
 
-/// Curves of a run, gathered frame by frame.
+/// Collects the curves of a run frame by frame.
 #[derive(Debug, Clone, Default)]
 pub struct SceneCurves {
     /// Energies: kinetic, gravity, springs, total [J].
@@ -54,7 +54,7 @@ struct Panel {
 }
 
 impl SceneCurves {
-    /// Takes in one instant.
+    /// Adds one instant.
     pub fn add(&mut self, frame: &SceneFrame<'_>) {
         let (world, state, t) = (frame.scene.world(), frame.scene.state(), frame.scene.state().time_s);
         let e = &frame.energy;
@@ -110,7 +110,7 @@ impl SceneCurves {
         }
     }
 
-    /// The figures that the scene asks for, or all kinds if it names none; a red bar where the verdict finds a walk at fault.
+    /// The figures that the scene requests, or all kinds if it names none; red bars mark infeasible parts of a walk.
     ///
     /// # Errors
     /// A style that cannot be read.
@@ -244,7 +244,7 @@ impl SceneCurves {
     }
 }
 
-/// The curves with the largest values, in the order in which they came.
+/// The curves with the largest values, in their original order.
 fn largest(curves: impl Iterator<Item = (String, Curve)>) -> Vec<(String, Curve)> {
     let mut curves: Vec<(String, Curve)> = curves.collect();
     if curves.len() > MOST_CURVES {
@@ -258,7 +258,7 @@ fn largest(curves: impl Iterator<Item = (String, Curve)>) -> Vec<(String, Curve)
     curves
 }
 
-/// Panels one below the other, all over the same time; `faults` are the times that are not feasible.
+/// Panels below each other over the same time; `faults` are the infeasible times.
 fn figure(
     name: &'static str,
     title: &str,

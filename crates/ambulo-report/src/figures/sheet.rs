@@ -47,7 +47,7 @@ pub(super) struct Sheet<'a> {
     pub(super) description: String,
 }
 
-/// The place of a panel: its number, the rectangle of its axes, and whether it has to name the abscissa.
+/// The slot of a panel: its number, the rectangle of its axes, and whether it labels the abscissa.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slot {
     pub(super) number: usize,

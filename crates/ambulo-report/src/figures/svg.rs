@@ -42,7 +42,7 @@ pub(super) struct Letters<'a> {
     pub(super) color: &'a str,
     pub(super) anchor: Anchor,
     pub(super) bold: bool,
-    /// Turned to read upwards.
+    /// Rotated to read upwards.
     pub(super) upwards: bool,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(of).sum::<f64>() * size
 }
 
-/// A drawing in the making.
+/// Builds a drawing.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
     width: f64,
@@ -73,7 +73,7 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    /// An empty drawing of a width [pt] with a family of letters.
+    /// An empty drawing with this width [pt] and font family.
     pub(super) fn new(width: f64, family: &str) -> Drawing {
         Drawing { width, family: family.to_owned(), body: String::new() }
     }
@@ -105,7 +105,7 @@ impl Drawing {
         self.put("/>\n");
     }
 
-    /// A line through points; it breaks where a point is no number.
+    /// A line through points, interrupted at points that are not finite.
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], stroke: Stroke<'_>, attributes: &[(&str, String)]) {
         for part in points.split(|[x, y]| !(x.is_finite() && y.is_finite())).filter(|part| part.len() > 1) {
             self.put("<polyline points=\"");
@@ -117,7 +117,7 @@ impl Drawing {
         }
     }
 
-    /// An area; nothing if a corner is no number.
+    /// A filled area; nothing if a corner is not finite.
     pub(super) fn polygon(&mut self, corners: &[[f64; 2]], fill: &str, opacity: f64, attributes: &[(&str, String)]) {
         if corners.len() < 3 || corners.iter().flatten().any(|x| !x.is_finite()) {
             return;
@@ -205,7 +205,7 @@ impl Drawing {
     }
 
     fn write(&mut self, arguments: std::fmt::Arguments<'_>) {
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = self.body.write_fmt(arguments);
     }
 }
@@ -217,7 +217,7 @@ fn short(x: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text as XML has it; what XML cannot hold at all is left out.
+/// Escapes text for XML; characters that XML does not allow are left out.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -1,4 +1,4 @@
-//! Figures over time: what motion and forces disagree by, and predicted ground forces beside those of plates.
+//! Figures over time: residual forces, and predicted ground forces with the measured ones.
 
 use super::FigureError;
 use super::axes::{Axes, AxisWords, range};
@@ -12,9 +12,9 @@ use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 
 const HEIGHT: f64 = 84.0;
-/// Curves of longer recordings are drawn with one point in so many.
+/// Curves of longer recordings are thinned to this number of points.
 const MOST_POINTS: usize = 2000;
-/// The prediction's normal deviates that 90 % of the truth should lie within (docs/GROUND_FORCES.md).
+/// Half width in standard deviations of the band that contains 90 % of the true values (docs/GROUND_FORCES.md).
 const DEVIATES: f64 = 1.645;
 
 /// A line over time.
@@ -37,7 +37,7 @@ struct Panel<'a> {
     series: Vec<Series<'a>>,
 }
 
-/// `quality.svg`: size of the residual force and moment at the root over time, beside body weight. `None` where the ground's forces are
+/// `quality.svg`: magnitude of the residual force and moment at the root over time, relative to body weight. `None` if the ground forces are
 /// not known, or without frames.
 ///
 /// # Errors
@@ -54,7 +54,7 @@ pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Res
     let line = |values: Vec<f64>| vec![Series { role: "residual", side: None, values, spread: None, stroke }];
     let [force, moment] = [0, 1].map(|k| sizes.iter().map(|size| size[k]).collect::<Vec<f64>>());
     let note = format!(
-        "Root mean square {:.1} N ({:.1} % of body weight) and {:.1} N·m. What no joint and no ground supplies: errors of motion, body and forces.",
+        "Root mean square {:.1} N ({:.1} % of body weight) and {:.1} N·m. The motion requires them, but neither joints nor ground supply them: errors of motion, body and forces.",
         rms(&force),
         100.0 * rms(&force) / weight.max(f64::MIN_POSITIVE),
         rms(&moment)
@@ -78,17 +78,12 @@ pub fn residual_figure(model: &Model, analysis: &Analysis, caption: &str) -> Res
             series: line(moment),
         },
     ];
-    let figure = TimeFigure {
-        style,
-        title: "What motion and forces disagree by",
-        caption,
-        legend: Vec::new(),
-        notes: vec![note],
-    };
+    let figure =
+        TimeFigure { style, title: "Residual force and moment", caption, legend: Vec::new(), notes: vec![note] };
     Ok(Some(figure.draw(&analysis.trajectory.grid().times(), &panels)))
 }
 
-/// `prediction.svg`: predicted ground forces over time with their uncertainty, beside those of plates where there are plates.
+/// `prediction.svg`: predicted ground forces over time with their uncertainty, and the measured forces if there are plates.
 ///
 /// # Errors
 /// A style that cannot be read.
@@ -130,7 +125,7 @@ pub fn prediction_figure(
         legend.push((Sample::Line(shown.measured(Side::Left)), "plates, left".to_owned()));
     }
     let notes = vec![format!(
-        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Double support divided by: {}. Plates are drawn while they carry a load.",
+        "Bands: the prediction ± {DEVIATES} of its own standard deviations. Method for double support: {}. Measured forces are drawn while a plate is loaded.",
         predicted.prediction.rule
     )];
     let figure = TimeFigure { style, title: "Predicted ground forces", caption, legend, notes };
@@ -165,7 +160,7 @@ impl<'a> Shown<'a> {
         let mut series = Vec::new();
         for (side, foot) in feet(model, &predicted.analysis.ground) {
             let deviation = predicted.prediction.deviations.iter().find(|deviation| deviation.side == side);
-            // Deviations of components are taken as independent along an axis that is none of the world's.
+            // Along an axis that is not a world axis, the deviations of the components count as independent.
             let spread = deviation
                 .map(|d| d.force.iter().map(|f| DEVIATES * f.component_mul(&axis).norm() / self.weight).collect());
             series.push(Series {
@@ -177,7 +172,7 @@ impl<'a> Shown<'a> {
             });
         }
         for (side, foot) in predicted.measured.iter().flat_map(|measured| feet(model, &measured.ground)) {
-            // Without load it is not known whether the foot was on a plate at all.
+            // Without load it is not known whether the foot was on a plate.
             let loaded = |frame: usize| !foot.center_of_pressure[frame].x.is_nan();
             let known = |(frame, x)| if loaded(frame) { x } else { f64::NAN };
             let values: Vec<f64> = along(&foot).into_iter().enumerate().map(known).collect();
@@ -195,7 +190,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Panels one below the other, all over the same time.
+/// Panels below each other over the same time.
 struct TimeFigure<'a> {
     style: &'a Style,
     title: &'a str,

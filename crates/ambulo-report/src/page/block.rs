@@ -1,28 +1,28 @@
-//! Series of numbers for a page: quantised to 16 bits, coded as differences, compressed.
+//! Stores the series of numbers of a page: quantised to 16 bits, coded as differences, compressed.
 //!
-//! The number x becomes q = round((x - low) / step) with step = (high - low) / 65534, so that what is drawn differs from x by half a
-//! step at most. 65535 stands for no number. Differences of neighbouring q (modulo 65536, over all series in turn) are written as
+//! The number x becomes q = round((x - low) / step) with step = (high - low) / 65534, so that the drawn value differs from x by half a
+//! step at most. 65535 marks a gap. Differences of neighbouring q (modulo 65536, over all series in turn) are written as
 //! bytes, the low ones of all numbers before the high ones, which compress better than pairs; zlib (RFC 1950), then base64.
 
 use super::contract::Series;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// Largest q of a number.
+/// Largest q that encodes a number.
 const HIGHEST: u16 = 65_534;
-/// q of no number.
+/// The q that stands for a gap.
 const NONE: u16 = 65_535;
-/// Of zlib, 0 to 10: beyond this files shrink by less than 1 %.
+/// Compression level of zlib, 0 to 10: higher levels shrink files by less than 1 %.
 const LEVEL: u8 = 8;
 
-/// Numbers on their way into a page.
+/// Collects the numbers of a page.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Block {
     numbers: Vec<u16>,
 }
 
 impl Block {
-    /// Adds a series; what is not finite becomes a gap.
+    /// Adds a series; values that are not finite become gaps.
     pub fn add(&mut self, values: &[f64]) -> Series {
         let finite = values.iter().copied().filter(|x| x.is_finite());
         let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
@@ -33,7 +33,7 @@ impl Block {
         Series { at, count: values.len(), low, step }
     }
 
-    /// The block as text.
+    /// The block as base64 text.
     #[must_use]
     pub fn encode(&self) -> String {
         let mut last = 0_u16;

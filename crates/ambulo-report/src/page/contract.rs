@@ -1,7 +1,7 @@
-//! What a report page holds: the contract between this crate and `viewer/`.
+//! The content of a report page: the contract between this crate and `viewer/`.
 //!
-//! The page draws and never computes: curves, means, tables and sentences are here as they are shown, with their units, in clinical
-//! signs. `viewer/src/contract.ts` is made from these types by the test at the end of this file.
+//! The viewer draws and never computes: these types contain curves, means, tables and sentences as displayed, with their units and in
+//! clinical signs. The test at the end of this file makes `viewer/src/contract.ts` from them, including the doc comments.
 //!
 //! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
 

@@ -1,7 +1,7 @@
 //! The report page: one offline HTML file, made from the files of a result folder.
 //!
-//! [`Folder`] gives the files, `session` makes of them what is shown, `block` holds the numbers, `shell` puts data and the viewer's
-//! bundle into one file. The bundle is built from `viewer/` (`cargo xtask viewer`) and committed, so that no build needs npm.
+//! [`Folder`] reads the files, `session` turns them into the content of the page, `block` stores the numbers, `shell` puts data and the viewer's
+//! bundle into one file. The bundle is built from `viewer/` (`npm run build` there) and committed, so that no Rust build needs npm.
 
 mod block;
 mod contract;
@@ -15,16 +15,16 @@ use contract::FORMAT;
 pub use block::Block;
 pub use contract::*;
 
-/// `report.html` of a folder, with up to two others to compare it with.
+/// Writes `report.html` for a folder, compared with up to two other folders.
 ///
 /// # Errors
-/// A folder without a `summary.json` of this program, a table that cannot be read.
+/// A folder without a `summary.json` of this program; a table that cannot be read.
 pub fn report_page(folders: &[Folder<'_>]) -> Result<String, ResultsError> {
     let mut block = Block::default();
     let mut sessions =
         folders.iter().map(|folder| session::session(folder, &mut block)).collect::<Result<Vec<_>, _>>()?;
     if folders.len() > 1 {
-        // Several runs may be of one recording; their folders differ.
+        // Several runs may belong to one recording, so their folder names tell them apart.
         for (session, folder) in sessions.iter_mut().zip(folders) {
             session.name.clone_from(&folder.name);
         }

@@ -1,4 +1,4 @@
-//! The HTML file around data and viewer.
+//! Puts data and viewer into one HTML file.
 //!
 //! Only inline script and style may run (Content-Security-Policy), so the page loads nothing from any network. The data are in a
 //! script element of type `application/json`, in which every `<` is written as `\\u003c`: no text can end the element.

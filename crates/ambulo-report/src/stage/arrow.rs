@@ -1,17 +1,17 @@
 //! Ground forces as arrows, from tables with the columns of `grf.mot`.
 
-use super::StageForce;
+use super::{ForceRole, StageForce};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 
-/// Forces of a table that has a row an instant: `ground_force_{s}_v` and `ground_force_{s}_p` with x, y, z. A foot without force has
-/// zeros there, and no arrow here.
-pub(super) fn forces(table: &Table, beside: bool) -> Vec<StageForce> {
-    Side::BOTH.into_iter().filter_map(|side| force(table, side, beside)).collect()
+/// Forces of a table with one row per instant: `ground_force_{s}_v` and `ground_force_{s}_p` with x, y, z. An unloaded foot has
+/// zeros in the table and no arrow.
+pub(super) fn forces(table: &Table, role: ForceRole) -> Vec<StageForce> {
+    Side::BOTH.into_iter().filter_map(|side| force(table, side, role)).collect()
 }
 
-fn force(table: &Table, side: Side, beside: bool) -> Option<StageForce> {
+fn force(table: &Table, side: Side, role: ForceRole) -> Option<StageForce> {
     let [force, point] = ["v", "p"].map(|kind| vectors(table, &format!("ground_force_{}_{kind}", side.letter())));
     let (force, point) = (force?, point?);
     let acts = |f: &Vec3| f.norm() > 0.0 && f.iter().all(|x| x.is_finite());
@@ -21,8 +21,8 @@ fn force(table: &Table, side: Side, beside: bool) -> Option<StageForce> {
     if force.iter().all(|f| f.x.is_nan()) {
         return None;
     }
-    let name = if beside { format!("{side}, plates") } else { side.to_string() };
-    Some(StageForce { name, side: Some(side), beside, point, force })
+    let name = if role == ForceRole::Measured { format!("{side}, plates") } else { side.to_string() };
+    Some(StageForce { name, side: Some(side), role, point, force })
 }
 
 fn vectors(table: &Table, stem: &str) -> Option<Vec<Vec3>> {

@@ -1,5 +1,5 @@
-//! Forces between the bodies of a scene, from `contacts.csv`: what two of them do to each other is one arrow, the sum of its points, at
-//! their mean weighed by the normal forces.
+//! Forces between the bodies of a scene, from `contacts.csv`: one arrow per pair of bodies, the sum over their contact points, at
+//! the mean of the points weighted by the normal forces.
 
 use super::StageForce;
 use super::csv_rows::Row;
@@ -10,19 +10,19 @@ use std::collections::BTreeMap;
 
 pub(super) const FILE: &str = "contacts.csv";
 const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force";
-/// More pairs than this are not drawn; those with the largest forces are.
+/// Maximum number of drawn pairs; those with the largest forces are drawn.
 const MOST_PAIRS: usize = 32;
 
-/// What the points of a pair do at one instant.
+/// Sum over the contact points of a pair at one instant.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     force: Vec3,
-    /// Points times normal forces.
+    /// Sum of points times normal forces.
     moment: Vec3,
     normal: f64,
 }
 
-/// The forces at these instants, as the file writes them, and what is left out.
+/// The forces at these instants (as written in the file), and a sentence on what is left out.
 pub(super) fn read(
     folder: &Folder<'_>,
     text: &str,
@@ -48,11 +48,11 @@ pub(super) fn read(
         forces.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
         forces.truncate(MOST_PAIRS);
     }
-    let said = format!(
-        "Of {} pairs of bodies that touch, the {MOST_PAIRS} with the largest forces have arrows.",
+    let note = format!(
+        "Of {} pairs of bodies in contact, only the {MOST_PAIRS} with the largest forces have arrows.",
         left + MOST_PAIRS
     );
-    Ok((forces, (left > 0).then_some(said)))
+    Ok((forces, (left > 0).then_some(note)))
 }
 
 fn arrow((first, second): &(String, String), sums: &BTreeMap<usize, Sum>, instants: usize) -> StageForce {

@@ -1,4 +1,4 @@
-//! Rows of the tables of a scene, which hold names beside numbers.
+//! Reads rows of the tables of a scene, which contain names and numbers.
 
 use ambulo_results::{EXPECTED, Folder, ResultsError, is_sound};
 
@@ -11,7 +11,7 @@ pub(crate) struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The rows below the head of a file, which must begin with these names.
+    /// The rows below the header of a file, which must begin with these names.
     pub(crate) fn all<'t>(
         folder: &'a Folder<'a>,
         file: &'static str,
@@ -27,12 +27,12 @@ impl<'a> Row<'a> {
         Ok(text.lines().enumerate().skip(1).map(row))
     }
 
-    /// A word.
+    /// The text of a cell.
     pub(crate) fn word(&self, column: usize) -> Result<&str, ResultsError> {
         self.cells.get(column).map(String::as_str).ok_or_else(|| self.refused(column, "the end of the line", "a name"))
     }
 
-    /// Numbers from a column on that results can be.
+    /// Valid numbers from a column on.
     pub(crate) fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N], ResultsError> {
         let mut numbers = [0.0; N];
         for (column, number) in (from..).zip(&mut numbers) {
@@ -43,7 +43,7 @@ impl<'a> Row<'a> {
         Ok(numbers)
     }
 
-    /// Such a number, or not a number where the cell is empty.
+    /// A valid number, or NaN if the cell is empty.
     pub(crate) fn number_or_gap(&self, column: usize) -> Result<f64, ResultsError> {
         match self.cells.get(column).map(String::as_str) {
             Some("") => Ok(f64::NAN),
@@ -60,7 +60,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Cells between commas; names with commas stand in quotes, and a quote in them twice.
+/// Cells between commas; names with commas are in quotes, and quotes in them are doubled.
 fn cells(line: &str) -> Vec<String> {
     let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
     let mut letters = line.chars().peekable();

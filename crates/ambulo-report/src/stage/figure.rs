@@ -1,10 +1,10 @@
-//! The stage of a figure: a model file with its coordinates over time, and forces beside it.
+//! The stage of a figure: a model with its coordinates over time, and forces.
 
 use super::joint_places::JointPlaces;
 use super::limb::{dot, limb};
 use super::part::Part;
 use super::path::BodyPath;
-use super::{Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
+use super::{ForceRole, Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
 use crate::page::ViewShape;
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, each_body_motion};
@@ -16,17 +16,17 @@ use ambulo_results::{BODIES, Folder, ResultsError, RunSummary, Summary, error_ch
 
 const MOTION: &str = "kinematics.mot";
 
-/// A body and its motion as a folder has them.
+/// The model and its motion in a folder.
 pub(crate) struct FolderMotion {
     /// The body.
     pub(crate) model: Model,
     /// `kinematics.mot`.
     pub(crate) angles: Table,
-    /// The same for the model; rates are zero.
+    /// The same as a trajectory of the model; rates are zero.
     pub(crate) trajectory: Trajectory,
 }
 
-/// Body and motion of a folder; else why there is none.
+/// Model and motion of a folder, or why there is none.
 pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, String>, ResultsError> {
     let Some(angles) = folder.table(MOTION)? else {
         return Ok(Err(format!("There is no {MOTION}, so no figure can be drawn.")));
@@ -39,10 +39,10 @@ pub(crate) fn folder_motion(folder: &Folder<'_>) -> Result<Result<FolderMotion, 
 }
 
 impl Stage {
-    /// Of the figure of a result folder; else why there is none.
+    /// The stage of the figure of a result folder, or why there is none.
     ///
     /// # Errors
-    /// A file that is not what its name says.
+    /// A file that cannot be read.
     pub(crate) fn of_figure(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let FolderMotion { model, angles, trajectory } = match folder_motion(folder)? {
             Ok(motion) => motion,
@@ -50,13 +50,13 @@ impl Stage {
         };
         let summary = match folder.summary()? {
             RunSummary::Motion(summary) => summary,
-            RunSummary::Scene(_) => return Ok(Err("No figure: this is the summary of a scene.".to_owned())),
+            RunSummary::Scene(_) => return Ok(Err("No figure: the summary is that of a scene.".to_owned())),
         };
         let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
         stage.plates = plates(&summary);
-        for (file, beside) in [("grf.mot", false), ("grf_measured.mot", true)] {
+        for (file, role) in [("grf.mot", ForceRole::Main), ("grf_measured.mot", ForceRole::Measured)] {
             if let Some(table) = same_rows(folder, file, &angles)? {
-                stage.forces.extend(arrow::forces(&table, beside));
+                stage.forces.extend(arrow::forces(&table, role));
             }
         }
         if let Some(moments) = same_rows(folder, "moments.sto", &angles)? {
@@ -78,7 +78,7 @@ impl Stage {
         self.contacts = contacts;
     }
 
-    /// Of a model's motion alone; the stature [m] where it is known.
+    /// The stage of a model's motion without forces; `stature` [m] if known.
     pub(crate) fn of_motion(model: &Model, trajectory: &Trajectory, stature_m: Option<f64>) -> Stage {
         let places = JointPlaces::new(model);
         let stature = person::stature(&places, stature_m);
@@ -112,7 +112,7 @@ impl Stage {
     }
 }
 
-/// What the bodies of a model look like, in their own axes.
+/// Shapes of the bodies of a model, in their own axes.
 pub(crate) fn figure_shapes(model: &Model) -> Vec<Vec<ViewShape>> {
     let places = JointPlaces::new(model);
     let stature = person::stature(&places, None);
@@ -149,11 +149,12 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
     paths
 }
 
-/// The coordinates exactly as the file has them; what it lacks is at its default. Rates do not matter here.
+/// The coordinates exactly as in the file; missing ones are at their default. Rates are not used.
 fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
     let motion = coordinates_from_table(model, table, MOTION, &mut Findings::default()).map_err(|e| error_chain(&e))?;
     let Motion { times, columns, .. } = motion;
-    let grid = grid(&times).ok_or("the times do not rise evenly; expected the even steps that this program writes")?;
+    let grid =
+        grid(&times).ok_or("the times are not evenly spaced; expected the even steps that this program writes")?;
     let still = |values: Vec<f64>| {
         let zeros = vec![0.0; values.len()];
         [values, zeros.clone(), zeros]
@@ -170,7 +171,7 @@ fn grid(times: &[f64]) -> Option<TimeGrid> {
     }
 }
 
-/// A table that has a row for every row of the motion.
+/// A table with one row per row of the motion.
 fn same_rows(folder: &Folder<'_>, file: &str, angles: &Table) -> Result<Option<Table>, ResultsError> {
     let Some(table) = folder.table(file)? else { return Ok(None) };
     if table.rows() == angles.rows() {

@@ -1,8 +1,8 @@
-//! How high the floor is.
+//! Height of the floor.
 
 use super::{StageBody, StageContact, StageForce, StagePlate};
 
-/// Height of the floor [m]: that of the plates, else of the places where forces act, else of the lowest point that a sole reaches, else zero.
+/// Height of the floor [m]: that of the plates, otherwise of the points where forces act, otherwise of the lowest point of the soles, otherwise zero.
 pub(super) fn height(
     plates: &[StagePlate],
     forces: &[StageForce],

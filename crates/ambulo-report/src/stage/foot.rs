@@ -1,46 +1,46 @@
-//! Feet: soles, and shapes on them.
+//! Soles and shapes of the feet.
 //!
-//! A foot is a triangle of capsules from heel, ankle and ball, as thick as the heel's and the ball's spheres of published foot models,
-//! and the toes before it. Soles of the built figures stand where their markers `heel_s`, `ball_s`, `toe_s` say, those of other models
-//! where a person of this stature has them ([`Sole`]), moved up or down so that they meet the floor while plates or a prediction carry
-//! the foot: models differ by a few centimetres in how high an ankle stands.
+//! A foot is a triangle of capsules between heel, ankle and ball, as thick as the spheres of heel and ball in published foot models,
+//! with the toes in front. Soles of built-in figures are placed by their markers `heel_s`, `ball_s`, `toe_s`; those of other models
+//! by the proportions of a person of this stature ([`Sole`]), moved up or down so that they touch the floor while ground forces load
+//! the foot: the height of the ankle differs by a few centimetres between models.
 
 use super::capsule;
 use super::joint_places::JointPlaces;
 use super::part::Part;
-use super::{Stage, StageContact};
+use super::{ForceRole, Stage, StageContact};
 use crate::page::ViewShape;
 use ambulo::model::anatomy::{Sole, SolePoint};
 use ambulo::model::anthropometry::{ContactSphere, Dimensions};
 use ambulo::model::{BodyId, Side};
 use ambulo::spatial::Vec3;
 
-/// Share of the weight that a foot carries when it surely stands.
+/// Share of body weight above which a foot is certainly in stance.
 const ENOUGH: f64 = 0.2;
-/// Soles are not moved further than this [m]: more is another error, which the picture shows.
+/// Soles are not moved further than this [m]: a larger gap is another error, which should be visible.
 const MOST_SUNK: f64 = 0.04;
 
-/// A foot on its sole.
+/// A foot with its sole.
 pub(super) struct Foot {
     side: Side,
     sole: Sole,
     /// The body that heel and ball belong to.
     pub(super) rear: BodyId,
-    /// The body before the ball, where the toes turn.
+    /// The body of the toes, in front of the ball.
     pub(super) toes: Option<BodyId>,
 }
 
-/// Both feet, where a model has them by the usual names; estimated soles lower by `sunk` [m] on the right and the left.
+/// Both feet, if the model has them; estimated soles are lowered by `sunk` [m] on the right and the left.
 pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, sunk: [f64; 2]) -> Vec<Foot> {
     let sides = Side::BOTH.into_iter().zip(sunk);
     sides.filter_map(|(side, sunk)| Foot::new(places, side, stature, size, sunk)).collect()
 }
 
-/// How far the estimated soles of both feet have to go down to meet the floor: the median over all instants in which a fifth of the
+/// Distance by which the estimated soles of both feet are lowered to touch the floor: the median over all instants in which a fifth of the
 /// weight is on the foot, at most [`MOST_SUNK`].
 pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
     Side::BOTH.map(|side| {
-        let force = stage.forces.iter().find(|force| force.side == Some(side) && !force.beside);
+        let force = stage.forces.iter().find(|force| force.side == Some(side) && force.role == ForceRole::Main);
         let carries = |instant: &usize| force.is_some_and(|f| f.force[*instant].y > ENOUGH * stage.weight_n);
         let lowest = |instant: usize| {
             let soles = stage.contacts.iter().filter(|contact| contact.side == Some(side));
@@ -101,7 +101,7 @@ impl Foot {
         self.toes.map(|toes| self.front(places, toes, size)).unwrap_or_default()
     }
 
-    /// From the ball to the tip, three abreast, in the frame of a body.
+    /// Capsules from the ball to the tip, three side by side, in the frame of a body.
     fn front(&self, places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
         let up = places.up(body);
         let [_, ball, tip] = self.sole.points.map(|point| places.seen_from(body, world(places, point)));
@@ -111,15 +111,15 @@ impl Foot {
         let (ball, tip) = (ball + up * size.toe_radius, tip + up * size.toe_radius);
         let aside = up.cross(&ahead) * (0.5 * size.foot_width - size.ball_radius).max(0.0);
         let shorter = tip - (tip - ball) * 0.12;
-        let beside = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
-        vec![capsule(ball, tip, size.toe_radius), beside(1.0), beside(-1.0)]
+        let outer = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
+        vec![capsule(ball, tip, size.toe_radius), outer(1.0), outer(-1.0)]
     }
 
     fn in_rear(&self, places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {
         places.seen_from(self.rear, world(places, point))
     }
 
-    /// Where the shank ends: above a talus that may be between.
+    /// The end of the shank, above a talus if there is one.
     fn ankle(&self, places: &JointPlaces<'_>) -> Option<Vec3> {
         let shank = places.find(Part::Shank, Some(self.side))?;
         let below =
@@ -128,7 +128,7 @@ impl Foot {
     }
 }
 
-/// The sole further down along the foot.
+/// The sole, lowered along the vertical axis of the foot.
 fn lowered(places: &JointPlaces<'_>, sole: Sole, by: f64) -> Sole {
     let lower = |point: SolePoint| SolePoint { place: point.place - places.up(point.body) * by, ..point };
     Sole { points: sole.points.map(lower), ..sole }
@@ -138,7 +138,7 @@ fn world(places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {
     places.rest[point.body.index()].pose.place(point.place)
 }
 
-/// What lies before the joint of the toes belongs to them.
+/// Assigns points in front of the toe joint to the toes.
 fn before_the_ball(places: &JointPlaces<'_>, point: SolePoint, rear: BodyId, toes: BodyId) -> SolePoint {
     let joint = places.joint_of(toes, rear);
     let forward = (joint - places.own(rear)).try_normalize(1e-6).unwrap_or_else(Vec3::x);
@@ -149,7 +149,7 @@ fn before_the_ball(places: &JointPlaces<'_>, point: SolePoint, rear: BodyId, toe
     SolePoint { body: toes, place: places.seen_from(toes, world(places, point)) }
 }
 
-/// The contact spheres of a built figure, by its markers: that of the heel stands at its rear end, the others in the centres.
+/// The contact spheres of a built-in figure from its markers: the heel marker is at the rear of its sphere, the others at the centres.
 fn spheres(places: &JointPlaces<'_>, side: Side, size: &Dimensions) -> Vec<ContactSphere> {
     let radii = [("heel", size.heel_radius), ("ball", size.ball_radius), ("toe", size.toe_radius)];
     let sphere = |(stem, radius): (&str, f64)| {

@@ -1,4 +1,4 @@
-//! Ground without end as it is drawn: a level one is the floor, a tilted one a slab under what moves.
+//! Draws infinite ground planes: a level plane as the floor, a tilted one as a slab under the moving bodies.
 
 use super::Stage;
 use crate::page::ViewShape;
@@ -6,9 +6,9 @@ use crate::scene_shapes::{GroundPlane, SceneShapes};
 use ambulo::spatial::Vec3;
 use nalgebra::UnitQuaternion;
 
-/// Cosine of the tilt below which ground is level: 0.5 degrees.
+/// Cosine of the tilt below which ground counts as level: 0.5 degrees.
 const LEVEL: f64 = 0.999_96;
-/// How far a slab goes beyond what moves, and half its thickness [m].
+/// Margin of a slab beyond the moving bodies, and half its thickness [m].
 const MARGIN: f64 = 2.0;
 const HALF_THICKNESS: f64 = 0.01;
 
@@ -25,7 +25,7 @@ pub(super) fn lay(stage: &mut Stage, shapes: &SceneShapes) {
     stage.fixed.extend(tilted);
 }
 
-/// The box around all that moves and stands; around the origin where there is nothing.
+/// The box around all bodies and obstacles; around the origin if there are none.
 fn around(stage: &Stage) -> (Vec3, Vec3) {
     let moving = stage.bodies.iter().flat_map(|body| body.path.position.iter().copied());
     let standing = stage.fixed.iter().flat_map(|shape| match shape {

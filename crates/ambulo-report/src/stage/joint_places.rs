@@ -1,4 +1,4 @@
-//! Where joints stand in the bodies that they join.
+//! Positions of joints in the bodies that they connect.
 
 use super::part::Part;
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
@@ -19,10 +19,10 @@ impl<'a> JointPlaces<'a> {
         JointPlaces { model, rest: body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest }) }
     }
 
-    /// What a body is: by the anatomy of pelvis, trunk and legs, else by its name.
+    /// The part of the person that a body is: from the anatomy of pelvis, trunk and legs, otherwise from its name.
     pub(super) fn part(&self, body: BodyId) -> Part {
         let anatomy = self.model.anatomy();
-        // A trunk that is not divided is pelvis and trunk in one.
+        // An undivided trunk is pelvis and trunk in one body.
         let central =
             [(anatomy.trunk(), Part::Trunk), (anatomy.pelvis().filter(|_| anatomy.trunk().is_some()), Part::Pelvis)];
         let of_leg = |leg: &Leg| {
@@ -43,7 +43,7 @@ impl<'a> JointPlaces<'a> {
         self.model.anatomy().body_side(body)
     }
 
-    /// Centre of the joint that carries a body, in its own frame [m].
+    /// Centre of the joint to the parent of a body, in the frame of the body [m].
     pub(super) fn own(&self, body: BodyId) -> Vec3 {
         self.model.bodies()[body.index()].joint.child_from_joint.translation
     }
@@ -57,32 +57,32 @@ impl<'a> JointPlaces<'a> {
         self.model.bodies()[body.index()].inertia.mass()
     }
 
-    /// The bodies that a body carries.
+    /// The children of a body.
     pub(super) fn children(&self, body: BodyId) -> impl Iterator<Item = BodyId> {
         self.model.body_ids().filter(move |id| self.model.bodies()[id.index()].joint.parent == Some(body))
     }
 
-    /// Centre of the joint that carries `other`, in the frame of `body` at rest [m].
+    /// Centre of the joint to the parent of `other`, in the frame of `body` at rest [m].
     pub(super) fn joint_of(&self, other: BodyId, body: BodyId) -> Vec3 {
         self.seen_from(body, self.rest[other.index()].pose.place(self.own(other)))
     }
 
-    /// A place of the world in the frame of `body` at rest [m].
+    /// A point in the world, expressed in the frame of `body` at rest [m].
     pub(super) fn seen_from(&self, body: BodyId, place: Vec3) -> Vec3 {
         self.rest[body.index()].pose.inverse().place(place)
     }
 
-    /// Joints of the children of a body that are such a part, in its frame [m].
+    /// Joints of the children of a body that are this part, in the frame of the body [m].
     pub(super) fn joints_to(&self, body: BodyId, part: Part) -> Vec<Vec3> {
         self.children(body).filter(|id| self.part(*id) == part).map(|id| self.joint_of(id, body)).collect()
     }
 
-    /// The body of this side and part, if there is one.
+    /// The body with this side and part, if there is one.
     pub(super) fn find(&self, part: Part, side: Option<Side>) -> Option<BodyId> {
         self.model.body_ids().find(|id| self.part(*id) == part && self.side(*id) == side)
     }
 
-    /// Upwards in the frame of a body at rest, a unit vector.
+    /// Unit vector upwards in the frame of a body at rest.
     pub(super) fn up(&self, body: BodyId) -> Vec3 {
         let up = (-self.model.gravity()).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec3::y);
         self.rest[body.index()].pose.rotation.transpose() * up

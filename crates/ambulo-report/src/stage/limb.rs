@@ -1,7 +1,7 @@
-//! Capsules for limbs: from joint to joint, as thick as their mass.
+//! Capsules for limbs: from joint to joint, with a thickness that follows from the mass.
 //!
-//! A capsule of length L between its centres and mass m has the radius r with m / density = pi r² L + 4/3 pi r³; that is found by
-//! bisection. So a heavy thigh is thick and a child's thin. Bodies without mass are a share of their length thick.
+//! A capsule of length L between its centres and mass m has the radius r with m / density = pi r² L + 4/3 pi r³; solved by
+//! bisection. So a heavy thigh is thick and the thigh of a child is thin. The radius of bodies without mass is a share of their length.
 
 use super::capsule;
 use super::joint_places::JointPlaces;
@@ -11,17 +11,17 @@ use ambulo::model::BodyId;
 use ambulo::spatial::Vec3;
 use std::f64::consts::PI;
 
-/// Of limbs [kg/m³]: Winter 2009, table 4.1, has 1050 for thighs, 1090 for shanks, 1070 for upper arms (unverified).
+/// Density of limbs [kg/m³]: Winter 2009, table 4.1, has 1050 for thighs, 1090 for shanks, 1070 for upper arms (unverified).
 const DENSITY: f64 = 1060.0;
-/// Radius over length where no mass says it.
+/// Radius over length of bodies without mass.
 const SLENDER: f64 = 0.1;
-/// Thinnest and thickest radius over length.
+/// Minimum and maximum of radius over length.
 const LIMITS: [f64; 2] = [0.04, 0.3];
 /// Radius of a body without extent, over stature.
 const DOT: f64 = 0.012;
-/// Parts of a limb: from where to where over its length, and how thick over its thickest part, where muscles are.
+/// Parts of a limb: start and end over its length, and radius over that of the thickest part, the muscles.
 const PARTS: [[f64; 3]; 3] = [[0.0, 1.0, 0.78], [0.06, 0.64, 0.9], [0.12, 0.46, 1.0]];
-/// A segment shorter than this over stature is a dot.
+/// A segment shorter than this, relative to the stature, is drawn as a dot.
 const SHORT: f64 = 0.02;
 
 /// Radius of a capsule of this length [m] and mass [kg].
@@ -40,7 +40,7 @@ pub(super) fn radius(length: f64, mass: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Capsules between two places for a body of this mass, within each other; a dot where the places are the same.
+/// Nested capsules between two points for a body of this mass; a dot if the points coincide.
 fn flesh(from: Vec3, to: Vec3, mass: f64, stature: f64) -> Vec<ViewShape> {
     let along = to - from;
     if along.norm() < SHORT * stature {
@@ -55,8 +55,8 @@ pub(super) fn dot(at: Vec3, stature: f64) -> ViewShape {
     capsule(at, at, DOT * stature)
 }
 
-/// From the body's own joint to those of the bodies that it carries; a body that carries none ends as far behind its mass centre as
-/// its joint is before it.
+/// Capsules from the joint of the body to those of its children; a body without children ends as far beyond its mass centre as
+/// its joint is on the other side.
 pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<ViewShape> {
     let own = places.own(body);
     let ends = ends(places, body);
@@ -70,7 +70,7 @@ fn ends(places: &JointPlaces<'_>, body: BodyId) -> Vec<Vec3> {
     {
         return vec![places.joint_of(hand, body)];
     }
-    // A patella lies on the thigh; it is no end of it.
+    // The patella lies on the thigh and is not its end.
     let is_end = |id: &BodyId| places.part(*id) != Part::Small || places.children(*id).next().is_some();
     let ends: Vec<Vec3> = places.children(body).filter(is_end).map(|id| places.joint_of(id, body)).collect();
     if ends.is_empty() {

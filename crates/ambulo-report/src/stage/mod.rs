@@ -1,6 +1,6 @@
-//! What a picture of a motion shows: bodies with shapes and paths, ground forces, joint moments, plates, obstacles.
+//! Description of a motion for drawing: bodies with shapes and paths, ground forces, joint moments, plates, obstacles.
 //!
-//! One description for the 3-D view of the page (which quantises it) and for animation files. World axes: x forward, y up, z right, m.
+//! Used by the 3-D view of the page (which quantises it) and by animation files. World axes: x forward, y up, z right, m.
 
 mod arrow;
 mod contact_forces;
@@ -30,18 +30,18 @@ use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 use ambulo_results::{Folder, ResultsError};
 
-/// A motion as it is drawn.
+/// A motion to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stage {
     /// The instants of all paths.
     pub(crate) grid: TimeGrid,
     /// The bodies that move, parents first.
     pub(crate) bodies: Vec<StageBody>,
-    /// What stands still, in world axes.
+    /// Fixed shapes, in world axes.
     pub(crate) fixed: Vec<ViewShape>,
     /// Force plates.
     pub(crate) plates: Vec<StagePlate>,
-    /// Forces of the ground.
+    /// Ground forces.
     pub(crate) forces: Vec<StageForce>,
     /// Joint moments.
     pub(crate) torques: Vec<StageTorque>,
@@ -51,15 +51,15 @@ pub(crate) struct Stage {
     pub(crate) floor_m: f64,
     /// Weight of all bodies [N].
     pub(crate) weight_n: f64,
-    /// What is not shown and why, in sentences.
+    /// Sentences on what is not shown, and why.
     pub(crate) missing: Vec<String>,
 }
 
 impl Stage {
-    /// Of a result folder; else why there is none.
+    /// The stage of a result folder, or why there is none.
     ///
     /// # Errors
-    /// A file that is not what its name says.
+    /// A file that cannot be read.
     pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let is_scene = !folder.has("kinematics.mot") && folder.has("poses.csv");
         if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
@@ -71,13 +71,13 @@ impl Stage {
 pub(crate) struct StageBody {
     /// Name.
     pub(crate) name: String,
-    /// Place in `bodies` of the body that carries it.
+    /// Index in `bodies` of its parent.
     pub(crate) parent: Option<usize>,
     /// Whose side.
     pub(crate) side: Option<Side>,
     /// Shapes in its axes.
     pub(crate) shapes: Vec<ViewShape>,
-    /// Where it is.
+    /// Its pose over time.
     pub(crate) path: BodyPath,
 }
 
@@ -90,16 +90,25 @@ pub(crate) struct StagePlate {
     pub(crate) corners: [[f64; 3]; 4],
 }
 
-/// A force with its point, one entry an instant; both are not numbers where it does not act.
+/// What a force is shown for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ForceRole {
+    /// The results are based on it.
+    Main,
+    /// Force plates measured it; the results are based on a prediction.
+    Measured,
+}
+
+/// A force with its point of application, one entry per instant; both are NaN while it does not act.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StageForce {
-    /// `right`, `left, plates`.
+    /// Name: `right`, `left, plates`.
     pub(crate) name: String,
     /// Whose side.
     pub(crate) side: Option<Side>,
-    /// Whether it was measured beside a prediction.
-    pub(crate) beside: bool,
-    /// Where it acts [m].
+    /// Whether results are based on it, or it is shown for comparison.
+    pub(crate) role: ForceRole,
+    /// Point of application [m].
     pub(crate) point: Vec<Vec3>,
     /// The force on the body [N].
     pub(crate) force: Vec<Vec3>,
@@ -108,17 +117,17 @@ pub(crate) struct StageForce {
 /// A joint moment about an axis of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StageTorque {
-    /// `right knee flexion`.
+    /// Name: `right knee flexion`.
     pub(crate) name: String,
     /// Whose side.
     pub(crate) side: Option<Side>,
-    /// Place in `bodies` of the body that it turns.
+    /// Index in `bodies` of the body on which it acts.
     pub(crate) body: usize,
     /// Centre of the joint in this body's axes [m].
     pub(crate) center: Vec3,
-    /// Unit axis in this body's axes about which a positive moment turns the body.
+    /// Unit axis of a positive moment, in the axes of this body.
     pub(crate) axis: Vec3,
-    /// Moment [N.m/kg] in clinical sign, one entry an instant.
+    /// Moment [N.m/kg] in clinical sign, one entry per instant.
     pub(crate) values: Vec<f64>,
     /// The panel that shows it.
     pub(crate) panel: String,
@@ -127,7 +136,7 @@ pub(crate) struct StageTorque {
 /// A point of a sole.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StageContact {
-    /// Place in `bodies`.
+    /// Index in `bodies`.
     pub(crate) body: usize,
     /// In this body's axes [m].
     pub(crate) place: Vec3,

@@ -1,4 +1,4 @@
-//! Which part of a person a body is, by its name.
+//! Recognises the part of a person that a body is, from its name.
 
 use ambulo::model::Side;
 
@@ -10,7 +10,7 @@ pub(super) enum Part {
     Head,
     Thigh,
     Shank,
-    /// Between shank and foot, or on the knee: small.
+    /// A small body between shank and foot, or on the knee.
     Small,
     Foot,
     Toes,
@@ -23,7 +23,7 @@ pub(super) enum Part {
     Other,
 }
 
-/// Names of bodies without their side, in small letters.
+/// Names of bodies without their side, in lower case.
 const NAMES: [(&str, Part); 26] = [
     ("pelvis", Part::Pelvis),
     ("hips", Part::Pelvis),

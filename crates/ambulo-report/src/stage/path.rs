@@ -1,14 +1,14 @@
-//! Where a body is over time.
+//! Poses of a body over time.
 
 use ambulo::spatial::{Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// Places and orientations, one entry an instant.
+/// Positions and orientations, one entry per instant.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct BodyPath {
     /// Origin of the body in the world [m].
     pub(crate) position: Vec<Vec3>,
-    /// World from body; neighbours never differ by sign alone.
+    /// World from body; neighbouring quaternions never differ by sign only.
     pub(crate) rotation: Vec<UnitQuaternion<f64>>,
 }
 
@@ -22,8 +22,8 @@ impl BodyPath {
         );
     }
 
-    /// Adds the next instant. q and -q are one orientation: the one nearer to the last is taken, so that a straight line between
-    /// neighbours is the short way.
+    /// Adds the next instant. q and -q are the same orientation: the one nearer to the last is stored, so that linear interpolation between
+    /// neighbours takes the short way.
     pub(crate) fn push_turned(&mut self, position: Vec3, rotation: UnitQuaternion<f64>) {
         let flips = self.rotation.last().is_some_and(|last| last.coords.dot(&rotation.coords) < 0.0);
         self.position.push(position);

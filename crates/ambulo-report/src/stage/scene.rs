@@ -2,7 +2,7 @@
 
 use super::csv_rows::Row;
 use super::path::BodyPath;
-use super::{Stage, StageBody, StageForce, contact_forces, ground_plane};
+use super::{ForceRole, Stage, StageBody, StageForce, contact_forces, ground_plane};
 use crate::page::ViewShape;
 use crate::scene_shapes::{FILE, FORMAT, ObstacleShapes, SceneShapes};
 use ambulo::model::Side;
@@ -14,22 +14,22 @@ use std::collections::BTreeMap;
 
 const POSES: &str = "poses.csv";
 const HEAD: &str = "time,body,px,py,pz,qw,qx,qy,qz";
-/// More instants than this are thinned, so that a page keeps its size.
+/// Longer runs are thinned to this number of instants, to limit the size of the page.
 const MOST_INSTANTS: usize = 2000;
 
 impl Stage {
-    /// Of a simulated scene; else why there is none.
+    /// The stage of a simulated scene, or why there is none.
     ///
     /// # Errors
-    /// A file that is not what its name says.
+    /// A file that cannot be read.
     pub(crate) fn of_scene(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let (Some(poses), Some(shapes)) = (folder.text(POSES)?, folder.text(FILE)?) else {
-            return Ok(Err(format!("There is no {POSES} with {FILE}, so nothing can be drawn in space.")));
+            return Ok(Err(format!("There is no {POSES} with {FILE}, so the motion cannot be drawn in 3-D.")));
         };
         let shapes = read_shapes(folder, &shapes)?;
         let Instants { times, paths } = paths(folder, &poses)?;
         let Some(kept) = Kept::of(&times) else {
-            return Ok(Err(format!("{POSES} has no rows, so nothing can be drawn in space.")));
+            return Ok(Err(format!("{POSES} has no rows, so the motion cannot be drawn in 3-D.")));
         };
         let bodies = bodies(folder, &shapes, paths, &kept)?;
         let mut stage = Stage {
@@ -70,7 +70,7 @@ fn read_shapes(folder: &Folder<'_>, text: &str) -> Result<SceneShapes, ResultsEr
     Ok(shapes)
 }
 
-/// What is wrong with a shape.
+/// Describes the defect of a shape; `None` if it is valid.
 fn defect(shape: &ViewShape) -> Option<String> {
     match shape {
         ViewShape::Capsule { radius, .. } if *radius <= 0.0 => {
@@ -86,9 +86,9 @@ fn defect(shape: &ViewShape) -> Option<String> {
 
 /// All rows of `poses.csv`.
 struct Instants {
-    /// Instants as the file writes them.
+    /// Instants as written in the file.
     times: Vec<String>,
-    /// By name, a row an instant: place, quaternion w, x, y, z.
+    /// By name, one row per instant: position, quaternion w, x, y, z.
     paths: BTreeMap<String, Vec<[f64; 7]>>,
 }
 
@@ -132,7 +132,7 @@ impl Kept {
         let start_s = *numbers.first()?;
         let one = TimeGrid { start_s, step_s: 0.0, frames: kept.len() };
         let grid = TimeGrid::spanning(&numbers).unwrap_or(one);
-        let thinned = format!("Of {} instants only every {every}th is drawn in space.", times.len());
+        let thinned = format!("Only one of every {every} instants is drawn in 3-D ({} in total).", times.len());
         Some(Kept { every, times: kept, grid, missing: if every > 1 { vec![thinned] } else { Vec::new() } })
     }
 }
@@ -176,9 +176,9 @@ fn fixed(obstacles: &[ObstacleShapes]) -> Vec<ViewShape> {
 }
 
 impl StageForce {
-    /// Without a force at any instant.
+    /// An arrow without force at all instants.
     pub(super) fn nowhere(name: String, side: Option<Side>, instants: usize) -> StageForce {
         let gap = vec![Vec3::repeat(f64::NAN); instants];
-        StageForce { name, side, beside: false, point: gap.clone(), force: gap }
+        StageForce { name, side, role: ForceRole::Main, point: gap.clone(), force: gap }
     }
 }

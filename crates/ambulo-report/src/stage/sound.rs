@@ -1,4 +1,4 @@
-//! Whether a stage can be drawn: bodies of a broken file may be light years away or have no size at all.
+//! Checks that a stage can be drawn: in a broken file bodies may be light years away or have no size.
 
 use super::Stage;
 use crate::page::ViewShape;
@@ -6,7 +6,7 @@ use ambulo::spatial::Vec3;
 use ambulo_results::{EXPECTED, is_sound};
 
 impl Stage {
-    /// What cannot be drawn, with what was found and expected.
+    /// The first number that cannot be drawn, with what was found and expected.
     pub(crate) fn defect(&self) -> Option<String> {
         let lengths = [("the height of the floor [m]", self.floor_m), ("the weight [N]", self.weight_n)];
         let length = lengths.into_iter().find(|(_, x)| !is_sound(*x)).map(|(what, x)| refused(what, x));

@@ -1,4 +1,4 @@
-//! What stages hold, from folders made in memory.
+//! Stages of folders made in memory.
 
 use super::{Stage, StageForce};
 use crate::page::ViewShape;
@@ -16,7 +16,7 @@ const FRAMES: usize = 40;
 
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// The stage of these files, or why there is none, or what was refused.
+/// The stage of these files, or why there is none, or the error.
 fn stage(files: &Files) -> Result<Stage, String> {
     let file = |name: &str| files.get(name).cloned();
     match Stage::of_folder(&Folder::of_files("walk", &file)) {
@@ -30,7 +30,7 @@ fn body() -> Model {
     full_body(&build).unwrap().model
 }
 
-/// Every coordinate swings; the pelvis turns round and round.
+/// Every coordinate oscillates; the pelvis makes several full turns.
 fn motion(model: &Model) -> Table {
     let times: Vec<f64> = (0..FRAMES).map(|i| 0.5 + 0.01 * i as f64).collect();
     let mut columns = vec![("time".to_owned(), times.clone())];
@@ -104,7 +104,7 @@ fn every_body_has_a_shape_and_limbs_end_where_the_next_begins() {
             ViewShape::Capsule { to, .. } => (upper.path.place(7, Vec3::from(*to)) - lower.path.position[7]).norm(),
             _ => f64::INFINITY,
         });
-        // Joints of this body stand in the origins of the bodies that they carry.
+        // Joints of this body are at the origins of its children.
         assert!(ends.fold(f64::INFINITY, f64::min) < 1e-9, "{}", upper.name);
     }
     let radii = |name: &str| {
@@ -161,7 +161,7 @@ fn a_trunk_has_no_slit() {
         assert!(normal.x.abs() > 0.9 && normal.x * a.x > 0.0, "{normal:?} at {a:?}");
         forwards += usize::from(normal.x > 0.0);
         for corner in [a, b, c] {
-            // On the surface of a capsule and not in one: nothing stands out, nothing gapes.
+            // On the surface of a capsule and not inside one: no edges and no gaps.
             assert!(distances(corner).fold(f64::INFINITY, f64::min).abs() < 1e-9);
         }
     }
@@ -225,7 +225,7 @@ fn an_unloaded_foot_has_no_arrow() {
     let StageForce { force, point, .. } = &stage.forces[0];
     assert!((force[3].y - 600.0).abs() < 1e-9 && (point[3].z - 0.25).abs() < 1e-9);
     assert!(force[FRAMES - 1].y.is_nan() && point[FRAMES - 1].x.is_nan());
-    // Where forces act is the floor.
+    // The floor is where forces act.
     assert!((stage.floor_m - 0.25).abs() < 1e-9);
 }
 
@@ -311,7 +311,7 @@ fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
         let stage = stage(&files).unwrap();
         assert_eq!((stage.bodies.len(), stage.contacts.len()), (count, soles));
         assert!(stage.bodies.iter().all(|body| !body.shapes.is_empty()));
-        // The foot stands 20 mm below where the proportions of a person put its sole: the sole follows.
+        // The foot is 20 mm below the sole that the proportions of a person give: the sole follows.
         files.insert("grf.mot".into(), one_foot(30.0, -0.02));
         let standing = self::stage(&files).unwrap();
         let heights = standing.contacts.iter().map(|c| standing.bodies[c.body].path.place(0, c.place).y);
@@ -327,7 +327,7 @@ fn a_model_with_one_leg_and_one_without_legs_are_drawn() {
 }
 
 #[test]
-fn what_is_missing_or_wrong_is_said_with_its_place() {
+fn missing_and_wrong_data_are_reported_with_their_place() {
     let model = body();
     let lacks = |name: &str| {
         let mut files = folder(&model);
@@ -351,7 +351,7 @@ fn what_is_missing_or_wrong_is_said_with_its_place() {
     assert!(gap.contains("column `pelvis_ty`: found NaN; expected a finite number"), "{gap}");
 }
 
-/// A ball falls on a slope beside a box; a wall moves.
+/// A ball falls on a slope next to a box; a wall moves.
 fn scene() -> Files {
     let shapes = r#"{"format":1,"gravity_m_s2":[0,-9.8,0],
         "bodies":[{"name":"ball, red","mass_kg":2,"side":null,"shapes":[{"kind":"capsule","from":[0,0,0],"to":[0,0,0],"radius":0.1}]}],
@@ -378,7 +378,11 @@ fn a_scene_has_its_bodies_obstacles_floor_and_sums_of_contact_forces() {
     let names: Vec<&str> = stage.bodies.iter().map(|body| body.name.as_str()).collect();
     assert_eq!(names, ["ball, red", "wall"]);
     assert_eq!((stage.grid.frames, stage.missing.len()), (1667, 1));
-    assert!(stage.missing[0].contains("Of 5000 instants only every 3th"), "{:?}", stage.missing);
+    assert!(
+        stage.missing[0].contains("one of every 3 instants is drawn in 3-D (5000 in total)"),
+        "{:?}",
+        stage.missing
+    );
     assert!((stage.bodies[0].path.position[1].x - 0.003).abs() < 1e-12 && (stage.grid.step_s - 0.003).abs() < 1e-9);
     assert!((stage.floor_m + 0.5).abs() < 1e-12 && (stage.weight_n - 19.6).abs() < 1e-9);
     // A stone, and a slab whose upper face goes through the point of the tilted plane.
@@ -393,7 +397,7 @@ fn a_scene_has_its_bodies_obstacles_floor_and_sums_of_contact_forces() {
 }
 
 #[test]
-fn a_scene_that_is_damaged_is_refused_with_file_and_line() {
+fn a_damaged_scene_is_rejected_with_file_and_line() {
     let refused = |file: &str, from: &str, to: &str| {
         let mut files = scene();
         let text = String::from_utf8(files[file].clone()).unwrap();

@@ -1,7 +1,7 @@
-//! Joint moments as they are drawn: a centre and an axis in the body that they turn.
+//! Joint moments for drawing: a centre and an axis in the body on which they act.
 //!
 //! The axis is that of the coordinate while all angles of the joint are zero; where other rotations follow it, it turns with them by a
-//! few degrees that a picture does not show.
+//! few degrees, which is too little to see.
 
 use super::StageTorque;
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
@@ -9,7 +9,7 @@ use ambulo::model::{BodyId, CoordinateId, Displacement, JointAxis, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 
-/// The moments of legs that panels show, in a table with the columns of `moments.sto`.
+/// The leg moments shown in panels, from a table with the columns of `moments.sto`.
 pub(super) fn torques(model: &Model, moments: &Table, mass_kg: f64) -> Vec<StageTorque> {
     let quantities = clinical_quantities(&ClinicalNames::of_model(model), |_| true);
     let of_legs = quantities.iter().filter(|q| q.group == ClinicalGroup::Moments && !q.central);
@@ -33,7 +33,7 @@ pub(super) fn torques(model: &Model, moments: &Table, mass_kg: f64) -> Vec<Stage
     of_legs.flat_map(|quantity| Side::BOTH.map(|side| (quantity, side))).filter_map(torque).collect()
 }
 
-/// The body that a coordinate turns and the axis, in its frame, about which it turns when the coordinate grows.
+/// The body that a coordinate rotates, and the axis in its frame about which it rotates when the coordinate increases.
 fn axis(model: &Model, id: CoordinateId) -> Option<(BodyId, Vec3)> {
     let body = model.body_ids().find(|body| model.bodies()[body.index()].joint.coordinates().contains(&id))?;
     let joint = &model.bodies()[body.index()].joint;

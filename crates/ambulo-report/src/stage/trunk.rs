@@ -1,7 +1,7 @@
-//! Pelvis, trunk and head.
+//! Shapes of pelvis, trunk and head.
 //!
 //! The pelvis is a capsule from hip to hip and one up to the joint of the trunk. The trunk is a slab with round edges that widens
-//! upwards, and a capsule from shoulder to shoulder; the head stands on it by a neck. Where a model has no arms or head, their places come from the proportions of a
+//! upwards, and a capsule from shoulder to shoulder; the head is above it on a neck. If a model has no arms or head, their positions come from the proportions of a
 //! person of the same stature (de Leva's table; shoulders: Dumas 2007).
 
 use super::capsule;
@@ -22,12 +22,12 @@ const SHOULDER: f64 = 0.032;
 const NECK: f64 = 0.028;
 /// Mass over stature squared at which these thicknesses hold: 75 kg and 1.75 m [kg/m²].
 const USUAL_BUILD: f64 = 24.5;
-/// Thinnest and thickest over that.
+/// Minimum and maximum of the ratio to that.
 const BUILDS: [f64; 2] = [0.6, 1.6];
-/// How far the edges of the chest are from its middle, over the distance of the shoulders: at the waist, at the top.
+/// Distance of the edges of the chest from its middle, over the distance of the shoulders: at the waist, at the top.
 const PARTED: [f64; 2] = [0.1, 0.22];
 
-/// Shapes of the pelvis, or of a trunk that is one with it.
+/// Shapes of the pelvis, or of a trunk that includes it.
 pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
     let hips = places.joints_to(body, Part::Thigh);
     let middle = middle(&hips).unwrap_or_else(|| places.own(body));
@@ -41,7 +41,7 @@ pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) 
     shapes
 }
 
-/// Shapes of the trunk, with the head if no body of its own is one.
+/// Shapes of the trunk, including the head if it is not a separate body.
 pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
     let hips = hips(places, body);
     let own = places.own(body);
@@ -72,7 +72,7 @@ fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
     let mut shapes: Vec<ViewShape> = (0..4).map(|i| capsule(corners[i], corners[(i + 1) % 4], thick)).collect();
     let across = (right[1] - right[0]).cross(&(left[1] - right[0]));
     if let Some(out) = across.try_normalize(1e-12) {
-        // Corners go round anticlockwise as seen from where a face looks.
+        // Corners are anticlockwise as seen from outside the face.
         let face = |sign: f64| corners.map(|corner| (corner + out * (sign * thick)).into());
         let points = face(1.0).into_iter().chain(face(-1.0)).collect();
         let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]];
@@ -81,7 +81,7 @@ fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
     shapes
 }
 
-/// Shapes of a head that is a body of its own: from its joint to as far above the shoulders as the stature says.
+/// Shapes of a head that is a separate body: from its joint to the height above the shoulders that follows from the stature.
 pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
     let own = places.own(body);
     let up = (places.mass_center(body) - own).try_normalize(1e-6).unwrap_or_else(|| places.up(body));
@@ -95,7 +95,7 @@ pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) ->
     head_below(vertex, own, size).to_vec()
 }
 
-/// Head and neck between the vertex and the place on which they stand.
+/// Head and neck between the vertex and the base of the neck.
 fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
     let up = (vertex - foot).try_normalize(1e-6).unwrap_or_else(Vec3::y);
     let thick = HEAD * size.head;
@@ -103,7 +103,7 @@ fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
     [capsule(chin, vertex - up * thick, thick), capsule(foot, chin, NECK * size.height)]
 }
 
-/// The stature [m], less for thin and more for heavy people: at equal length thickness goes with the root of mass.
+/// The stature [m], decreased for thin and increased for heavy people: at equal length thickness grows with the root of mass.
 fn girth(places: &JointPlaces<'_>, size: &Dimensions) -> f64 {
     let build = (places.model.mass() / size.height.powi(2) / USUAL_BUILD).sqrt();
     size.height * build.clamp(BUILDS[0], BUILDS[1])
@@ -114,7 +114,7 @@ fn above_shoulders(size: &Dimensions) -> f64 {
     size.height - size.leg_length - size.shoulder_height
 }
 
-/// Right and left shoulder in the trunk: the joints of its arms, or where they are in a person of this size.
+/// Right and left shoulder in the trunk: the joints of its arms, or their positions in a person of this size.
 fn shoulders(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions, hips: Option<[Vec3; 2]>) -> Option<[Vec3; 2]> {
     if let Some(arms) = pair(places, body, Part::UpperArm) {
         return Some(arms);
@@ -123,7 +123,7 @@ fn shoulders(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions, hips: Op
     let (middle, up) = ((right + left) * 0.5, upwards(places, body));
     let aside = (right - left).try_normalize(1e-6)? * (0.5 * size.shoulder_width);
     let aside = aside - up * aside.dot(&up);
-    // As high above the hips as usual, on the line upwards from the trunk's own joint.
+    // At the usual height above the hips, on the line upwards from the joint of the trunk.
     let own = places.own(body);
     let top = own + up * ((middle - own).dot(&up) + size.shoulder_height);
     Some([top + aside, top - aside])
@@ -135,7 +135,7 @@ fn hips(places: &JointPlaces<'_>, body: BodyId) -> Option<[Vec3; 2]> {
     Some([hip(Side::Right)?, hip(Side::Left)?])
 }
 
-/// Joints of the right and left child that are such a part.
+/// Joints of the right and left child that are this part.
 fn pair(places: &JointPlaces<'_>, body: BodyId, part: Part) -> Option<[Vec3; 2]> {
     let joint = |side| {
         let child = places.children(body).find(|id| places.part(*id) == part && places.side(*id) == Some(side));
@@ -144,7 +144,7 @@ fn pair(places: &JointPlaces<'_>, body: BodyId, part: Part) -> Option<[Vec3; 2]>
     Some([joint(Side::Right)?, joint(Side::Left)?])
 }
 
-/// Upwards along a trunk: the world's direction at rest where that leads near the mass centre, else towards that.
+/// Direction upwards along a trunk: the world's vertical at rest if it passes near the mass centre, otherwise towards the mass centre.
 fn upwards(places: &JointPlaces<'_>, body: BodyId) -> Vec3 {
     const NEAR: f64 = 0.8; // cosine of 37 degrees
     let up = places.up(body);

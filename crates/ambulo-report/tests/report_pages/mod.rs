@@ -1,4 +1,4 @@
-//! Result folders in memory, and what a page made of them shows: its data and its numbers.
+//! Result folders in memory, and readers for the data and numbers of their page.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
@@ -85,7 +85,7 @@ pub(crate) fn with_summary(files: &mut Files, change: impl FnOnce(&mut Value)) {
     files.insert("summary.json".to_owned(), serde_json::to_vec(&summary).unwrap());
 }
 
-/// Keeps the lines of a file that a test wants, and its head.
+/// Keeps the header and the selected lines of a file.
 pub(crate) fn keep_lines(files: &mut Files, name: &str, keep: impl Fn(&str) -> bool) {
     let text = String::from_utf8(files[name].clone()).unwrap();
     let kept = text.lines().enumerate().filter(|(i, line)| *i == 0 || keep(line)).map(|(_, line)| format!("{line}\n"));
@@ -105,7 +105,7 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// Of the folder, which makes a page.
+    /// Makes the page of the folder.
     #[track_caller]
     pub(crate) fn of(files: &Files) -> Shown {
         Shown::read(&page_of("folder", files).unwrap())
@@ -143,7 +143,7 @@ impl Shown {
         numbers.iter().map(|&q| if q == u16::MAX { f64::NAN } else { low + step * f64::from(q) }).collect()
     }
 
-    /// All panels, those of quality too.
+    /// All panels, including those of quality.
     pub(crate) fn panels(&self) -> Vec<&Value> {
         let session = self.session();
         let groups = [&session["groups"], &session["quality"]["groups"]];
@@ -151,13 +151,13 @@ impl Shown {
         groups.flat_map(|group| group["panels"].as_array().unwrap()).collect()
     }
 
-    /// A panel by its word.
+    /// A panel by its id.
     #[track_caller]
     pub(crate) fn panel(&self, id: &str) -> &Value {
         self.panels().into_iter().find(|panel| panel["id"] == id).unwrap_or_else(|| panic!("no panel {id}"))
     }
 
-    /// The cells of a table's row as shown.
+    /// The displayed cells of a row of a table.
     #[track_caller]
     pub(crate) fn row(&self, table: &str, name: &str) -> Vec<String> {
         let rows = self.rows(table).into_iter().find(|row| row[0]["text"] == name);
@@ -187,9 +187,9 @@ impl Shown {
         table["rows"].as_array().unwrap().iter().map(|row| row.as_array().unwrap()).collect()
     }
 
-    /// Whether one of the sentences about what is missing says this.
+    /// Whether one of the sentences on missing parts contains this.
     pub(crate) fn misses(&self, words: &str) -> bool {
-        self.session()["missing"].as_array().unwrap().iter().any(|said| said.as_str().unwrap().contains(words))
+        self.session()["missing"].as_array().unwrap().iter().any(|sentence| sentence.as_str().unwrap().contains(words))
     }
 
     /// The value of a line of the header.

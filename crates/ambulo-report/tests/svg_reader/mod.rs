@@ -1,11 +1,11 @@
-//! Reads figures back: panels with their axes, and lines as numbers. As any reader of XML would, by an independent parser.
+//! Reads figures back with an independent XML parser: panels with their axes, and lines as numbers.
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses its own part")]
 
 use ambulo::model::Side;
 use roxmltree::{Document, Node};
 
-/// A figure as it stands in its file.
+/// A figure read from its file.
 #[derive(Debug, Clone)]
 pub(crate) struct Figure {
     pub(crate) title: String,

@@ -1,9 +1,9 @@
-//! The animation of a glTF file: for each node that moves, its translation, rotation and scale over time, straight between instants.
+//! The animation of a glTF file: translation, rotation and scale of each moving node over time, linear between instants.
 
 use super::buffer::Buffer;
 use serde_json::{Value, json};
 
-/// A value that changes by less than this [m, or of a quaternion] stays in the node alone.
+/// A value that changes by less than this [m, or quaternion component] is stored in the node and not animated.
 const STILL: f64 = 1e-9;
 
 /// Channels under construction.
@@ -20,7 +20,7 @@ impl Animation {
         self.time = buffer.times(times);
     }
 
-    /// Gives a node, which will have this number, its place at the first instant and its path.
+    /// Sets the first pose of the node with this number and adds its path.
     pub(super) fn place(
         &mut self,
         number: usize,
@@ -33,7 +33,7 @@ impl Animation {
         self.channel(number, node, "rotation", rotation, buffer);
     }
 
-    /// One property of a node over time, a row an instant.
+    /// One property of a node over time, one row per instant.
     pub(super) fn channel<const N: usize>(
         &mut self,
         number: usize,
@@ -45,7 +45,7 @@ impl Animation {
         let Some(first) = rows.first() else { return };
         node[path] = json!(first.to_vec());
         let moves = |row: &[f64; N]| row.iter().zip(first).any(|(a, b)| (a - b).abs() > STILL);
-        // One channel at least: an animation without is none.
+        // glTF requires at least one channel in an animation.
         if !rows.iter().any(moves) && !self.channels.is_empty() {
             return;
         }
@@ -54,7 +54,7 @@ impl Animation {
         self.samplers.push(json!({ "input": self.time, "output": output, "interpolation": "LINEAR" }));
     }
 
-    /// The animation, if anything is in it.
+    /// The animation; `None` without channels.
     pub(super) fn described(&self) -> Option<Value> {
         let animation = || json!({ "name": "motion", "channels": self.channels, "samplers": self.samplers });
         (!self.channels.is_empty()).then(animation)

@@ -1,9 +1,9 @@
-//! Forces as arrows: a mesh one metre long upwards, whose node is moved to the point, turned to the force and stretched to its size.
+//! Forces as arrows: an upward mesh of one metre, whose node is moved to the point, turned along the force and scaled to its magnitude.
 
 use super::material::Paint;
 use super::mesh::{Triangles, frame};
-use super::{METRES_PER_NEWTON, Making};
-use crate::stage::{BodyPath, Stage, StageForce};
+use super::{GlbBuilder, METRES_PER_NEWTON};
+use crate::stage::{BodyPath, ForceRole, Stage, StageForce};
 use ambulo::spatial::Vec3;
 use nalgebra::UnitQuaternion;
 use serde_json::json;
@@ -15,27 +15,27 @@ const HEAD: f64 = 0.024;
 const NECK: f64 = 0.88;
 
 /// Adds all forces of a stage.
-pub(super) fn add(stage: &Stage, making: &mut Making) {
+pub(super) fn add(stage: &Stage, builder: &mut GlbBuilder) {
     for force in &stage.forces {
-        let paint = if force.beside { Paint::Measured } else { Paint::of_side(force.side) };
-        let Some(mesh) = making.mesh(&format!("force {}", force.name), &arrow(), paint) else { continue };
+        let paint = if force.role == ForceRole::Measured { Paint::Measured } else { Paint::of_side(force.side) };
+        let Some(mesh) = builder.mesh(&format!("force {}", force.name), &arrow(), paint) else { continue };
         let mut node = json!({ "name": format!("force {}", force.name), "mesh": mesh });
         let Moving { place, turn, scale } = moving(force);
-        let number = making.nodes.len();
-        making.animation.place(number, &mut node, &place, &turn, &mut making.buffer);
-        making.animation.channel(number, &mut node, "scale", &scale, &mut making.buffer);
-        making.add_root(node);
+        let number = builder.nodes.len();
+        builder.animation.place(number, &mut node, &place, &turn, &mut builder.buffer);
+        builder.animation.channel(number, &mut node, "scale", &scale, &mut builder.buffer);
+        builder.add_root(node);
     }
 }
 
-/// A row an instant.
+/// One row per instant.
 struct Moving {
     place: Vec<[f64; 3]>,
     turn: Vec<[f64; 4]>,
     scale: Vec<[f64; 3]>,
 }
 
-/// While a force does not act its arrow stays where it last was, without size.
+/// While a force does not act, its arrow stays at its last place with scale zero.
 fn moving(force: &StageForce) -> Moving {
     let acts = |(point, force): &(&Vec3, &Vec3)| point.iter().chain(force.iter()).all(|x| x.is_finite());
     let rows = || force.point.iter().zip(&force.force);
@@ -59,7 +59,7 @@ fn moving(force: &StageForce) -> Moving {
     }
 }
 
-/// From the origin to one metre above it.
+/// An arrow from the origin to one metre above it.
 fn arrow() -> Triangles {
     let axes = frame(Vec3::y());
     let at = |height: f64| Vec3::y() * height;

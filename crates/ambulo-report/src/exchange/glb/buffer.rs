@@ -2,13 +2,13 @@
 
 use serde_json::{Value, json};
 
-// Codes of the specification.
+// Codes from the specification.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY: u32 = 34962;
 const ELEMENTS: u32 = 34963;
 
-/// All numbers, as 32-bit floats and integers, little end first.
+/// All numbers as 32-bit floats and integers, little-endian.
 #[derive(Debug, Default)]
 pub(super) struct Buffer {
     data: Vec<u8>,
@@ -35,7 +35,7 @@ impl Buffer {
         self.floats(directions, Some(ARRAY), false)
     }
 
-    /// Instants of an animation [s], whose first and last must be said.
+    /// Instants of an animation [s]; glTF requires their minimum and maximum.
     pub(super) fn times(&mut self, times: &[f64]) -> usize {
         let times: Vec<[f64; 1]> = times.iter().map(|time| [*time]).collect();
         self.floats(&times, None, true)
@@ -46,7 +46,7 @@ impl Buffer {
         self.floats(values, None, false)
     }
 
-    /// Three numbers of corners a triangle.
+    /// Three corner indices per triangle.
     pub(super) fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
         let start = self.data.len();
         self.data.extend(triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()));

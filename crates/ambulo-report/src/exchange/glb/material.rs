@@ -1,10 +1,10 @@
-//! Colours of a glTF file: those of right and left are the report's.
+//! Colours of a glTF file; right and left have the colours of the report.
 
 use crate::style::{Style, style};
 use ambulo::model::Side;
 use serde_json::{Value, json};
 
-/// What a mesh is painted with; the number is that of the material.
+/// Colour of a mesh; its number is the index of the material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Paint {
     Right,
@@ -42,7 +42,7 @@ pub(super) fn all() -> Value {
 fn material(name: &str, color: &str) -> Value {
     json!({
         "name": name,
-        // Sheets are seen from both sides.
+        // Sheets are visible from both sides.
         "doubleSided": true,
         "pbrMetallicRoughness": { "baseColorFactor": linear(color), "metallicFactor": 0, "roughnessFactor": 0.8 },
     })

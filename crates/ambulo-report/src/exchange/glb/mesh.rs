@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 const SIDES: usize = 16;
 const RINGS: usize = 4;
 
-/// A surface; triangles go anticlockwise seen from outside.
+/// A surface; triangles are anticlockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Triangles {
     pub(super) points: Vec<[f64; 3]>,
@@ -45,7 +45,7 @@ impl Triangles {
         sheet
     }
 
-    /// Both surfaces.
+    /// Joins two surfaces.
     pub(super) fn with(mut self, other: Triangles) -> Triangles {
         let base = self.next();
         self.points.extend(other.points);
@@ -54,7 +54,7 @@ impl Triangles {
         self
     }
 
-    /// A ring of a round surface: SIDES + 1 points about an axis, the last at the first's place.
+    /// A ring of a round surface: SIDES + 1 points about an axis; the last coincides with the first.
     /// `lean` is the share of the axis in the normals.
     pub(super) fn ring(&mut self, center: Vec3, [across, aside, along]: [Vec3; 3], radius: f64, lean: f64) {
         for side in 0..=SIDES {

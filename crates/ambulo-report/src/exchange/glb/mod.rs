@@ -1,9 +1,9 @@
 //! A stage as an animated glTF 2.0 file in its binary form (`.glb`): bodies as nodes with meshes, their paths as an animation, ground
 //! forces as arrows that move, turn and grow.
 //!
-//! Metres, seconds, newtons; x forward, y up, z right, as in all files of this program (glTF itself wants y up and nothing more of a scene
-//! that is no asset to be placed). Times begin at zero. Nodes of bodies hang on each other as in the model; their translation and rotation
-//! are those in the parent. An arrow is a metre long for 1000 N and has the scale zero while its force does not act.
+//! Metres, seconds, newtons; x forward, y up, z right, as in all files of this program (glTF itself only requires y up for a scene
+//! that is not an asset). Times begin at zero. Nodes of bodies are nested as in the model; their translation and rotation
+//! are relative to the parent. An arrow of 1000 N is one metre long; its scale is zero while its force does not act.
 //!
 //! Source: Khronos glTF 2.0 specification (sections 3.6 data, 3.11 animations, 4 GLB container; unverified).
 
@@ -26,33 +26,33 @@ use serde_json::{Value, json};
 /// Length of an arrow for its force [m/N].
 pub(super) const METRES_PER_NEWTON: f64 = 1e-3;
 
-/// A file under construction.
+/// Builds the file.
 #[derive(Default)]
-struct Making {
+struct GlbBuilder {
     buffer: Buffer,
     nodes: Vec<Value>,
     meshes: Vec<Value>,
     animation: Animation,
-    /// Nodes that hang on none.
+    /// Nodes without a parent.
     roots: Vec<usize>,
 }
 
 /// The stage as bytes of a `.glb` file.
 ///
 /// # Errors
-/// Data that JSON cannot hold.
+/// Data that JSON cannot store.
 pub(super) fn glb(stage: &Stage, name: &str) -> Result<Vec<u8>, serde_json::Error> {
-    let mut making = Making::default();
+    let mut builder = GlbBuilder::default();
     let times: Vec<f64> = (0..stage.grid.frames).map(|frame| stage.grid.step_s * frame as f64).collect();
-    making.animation.time(&times, &mut making.buffer);
-    making.add_bodies(stage);
-    arrow::add(stage, &mut making);
-    making.add_still(stage);
-    container::file(&making.document(stage, name), making.buffer.bytes())
+    builder.animation.time(&times, &mut builder.buffer);
+    builder.add_bodies(stage);
+    arrow::add(stage, &mut builder);
+    builder.add_still(stage);
+    container::file(&builder.document(stage, name), builder.buffer.bytes())
 }
 
-impl Making {
-    /// Nodes of all bodies, in their order, so that a body's place on the stage is the number of its node.
+impl GlbBuilder {
+    /// Adds nodes of all bodies in order, so that the index of a body equals the index of its node.
     fn add_bodies(&mut self, stage: &Stage) {
         for (number, body) in stage.bodies.iter().enumerate() {
             let mut node = json!({ "name": body.name });
@@ -75,7 +75,7 @@ impl Making {
         }
     }
 
-    /// Plates and what stands still.
+    /// Adds plates and fixed shapes.
     fn add_still(&mut self, stage: &Stage) {
         let plates = stage.plates.iter().map(plate);
         let fixed = stage.fixed.iter().map(Triangles::of_shape).enumerate();
@@ -87,14 +87,14 @@ impl Making {
         }
     }
 
-    /// Adds a node that hangs on none.
+    /// Adds a node without a parent.
     fn add_root(&mut self, node: Value) -> usize {
         self.roots.push(self.nodes.len());
         self.nodes.push(node);
         self.nodes.len() - 1
     }
 
-    /// Adds a mesh; none for no triangles.
+    /// Adds a mesh; `None` without triangles.
     fn mesh(&mut self, name: &str, triangles: &Triangles, paint: Paint) -> Option<usize> {
         if triangles.corners.is_empty() {
             return None;
@@ -144,7 +144,7 @@ impl Making {
     }
 }
 
-/// The path of a body in its parent, or in the world.
+/// The path of a body relative to its parent, or to the world.
 fn path_in(parent: Option<&StageBody>, body: &StageBody) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
     let mut local = BodyPath::default();
     for (instant, (place, turn)) in body.path.position.iter().zip(&body.path.rotation).enumerate() {

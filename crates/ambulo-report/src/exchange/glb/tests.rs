@@ -1,8 +1,8 @@
-//! The file as a reader sees it.
+//! Reads the written file back.
 
 use super::{METRES_PER_NEWTON, glb};
 use crate::page::ViewShape;
-use crate::stage::{BodyPath, Stage, StageBody, StageForce, StagePlate};
+use crate::stage::{BodyPath, ForceRole, Stage, StageBody, StageForce, StagePlate};
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
@@ -11,7 +11,7 @@ use serde_json::Value;
 
 const FRAMES: usize = 12;
 
-/// A trunk that flies and turns, with a leg that swings on it, on a plate, beside a stone; a force that comes and goes.
+/// A trunk that translates and rotates, with a swinging leg attached, over a plate, next to a stone; a force that acts at times.
 fn stage() -> Stage {
     let (mut trunk, mut leg) = (BodyPath::default(), BodyPath::default());
     for frame in 0..FRAMES {
@@ -46,7 +46,7 @@ fn stage() -> Stage {
         forces: vec![StageForce {
             name: "right".into(),
             side: Some(Side::Right),
-            beside: false,
+            role: ForceRole::Main,
             point: (0..FRAMES).map(point).collect(),
             force: (0..FRAMES).map(force).collect(),
         }],
@@ -154,7 +154,7 @@ fn neighbouring_rotations_never_jump() {
 }
 
 #[test]
-fn an_arrow_stands_on_its_point_along_its_force_and_vanishes_without() {
+fn an_arrow_starts_at_its_point_along_its_force_and_vanishes_without_force() {
     let (read, stage) = (read(), stage());
     let node = read.node("force right");
     let scale = read.path(node, "scale");

@@ -1,14 +1,14 @@
-//! Cells of tables, and tables from lists of the results.
+//! Builds tables and their cells from lists of results.
 
 use crate::page::contract::{Cell, Table};
 use ambulo_results::SpreadSummary;
 
-/// A cell of words.
+/// A cell with text.
 pub(super) fn text(words: &str) -> Cell {
     Cell { text: words.to_owned(), value: None, outside: false }
 }
 
-/// A number, or a dash where there is none; marked where it is outside of a range.
+/// A number, or a dash if it is missing; marked if it is outside the range.
 pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>) -> Cell {
     let value = value.filter(|x| x.is_finite());
     Cell {
@@ -18,14 +18,14 @@ pub(super) fn number(value: Option<f64>, digits: usize, range: Option<[f64; 2]>)
     }
 }
 
-/// As a reader compares them: with the digits that are shown.
+/// Rounds to the digits shown before comparing, as a reader does.
 fn is_outside(x: f64, range: [f64; 2], digits: usize) -> bool {
     let scale = 10_f64.powi(i32::try_from(digits).unwrap_or(0));
     let [x, low, high] = [x, range[0], range[1]].map(|x| (x * scale).round());
     x < low || x > high
 }
 
-/// So many digits; nothing is less than nothing.
+/// Formats a number with this many digits; never prints a negative zero.
 fn rounded(x: f64, digits: usize) -> String {
     let text = format!("{x:.digits$}");
     match text.strip_prefix('-') {
@@ -34,7 +34,7 @@ fn rounded(x: f64, digits: usize) -> String {
     }
 }
 
-/// The mean of several numbers, with their deviation from two on.
+/// Mean of several numbers, with the standard deviation if there are at least two.
 pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) -> Cell {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -46,7 +46,7 @@ pub(super) fn mean_cell(values: &[f64], digits: usize, range: Option<[f64; 2]>) 
     cell
 }
 
-/// Mean and deviation over strides; a dash where no stride has the quantity.
+/// Mean and standard deviation over strides; a dash if no stride has the quantity.
 pub(super) fn spread_cell(spread: Option<&SpreadSummary>, digits: usize, range: Option<[f64; 2]>) -> Cell {
     let mut cell = number(spread.map(|spread| spread.mean), digits, range);
     if let Some(sd) = spread.and_then(|spread| spread.sd) {
@@ -55,10 +55,10 @@ pub(super) fn spread_cell(spread: Option<&SpreadSummary>, digits: usize, range: 
     cell
 }
 
-/// A column of a table: its heading, and the cell that it has of a row.
+/// A column of a table: its heading, and how to make its cell from a row.
 pub(super) type Column<T> = (&'static str, fn(&T) -> Cell);
 
-/// A table of a list; `None` where the list is empty.
+/// Makes a table from a list; `None` if the list is empty.
 pub(super) fn listed<'a, T: 'a>(
     [id, title, note]: [&str; 3],
     rows: impl IntoIterator<Item = &'a T>,
@@ -70,13 +70,13 @@ pub(super) fn listed<'a, T: 'a>(
     (!rows.is_empty()).then(|| table([id, title, note], columns, rows))
 }
 
-/// A table that has rows; without a note if that is empty.
+/// Makes a table from rows; an empty note is left out.
 pub(super) fn table([id, title, note]: [&str; 3], columns: Vec<String>, rows: Vec<Vec<Cell>>) -> Table {
     let note = (!note.is_empty()).then(|| note.to_owned());
     Table { id: id.to_owned(), title: title.to_owned(), note, columns, rows, empty: None }
 }
 
-/// A count; one above zero stands out.
+/// A count; marked if above zero.
 pub(super) fn at_most_none(count: usize) -> Cell {
     number(Some(count as f64), 0, Some([f64::NEG_INFINITY, 0.5]))
 }
@@ -86,12 +86,12 @@ pub(super) fn count(count: usize) -> Cell {
     number(Some(count as f64), 0, None)
 }
 
-/// A unit; nothing for ratios.
+/// A unit; empty for ratios.
 pub(super) fn unit(unit: &str) -> Cell {
     text(if unit == "1" { "" } else { unit })
 }
 
-/// A name of the files in words: `center_of_pressure`.
+/// A name from the files with blanks: `center_of_pressure` becomes `center of pressure`.
 pub(super) fn name(name: &str) -> Cell {
     text(&name.replace('_', " "))
 }
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_shown_is_what_is_compared() {
+    fn displayed_digits_decide_whether_a_number_is_marked() {
         let outside = |x: f64| number(Some(x), 4, Some([0.0052, 0.0064])).outside;
         assert!(!outside(0.005_16) && !outside(0.006_44), "shown as 0.0052 and 0.0064");
         assert!(outside(0.005_14) && outside(0.006_46));

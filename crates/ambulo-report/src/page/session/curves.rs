@@ -1,4 +1,4 @@
-//! One clinical quantity as a panel: its cycles, their mean, and the same over time.
+//! Makes the panel of one clinical quantity: its cycles, their mean, and its curve over time.
 
 use super::results::{GROUND, KINEMATICS, MOMENTS, POWERS, Results};
 use super::sides;
@@ -14,11 +14,11 @@ use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, CYCLES, Convention, CycleRow};
 
-/// Columns of `grf.mot` by the names of `cycles.csv`.
+/// Names of ground forces in `cycles.csv` and their axes in `grf.mot`.
 pub(super) const GROUND_AXES: [(&str, &str); 3] =
     [("ground_force_fore_aft", "x"), ("ground_force_vertical", "y"), ("ground_force_lateral", "z")];
 
-/// The panel of a quantity; `empty` is what it says where no file has it.
+/// The panel of a quantity; `empty` is its text if no file contains the quantity.
 pub(super) fn panel(
     results: &Results,
     size: &BodySize,
@@ -49,13 +49,13 @@ pub(super) fn panel(
     }
 }
 
-/// What healthy people do at this speed, where it and the size of the body are known.
+/// The normative band at this speed; `None` if the speed or the leg length is unknown.
 fn band(size: &BodySize, quantity: &ClinicalQuantity, convention: Convention, block: &mut Block) -> Option<Band> {
     let normal = normative::band(quantity.id, size.walking_speed()?, convention)?;
     Some(Band { mean: block.add(&normal.mean), sd: block.add(&normal.sd), citation: normal.citation })
 }
 
-/// A curve in clinical signs.
+/// A curve converted to clinical signs.
 pub(super) struct ShownCurve {
     pub(super) side: Side,
     pub(super) number: usize,
@@ -70,7 +70,7 @@ impl ShownCurve {
     }
 }
 
-/// The cycles of a foot, in the file's order.
+/// The cycles of a foot, in the order of the file.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
     let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
     if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
@@ -90,7 +90,7 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
     rows.map(shown).collect()
 }
 
-/// A column of `clinical.csv` over a cycle.
+/// A column of `clinical.csv`, time-normalised over a cycle.
 fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, values: &[f64]) -> ShownCurve {
     let PageCycle { number, start_s, end_s, .. } = *cycle;
     let last = (CYCLE_SAMPLES - 1) as f64;
@@ -105,17 +105,17 @@ fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, va
 
 fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
     let (mean, sd) = mean_and_deviation(curves)?;
-    let toe_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.toe_off_percent).collect();
+    let foot_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.toe_off_percent).collect();
     Some(MeanCurve {
         side: sides::page(side),
         cycles: curves.len(),
         values: block.add(&mean),
         sd: sd.map(|sd| block.add(&sd)),
-        toe_off_percent: (!toe_offs.is_empty()).then(|| toe_offs.iter().sum::<f64>() / toe_offs.len() as f64),
+        toe_off_percent: (!foot_offs.is_empty()).then(|| foot_offs.iter().sum::<f64>() / foot_offs.len() as f64),
     })
 }
 
-/// Point by point; the deviation of a sample, from two curves on.
+/// Mean point by point; with at least two curves also the sample standard deviation.
 pub(super) fn mean_and_deviation(curves: &[ShownCurve]) -> Option<(Vec<f64>, Option<Vec<f64>>)> {
     let count = curves.len() as f64;
     let length = curves.first()?.values.len();
@@ -126,7 +126,7 @@ pub(super) fn mean_and_deviation(curves: &[ShownCurve]) -> Option<(Vec<f64>, Opt
     Some((mean, sd))
 }
 
-/// Both sides over time; a coordinate of pelvis or trunk that means the same on both is one trace.
+/// Traces of both sides over time; a pelvis or trunk coordinate with the same meaning on both sides gives one trace.
 fn traces(results: &Results, quantity: &ClinicalQuantity, block: &mut Block) -> Vec<Trace> {
     let factors = Side::BOTH.map(|side| quantity.factor(results.mass_kg, side));
     if quantity.central && factors[0].total_cmp(&factors[1]).is_eq() {
@@ -164,7 +164,7 @@ fn trace(
     })
 }
 
-/// Where a quantity stands over time: file, column, and its numbers where the column is there. `None` without the file.
+/// Finds a quantity over time: file, column, and its numbers if the column exists. `None` without the file.
 pub(super) fn over_time<'a>(
     results: &'a Results,
     quantity: &ClinicalQuantity,
@@ -179,12 +179,12 @@ fn scaled(values: &[f64], factor: f64, block: &mut Block) -> Series {
     block.add(&values.iter().map(|x| factor * x).collect::<Vec<_>>())
 }
 
-/// A column of a table over time.
+/// Where to find a column over time.
 struct Place<'a> {
     table: &'a Table,
     file: &'static str,
     column: String,
-    /// What the file's number is divided by, beside the quantity's own factor.
+    /// Divisor of the file's number, in addition to the quantity's own factor.
     divisor: f64,
 }
 

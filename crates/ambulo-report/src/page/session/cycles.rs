@@ -1,8 +1,8 @@
-//! When the cycles of `cycles.csv` were.
+//! Finds the times of the cycles in `cycles.csv`.
 //!
-//! The file counts cycles and has no times; they lie between strikes of one foot in `events.csv`, but not every pair of strikes is a
-//! cycle of the file (those that no plate saw are left out). A cycle's own angles and positions say which pair it is: read off
-//! `kinematics.mot` between the right pair of strikes, they are the file's.
+//! The file numbers cycles but has no times. A cycle lies between two strikes of one foot in `events.csv`, but not every pair of strikes is a
+//! cycle of the file (cycles that no plate measured are left out). A cycle's angles and positions identify its pair: sampled from
+//! `kinematics.mot` between the right pair of strikes, they equal the curves of the file.
 
 use super::sides;
 use crate::page::contract::{PageCycle, PageEvent};
@@ -11,10 +11,10 @@ use ambulo::motion::interpolate;
 use ambulo_formats::table::Table;
 use ambulo_results::CycleRow;
 
-/// Curves of the same cycle differ by less than this, which is rounding; those of other cycles differ by more somewhere [deg or m].
+/// Curves of the same cycle differ by less than this (rounding); curves of other cycles differ by more at some point [deg or m].
 const SAME: f64 = 0.02;
 
-/// The cycles that the curves were cut into, right foot first; without a curve, none.
+/// The cycles with their times, right foot first; empty without curves.
 pub(super) fn cycles(events: &[PageEvent], curves: &[CycleRow], kinematics: &Table, times: &[f64]) -> Vec<PageCycle> {
     let mut list = Vec::new();
     for side in Side::BOTH {
@@ -35,7 +35,7 @@ pub(super) fn cycles(events: &[PageEvent], curves: &[CycleRow], kinematics: &Tab
     list
 }
 
-/// Numbers of a foot's cycles, rising.
+/// Numbers of a foot's cycles, ascending.
 fn numbers(curves: &[CycleRow], side: Side) -> Vec<usize> {
     let mut numbers: Vec<usize> = curves.iter().filter(|curve| curve.side == side).map(|curve| curve.cycle).collect();
     numbers.sort_unstable();
@@ -43,13 +43,13 @@ fn numbers(curves: &[CycleRow], side: Side) -> Vec<usize> {
     numbers
 }
 
-/// The first pair of strikes between which the motion is that of the curves, else the nearest.
+/// The first pair of strikes between which the motion equals the curves; otherwise the nearest pair.
 fn nearest(pairs: &[[f64; 2]], curves: &[&CycleRow], side: Side, kinematics: &Table, times: &[f64]) -> Option<usize> {
     let mut best: Option<(usize, f64)> = None;
     for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair[1] > pair[0]) {
         let least = best.map_or(f64::INFINITY, |(_, least)| least);
         let mut distances = curves.iter().filter_map(|curve| distance(curve, *pair, side, kinematics, times));
-        // Ends at the first curve that is farther away than the best pair's.
+        // Stops at the first curve that is farther away than those of the best pair.
         let Some(largest) = distances.try_fold(0.0_f64, |largest, x| (x < least).then(|| largest.max(x))) else {
             continue;
         };
@@ -61,7 +61,7 @@ fn nearest(pairs: &[[f64; 2]], curves: &[&CycleRow], side: Side, kinematics: &Ta
     best.map(|(place, _)| place)
 }
 
-/// How far a curve is from the motion between two strikes; `None` for what is no column of the motion.
+/// Largest distance of a curve from the motion between two strikes; `None` if the motion has no such column.
 fn distance(
     curve: &CycleRow,
     [start_s, end_s]: [f64; 2],

@@ -1,6 +1,6 @@
-//! Peaks and ranges of motion, and how the sides compare.
+//! Tables of peaks and ranges of motion, and of the differences between the sides.
 //!
-//! Each value is read off every single cycle; the tables show mean and standard deviation over the cycles of a side. Symmetry is 100 (R -
+//! Each value is computed for every cycle; the tables show mean and standard deviation over the cycles of a side. Symmetry is 100 (R -
 //! L) / ((R + L) / 2) of the means, marked above 10 % (Robinson, Herzog, Nigg 1987, unverified).
 
 use super::cells::{mean_cell, number, text};
@@ -13,15 +13,15 @@ use ambulo::analysis::symmetry_index;
 use ambulo::model::Side;
 use ambulo_results::WalkingSummary;
 
-/// More than this stands out [%].
+/// Asymmetry above this is marked [%].
 const ASYMMETRIC: f64 = 10.0;
 
-/// What is read off a cycle.
+/// How a value is computed from the curve of a cycle.
 #[derive(Clone, Copy)]
 enum Read {
     Largest(Part),
     Smallest(Part),
-    /// Largest less smallest of the whole cycle.
+    /// Maximum minus minimum over the whole cycle.
     Range,
     /// At foot strike.
     AtStrike,
@@ -41,7 +41,7 @@ enum Part {
 use Part::{EarlyStance, LateStance, MiddleOfStance, Stance, Swing, Whole};
 use Read::{AtStrike, Largest, Range, Smallest};
 
-/// Quantity, name of the value, how it is read, digits, and whether its sides are compared in per cent.
+/// Quantity, name of the value, how it is computed, digits, and whether its sides are compared in per cent.
 type Row = (&'static str, &'static str, Read, usize, bool);
 
 #[rustfmt::skip]
@@ -49,41 +49,41 @@ const ROWS: &[Row] = &[
     ("pelvis_tilt_angle", "Pelvic tilt, range", Range, 1, false),
     ("pelvis_obliquity_angle", "Pelvic obliquity, range", Range, 1, false),
     ("pelvis_rotation_angle", "Pelvic rotation, range", Range, 1, false),
-    ("hip_flexion_angle", "Hip flexion, at strike", AtStrike, 1, false),
-    ("hip_flexion_angle", "Hip flexion, largest", Largest(Whole), 1, false),
-    ("hip_flexion_angle", "Hip flexion, least (extension is negative)", Smallest(Whole), 1, false),
+    ("hip_flexion_angle", "Hip flexion at foot strike", AtStrike, 1, false),
+    ("hip_flexion_angle", "Hip flexion, maximum", Largest(Whole), 1, false),
+    ("hip_flexion_angle", "Hip flexion, minimum (extension is negative)", Smallest(Whole), 1, false),
     ("hip_flexion_angle", "Hip flexion, range", Range, 1, true),
-    ("hip_adduction_angle", "Hip adduction, largest in stance", Largest(Stance), 1, false),
+    ("hip_adduction_angle", "Hip adduction, maximum in stance", Largest(Stance), 1, false),
     ("hip_adduction_angle", "Hip adduction, range", Range, 1, true),
     ("hip_rotation_angle", "Hip rotation, range", Range, 1, true),
-    ("knee_flexion_angle", "Knee flexion, at strike", AtStrike, 1, false),
-    ("knee_flexion_angle", "Knee flexion, largest in early stance", Largest(EarlyStance), 1, false),
-    ("knee_flexion_angle", "Knee flexion, least in late stance", Smallest(LateStance), 1, false),
-    ("knee_flexion_angle", "Knee flexion, largest in swing", Largest(Swing), 1, true),
+    ("knee_flexion_angle", "Knee flexion at foot strike", AtStrike, 1, false),
+    ("knee_flexion_angle", "Knee flexion, maximum in early stance", Largest(EarlyStance), 1, false),
+    ("knee_flexion_angle", "Knee flexion, minimum in late stance", Smallest(LateStance), 1, false),
+    ("knee_flexion_angle", "Knee flexion, maximum in swing", Largest(Swing), 1, true),
     ("knee_flexion_angle", "Knee flexion, range", Range, 1, true),
-    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, at strike", AtStrike, 1, false),
-    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, largest in stance", Largest(Stance), 1, false),
-    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, least (plantarflexion is negative)", Smallest(Whole), 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion at foot strike", AtStrike, 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, maximum in stance", Largest(Stance), 1, false),
+    ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, minimum (plantarflexion is negative)", Smallest(Whole), 1, false),
     ("ankle_dorsiflexion_angle", "Ankle dorsiflexion, range", Range, 1, true),
-    ("hip_flexion_moment", "Hip extensor moment, largest", Largest(Whole), 2, true),
-    ("hip_flexion_moment", "Hip flexor moment, largest (negative)", Smallest(Whole), 2, true),
-    ("hip_adduction_moment", "Hip abductor moment, largest", Largest(Stance), 2, true),
-    ("knee_flexion_moment", "Knee extensor moment, largest in stance", Largest(Stance), 2, true),
-    ("knee_flexion_moment", "Knee flexor moment, largest in stance (negative)", Smallest(Stance), 2, true),
-    ("ankle_dorsiflexion_moment", "Ankle plantarflexor moment, largest", Largest(Stance), 2, true),
-    ("hip_flexion_power", "Hip power, most generated", Largest(Whole), 2, true),
-    ("knee_flexion_power", "Knee power, most absorbed (negative)", Smallest(Whole), 2, true),
-    ("ankle_dorsiflexion_power", "Ankle power, most generated", Largest(Whole), 2, true),
-    ("ankle_dorsiflexion_power", "Ankle power, most absorbed in stance (negative)", Smallest(Stance), 2, true),
+    ("hip_flexion_moment", "Hip extensor moment, peak", Largest(Whole), 2, true),
+    ("hip_flexion_moment", "Hip flexor moment, peak (negative)", Smallest(Whole), 2, true),
+    ("hip_adduction_moment", "Hip abductor moment, peak", Largest(Stance), 2, true),
+    ("knee_flexion_moment", "Knee extensor moment, peak in stance", Largest(Stance), 2, true),
+    ("knee_flexion_moment", "Knee flexor moment, peak in stance (negative)", Smallest(Stance), 2, true),
+    ("ankle_dorsiflexion_moment", "Ankle plantarflexor moment, peak", Largest(Stance), 2, true),
+    ("hip_flexion_power", "Hip power generated, peak", Largest(Whole), 2, true),
+    ("knee_flexion_power", "Knee power absorbed, peak (negative)", Smallest(Whole), 2, true),
+    ("ankle_dorsiflexion_power", "Ankle power generated, peak", Largest(Whole), 2, true),
+    ("ankle_dorsiflexion_power", "Ankle power absorbed, peak in stance (negative)", Smallest(Stance), 2, true),
     ("ground_force_vertical", "Vertical force, first peak", Largest(EarlyStance), 2, true),
-    ("ground_force_vertical", "Vertical force, least between", Smallest(MiddleOfStance), 2, true),
+    ("ground_force_vertical", "Vertical force, minimum between the peaks", Smallest(MiddleOfStance), 2, true),
     ("ground_force_vertical", "Vertical force, second peak", Largest(LateStance), 2, true),
-    ("ground_force_fore_aft", "Braking force, largest (negative)", Smallest(Stance), 2, true),
-    ("ground_force_fore_aft", "Driving force, largest", Largest(Stance), 2, true),
-    ("ground_force_lateral", "Force towards the middle, largest", Largest(Stance), 2, true),
+    ("ground_force_fore_aft", "Braking force, peak (negative)", Smallest(Stance), 2, true),
+    ("ground_force_fore_aft", "Propulsive force, peak", Largest(Stance), 2, true),
+    ("ground_force_lateral", "Medial force, peak", Largest(Stance), 2, true),
 ];
 
-/// A value of both sides, a number a cycle.
+/// A value of both sides, one number per cycle.
 pub(super) struct Extracted {
     label: &'static str,
     unit: &'static str,
@@ -92,13 +92,13 @@ pub(super) struct Extracted {
     sides: [Vec<f64>; 2],
 }
 
-/// Every value that the cycles have.
+/// Every value that can be computed from the cycles.
 pub(super) fn extracted(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Extracted> {
     let value = |&(id, label, read, digits, compared): &Row| {
         let quantity = quantities.iter().find(|quantity| quantity.id == id)?;
         let of = |side| {
             let curves = shown_cycles(results, quantity, side);
-            curves.iter().filter_map(|curve| read.off(&curve.values, toe_off(results, curve))).collect::<Vec<f64>>()
+            curves.iter().filter_map(|curve| read.off(&curve.values, foot_off(results, curve))).collect::<Vec<f64>>()
         };
         let sides = Side::BOTH.map(of);
         let some = sides.iter().any(|values| !values.is_empty());
@@ -117,10 +117,12 @@ pub(super) fn table(values: &[Extracted]) -> Table {
     Table {
         id: "extracted".to_owned(),
         title: "Peaks and ranges of motion".to_owned(),
-        note: Some("Mean ± standard deviation over the cycles of each side, read off every single cycle.".to_owned()),
-        columns: ["", "Unit", "Right", "Left", "Right less left"].map(str::to_owned).to_vec(),
+        note: Some(
+            "Mean ± standard deviation over the cycles of each side; each value is computed per cycle.".to_owned(),
+        ),
+        columns: ["", "Unit", "Right", "Left", "Right minus left"].map(str::to_owned).to_vec(),
         rows: values.iter().map(row).collect(),
-        empty: values.is_empty().then(|| "There is no whole gait cycle to read them off.".to_owned()),
+        empty: values.is_empty().then(|| "There is no whole gait cycle to compute them from.".to_owned()),
     }
 }
 
@@ -147,7 +149,7 @@ pub(super) fn symmetry(values: &[Extracted], walking: &WalkingSummary) -> Table 
         })
         .collect();
     let note = format!(
-        "100 (right - left) over the mean of both, of the means over the cycles; 0 is symmetric, positive: the right one is larger. Marked above {ASYMMETRIC:.0} %."
+        "100 (right - left) / mean of both sides, from the means over the cycles. 0 is symmetric; positive values mean that the right side is larger. Marked above {ASYMMETRIC:.0} %."
     );
     Table {
         id: "symmetry".to_owned(),
@@ -163,14 +165,14 @@ fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-fn toe_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
+fn foot_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
     results.cycles_of(curve.side).find(|cycle| cycle.number == curve.number)?.toe_off_percent
 }
 
 impl Read {
-    /// The value of a cycle; `None` where it needs a toe-off that was not seen.
-    fn off(self, values: &[f64], toe_off: Option<f64>) -> Option<f64> {
-        let of = |part: Part| Some(values.get(part.samples(values.len(), toe_off)?)?.iter().copied());
+    /// The value of a cycle; `None` if it needs a foot off that was not detected.
+    fn off(self, values: &[f64], foot_off: Option<f64>) -> Option<f64> {
+        let of = |part: Part| Some(values.get(part.samples(values.len(), foot_off)?)?.iter().copied());
         let largest = |part| Some(of(part)?.fold(f64::NEG_INFINITY, f64::max));
         let smallest = |part| Some(of(part)?.fold(f64::INFINITY, f64::min));
         let value = match self {
@@ -184,11 +186,11 @@ impl Read {
 }
 
 impl Part {
-    /// Samples of a cycle that has `count` of them; shares of the stance where it is divided.
-    fn samples(self, count: usize, toe_off: Option<f64>) -> Option<std::ops::Range<usize>> {
+    /// Range of samples within a cycle of `count` samples; parts of the stance are shares of its duration.
+    fn samples(self, count: usize, foot_off: Option<f64>) -> Option<std::ops::Range<usize>> {
         let at = |share: f64| ((count - 1) as f64 * share / 100.0).round() as usize;
         let stance = |from: f64, to: f64| {
-            let off = toe_off?;
+            let off = foot_off?;
             Some(at(from * off)..at(to * off) + 1)
         };
         match self {
@@ -197,7 +199,7 @@ impl Part {
             EarlyStance => stance(0.0, 0.5),
             MiddleOfStance => stance(0.25, 0.75),
             LateStance => stance(0.5, 1.0),
-            Swing => Some(at(toe_off?)..count),
+            Swing => Some(at(foot_off?)..count),
         }
     }
 }
@@ -217,6 +219,6 @@ mod tests {
         {
             assert!((read(part) - expected).abs() < 1e-12, "{} instead of {expected}", read(part));
         }
-        assert_eq!(Largest(Stance).off(&curve, None), None, "no toe-off, no stance");
+        assert_eq!(Largest(Stance).off(&curve, None), None, "no foot off, no stance");
     }
 }

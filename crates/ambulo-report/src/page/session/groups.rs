@@ -1,4 +1,4 @@
-//! The grids of a report: kinematics, kinetics, ground forces.
+//! The grids of panels of a report: kinematics, kinetics, ground forces.
 
 use super::curves;
 use super::results::Results;
@@ -9,7 +9,7 @@ use crate::page::contract::{Group, PageSource, Panel};
 use ambulo::model::Side;
 use std::collections::BTreeSet;
 
-/// A grid: its word, its heading, the kinds of quantities in it.
+/// A grid: its id, its heading, the kinds of quantities in it.
 struct Grid {
     id: &'static str,
     title: &'static str,
@@ -22,28 +22,28 @@ const GRIDS: [Grid; 3] = [
         id: "kinematics",
         title: "Joint angles",
         kinds: &[ClinicalGroup::Kinematics],
-        note: "Angles in degrees. A gait cycle goes from foot strike to the next strike of the same foot.",
+        note: "Angles in degrees. A gait cycle lasts from foot strike to the next foot strike of the same foot.",
     },
     Grid {
         id: "kinetics",
         title: "Joint moments and powers",
         kinds: &[ClinicalGroup::Moments, ClinicalGroup::Powers],
-        note: "Internal moments (of muscles, ligaments and bones on the joint) and powers, per kilogram of body mass.",
+        note: "Internal joint moments (by muscles, ligaments and bones) and joint powers, per kilogram of body mass.",
     },
     Grid {
         id: "ground",
         title: "Ground forces",
         kinds: &[ClinicalGroup::Ground],
-        note: "Forces of the ground on the foot, in body weights.",
+        note: "Ground reaction forces on the foot, in body weights.",
     },
 ];
 
-/// Moments that have a power below them.
+/// Moments shown above the power of the same joint.
 const SAGITTAL: [&str; 3] = ["hip_flexion_moment", "knee_flexion_moment", "ankle_dorsiflexion_moment"];
-/// Panels abreast.
+/// Panels per row.
 const COLUMNS: usize = 3;
 
-/// All grids that the files have something for.
+/// All grids for which the files contain data.
 pub(super) fn groups(
     results: &Results,
     size: &BodySize,
@@ -53,7 +53,7 @@ pub(super) fn groups(
     GRIDS.iter().map(|grid| group(results, size, grid, quantities, block)).collect()
 }
 
-/// The quantities that the files have, over cycles or over time.
+/// The quantities in the files, over cycles or over time.
 pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
     let names = names(results);
     clinical_quantities(&results.clinical_names(), |name| names.contains(name))
@@ -62,17 +62,17 @@ pub(super) fn quantities(results: &Results) -> Vec<ClinicalQuantity> {
 fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[ClinicalQuantity], block: &mut Block) -> Group {
     let mut of_grid: Vec<_> = quantities.iter().filter(|quantity| grid.kinds.contains(&quantity.group)).collect();
     of_grid.sort_by_key(|quantity| place(quantity));
-    let empty = format!("The files have no numbers of this: {}.", lacking(results, grid));
+    let empty = format!("The files contain no data for this: {}.", lacking(results, grid));
     let panels: Vec<Panel> =
         of_grid.into_iter().map(|quantity| curves::panel(results, size, quantity, &empty, block)).collect();
     let note = match panels.is_empty() {
-        true => format!("Nothing to show: {}.", lacking(results, grid)),
+        true => format!("No data to show: {}.", lacking(results, grid)),
         false => grid.note.to_owned(),
     };
     Group { id: grid.id.to_owned(), title: grid.title.to_owned(), note: Some(note), columns: COLUMNS, panels }
 }
 
-/// Moments of the sagittal plane stand over the powers of the same joints, the other planes follow.
+/// Puts sagittal moments above the powers of the same joints; the other planes follow.
 fn place(quantity: &ClinicalQuantity) -> usize {
     match quantity.group {
         ClinicalGroup::Moments => usize::from(!SAGITTAL.contains(&quantity.id)) * 2,
@@ -81,7 +81,7 @@ fn place(quantity: &ClinicalQuantity) -> usize {
     }
 }
 
-/// Why a grid has nothing.
+/// Why a grid has no data.
 fn lacking(results: &Results, grid: &Grid) -> &'static str {
     match grid.id {
         "ground" if results.source == PageSource::None => "the run was made without ground forces",
@@ -91,7 +91,7 @@ fn lacking(results: &Results, grid: &Grid) -> &'static str {
     }
 }
 
-/// Names as `cycles.csv` has them, of that file and of all tables over time.
+/// Names of quantities in the style of `cycles.csv`, from that file and from all tables over time.
 fn names(results: &Results) -> BTreeSet<String> {
     let stem = |column: &str| Side::split_name(column).map_or_else(|| column.to_owned(), |(_, stem)| stem);
     let over_time = results.kinematics.names().iter().map(|column| format!("{}_angle", stem(column)));

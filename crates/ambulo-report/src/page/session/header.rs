@@ -1,21 +1,21 @@
-//! The header: who, how fast, what was done, where the forces come from.
+//! The header: subject, speed, processing, and source of the ground forces.
 
 use super::results::Results;
-use super::size::{BodySize, Known};
+use super::size::{BodySize, SourcedLength};
 use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
 use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, MassKnowledge};
 
-/// Below this speed a body does not walk anywhere [m/s].
+/// Below this speed a body stays in place [m/s].
 const STANDING_M_S: f64 = 0.1;
 
-/// Masses that differ by a smaller share are one.
+/// Masses that differ by a smaller share count as equal.
 const SAME_MASS: f64 = 0.005;
 
-/// All lines, in the order to be shown.
+/// All lines, in display order.
 pub(super) fn header(results: &Results, size: &BodySize) -> Vec<Fact> {
-    let metres = |known: &Option<Known>, label: &str| match known {
-        Some(known) => fact(label, format!("{:.2} m", known.metres), Some(known.source.clone())),
+    let metres = |length: &Option<SourcedLength>, label: &str| match length {
+        Some(length) => fact(label, format!("{:.2} m", length.metres), Some(length.source.clone())),
         None => fact(label, "not known", None),
     };
     let lines = [
@@ -38,17 +38,17 @@ pub(super) fn header(results: &Results, size: &BodySize) -> Vec<Fact> {
     lines.into_iter().flatten().collect()
 }
 
-/// What the page is called: the recording, the gait.
+/// The name of the session: the recording or the gait.
 pub(super) fn recording_name(results: &Results) -> String {
     file_name(&results.summary.input.motion).to_owned()
 }
 
-/// The last part of a path of any system.
+/// The last part of a path of any operating system.
 pub(super) fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// A line.
+/// A line of the header.
 pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) -> Fact {
     Fact { label: label.to_owned(), value: value.into(), note }
 }
@@ -64,8 +64,8 @@ fn recording(results: &Results) -> Fact {
 
 fn subject(results: &Results) -> Fact {
     let input = match results.summary.input.model.as_str() {
-        "built-in" => "the built-in body, sized by the recording".to_owned(),
-        figure if figure.starts_with("figure ") => "a figure of a table of segments".to_owned(),
+        "built-in" => "built-in body, scaled to the recording".to_owned(),
+        figure if figure.starts_with("figure ") => "figure from a table of segments".to_owned(),
         file => format!("from {}", file_name(file)),
     };
     fact("Subject and model", &*results.summary.model, Some(input))
@@ -74,19 +74,19 @@ fn subject(results: &Results) -> Fact {
 fn mass(results: &Results) -> Fact {
     let summary = &results.summary;
     let source = match summary.mass_source {
-        MassSource::Plates => "weighed by the plates over whole gait cycles",
-        MassSource::Standing => "weighed by the plates in the standing trial",
-        MassSource::Model => "that of the model",
+        MassSource::Plates => "measured by the force plates over whole gait cycles",
+        MassSource::Standing => "measured by the force plates in the standing trial",
+        MassSource::Model => "from the model",
     };
     let known = match summary.mass {
-        MassKnowledge::Verified if summary.mass_source == MassSource::Model => ", as stated",
+        MassKnowledge::Verified if summary.mass_source == MassSource::Model => ", as given",
         MassKnowledge::Verified => "",
-        MassKnowledge::Unverified => "; neither weighed nor stated",
-        MassKnowledge::Contradicted => "; the plates carry another mass",
+        MassKnowledge::Unverified => "; neither given nor measured",
+        MassKnowledge::Contradicted => "; the force plates measured a different mass",
     };
     let (mass, model) = (results.mass_kg, summary.mass_model_kg);
     let value = match (model / mass - 1.0).abs() > SAME_MASS {
-        true => format!("{mass:.1} kg (divides moments and powers); {model:.1} kg (of the model, used by dynamics)"),
+        true => format!("{mass:.1} kg (normalises moments and powers); {model:.1} kg (model, used for the dynamics)"),
         false => format!("{mass:.1} kg"),
     };
     fact("Body mass", value, Some(format!("{source}{known}")))
@@ -95,14 +95,14 @@ fn mass(results: &Results) -> Fact {
 fn speed(results: &Results, size: &BodySize) -> Fact {
     let Some(speed) = results.summary.speed_m_s else {
         let why = match results.source {
-            PageSource::None => "without ground forces no file tells which foot stands",
-            _ => "no foot was seen to carry the body",
+            PageSource::None => "without ground forces the stance phases are not known",
+            _ => "no stance phase was detected",
         };
         return fact("Speed", "not known", Some(why.to_owned()));
     };
     let scaled = match size.speed_dimensionless {
         Some(scaled) => format!("V* = V / sqrt(g L) = {scaled:.2}"),
-        None => "no dimensionless speed, since the leg length is not known".to_owned(),
+        None => "no dimensionless speed, because the leg length is not known".to_owned(),
     };
     let value = match results.summary.times_and_distances.path_speed_m_s {
         Some(along) => format!("{speed:.2} m/s straight, {along:.2} m/s along the path"),
@@ -114,7 +114,7 @@ fn speed(results: &Results, size: &BodySize) -> Fact {
 fn cadence(results: &Results) -> Option<Fact> {
     let cadence = results.summary.times_and_distances.quantity(StrideQuantity::Cadence)?.both?;
     let note = match cadence.strides {
-        1 => "of one stride".to_owned(),
+        1 => "one stride".to_owned(),
         several => format!("mean of {several} strides"),
     };
     Some(fact("Cadence", format!("{:.0} steps/min", cadence.mean), Some(note)))
@@ -124,14 +124,14 @@ fn direction(results: &Results) -> Option<Fact> {
     let walking = &results.summary.times_and_distances;
     let [forward, right] = walking.pelvis_velocity_m_s?;
     let value = match walking.belt_speed_m_s {
-        Some(belt) => format!("in place, on a belt that runs at {belt:.2} m/s"),
-        None if forward.hypot(right) < STANDING_M_S => "none: the body stays where it is".to_owned(),
+        Some(belt) => format!("in place, on a treadmill at {belt:.2} m/s"),
+        None if forward.hypot(right) < STANDING_M_S => "none: the body stays in place".to_owned(),
         None => along(right.atan2(forward).to_degrees()),
     };
     Some(fact("Walking direction", value, Some("world: x forward, y up, z to the right".to_owned())))
 }
 
-/// An angle from world x towards z, in words; less is sway of the pelvis.
+/// An angle from world x towards z, in words; smaller angles are pelvic sway.
 fn along(angle_deg: f64) -> String {
     let side = if angle_deg > 0.0 { "right" } else { "left" };
     match angle_deg.abs() {
@@ -144,7 +144,7 @@ fn window(results: &Results) -> Fact {
     let [from, to] = results.summary.window_s;
     let (frames, rate) = (results.grid.frames, results.grid.rate_hz());
     let cut = match results.summary.window_asked_s.iter().any(Option::is_some) {
-        true => ", a part of the recording",
+        true => ", part of the recording",
         false => "",
     };
     fact("Time", format!("{from:.2} to {to:.2} s"), Some(format!("{frames} frames at {rate:.0} Hz{cut}")))
@@ -153,7 +153,7 @@ fn window(results: &Results) -> Fact {
 fn filters(results: &Results) -> String {
     let words = |filter: &FilterSummary| match (filter.kind, filter.cutoff_hz, filter.order) {
         (FilterKind::Butterworth, Some(cutoff), Some(order)) => {
-            format!("Butterworth, {cutoff} Hz, order {order}, both ways")
+            format!("Butterworth, {cutoff} Hz, order {order}, forwards and backwards")
         }
         (FilterKind::Butterworth, ..) => "Butterworth".to_owned(),
         (FilterKind::Spline, ..) => "smoothing spline".to_owned(),
@@ -167,7 +167,7 @@ fn filters(results: &Results) -> String {
     }
 }
 
-/// That the motion is not the recorded one, and where it differs most.
+/// Whether the recorded motion was changed, and where it differs most.
 fn changed(results: &Results) -> Option<Fact> {
     let changes = &results.summary.consistency.as_ref()?.changes;
     let largest = |unit: ChangeUnit| {
@@ -177,30 +177,28 @@ fn changed(results: &Results) -> Option<Fact> {
     };
     let most: Vec<String> = [ChangeUnit::Degree, ChangeUnit::Millimetre].into_iter().filter_map(largest).collect();
     let note = (!most.is_empty()).then(|| format!("at most {}", most.join(" and ")));
-    Some(fact("Motion", "changed so that it agrees with the ground forces", note))
+    Some(fact("Motion", "changed by residual reduction", note))
 }
 
-/// How angles of pelvis and hips are measured.
+/// The convention of pelvis and hip angles.
 fn convention(results: &Results) -> Fact {
     let value = match results.convention() {
         Convention::Clinical => {
-            "clinical: pelvic tilt of the line through the iliac spines, hips relative to that pelvis"
+            "clinical: pelvic tilt is the tilt of the line through the iliac spines; hip angles are relative to that pelvis"
         }
-        Convention::Opensim => "OpenSim: the model's own, counted from upright standing",
+        Convention::Opensim => "OpenSim: coordinates of the model, zero in upright standing",
     };
     fact("Pelvis and hip angles", value, results.summary.convention.as_ref().and_then(|used| used.reason.clone()))
 }
 
 fn forces(results: &Results) -> Fact {
     let rule = results.summary.ground.rule.as_ref();
-    let split = rule.map(|rule| format!("double support by the rule: {rule}"));
+    let split = rule.map(|rule| format!("method for double support: {rule}"));
     let (value, note) = match results.source {
-        PageSource::Measured => {
-            ("measured by plates", Some("each foot by itself, so that no rule is needed".to_owned()))
-        }
+        PageSource::Measured => ("measured by force plates", Some("each foot separately".to_owned())),
         PageSource::Predicted => ("predicted from the motion", split),
-        PageSource::Simulated => ("simulated", rule.map(|rule| format!("feet on the ground: {rule}"))),
-        PageSource::None => ("none", Some("the motion was computed without ground forces, as asked".to_owned())),
+        PageSource::Simulated => ("simulated", rule.map(|rule| format!("foot contacts: {rule}"))),
+        PageSource::None => ("none", Some("the motion was computed without ground forces, as requested".to_owned())),
     };
     fact("Ground forces", value, note)
 }

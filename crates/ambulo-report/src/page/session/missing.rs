@@ -1,4 +1,4 @@
-//! What the page cannot show, and why.
+//! Lists what the page cannot show, and why.
 
 use super::curves::over_time;
 use super::results::{DEVIATIONS, MOMENTS, POWERS, Results};
@@ -10,16 +10,16 @@ use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
 use std::collections::BTreeMap;
 
-/// Coordinates of the clinic that models often lack, with why.
+/// Clinical angles that models often lack, with the reason.
 const LACKING: [(&str, &str); 5] = [
     ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
     ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
     ("knee_flexion_angle", "knee flexion (no body file shows which direction is flexion)"),
-    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only bends)"),
-    ("foot_progression_angle", "foot progression (no file has it)"),
+    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only flexes)"),
+    ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
-/// A sentence for each part.
+/// One sentence for each missing part.
 pub(super) fn missing(
     results: &Results,
     size: &BodySize,
@@ -27,55 +27,55 @@ pub(super) fn missing(
     still: &[ClinicalQuantity],
 ) -> Vec<String> {
     let mut sentences = Vec::new();
-    let mut say = |when: bool, sentence: String| {
+    let mut add = |when: bool, sentence: String| {
         if when {
             sentences.push(sentence);
         }
     };
     let no_ground = results.source == PageSource::None;
-    say(
+    add(
         no_ground,
-        "No ground forces: the motion was computed without them, as asked, so moments are those of a body in the air."
+        "No ground forces: the motion was computed without them, as requested, so the joint moments are those of a body in the air."
             .to_owned(),
     );
-    say(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
-    say(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
-    say(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
+    add(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
+    add(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
+    add(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
     for sentence in absent_columns(results, quantities) {
-        say(true, sentence);
+        add(true, sentence);
     }
     let uncertain = results.source == PageSource::Predicted && results.ground.is_some();
-    say(
+    add(
         uncertain && results.deviations.is_none(),
         format!("No uncertainty of the predicted forces: the folder has no {DEVIATIONS}."),
     );
-    say(
+    add(
         !no_ground && results.events.is_empty(),
-        "No foot strikes and toe-offs: the folder's events.csv is missing or empty.".to_owned(),
+        "No foot strikes and foot offs: the folder's events.csv is missing or empty.".to_owned(),
     );
     let predicted_alone = results.source == PageSource::Predicted && results.measured.is_none();
-    say(predicted_alone, "No force plates: ground forces are predicted, and nothing measured them.".to_owned());
+    add(predicted_alone, "No force plates: ground forces are predicted and were not measured.".to_owned());
     for side in Side::BOTH {
-        say(is_lost(results, side), leg(results, side));
+        add(is_lost(results, side), leg(results, side));
     }
     let none = Side::BOTH.iter().all(|side| !has_curves(results, *side));
-    say(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
+    add(none, "No whole gait cycle: curves are shown over time only, and there are no means.".to_owned());
     let untimed = !none && results.cycles.is_empty();
-    say(untimed, "When the cycles were is not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
+    add(untimed, "The times of the cycles are not known (no foot strikes in events.csv): curves over the cycle and over time cannot be linked.".to_owned());
     let walking = &results.summary.times_and_distances;
     let no_lengths = !walking.quantities.is_empty() && walking.quantity(StrideQuantity::StrideLength).is_none();
-    say(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
-    say(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
-    say(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
+    add(no_lengths, "No step lengths: the positions of the feet are not known.".to_owned());
+    add(!none && size.turn.is_none() && size.walking_speed().is_none(), bands(size));
+    add(size.turn.is_some(), size.turn.map(turning).unwrap_or_default());
     let angles = quantities.iter().any(|quantity| quantity.group == ClinicalGroup::Kinematics);
     let mut lacking = still::words(results, still);
     let unknown = LACKING.iter().filter(|(id, _)| angles && !quantities.iter().any(|quantity| quantity.id == *id));
     lacking.extend(unknown.map(|(_, words)| (*words).to_owned()));
-    say(!lacking.is_empty(), format!("Not among the panels: {}.", lacking.join(", ")));
+    add(!lacking.is_empty(), format!("Not shown: {}.", lacking.join(", ")));
     sentences
 }
 
-/// What a file has of one side only, or of neither though the cycles have it: a sentence a file.
+/// One sentence per file that lacks columns of one side, or of both sides although the cycles have the quantity.
 fn absent_columns(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<String> {
     let mut absent: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for quantity in quantities {
@@ -90,7 +90,7 @@ fn absent_columns(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Str
         }
     }
     let sentence = |(file, words): (&str, Vec<String>)| {
-        format!("Not over time, since {file} lacks the columns: {}.", words.join(", "))
+        format!("Not shown over time, because {file} lacks the columns: {}.", words.join(", "))
     };
     absent.into_iter().map(sentence).collect()
 }
@@ -105,8 +105,8 @@ fn is_lost(results: &Results, side: Side) -> bool {
 
 fn leg(results: &Results, side: Side) -> String {
     let why = match results.source {
-        PageSource::Measured => "no plate saw it strike, with its next strike known",
-        _ => "it was not seen to strike twice",
+        PageSource::Measured => "no foot strike on a force plate is followed by a known strike of the same foot",
+        _ => "fewer than two foot strikes were detected",
     };
     format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")
 }
@@ -114,15 +114,15 @@ fn leg(results: &Results, side: Side) -> String {
 fn turning(turn: Turn) -> String {
     let angle = turn.degrees.map_or_else(String::new, |degrees| format!(" by {degrees:.0} degrees"));
     format!(
-        "The path turns{angle}: normal ranges and bands are of straight walking and are left out. Pelvic rotation holds the turn, and fore-aft and sideways ground forces are along the axes of the world: they cannot be compared with those of straight walking."
+        "The path turns{angle}: normal ranges and bands are left out, because they apply to straight walking. Pelvic rotation includes the turn, and fore-aft and sideways ground forces are along the world axes: do not compare them with straight walking."
     )
 }
 
 fn bands(size: &BodySize) -> String {
     let why = match () {
-        () if size.runs => "this is running, and they are those of walking",
+        () if size.runs => "they apply to walking, and this is running",
         () if size.leg.is_none() => "the leg length is not known",
         () => "the speed is not known",
     };
-    format!("No bands of healthy people: {why}.")
+    format!("No normative bands: {why}.")
 }

@@ -1,6 +1,6 @@
-//! What is shown of one folder.
+//! Makes the session of one result folder: the content of a page.
 //!
-//! `results` reads the files of a recording or walk; every other file makes one part of the page of them. `scene` does the same for
+//! `results` reads the files of a recording or walk; every other module makes one part of the page from them. `scene` does the same for
 //! simulated scenes.
 
 mod cells;
@@ -34,14 +34,14 @@ pub(super) fn session(folder: &Folder<'_>, block: &mut Block) -> Result<Session,
     match folder.summary()? {
         RunSummary::Scene(summary) => scene::session(folder, &summary, block),
         RunSummary::Motion(summary) => {
-            // The figure first: what is wrong with a body is said there with all its causes.
+            // The figure comes first, because its errors report all causes of a broken body.
             let viewed = view(folder, block)?;
             recording(Results::read(folder, *summary)?, viewed, block)
         }
     }
 }
 
-/// Of a recording or a synthetic walk.
+/// The session of a recording or a synthetic walk.
 fn recording(results: Results, viewed: Viewed, block: &mut Block) -> Result<Session, ResultsError> {
     let mut missing = viewed.missing;
     let quantities = groups::quantities(&results);

@@ -1,4 +1,4 @@
-//! Table of the extremes of all generalised forces, in the model's own signs.
+//! Table of the extremes of all generalised forces, with the signs of the model's coordinates.
 
 use super::cells::{Column, listed, number, table, text};
 use crate::page::contract::Table;
@@ -13,7 +13,7 @@ const COLUMNS: [Column<PeakSummary>; 6] = [
     ("At [s]", |peak| number(Some(peak.min_at_s), 2, None)),
 ];
 
-/// The table.
+/// The table of extremes.
 pub(super) fn peaks(peaks: &[PeakSummary]) -> Table {
     let note = "Largest and smallest value of every column, in newtons and newton metres, with the signs of the model's coordinates.";
     let head = ["peaks", "Extremes of all joint moments and forces", note];

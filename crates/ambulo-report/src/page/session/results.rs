@@ -1,4 +1,4 @@
-//! What the files of a recording's folder say, read once.
+//! Reads the files of a recording or walk once.
 
 use super::{cycles, sides};
 use crate::clinical::{ClinicalNames, ClinicalQuantity};
@@ -10,7 +10,7 @@ use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
 use ambulo_results::{CLINICAL, Convention, CycleRow, Folder, GroundOrigin, ResultsError, Summary};
 
-/// A recording's or a walk's files.
+/// The contents of the files of a recording or walk.
 pub(super) struct Results {
     pub(super) summary: Summary,
     pub(super) grid: TimeGrid,
@@ -26,12 +26,12 @@ pub(super) struct Results {
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
-    /// The body, with the name of its file.
+    /// The name of the model file, and the model.
     pub(super) body: Option<(&'static str, Model)>,
     pub(super) source: PageSource,
-    /// Of the body, by which results are divided [kg].
+    /// Body mass that normalises results [kg].
     pub(super) mass_kg: f64,
-    /// The same times gravity [N].
+    /// Body mass times gravity [N].
     pub(super) weight_n: f64,
 }
 
@@ -41,7 +41,7 @@ impl Results {
         let missing = || ResultsError::Missing { folder: folder.name.clone(), file: KINEMATICS };
         let kinematics = folder.table(KINEMATICS)?.ok_or_else(missing)?;
         let times = kinematics.times().unwrap_or_default().to_vec();
-        let uneven = || "the time column is not even; expected two or more rows at even steps".to_owned();
+        let uneven = || "the time column is not evenly spaced; expected two or more rows at even steps".to_owned();
         let grid = TimeGrid::through(&times).ok_or_else(|| folder.unreadable(KINEMATICS, uneven()))?;
         let table = |file: &str| same_instants(folder, file, &grid);
         let body = folder.body()?;
@@ -69,12 +69,12 @@ impl Results {
         })
     }
 
-    /// Which coordinates measure which movements: the body's, or the usual ones without a body.
+    /// Which coordinates measure which movements: from the model, or the usual names without a model.
     pub(super) fn clinical_names(&self) -> ClinicalNames {
         self.body.as_ref().map_or_else(ClinicalNames::without_model, |(_, model)| ClinicalNames::of_model(model))
     }
 
-    /// How the page measures angles of pelvis and hips.
+    /// The convention for the angles of pelvis and hips.
     pub(super) fn convention(&self) -> Convention {
         let of_file = self.summary.convention.as_ref().filter(|_| self.clinical.is_some());
         of_file.map_or(Convention::Opensim, |convention| convention.used)
@@ -87,7 +87,7 @@ impl Results {
         Some((column, values))
     }
 
-    /// The instants as the page has them.
+    /// The instants in the form of the page.
     pub(super) fn time(&self) -> TimeAxis {
         TimeAxis { start_s: self.grid.start_s, step_s: self.grid.step_s, frames: self.grid.frames }
     }
@@ -97,7 +97,7 @@ impl Results {
         self.summary.gravity_m_s2
     }
 
-    /// The limit that a check of the verdict judged by.
+    /// The limit of a check of the verdict.
     pub(super) fn limit(&self, check: Check) -> Option<f64> {
         let judged = self.summary.verdict.as_ref()?.closest.iter().find(|entry| entry.check == check)?;
         Some(judged.limit).filter(|limit| limit.is_finite())

@@ -1,9 +1,9 @@
-//! Right and left, as the page has them.
+//! Converts sides to those of the page's contract.
 
 use crate::page::contract::PageSide;
 use ambulo::model::Side;
 
-/// The page's word for a side.
+/// A side in the page's contract.
 pub(super) fn page(side: Side) -> PageSide {
     match side {
         Side::Right => PageSide::R,

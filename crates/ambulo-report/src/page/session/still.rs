@@ -1,11 +1,11 @@
-//! Quantities that the files have and that are the same all the time: no panels are made of them.
+//! Leaves out the panels of constant quantities.
 
 use super::curves::over_time;
 use super::results::Results;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity, moves};
 use ambulo::model::{Drive, Side};
 
-/// Those that change, and those that do not. Of a kind of which nothing changes, all are shown.
+/// Splits quantities into those that change and those that are constant. If all of a group are constant, all are shown.
 pub(super) fn divided(
     results: &Results,
     quantities: &[ClinicalQuantity],
@@ -37,7 +37,7 @@ fn moves_over_time(results: &Results, quantity: &ClinicalQuantity, side: Side) -
     }
 }
 
-/// `subtalar inversion (locked in the model)`; moments and powers of a joint that is named already are not.
+/// Phrases such as `subtalar inversion (locked in the model)`; moments and powers of a joint already listed are left out.
 pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String> {
     let is_angle = |quantity: &ClinicalQuantity| quantity.group == ClinicalGroup::Kinematics;
     let is_named = |quantity: &&ClinicalQuantity| {
@@ -48,7 +48,7 @@ pub(super) fn words(results: &Results, still: &[ClinicalQuantity]) -> Vec<String
             ClinicalGroup::Kinematics if is_locked(results, quantity) => "locked in the model",
             ClinicalGroup::Kinematics => "does not move",
             ClinicalGroup::Ground => "the body moves in a plane",
-            ClinicalGroup::Moments | ClinicalGroup::Powers => "does not change",
+            ClinicalGroup::Moments | ClinicalGroup::Powers => "constant",
         };
         format!("{} ({why})", quantity.title.to_lowercase())
     };

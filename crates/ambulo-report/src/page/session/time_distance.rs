@@ -1,4 +1,4 @@
-//! The table of times and distances, next to those of healthy people at the same speed.
+//! The table of times and distances, with normal ranges at the same speed.
 
 use super::cells::{number, spread_cell, text};
 use super::results::Results;
@@ -9,7 +9,7 @@ use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
 use ambulo_results::WalkingSummary;
 
-/// A quantity as it is shown. Units are those of the summary.
+/// How a quantity is shown. Units are those of the summary.
 struct Row {
     quantity: StrideQuantity,
     label: &'static str,
@@ -39,7 +39,7 @@ const ROWS: [Row; 15] = [
     row(StrideQuantity::WalkRatio, "Walk ratio", "m/(steps/min)", 4),
 ];
 
-/// The table; `empty` says why where there is no stride.
+/// The table; without strides its text says why.
 pub(super) fn table(results: &Results, size: &BodySize) -> Table {
     let walking = &results.summary.times_and_distances;
     let normal = size
@@ -70,7 +70,7 @@ fn why_no_strides(results: &Results) -> &'static str {
             "The folder has curves of gait cycles, but no times of foot strike and foot off (events.csv)."
         }
         (_, true) => "The folder has no times of foot strike and foot off (events.csv).",
-        (_, false) => "There is no whole stride: no foot strikes, leaves the ground and strikes again.",
+        (_, false) => "There is no whole stride: no foot has a foot strike, a foot off and a second foot strike.",
     }
 }
 
@@ -83,37 +83,37 @@ fn counted(walking: &WalkingSummary) -> String {
     };
     let parts: Vec<String> = Side::BOTH.into_iter().filter_map(of).collect();
     let several = cycles.and_then(|cycles| cycles.both).is_some_and(|both| both.strides > 1);
-    let kind = if several { "Mean ± standard deviation of" } else { "Of" };
+    let kind = if several { "Mean ± standard deviation of" } else { "Values of" };
     format!("{kind} {}, between foot strikes.", parts.join(" and "))
 }
 
 fn note(results: &Results, size: &BodySize, normal: &[NormalRange]) -> String {
     let walking = &results.summary.times_and_distances;
     let lengths = match walking.quantity(StrideQuantity::StrideLength) {
-        Some(_) => " Lengths are those of the heels on the floor or belt.",
-        None => " No lengths: the body has no feet whose soles are known.",
+        Some(_) => " Lengths are distances between the heels on the floor or belt.",
+        None => " No lengths: the soles of the model are not known.",
     };
     let mut sources: Vec<&str> = normal.iter().map(|range| range.source).collect();
     sources.dedup();
     let norms = match size.walking_speed() {
         Some(speed) => format!(" Normal ranges at V* = {speed:.2}: {}.", sources.join("; ")),
-        None if size.runs => " No normal ranges: this is running, and they are those of walking.".to_owned(),
+        None if size.runs => " No normal ranges: they apply to walking, and this is running.".to_owned(),
         None if size.turn.is_some() => {
-            " No normal ranges: the path turns, and they are those of straight walking.".to_owned()
+            " No normal ranges: they apply to straight walking, and the path turns.".to_owned()
         }
         None => " No normal ranges: the speed or the leg length is not known.".to_owned(),
     };
     format!("{}{lengths}{norms}", counted(walking))
 }
 
-/// Speed, and the speed along a path that is longer than the straight line.
+/// Rows of the speed, and of the speed along the path if it is not straight.
 fn speed_rows(walking: &WalkingSummary) -> Vec<Vec<Cell>> {
     let row = |label, speed| vec![text(label), text("m/s"), text(""), text(""), number(speed, 2, None), text("")];
     let along = walking.path_speed_m_s.map(|along| row("Speed along the path", Some(along)));
     std::iter::once(row("Speed", walking.speed_m_s)).chain(along).collect()
 }
 
-/// What is compared between the sides: name, unit, digits, means of right and left.
+/// Quantities to compare between the sides: name, unit, digits, means of right and left.
 pub(super) fn sides(walking: &WalkingSummary) -> Vec<(&'static str, &'static str, usize, [Option<f64>; 2])> {
     const COMPARED: [StrideQuantity; 6] = [
         StrideQuantity::StepLength,

@@ -1,10 +1,10 @@
-//! Names of quantities in the files as a reader has them.
+//! Turns names of quantities in the files into readable names.
 
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::page::contract::Table;
 use ambulo::model::Side;
 
-/// Endings of names with what their quantities are.
+/// Endings of names and the group of their quantities.
 const ENDINGS: [(&str, ClinicalGroup); 2] = [("_moment", ClinicalGroup::Moments), ("_power", ClinicalGroup::Powers)];
 
 /// `left knee flexion moment` for `knee_angle_l_moment`, `left knee flexion` for `knee_angle_l`, `right friction` for `friction_r`.
@@ -19,7 +19,7 @@ pub(super) fn in_words(name: &str, quantities: &[ClinicalQuantity]) -> String {
     }
 }
 
-/// The quantity that a name belongs to, with its side: a moment or a power of a coordinate, or else the coordinate's angle.
+/// The quantity of a name, with its side: a moment or power of a coordinate, otherwise the angle of the coordinate.
 pub(super) fn known<'a>(
     name: &str,
     quantities: &'a [ClinicalQuantity],
@@ -32,7 +32,7 @@ pub(super) fn known<'a>(
     })
 }
 
-/// Rewords the names in a column of a table.
+/// Replaces the names in a column of a table by readable ones.
 pub(super) fn reword(table: &mut Table, column: usize, quantities: &[ClinicalQuantity]) {
     for cell in table.rows.iter_mut().filter_map(|row| row.get_mut(column)) {
         cell.text = in_words(&cell.text, quantities);

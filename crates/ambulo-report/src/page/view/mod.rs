@@ -1,28 +1,28 @@
-//! What the 3-D view of a session draws: a [`Stage`] with its numbers in the page's block.
+//! The 3-D view of a session: a [`Stage`] with its numbers in the page's block.
 
 use super::block::Block;
 use super::contract::{
     PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewPlate, ViewTorque,
 };
-use crate::stage::{BodyPath, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
+use crate::stage::{BodyPath, ForceRole, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
 use ambulo_results::{Folder, ResultsError};
 
 /// The view of a folder.
 pub(super) struct Viewed {
-    /// What is drawn, if there is a body.
+    /// The content of the view, if there is a body.
     pub(super) view: Option<View>,
-    /// The instants of its series.
+    /// The instants of all its series.
     pub(super) time: Option<TimeAxis>,
-    /// What is not shown and why, in sentences.
+    /// Sentences on what is not shown, and why.
     pub(super) missing: Vec<String>,
 }
 
 /// The view of a folder; its numbers go into `block`.
 ///
 /// # Errors
-/// A file that is not what its name says.
+/// A file that cannot be read as its name suggests.
 pub(super) fn view(folder: &Folder<'_>, block: &mut Block) -> Result<Viewed, ResultsError> {
     match Stage::of_folder(folder)? {
         Ok(stage) => Ok(drawn(&stage, block)),
@@ -65,7 +65,7 @@ fn of_force(force: &StageForce, block: &mut Block) -> ViewForce {
     ViewForce {
         name: force.name.clone(),
         side: page_side(force.side),
-        role: if force.beside { Role::Measured } else { Role::Main },
+        role: if force.role == ForceRole::Measured { Role::Measured } else { Role::Main },
         point: vectors(&force.point, block),
         force: vectors(&force.force, block),
     }

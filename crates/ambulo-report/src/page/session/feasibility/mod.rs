@@ -1,4 +1,4 @@
-//! The verdict: whether a person could do this, and what stands against it, when and where.
+//! The verdict: whether a person could do this motion, and which limits it exceeds, when and where.
 
 mod basis;
 
@@ -10,7 +10,7 @@ use crate::clinical::ClinicalQuantity;
 use crate::page::contract::{Feasibility, Group, RedSpan, Table};
 use ambulo::analysis::feasibility::{Check, Closest, Reason, Verdict};
 
-/// Panels that show what is no coordinate's, by check.
+/// Panels of the checks that do not belong to a coordinate.
 const PANELS: [(Check, &str); 5] = [
     (Check::Friction, super::quality::FRICTION),
     (Check::CenterOfPressure, super::quality::CENTER_FORWARD),
@@ -19,17 +19,17 @@ const PANELS: [(Check, &str); 5] = [
     (Check::Balance, super::quality::RESIDUAL_MOMENT),
 ];
 
-/// Place of the quantity in a row of the table of limits.
+/// Column of the quantity in the table of limits.
 pub(super) const QUANTITY: usize = 1;
 
-/// Of a verdict in the summary; `None` where nothing was judged, or too little of it to say anything of the whole.
+/// The verdict as shown; `None` if nothing was judged, or too little for a verdict on the whole motion.
 pub(super) fn feasibility(verdict: &Verdict, basis: &Basis, quantities: &[ClinicalQuantity]) -> Option<Feasibility> {
     let feasible = Some(verdict.feasible).filter(|feasible| !(*feasible && basis.no_ground))?;
     let red: Vec<RedSpan> = verdict.reasons.iter().map(|reason| span(reason, quantities)).collect();
     Some(Feasibility { feasible, sentence: sentence(verdict, basis), closest: closest(verdict, quantities), red })
 }
 
-/// Why nothing is said of the whole though checks were made, and how near they come to their limits.
+/// Why there is no verdict although checks were made, and how near they come to their limits.
 pub(super) fn partly_judged(
     verdict: &Verdict,
     basis: &Basis,
@@ -37,24 +37,26 @@ pub(super) fn partly_judged(
 ) -> Option<(String, Table)> {
     let passed = verdict.feasible && basis.no_ground;
     passed.then(|| {
-        let sentence = format!("{} Nothing of that is against the motion.", without_ground(verdict));
+        let sentence = format!("{} All checks that could be made passed.", without_ground(verdict));
         (format!("No verdict: {sentence}"), closest(verdict, quantities))
     })
 }
 
-/// Which checks were made though no ground forces are known.
+/// Which checks were made without ground forces.
 fn without_ground(verdict: &Verdict) -> String {
     let made = |(check, _): &(Check, &str)| verdict.closest.iter().any(|entry| entry.check == *check);
     let checks = [
         (Check::Range, "ranges of motion"),
-        (Check::Strength, "moments that move the limbs in the air"),
+        (Check::Strength, "moments of limbs in the air"),
         (Check::Power, "powers"),
     ];
     let made: Vec<&str> = checks.into_iter().filter(made).map(|(_, plural)| plural).collect();
     match made.split_last() {
-        None => "without ground forces nothing was judged.".to_owned(),
-        Some((one, [])) => format!("without ground forces only {one} were judged."),
-        Some((last, others)) => format!("without ground forces only {} and {last} were judged.", others.join(", ")),
+        None => "without ground forces nothing could be checked.".to_owned(),
+        Some((one, [])) => format!("without ground forces only {one} could be checked."),
+        Some((last, others)) => {
+            format!("without ground forces only {} and {last} could be checked.", others.join(", "))
+        }
     }
 }
 
@@ -63,21 +65,21 @@ fn sentence(verdict: &Verdict, basis: &Basis) -> String {
     let limits = basis.limits();
     if verdict.feasible {
         return match limits {
-            None => format!("A {person} could do this: every check that was made is within its limit."),
-            Some(limits) => format!("What was judged is within the limits of a {person}, but {limits}."),
+            None => format!("A {person} could do this: all checks that could be made passed."),
+            Some(limits) => format!("All checks passed for a {person}, but {limits}."),
         };
     }
     let mut checks: Vec<String> = verdict.reasons.iter().map(|reason| in_words(reason.check)).collect();
     checks.sort_unstable();
     checks.dedup();
     let times = match verdict.reasons.len() {
-        1 => "1 time".to_owned(),
+        1 => "once".to_owned(),
         several => format!("{several} times"),
     };
-    let said = format!("A {person} could not do this: limits are passed at {times} ({}).", checks.join(", "));
+    let exceeded = format!("A {person} could not do this: limits are exceeded {times} ({}).", checks.join(", "));
     let ground = basis.no_ground.then(|| capitalised(&without_ground(verdict)));
     let rest = limits.map(|limits| format!("{}.", capitalised(&limits)));
-    [Some(said), ground, rest].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    [Some(exceeded), ground, rest].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 fn capitalised(sentence: &str) -> String {
@@ -85,7 +87,7 @@ fn capitalised(sentence: &str) -> String {
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// `center_of_pressure` as a reader has it.
+/// The name of a check with blanks: `center of pressure`.
 fn in_words(check: Check) -> String {
     check.name().replace('_', " ")
 }
@@ -125,8 +127,8 @@ fn closest(verdict: &Verdict, quantities: &[ClinicalQuantity]) -> Table {
     let not_judged: Vec<String> =
         verdict.not_judged.iter().map(|left| format!("{}: {}", in_words(left.check), left.why)).collect();
     let note = match not_judged.is_empty() {
-        true => "How near every check comes to its limit.".to_owned(),
-        false => format!("How near every check comes to its limit. Not judged: {}.", not_judged.join("; ")),
+        true => "How near each check comes to its limit.".to_owned(),
+        false => format!("How near each check comes to its limit. Not judged: {}.", not_judged.join("; ")),
     };
     let Some(mut closest) = listed(closest_head(&note), &verdict.closest, &CLOSEST) else { return no_checks() };
     words::reword(&mut closest, QUANTITY, quantities);
@@ -137,13 +139,13 @@ fn closest_head(note: &str) -> [&str; 3] {
     ["closest", "Closest to the limits", note]
 }
 
-/// The table where no check could be made.
+/// The table if no check could be made.
 pub(super) fn no_checks() -> Table {
-    let head = closest_head("How near every check comes to its limit.");
+    let head = closest_head("How near each check comes to its limit.");
     Table { empty: Some("No check could be made.".to_owned()), ..table(head, Vec::new(), Vec::new()) }
 }
 
-/// Gives every panel the spans that it shows; spans whose panel there is not point at none.
+/// Adds each span to its panel; clears the panel of spans whose panel does not exist.
 pub(super) fn mark(groups: &mut [&mut Vec<Group>], red: &mut [RedSpan]) {
     let panels = || groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.panels);
     for span in red.iter_mut() {

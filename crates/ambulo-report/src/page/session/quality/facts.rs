@@ -1,30 +1,30 @@
-//! Numbers that tell how far to trust the others, with what is allowed.
+//! Quality measures with their limits.
 
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::results::Results;
 use ambulo::analysis::PredictionCheck;
 use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Size, Summary, WalkSummary};
 
-/// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below (finding `residual.large`).
+/// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below it (finding `residual.large`).
 const RESIDUAL_BW: f64 = 0.1;
-/// Root mean square of the distances of markers [mm]: OpenSim's users are told 20 (its guide to good practice, unverified).
+/// Root mean square of the marker distances [mm]: OpenSim recommends 20 (its guide to good practice, unverified).
 const MARKERS_MM: f64 = 20.0;
 
-/// What the checks of a prediction are called, their factor and unit as shown, and digits.
+/// Checks of a prediction: name in the file, label, factor and unit as shown, digits.
 const CHECKS: [(&str, &str, f64, &str, usize); 10] = [
-    ("vertical_force_feet", "Vertical force of the feet over whole cycles", 1.0, "BW", 3),
-    ("vertical_force_needed", "Vertical force that the motion needs", 1.0, "BW", 3),
-    ("fore_aft_impulse", "Fore-aft force beside the change of speed", 1.0, "BW", 3),
-    ("center_of_pressure", "Needed centre of pressure outside of the soles", 1e3, "mm", 0),
-    ("forward_offset", "Needed force ahead of the feet", 1e3, "mm", 0),
-    ("sideways_offset", "Needed force beside the feet", 1e3, "mm", 0),
-    ("friction", "Friction used", 1.0, "", 2),
-    ("held_without_feet", "Force needed without a foot on the ground", 1.0, "BW", 2),
-    ("pull", "Least vertical force needed", 1.0, "BW", 2),
-    ("mass", "Mass by plates over the model's", 1.0, "", 3),
+    ("vertical_force_feet", "Mean vertical force on the feet over whole cycles", 1.0, "BW", 3),
+    ("vertical_force_needed", "Mean vertical force required by the motion", 1.0, "BW", 3),
+    ("fore_aft_impulse", "Mean fore-aft force minus mass times acceleration", 1.0, "BW", 3),
+    ("center_of_pressure", "Distance of the required centre of pressure from the soles", 1e3, "mm", 0),
+    ("forward_offset", "Required force: offset from the feet, forward", 1e3, "mm", 0),
+    ("sideways_offset", "Required force: offset from the feet, sideways", 1e3, "mm", 0),
+    ("friction", "Required friction coefficient", 1.0, "", 2),
+    ("held_without_feet", "Required force without a foot on the ground", 1.0, "BW", 2),
+    ("pull", "Minimum required vertical force", 1.0, "BW", 2),
+    ("mass", "Mass measured by force plates / mass of the model", 1.0, "", 3),
 ];
 
-/// All of them that the summary has.
+/// All quality measures in the summary.
 pub(super) fn facts(results: &Results) -> Vec<Judged> {
     let Summary { residual: of_root, consistency, subject, prediction, walk, .. } = &results.summary;
     let mut facts = of_root.as_ref().map_or_else(Vec::new, |size| residual(results, size));
@@ -41,10 +41,10 @@ pub(in crate::page::session) fn plain(label: &str, value: String) -> Judged {
 }
 
 fn residual(results: &Results, size: &ResidualSummary) -> Vec<Judged> {
-    // Without ground forces the residual is what the ground would have to do.
+    // Without ground forces the residual is the force that the ground would have to supply.
     let judged = results.source != PageSource::None;
     let force = Judged {
-        allowed: judged.then(|| format!("below {:.0} %BW while every foot stands on a plate", 100.0 * RESIDUAL_BW)),
+        allowed: judged.then(|| format!("below {:.0} %BW while every loaded foot is on a plate", 100.0 * RESIDUAL_BW)),
         good: judged.then_some(size.force_rms_bw < RESIDUAL_BW),
         ..plain("Residual force, RMS", format!("{:.1} N ({:.1} %BW)", size.force_rms_n, 100.0 * size.force_rms_bw))
     };
@@ -57,11 +57,11 @@ fn residual(results: &Results, size: &ResidualSummary) -> Vec<Judged> {
 fn changed(consistency: &ConsistencySummary) -> Judged {
     let [before, after] = [&consistency.residual_before, &consistency.residual_after].map(|size| size.force_rms_bw);
     Judged {
-        allowed: Some("at most 1 %BW left".to_owned()),
+        allowed: Some("at most 1 %BW after".to_owned()),
         good: Some(after <= 0.01),
         ..plain(
-            "Motion changed to agree with the forces",
-            format!("residual {:.1} %BW before, {:.2} %BW after", 100.0 * before, 100.0 * after),
+            "Residual reduction",
+            format!("residual force {:.1} %BW before, {:.2} %BW after", 100.0 * before, 100.0 * after),
         )
     }
 }
@@ -72,16 +72,16 @@ fn markers(markers: &MarkersSummary) -> Vec<Judged> {
         good: Some(rms < MARKERS_MM),
         ..plain("Distance of markers from the body, RMS", format!("{rms:.1} mm"))
     });
-    let unsettled = none_allowed("Frames in which the fit of markers did not settle", markers.frames_not_converged);
+    let unsettled = none_allowed("Frames in which the marker fit did not converge", markers.frames_not_converged);
     rms.into_iter().chain([unsettled]).collect()
 }
 
-/// A count of which none is allowed.
+/// A count that must be zero.
 pub(in crate::page::session) fn none_allowed(label: &str, count: usize) -> Judged {
     Judged { allowed: Some("none".to_owned()), good: Some(count == 0), ..plain(label, count.to_string()) }
 }
 
-/// A check of a prediction; one that was not judged says why.
+/// A check of a prediction; if it was not judged, the reason is shown.
 fn check(check: &PredictionCheck) -> Judged {
     let name = &*check.name;
     let known = CHECKS.iter().find(|(known, ..)| *known == name);
@@ -107,11 +107,11 @@ fn check(check: &PredictionCheck) -> Judged {
 fn of_walk(walk: &WalkSummary) -> Vec<Judged> {
     let in_words = |size: Size, unit: &str| format!("{:.1} {unit} RMS, {:.1} {unit} at most", size.rms, size.largest);
     let lines = [
-        Some(plain("Torque that holds the trunk from outside", in_words(walk.trunk_torque_nm, "N.m"))),
-        walk.lacking_force_n.map(|size| plain("Force that the planned motion lacks", in_words(size, "N"))),
-        walk.foot_slip_mm.map(|mm| plain("Slip of a standing foot", format!("{mm:.1} mm in the worst stance"))),
+        Some(plain("External torque that supports the trunk", in_words(walk.trunk_torque_nm, "N.m"))),
+        walk.lacking_force_n.map(|size| plain("Residual force of the planned motion", in_words(size, "N"))),
+        walk.foot_slip_mm.map(|mm| plain("Slip of the stance foot", format!("{mm:.1} mm in the worst stance"))),
         Some(plain("Time without a foot on the ground", format!("{:.2} s", walk.flight_s))),
-        Some(none_allowed("Steps whose contacts were not solved", walk.unsolved_steps)),
+        Some(none_allowed("Time steps whose contacts did not converge", walk.unsolved_steps)),
     ];
     lines.into_iter().flatten().collect()
 }

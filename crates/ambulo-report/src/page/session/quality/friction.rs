@@ -1,4 +1,4 @@
-//! Friction that the feet use: horizontal over vertical ground force.
+//! Required friction coefficient: horizontal over vertical ground force of each foot.
 
 use super::{FRICTION, group, over_time};
 use crate::page::block::Block;
@@ -11,7 +11,7 @@ use ambulo::model::Side;
 /// Both feet over time with the limit; `None` without ground forces.
 pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
     let usual = Thresholds::default();
-    // The verdict counts the body's own weight, results that of its mass by plates.
+    // The verdict uses the weight of the model; results are normalised by the mass that the plates measured.
     let weight_n = results.body.as_ref().map_or(results.weight_n, |(_, body)| body.mass() * results.gravity());
     let least_n = least_load_n(usual.friction_load_bw, weight_n);
     let used: Vec<(Side, Vec<f64>)> = Side::BOTH
@@ -31,14 +31,14 @@ pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
     let limit = results.limit(Check::Friction).unwrap_or(usual.friction);
     traces.push(trace("limit", None, Role::Limit, block.add(&vec![limit; results.grid.frames])));
     let note = format!(
-        "Horizontal over vertical force of each foot while it carries more than {least_n:.0} N ({:.1} body weights), as the verdict judges it unless it was given another load. The limit is {limit:.2}; what passes it for less than {} s is noise to the verdict.",
+        "Horizontal / vertical force of each foot while its load exceeds {least_n:.0} N ({:.1} body weights, the default of the verdict). The limit is {limit:.2}; the verdict ignores excesses shorter than {} s.",
         usual.friction_load_bw, usual.shortest_s
     );
-    let panel = over_time([FRICTION, "Friction used", ""], ["", ""], traces);
-    Some(group("friction", "Friction use", note, 1, vec![panel]))
+    let panel = over_time([FRICTION, "Required friction coefficient", ""], ["", ""], traces);
+    Some(group("friction", "Friction", note, 1, vec![panel]))
 }
 
-/// Not a number while the foot carries too little.
+/// NaN while the load of the foot is too small.
 fn use_of(results: &Results, side: Side, least_n: f64) -> Option<Vec<f64>> {
     let table = results.ground.as_ref()?;
     let [x, y, z] = ["x", "y", "z"].map(|axis| table.column(&format!("ground_force_{}_v{axis}", side.letter())));

@@ -1,5 +1,5 @@
-//! Forces, centres of pressure and free moments of the feet over time: predictions with their uncertainty and over what plates
-//! measured, measurements by themselves.
+//! Panels of forces, centres of pressure and free moments over time: predictions with their uncertainty, on top of what plates
+//! measured, or measurements alone.
 
 use super::{CENTER_FORWARD, group, over_time};
 use crate::page::block::Block;
@@ -9,7 +9,7 @@ use crate::page::session::sides;
 use ambulo::model::Side;
 use ambulo_formats::table::Table;
 
-/// A panel: its word, heading, unit, directions, and the column's name after the side.
+/// A panel: its id, heading, unit, directions, and the name of its column.
 struct Row {
     id: &'static str,
     title: &'static str,
@@ -60,10 +60,10 @@ const ROWS: [Row; 6] = [
     row("free_moment", "Free moment", Unit::NewtonMetres, ["", ""], "ground_torque_{s}_", "y"),
 ];
 
-/// What is drawn about the curves, beside what the table of agreement counts.
-const BAND: &str = "Band: ± 1 standard deviation of the prediction (68 % of the truth, if errors are normal). The 90 % band of the table of agreement is wider: ± 1.645 standard deviations.";
+/// Explains the drawn band and the wider band of the table of agreement.
+const BAND: &str = "Band: ± 1 standard deviation of the prediction (it contains 68 % of the true values if errors are normally distributed). The 90 % band of the table of agreement is wider: ± 1.645 standard deviations.";
 
-/// The grid; `None` without ground forces.
+/// The group of panels; `None` without ground forces.
 pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Group> {
     let ground = results.ground.as_ref()?;
     let panels = ROWS.iter().map(|row| {
@@ -82,21 +82,19 @@ pub(super) fn ground_points(results: &Results, block: &mut Block) -> Option<Grou
 fn headings(results: &Results) -> (&'static str, String) {
     let band = match results.deviations {
         Some(_) => BAND,
-        None => "How uncertain they are is not known (no grf_sd.mot).",
+        None => "Their uncertainty is not known (no grf_sd.mot).",
     };
     match (results.source, results.measured.is_some()) {
         (_, true) => (
-            "Prediction over plates",
-            format!(
-                "Predicted forces, and what the plates measured. {band} Plates show zero where no foot stood on them."
-            ),
+            "Prediction and force plates",
+            format!("Predicted and measured forces. {band} Measured forces are zero while no foot is on a plate."),
         ),
         (PageSource::Predicted, false) => {
             let title = match results.deviations {
                 Some(_) => "Predicted ground forces and their uncertainty",
                 None => "Predicted ground forces",
             };
-            (title, format!("{band} No plates measured beside them."))
+            (title, format!("{band} No force plates measured them."))
         }
         _ => ("Ground forces over time", "World axes: x forward, y up, z to the right.".to_owned()),
     }
@@ -113,10 +111,10 @@ fn trace(
     let column = format!("{}{}", row.stem.replace("{s}", letter), row.axis);
     let factor = if row.unit == Unit::BodyWeights { 1.0 / results.weight_n } else { 1.0 };
     let load = table.column(&format!("ground_force_{letter}_vy"))?;
-    // An unloaded foot has zeros in the file, which are a force and no place.
-    let stands = |frame: usize| row.unit == Unit::BodyWeights || load[frame].abs() > 0.0;
+    // An unloaded foot has zeros in the file: a valid force, but no centre of pressure.
+    let has_value = |frame: usize| row.unit == Unit::BodyWeights || load[frame].abs() > 0.0;
     let shown = |values: &[f64]| {
-        let shown = values.iter().enumerate().map(|(frame, x)| if stands(frame) { factor * x } else { f64::NAN });
+        let shown = values.iter().enumerate().map(|(frame, x)| if has_value(frame) { factor * x } else { f64::NAN });
         shown.collect::<Vec<f64>>()
     };
     let values = shown(table.column(&column)?);

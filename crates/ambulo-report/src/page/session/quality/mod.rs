@@ -1,4 +1,4 @@
-//! How far the numbers can be trusted.
+//! Quality of the results: how far the numbers can be trusted.
 
 mod facts;
 mod friction;
@@ -14,13 +14,13 @@ use crate::page::block::Block;
 use crate::page::contract::{Group, PageFinding, Panel, Quality, Trace};
 use ambulo::findings::Finding;
 
-/// Panels that parts of a verdict point at.
+/// Ids of panels that reasons of a verdict link to.
 pub(super) const RESIDUAL_FORCE: &str = "residual_force";
 pub(super) const RESIDUAL_MOMENT: &str = "residual_moment";
 pub(super) const FRICTION: &str = "friction_use";
 pub(super) const CENTER_FORWARD: &str = "center_of_pressure_x";
 
-/// All that the files say about it.
+/// All quality information in the files.
 pub(super) fn quality(results: &Results, quantities: &[ClinicalQuantity], block: &mut Block) -> Quality {
     let groups = [
         residual::residual(results, block),
@@ -52,7 +52,7 @@ fn group(id: &str, title: &str, note: String, columns: usize, panels: Vec<Panel>
     Group { id: id.to_owned(), title: title.to_owned(), note: Some(note), columns, panels }
 }
 
-/// A panel over time alone.
+/// A panel with curves over time only.
 pub(super) fn over_time([id, title, unit]: [&str; 3], directions: [&str; 2], traces: Vec<Trace>) -> Panel {
     Panel {
         id: id.to_owned(),
@@ -63,7 +63,7 @@ pub(super) fn over_time([id, title, unit]: [&str; 3], directions: [&str; 2], tra
         cycles: Vec::new(),
         means: Vec::new(),
         band: None,
-        empty: traces.is_empty().then(|| "The files have no numbers of this.".to_owned()),
+        empty: traces.is_empty().then(|| "The files contain no data for this.".to_owned()),
         traces,
         red: Vec::new(),
     }

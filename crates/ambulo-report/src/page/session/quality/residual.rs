@@ -1,4 +1,4 @@
-//! What motion and forces disagree by, at the root, over time.
+//! Panels of the residual force and moment at the root over time.
 
 use super::{RESIDUAL_FORCE, RESIDUAL_MOMENT, group, over_time};
 use crate::page::block::Block;
@@ -7,7 +7,7 @@ use crate::page::session::results::{MOMENTS, Results};
 use ambulo::analysis::feasibility::Check;
 use ambulo::model::Movement;
 
-/// A coordinate of the root and its panel: word, heading, unit, directions.
+/// A coordinate of the root and its panel: id, heading, unit, directions.
 type Component = (Movement, [&'static str; 3], [&'static str; 2]);
 
 const FORCES: [Component; 3] = [
@@ -27,7 +27,7 @@ fn column(results: &Results, movement: Movement) -> Option<String> {
     Some(format!("{}_{suffix}", results.clinical_names().central(movement)?))
 }
 
-/// Components of force and moment, and the size of the force in per cent of body weight; `None` without moments of a root.
+/// Components of force and moment, and the magnitude of the force in per cent of body weight; `None` without moments of a root.
 pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
     let mut panels: Vec<Panel> =
         FORCES.iter().chain(&MOMENTS_OF_ROOT).filter_map(|component| panel(results, component, block)).collect();
@@ -49,7 +49,7 @@ fn panel(results: &Results, (movement, head, directions): &Component, block: &mu
     Some(over_time(*head, *directions, vec![trace("residual", Role::Main, values, Some(origin), block)]))
 }
 
-/// Length of the force, with the limit that it was judged by.
+/// Magnitude of the force, with its limit.
 fn size(results: &Results, block: &mut Block) -> Option<Panel> {
     let table = results.moments.as_ref()?;
     let axes: Vec<&[f64]> =
@@ -64,29 +64,29 @@ fn size(results: &Results, block: &mut Block) -> Option<Panel> {
     if let Some(limit) = results.limit(Check::Support).filter(|_| results.source != PageSource::None) {
         traces.push(trace("limit", Role::Limit, &vec![100.0 * limit; lengths.len()], None, block));
     }
-    Some(over_time([RESIDUAL_FORCE, "Residual force, size", "%BW"], ["", ""], traces))
+    Some(over_time([RESIDUAL_FORCE, "Residual force, magnitude", "%BW"], ["", ""], traces))
 }
 
 fn note(results: &Results) -> String {
-    let about =
-        "Force and moment that the motion needs and nothing supplies: 0 if motion, forces and body belonged together.";
+    let about = "Force and moment at the pelvis that the motion requires but neither joints nor ground supply: zero if motion, forces and body were consistent.";
     match results.source {
         PageSource::None => {
-            format!("{about} Here nothing holds the body, so that this is what the ground would have to do.")
+            format!(
+                "{about} Here no ground forces are applied, so the residual is what the ground would have to supply."
+            )
         }
         _ => format!("{about}{}", windows(results)),
     }
 }
 
-/// In which times the residual means something.
+/// Names the times in which the residual is meaningful.
 fn windows(results: &Results) -> String {
     let windows = results.summary.subject.iter().flat_map(|subject| &subject.instrumented_windows_s);
     let spans: Vec<String> = windows.map(|[from, to]| format!("{from:.2} to {to:.2} s")).collect();
     match spans.is_empty() || results.source != PageSource::Measured {
         true => String::new(),
-        false => format!(
-            " It means something only while every foot on the ground stands on a plate that sees all of it: {}.",
-            spans.join(", ")
-        ),
+        false => {
+            format!(" It is meaningful only while every loaded foot is wholly on a force plate: {}.", spans.join(", "))
+        }
     }
 }

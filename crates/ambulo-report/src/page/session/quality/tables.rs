@@ -1,4 +1,4 @@
-//! Tables of quality: markers, plates and feet, events, agreement with plates, changes made.
+//! Quality tables: markers, plates and feet, events, agreement with plates, residual reduction.
 
 use crate::clinical::ClinicalQuantity;
 use crate::page::contract::Table;
@@ -9,25 +9,25 @@ use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgre
 use ambulo::model::Side;
 use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Size, Summary};
 
-/// A marker further away than this stands out [mm]: a marker beyond it counts little in the fit (docs/MARKERS.md).
+/// A marker error above this is marked [mm]: such a marker has little weight in the fit (docs/MARKERS.md).
 const FAR_MM: f64 = 40.0;
 
 /// A marker and the frames in which it is missing.
 type MarkerRow = (MarkerErrorSummary, usize);
-/// What is compared, with what, and how they agree.
+/// The compared source, the reference, and their agreement.
 type EventRow = (&'static str, &'static str, EventAgreement);
-/// A foot, a component of its force, and how prediction and plates agree on it.
+/// A foot, a component of its force, and the agreement of prediction and plates.
 type ForceRow = (Side, &'static str, ForceAgreement);
-/// What was changed, by how much (root mean square and largest), and the unit.
+/// What was changed, by how much (root mean square and maximum), and the unit.
 type ChangeRow = (String, [f64; 2], &'static str);
 
 const MARKERS: [Column<MarkerRow>; 6] = [
     ("Marker", |(marker, _)| text(&marker.name)),
     ("RMS [mm]", |(marker, _)| number(marker.rms_mm, 1, Some([f64::NEG_INFINITY, FAR_MM]))),
     ("Largest [mm]", |(marker, _)| number(marker.max_mm, 1, None)),
-    ("Frames seen", |(marker, _)| count(marker.frames_seen)),
-    ("Frames in gaps", |(_, missing)| at_most_none(*missing)),
-    ("Frames not believed", |(marker, _)| at_most_none(marker.frames_refused)),
+    ("Frames visible", |(marker, _)| count(marker.frames_seen)),
+    ("Frames missing", |(_, missing)| at_most_none(*missing)),
+    ("Frames rejected", |(marker, _)| at_most_none(marker.frames_refused)),
 ];
 const PLATES: [Column<PlateContactSummary>; 7] = [
     ("Plate", |contact| text(&contact.plate)),
@@ -39,22 +39,22 @@ const PLATES: [Column<PlateContactSummary>; 7] = [
     ("Why not clean", |contact| text(&contact.reason)),
 ];
 const EVENTS: [Column<EventRow>; 8] = [
-    ("Found by", |(found, ..)| text(found)),
+    ("Source", |(found, ..)| text(found)),
     ("Compared with", |(_, reference, _)| text(reference)),
     ("Event", |(.., events)| text(events.kind.word())),
     ("Pairs", |(.., events)| count(events.pairs)),
     ("Missed", |(.., events)| at_most_none(events.missed)),
     ("Extra", |(.., events)| at_most_none(events.extra)),
     ("Mean distance [ms]", |(.., events)| number(Some(events.mean_absolute_ms), 0, None)),
-    ("Later by [ms]", |(.., events)| number(Some(events.bias_ms), 0, None)),
+    ("Mean delay [ms]", |(.., events)| number(Some(events.bias_ms), 0, None)),
 ];
 const AGREEMENT: [Column<ForceRow>; 6] = [
     ("Foot", |(side, ..)| text(&side.to_string())),
     ("Component", |(_, component, _)| text(component)),
     ("RMSE [%BW]", |(.., force)| number(Some(100.0 * force.rmse_bw), 1, None)),
-    ("RMSE over range [%]", |(.., force)| number(Some(100.0 * force.rrmse), 1, None)),
+    ("RMSE / range [%]", |(.., force)| number(Some(100.0 * force.rrmse), 1, None)),
     ("r", |(.., force)| number(Some(force.r), 3, None)),
-    ("In the 90 % band [%]", |(.., force)| number(Some(100.0 * force.band.holds), 0, None)),
+    ("Inside the 90 % band [%]", |(.., force)| number(Some(100.0 * force.band.holds), 0, None)),
 ];
 const CENTERS: [Column<FootAgreement>; 5] = [
     ("Foot", |foot| text(&foot.side.to_string())),
@@ -77,7 +77,7 @@ const CHANGES: [Column<ChangeRow>; 4] = [
 ];
 const SEGMENTS: [Column<SegmentSummary>; 3] = [
     ("Segment", |segment| text(&segment.body)),
-    ("Length over the table's", |segment| number(Some(segment.factor), 3, None)),
+    ("Length / table", |segment| number(Some(segment.factor), 3, None)),
     ("Measured by markers", |segment| text(if segment.measured { "yes" } else { "no" })),
 ];
 const ADJUSTMENT: [Column<(String, Size)>; 3] = [
@@ -91,15 +91,15 @@ const TIMES: [Column<(String, [f64; 2])>; 3] = [
     ("To [s]", |(_, [_, to])| number(Some(*to), 2, None)),
 ];
 
-/// Tables whose rows are called as in the files.
+/// Tables whose row names come from the files.
 const NAMED_BY_FILES: [&str; 3] = ["moments", "changes", "adjustment"];
 
-/// All tables that have rows.
+/// All tables with rows.
 pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<Table> {
-    let plates = "Whose foot loaded which plate; forces count as one foot's where the contact is clean.";
-    let events = "How far foot strikes and foot offs of different sources are apart.";
-    let forces = "Over whole stances of feet that stood wholly on a plate of their own. The 90 % band is the prediction ± 1.645 standard deviations; the panels draw ± 1.";
-    let segments = "Lengths of the built-in body's segments over those that its table gives for the stature.";
+    let plates = "Which foot loaded which plate; a force is assigned to one foot if the contact is clean.";
+    let events = "Differences between foot strikes and foot offs from different sources.";
+    let forces = "Over whole stances with the foot wholly on a plate of its own. The 90 % band is the prediction ± 1.645 standard deviations; the panels draw ± 1.";
+    let segments = "Lengths of the segments of the built-in body, relative to its table for this stature.";
     let Summary { subject, comparison, prediction, consistency, walk, .. } = &results.summary;
     let contacts = subject.iter().flat_map(|subject| &subject.plates);
     let feet = || comparison.iter().flat_map(|comparison| &comparison.feet);
@@ -115,15 +115,15 @@ pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<
         listed(["plates", "Plates and feet", plates], contacts, &PLATES),
         listed(["events", "Events", events], &event_rows(results), &EVENTS),
         listed(
-            ["agreement", "Ground forces, prediction against plates", forces],
+            ["agreement", "Ground forces: prediction compared with plates", forces],
             &feet().flat_map(components).collect::<Vec<_>>(),
             &AGREEMENT,
         ),
-        listed(["centers", "Centre of pressure, prediction against plates", ""], feet(), &CENTERS),
-        listed(["moments", "Moments, by predicted against by measured forces", ""], moments, &MOMENTS),
+        listed(["centers", "Centre of pressure: prediction compared with plates", ""], feet(), &CENTERS),
+        listed(["moments", "Joint moments: with predicted compared with measured forces", ""], moments, &MOMENTS),
         listed(["check_times", "Times of the checks", ""], &times, &TIMES),
-        listed(["changes", "Changes to agree with the forces", ""], &changes, &CHANGES),
-        listed(["adjustment", "Changes of the gait's angles", ""], &adjustment, &ADJUSTMENT),
+        listed(["changes", "Changes by residual reduction", ""], &changes, &CHANGES),
+        listed(["adjustment", "Changes of the angles of the gait", ""], &adjustment, &ADJUSTMENT),
         listed(["segments", "Segments", segments], lengths, &SEGMENTS),
     ];
     let mut tables: Vec<Table> = tables.into_iter().flatten().collect();
@@ -133,9 +133,10 @@ pub(super) fn tables(results: &Results, quantities: &[ClinicalQuantity]) -> Vec<
     tables
 }
 
-const MARKER_NOTE: &str = "Distance of each marker from its place on the body, the worst first. Gaps are frames without the marker; they do not count.";
+const MARKER_NOTE: &str =
+    "Distance of each marker from its place on the body, largest first. Frames without the marker are left out.";
 
-/// Worst first, with the frames in which the marker is missing.
+/// Largest error first, with the number of frames in which the marker is missing.
 fn markers(results: &Results) -> Vec<MarkerRow> {
     let errors = results.summary.subject.iter().flat_map(|subject| &subject.markers.errors);
     let mut rows: Vec<MarkerRow> =
@@ -162,7 +163,7 @@ fn components(foot: &FootAgreement) -> [ForceRow; 3] {
     rows.map(|(component, force)| (foot.side, component, force))
 }
 
-/// Coordinates, and the bodies that carry loads.
+/// Changes of the coordinates and of the loaded feet.
 fn changes(consistency: &ConsistencySummary) -> Vec<ChangeRow> {
     let coordinates =
         consistency.changes.iter().map(|(name, size)| (name.clone(), [size.rms, size.max], size.unit.symbol()));

@@ -12,19 +12,19 @@ use std::collections::BTreeMap;
 
 const FILE: &str = "contacts.csv";
 const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_force,friction_force";
-/// More panels of a kind than this are left out; those with the largest forces are shown.
+/// Maximum number of panels of a kind; those with the largest forces are shown.
 const MOST_PAIRS: usize = 12;
 
-/// A body, or all bodies of a figure, and what they touch.
+/// A body, or all bodies of a figure, and the body in contact with it.
 type Pair = (String, String);
 
-/// Sums of the points between a body, or a side of a figure, and another: by side, right, left and none.
+/// Sums over the contact points between a body, or a side of a figure, and another body: right, left and without side.
 #[derive(Default)]
 struct Sums {
     sides: [Option<[Vec<f64>; 2]>; 3],
 }
 
-/// Sums of the points of every pair of bodies; none without the file.
+/// Sums over the contact points of every pair of bodies; empty without the file.
 pub(super) fn group(
     folder: &Folder<'_>,
     instants: &Instants,
@@ -37,12 +37,12 @@ pub(super) fn group(
     if pairs.len() > MOST_PAIRS {
         let all = pairs.len();
         missing.push(format!(
-            "Of {all} pairs of bodies that touch, the {MOST_PAIRS} with the largest forces have curves."
+            "Of {all} pairs of bodies in contact, only the {MOST_PAIRS} with the largest forces are shown."
         ));
         pairs.truncate(MOST_PAIRS);
     }
     let panels = pairs.iter().enumerate().flat_map(|(i, (pair, sums))| sums.panels(i + 1, pair, block)).collect();
-    let note = "Sums over the points at which two bodies touch, of figures all bodies of a side; impacts between rows are not in them.";
+    let note = "Sums over all contact points of two bodies; bodies on one side of a figure are added up. Impacts between output instants are not included.";
     Ok(Some(Group {
         id: "contacts".to_owned(),
         title: "Contacts".to_owned(),
@@ -83,7 +83,7 @@ impl Sums {
         self.sides.iter().flatten().flat_map(|[normal, _]| normal).copied().fold(0.0, f64::max)
     }
 
-    /// Normal force and friction, a trace a side.
+    /// Normal force and friction, one trace per side.
     fn panels(&self, number: usize, (first, second): &Pair, block: &mut Block) -> [Panel; 2] {
         let mut panel = |kind: &str, words: &str, which: usize| {
             let sides = [Some(Side::Right), Some(Side::Left), None];

@@ -1,4 +1,4 @@
-//! Energies of a scene and the work of its solver, over time.
+//! Panels of the energies of a scene and the iterations of its solver over time.
 
 use super::instants::Instants;
 use crate::page::block::Block;
@@ -10,18 +10,18 @@ use ambulo_results::{Folder, ResultsError};
 const FILE: &str = "energy.csv";
 const HEAD: &str = "time,kinetic,gravity,springs,total,iterations,factorizations,residual";
 
-/// Columns: place in the file, name, heading, unit.
+/// Columns: index in the file, name, heading, unit.
 const COLUMNS: [(usize, &str, &str, &str); 7] = [
     (4, "total", "Total energy", "J"),
     (1, "kinetic", "Kinetic energy", "J"),
-    (2, "gravity", "Energy in gravity", "J"),
-    (3, "springs", "Energy in springs", "J"),
-    (5, "iterations", "Tree solves a step", ""),
-    (6, "factorizations", "Factorisations a step", ""),
+    (2, "gravity", "Potential energy (gravity)", "J"),
+    (3, "springs", "Potential energy (springs)", "J"),
+    (5, "iterations", "Tree solves per time step", ""),
+    (6, "factorizations", "Factorisations per time step", ""),
     (7, "residual", "Residual of the solver, relative", ""),
 ];
 
-/// The grid; none without the file.
+/// The group of panels; `None` without the file.
 pub(super) fn groups(
     folder: &Folder<'_>,
     instants: &Instants,
@@ -49,7 +49,7 @@ pub(super) fn groups(
     Ok(Some(Group {
         id: "energy".to_owned(),
         title: "Energy and solver".to_owned(),
-        note: Some("Energies of all bodies; gravity counts from height 0.".to_owned()),
+        note: Some("Energies of all bodies; the potential energy is zero at height 0.".to_owned()),
         columns: 3,
         panels: panels.collect(),
     }))

@@ -1,4 +1,4 @@
-//! Header and quality of a scene.
+//! Header and quality measures of a scene.
 
 use crate::page::contract::{Fact, Judged};
 use crate::page::session::header::{fact, file_name};
@@ -13,10 +13,10 @@ pub(super) fn header(summary: &SceneSummary) -> Vec<Fact> {
     let lines = [
         Some(fact("Scene", summary.title.as_deref().unwrap_or(scene), Some(format!("from {scene}")))),
         resumed.map(|state| fact("Resumed", format!("from {}", file_name(state)), None)),
-        Some(fact("World", world(&summary.world), Some(format!("{:.1} kg in all", summary.world.mass_kg)))),
+        Some(fact("World", world(&summary.world), Some(format!("{:.1} kg in total", summary.world.mass_kg)))),
         Some(fact("Integrator", summary.integrator.word(), Some(format!("steps of {:.2} ms", 1e3 * summary.step_s)))),
         Some(fact("Time", format!("{from:.2} to {to:.2} s"), Some(format!("{} steps", summary.steps)))),
-        Some(fact("Ground forces", "simulated", Some("by the contacts of the scene; no rule divides them".to_owned()))),
+        Some(fact("Ground forces", "simulated", Some("from the contacts of the scene".to_owned()))),
         Some(fact("Axes", "world: x forward, y up, z to the right", None)),
         Some(fact("Program", format!("Ambulo {}", summary.version), None)),
     ];
@@ -42,12 +42,12 @@ pub(super) fn quality(summary: &SceneSummary) -> Vec<Judged> {
     let SceneSummary { energy, contacts, convergence, .. } = summary;
     let ends = format!("{:.2} J and {:.2} J", energy.start_j, energy.end_j);
     vec![
-        plain("Energy at the beginning and at the end", ends),
+        plain("Total energy at the start and at the end", ends),
         plain("Largest gap in a joint", format!("{:.2e} mm", 1e3 * summary.joint_error_max_m)),
         plain("Largest overlap of bodies", format!("{:.2} mm", 1e3 * contacts.overlap_max_m)),
         plain("Largest force at one point", format!("{:.0} N", contacts.normal_force_max_n)),
-        plain("Impacts between rows", contacts.impacts.to_string()),
+        plain("Impacts between output instants", contacts.impacts.to_string()),
         plain("Largest residual of the solver, relative", format!("{:.1e}", convergence.residual_max)),
-        none_allowed("Steps above the solver's tolerance", convergence.not_converged),
+        none_allowed("Time steps above the solver's tolerance", convergence.not_converged),
     ]
 }

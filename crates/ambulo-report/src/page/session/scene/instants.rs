@@ -1,13 +1,13 @@
-//! The instants of a scene's page, and the rows of tables that belong to them.
+//! The instants shown for a scene, and how rows of tables are assigned to them.
 
 use crate::page::contract::TimeAxis;
 use crate::stage::csv_rows::Row;
 use ambulo::motion::TimeGrid;
 use ambulo_results::{Folder, ResultsError};
 
-/// Files that have a row at every instant, and how they begin.
+/// Files with rows at every instant, and the start of their header.
 const FILES: [(&str, &str); 3] = [("energy.csv", "time,"), ("joints.csv", "time,"), ("poses.csv", "time,")];
-/// More instants than this are thinned, as in the 3-D view.
+/// Longer runs are thinned to this number of instants, as in the 3-D view.
 const MOST_INSTANTS: usize = 2000;
 
 /// Evenly spaced instants.
@@ -16,7 +16,7 @@ pub(super) struct Instants {
 }
 
 impl Instants {
-    /// Those of the 3-D view, else of the first table that there is; none without tables.
+    /// The instants of the 3-D view, otherwise of the first table; `None` without tables.
     pub(super) fn of(folder: &Folder<'_>, viewed: Option<TimeAxis>) -> Result<Instants, ResultsError> {
         if let Some(TimeAxis { start_s, step_s, frames }) = viewed {
             return Ok(Instants { grid: TimeGrid { start_s, step_s, frames } });
@@ -40,17 +40,17 @@ impl Instants {
         Ok(Instants { grid: TimeGrid { start_s: 0.0, step_s: 0.0, frames: 0 } })
     }
 
-    /// As the page has them.
+    /// The instants in the form of the page.
     pub(super) fn axis(&self) -> TimeAxis {
         TimeAxis { start_s: self.grid.start_s, step_s: self.grid.step_s, frames: self.grid.frames }
     }
 
-    /// How many.
+    /// Number of instants.
     pub(super) fn count(&self) -> usize {
         self.grid.frames
     }
 
-    /// The instant that a row stands at, if it is one of these.
+    /// The index of the instant of a row, if it is one of these.
     pub(super) fn place(&self, time_s: f64) -> Option<usize> {
         if self.grid.frames < 2 {
             return (self.grid.frames == 1).then_some(0);
@@ -60,7 +60,7 @@ impl Instants {
         inside.then_some(place as usize)
     }
 
-    /// Values at the instants: that of the row nearest to each; not a number where there is none.
+    /// Values at the instants, each from the nearest row; NaN if there is none.
     pub(super) fn nearest(&self, rows: &[(f64, f64)]) -> Vec<f64> {
         let mut values = vec![f64::NAN; self.grid.frames];
         let mut distances = vec![f64::INFINITY; self.grid.frames];

@@ -1,4 +1,4 @@
-//! Coordinates of a scene's joints and what drives, springs and limits do in them, over time.
+//! Panels of the joint coordinates of a scene, and of the moments and forces of drives, springs and limits, over time.
 
 use super::instants::Instants;
 use crate::page::block::Block;
@@ -12,20 +12,20 @@ use std::collections::BTreeMap;
 
 const FILE: &str = "joints.csv";
 const HEAD: &str = "time,joint,coordinate,value,rate,effort,unit";
-/// More panels than this are left out of a grid.
+/// Maximum number of panels in a group.
 const MOST_PANELS: usize = 60;
 
 /// One coordinate of a joint.
 #[derive(Default)]
 struct Coordinate {
-    /// Place in the order of the file.
+    /// Position in the order of the file.
     order: usize,
     turns: bool,
     values: Vec<(f64, f64)>,
     efforts: Vec<(f64, f64)>,
 }
 
-/// Angles and distances, and efforts; none without the file.
+/// Groups of angles and distances, and of efforts; empty without the file.
 pub(super) fn groups(
     folder: &Folder<'_>,
     instants: &Instants,
@@ -43,7 +43,7 @@ pub(super) fn groups(
     }
     if panels.len() > MOST_PANELS {
         let left = panels.len() - MOST_PANELS;
-        missing.push(format!("Curves of {left} more joint coordinates are in {FILE} and not in the page."));
+        missing.push(format!("The curves of {left} more joint coordinates are only in {FILE}."));
         panels.truncate(MOST_PANELS);
     }
     let mut grid = |id: &str, title: &str, note: &str, what: What| Group {
@@ -53,9 +53,9 @@ pub(super) fn groups(
         columns: 3,
         panels: panels.iter().enumerate().map(|(i, entries)| panel(i, entries, what, instants, block)).collect(),
     };
-    let efforts = "What drive, motor, spring, damper, limit and friction of a coordinate do together, on the child.";
+    let efforts = "Sum of drive, motor, spring, damper, limit and friction of a coordinate, acting on the child body.";
     Ok(vec![
-        grid("joints", "Joint angles and distances", "In the joint's own signs.", What::Value),
+        grid("joints", "Joint angles and distances", "With the signs of the joint.", What::Value),
         grid("efforts", "Joint moments and forces", efforts, What::Effort),
     ])
 }
@@ -82,12 +82,12 @@ fn coordinates(folder: &Folder<'_>, text: &str) -> Result<Vec<(String, Coordinat
     Ok(list)
 }
 
-/// Joint of a name, which stands before its coordinate.
+/// The joint in a name, which precedes its coordinate.
 fn joint(name: &str) -> &str {
     name.rsplit_once(' ').map_or(name, |(joint, _)| joint)
 }
 
-/// Whether two names are those of the same joint on both sides.
+/// Whether two names belong to the same joint on the two sides.
 fn pairs(a: &str, b: &str) -> bool {
     let ends = |name: &str| name.rsplit_once(' ').map(|(_, coordinate)| coordinate.to_owned());
     match (Side::split_name(joint(a)), Side::split_name(joint(b))) {

@@ -1,4 +1,4 @@
-//! What is shown of a simulated scene.
+//! Makes the session of a simulated scene.
 
 mod contacts;
 mod energy;
@@ -16,7 +16,7 @@ use crate::page::view::view;
 use ambulo_results::{Folder, ResultsError, SceneSummary};
 use instants::Instants;
 
-/// The session of a scene's folder.
+/// The session of the result folder of a scene.
 pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut Block) -> Result<Session, ResultsError> {
     let viewed = view(folder, block)?;
     let instants = Instants::of(folder, viewed.time)?;
@@ -29,7 +29,7 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
     let mut feasibility = verdict(summary, &figures);
     match &mut feasibility {
         Some(verdict) => feasibility::mark(&mut [&mut groups], &mut verdict.red),
-        None => missing.push("No verdict: nothing in this scene walks like a person.".to_owned()),
+        None => missing.push("No verdict: this scene has no walking figure.".to_owned()),
     }
     if groups.is_empty() {
         missing.push("No curves: the folder has no joints.csv, contacts.csv, energy.csv or moments.sto.".to_owned());
@@ -56,13 +56,13 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
     })
 }
 
-/// All figures' verdicts in one.
+/// Combines the verdicts of all figures.
 fn verdict(summary: &SceneSummary, figures: &[moments::Figure]) -> Option<Feasibility> {
     let feasible = summary.verdict.as_ref()?.feasible;
     let quantities = |figure: &moments::Figure| -> Vec<ClinicalQuantity> { figure.quantities.clone() };
     let (mut red, mut sentences, mut closest): (Vec<RedSpan>, Vec<String>, Option<Table>) = Default::default();
     for figure in figures {
-        // The contacts of a scene are all known.
+        // All contacts of a scene are known.
         let judged = feasibility::feasibility(&figure.verdict, &Basis::default(), &quantities(figure));
         let Some(one) = judged else { continue };
         let who = |sentence: &str| format!("{}: {sentence}", figure.name);
@@ -82,7 +82,7 @@ fn verdict(summary: &SceneSummary, figures: &[moments::Figure]) -> Option<Feasib
     })
 }
 
-/// A table with the rows of another figure.
+/// Adds the rows of another figure to a table.
 fn joined(before: Option<Table>, mut next: Table, name: &str) -> Table {
     for quantity in next.rows.iter_mut().filter_map(|row| row.get_mut(feasibility::QUANTITY)) {
         quantity.text = format!("{name}: {}", quantity.text);

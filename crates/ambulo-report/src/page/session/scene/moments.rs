@@ -1,4 +1,4 @@
-//! Moments of figures that walk, in clinical signs, from `moments.sto`.
+//! Panels of the joint moments of walking figures, in clinical signs, from `moments.sto`.
 
 use super::instants::Instants;
 use crate::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
@@ -14,12 +14,12 @@ use ambulo_results::{Folder, ResultsError, SceneSummary};
 
 const FILE: &str = "moments.sto";
 
-/// A figure that was judged.
+/// A figure with a verdict.
 pub(super) struct Figure {
     pub(super) name: String,
     pub(super) verdict: Verdict,
     pub(super) quantities: Vec<ClinicalQuantity>,
-    /// Before the names of its columns and panels; empty where it is the only figure.
+    /// Prefix of the names of its columns and panels; empty for a single figure.
     prefix: String,
     mass_kg: f64,
     table: Option<Table>,
@@ -46,11 +46,11 @@ fn quantities(table: &Table, prefix: &str) -> Vec<ClinicalQuantity> {
         .filter_map(|column| column.strip_prefix(prefix))
         .map(|column| Side::split_name(column).map_or_else(|| column.to_owned(), |(_, stem)| stem))
         .collect();
-    // Built figures have the usual names.
+    // Built-in figures have the usual names.
     clinical_quantities(&ClinicalNames::usual(), |name| stems.iter().any(|stem| stem == name))
 }
 
-/// A grid a figure; none where the files have no moments of it.
+/// One group per figure; none for figures whose moments are not in the files.
 pub(super) fn groups(figures: &[Figure], instants: &Instants, block: &mut Block) -> Vec<Group> {
     let grid = |figure: &Figure, block: &mut Block| Group {
         id: figure.panel("kinetics"),
@@ -63,7 +63,7 @@ pub(super) fn groups(figures: &[Figure], instants: &Instants, block: &mut Block)
 }
 
 impl Figure {
-    /// The word of one of its panels.
+    /// The id of one of its panels.
     pub(super) fn panel(&self, id: &str) -> String {
         format!("{}{id}", self.prefix.replace(|letter: char| !letter.is_ascii_alphanumeric(), "_"))
     }
