@@ -25,6 +25,8 @@ struct Step {
     name: &'static str,
     tool: Tool,
     arguments: &'static [&'static str],
+    /// Arguments of a second command of the same tool that runs at the same time; its output follows that of the first.
+    second: Option<&'static [&'static str]>,
     /// Set for this step alone.
     variable: Option<(&'static str, &'static str)>,
     /// What to do when it fails.
@@ -34,11 +36,12 @@ struct Step {
 /// The 32-bit target that the library is built for, so that it can run in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 11] = [
     Step {
         name: "format",
         tool: Tool::Cargo,
         arguments: &["fmt", "--all", "--", "--check"],
+        second: None,
         variable: None,
         hint: "run `cargo fmt --all`",
     },
@@ -46,6 +49,7 @@ const STEPS: [Step; 9] = [
         name: "lints",
         tool: Tool::Cargo,
         arguments: &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
+        second: None,
         variable: None,
         hint: "mend what clippy names, or say why not with #[expect(.., reason = \"..\")]; if it asks for an update of Cargo.lock, run `cargo build` and commit the lock file",
     },
@@ -53,21 +57,41 @@ const STEPS: [Step; 9] = [
         name: "house",
         tool: Tool::Xtask,
         arguments: &["house"],
+        second: None,
         variable: None,
         hint: "`cargo xtask house` repeats this step",
     },
     Step {
+        name: "test programs",
+        tool: Tool::Cargo,
+        arguments: &["test", "--workspace", "--locked", "--no-run"],
+        second: None,
+        variable: None,
+        hint: "mend what the compiler names",
+    },
+    Step {
         name: "tests",
         tool: Tool::Cargo,
-        // What a test measured or skipped is worth seeing when it passes, too.
-        arguments: &["test", "--workspace", "--locked", "--", "--show-output"],
+        // Two halves at once, because many test programs wait for one long test. What a test measured or skipped is worth seeing when it
+        // passes, too.
+        arguments: &["test", "--workspace", "--locked", "--lib", "--bins", "--test", "[a-r]*", "--", "--show-output"],
+        second: Some(&["test", "--workspace", "--locked", "--test", "[s-z]*", "--", "--show-output"]),
         variable: None,
-        hint: "run the failing test alone with `cargo test --package NAME TEST`",
+        hint: "run the failing test alone with `cargo test --package NAME TEST`; `cargo test --workspace` runs all",
+    },
+    Step {
+        name: "examples in comments",
+        tool: Tool::Cargo,
+        arguments: &["test", "--workspace", "--locked", "--doc"],
+        second: None,
+        variable: None,
+        hint: "run the failing example alone with `cargo test --package NAME --doc EXAMPLE`",
     },
     Step {
         name: "documentation",
         tool: Tool::Cargo,
         arguments: &["doc", "--workspace", "--no-deps", "--locked"],
+        second: None,
         variable: Some(("RUSTDOCFLAGS", "-D warnings")),
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
     },
@@ -75,6 +99,7 @@ const STEPS: [Step; 9] = [
         name: "32-bit target",
         tool: Tool::CargoForWasm,
         arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
+        second: None,
         variable: None,
         hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
     },
@@ -82,6 +107,7 @@ const STEPS: [Step; 9] = [
         name: "viewer's packages",
         tool: Tool::Npm,
         arguments: &["ci", "--no-audit", "--no-fund"],
+        second: None,
         variable: None,
         hint: "`npm ci` in viewer/ needs the package registry; package-lock.json must agree with package.json",
     },
@@ -89,6 +115,7 @@ const STEPS: [Step; 9] = [
         name: "viewer",
         tool: Tool::Npm,
         arguments: &["run", "check"],
+        second: None,
         variable: None,
         hint: "mend what the linter, the compiler or a test names; `npm run build` in viewer/ makes the bundle anew",
     },
@@ -96,6 +123,7 @@ const STEPS: [Step; 9] = [
         name: "pages in a browser",
         tool: Tool::Npm,
         arguments: &["run", "e2e"],
+        second: None,
         variable: None,
         hint: "`npm run e2e` in viewer/ repeats this step with the `ambulo` that cargo built last",
     },
@@ -115,6 +143,7 @@ const LONG_STEPS: [Step; 3] = [
             "--example",
             "replay",
         ],
+        second: None,
         variable: None,
         hint: "the last file that is printed is the one that fails",
     },
@@ -122,6 +151,7 @@ const LONG_STEPS: [Step; 3] = [
         name: "sweep",
         tool: Tool::Xtask,
         arguments: &["sweep"],
+        second: None,
         variable: None,
         hint: "each line above is a command that failed and what it printed last",
     },
@@ -129,6 +159,7 @@ const LONG_STEPS: [Step; 3] = [
         name: "benchmark",
         tool: Tool::Xtask,
         arguments: &["bench"],
+        second: None,
         variable: None,
         hint: "`cargo xtask bench` repeats this step",
     },
@@ -154,7 +185,9 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
             println!("{head}: skipped: {lacking} is not installed");
             continue;
         }
-        println!("{head}: {} {}", step.tool.word(), step.arguments.join(" "));
+        for arguments in std::iter::once(step.arguments).chain(step.second) {
+            println!("{head}: {} {}", step.tool.word(), arguments.join(" "));
+        }
         let step_start = Instant::now();
         run_step(step)?;
         println!("{head}: {:.1} s", step_start.elapsed().as_secs_f64());
@@ -224,12 +257,27 @@ fn debug_program() -> PathBuf {
     workspace::target().join("debug").join(format!("ambulo{}", std::env::consts::EXE_SUFFIX))
 }
 
+#[expect(clippy::print_stdout, reason = "what a command printed is the step's result")]
 fn run_step(step: &Step) -> Result<(), String> {
-    let mut command = step.tool.command();
-    command.args(step.arguments).envs(step.variable);
-    let status = command.status().map_err(|e| format!("{}: {} cannot start: {e}", step.name, step.tool.word()))?;
-    if status.success() {
-        return Ok(());
+    let cannot = |e: std::io::Error| format!("{}: {} cannot start: {e}", step.name, step.tool.word());
+    let command = |arguments: &[&str]| {
+        let mut command = step.tool.command();
+        command.args(arguments).envs(step.variable);
+        command
+    };
+    let second = step.second.map(|arguments| {
+        let mut second = command(arguments);
+        std::thread::spawn(move || second.output())
+    });
+    let mut statuses = vec![command(step.arguments).status().map_err(cannot)?];
+    if let Some(second) = second {
+        let ended =
+            second.join().map_err(|_| format!("{}: the second command was lost", step.name))?.map_err(cannot)?;
+        println!("{}{}", String::from_utf8_lossy(&ended.stderr), String::from_utf8_lossy(&ended.stdout));
+        statuses.push(ended.status);
     }
-    Err(format!("the step `{}` failed ({status})\nhint: {}", step.name, step.hint))
+    match statuses.into_iter().find(|status| !status.success()) {
+        None => Ok(()),
+        Some(status) => Err(format!("the step `{}` failed ({status})\nhint: {}", step.name, step.hint)),
+    }
 }

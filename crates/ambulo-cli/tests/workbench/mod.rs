@@ -77,7 +77,7 @@ impl Workbench {
     }
 
     pub(crate) fn empty(name: &str) -> Workbench {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program").join(name);
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("program").join(env!("CARGO_CRATE_NAME")).join(name);
         if folder.exists() {
             fs::remove_dir_all(&folder).unwrap();
         }
