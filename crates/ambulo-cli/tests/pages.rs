@@ -70,7 +70,7 @@ fn anything_but_a_result_folder_is_rejected_with_a_hint() {
     bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote this folder"]);
     bench.run(&["report", "out/report.html"]).refused(&["this is a file", "its folder is out"]);
     bench.run(&["report", "out", "-o", "page.txt"]).refused(&["ends in .html"]);
-    bench.run(&["view", "walk.mot"]).refused(&["no page"]);
+    bench.run(&["view", "walk.mot"]).refused(&["not a page"]);
     bench.run(&["view", "nothing"]).refused(&["no such file or folder"]);
     bench.run(&["convert", "nothing", "x.glb"]).refused(&["no such file or folder"]);
     bench.run(&["convert", "empty", "x.glb"]).refused(&["found no summary.json"]);
