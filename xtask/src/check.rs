@@ -100,7 +100,8 @@ const STEPS: [Step; 11] = [
         tool: Tool::CargoForWasm,
         arguments: &["build", "--package", "ambulo", "--target", WASM, "--locked"],
         second: None,
-        variable: None,
+        // Unoptimised: the build is only to succeed.
+        variable: Some(("CARGO_PROFILE_DEV_OPT_LEVEL", "0")),
         hint: "the library has to build where `usize` has 32 bits and without a file system, clock or threads",
     },
     Step {

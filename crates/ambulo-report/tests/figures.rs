@@ -253,6 +253,6 @@ fn gaps_break_a_line_and_hundreds_of_cycles_are_thinned() {
     let moments = named(&figures, "moments.svg");
     let count = moments.panels[0].lines.iter().filter(|line| line.role == "cycle").count();
     assert!((30..=60).contains(&count), "{count} lines");
-    assert!(moments.texts.iter().any(|text| text.contains("means are of all")), "{:?}", moments.texts);
+    assert!(moments.texts.iter().any(|text| text.contains("means are over all")), "{:?}", moments.texts);
     assert!(moments.texts.iter().any(|text| text == "left, mean of 200 cycles"));
 }
