@@ -1,7 +1,7 @@
 //! Fits the parameters of the ground-force estimator: `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
 //!
 //! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has changed. Fits
-//! `ambulo::ground::predict::Weights` to the recordings with plates, on all subjects and leave-one-out, calibrates the standard
+//! `ambulo::ground::predict::FittedParameters` to the recordings with plates, on all subjects and leave-one-out, calibrates the standard
 //! deviations, and prints the results; with `--write` they go to docs/measured/GROUND_FIT.md. The parameters are printed as the `Default`
 //! to paste: this command changes no source.
 
@@ -13,10 +13,10 @@ mod page;
 mod search;
 
 use crate::workspace;
-use ambulo::ground::predict::Weights;
+use ambulo::ground::predict::FittedParameters;
 use calibration::{Band, Judged};
 use cases::Case;
-use numbers::{NUMBERS, rounded, weights};
+use numbers::{NUMBERS, parameters, rounded};
 use std::fs;
 use std::time::Instant;
 
@@ -44,7 +44,7 @@ struct Fold {
     subject: &'static str,
     importance: f64,
     /// Fitted and calibrated on the others.
-    weights: Weights,
+    parameters: FittedParameters,
     own_cost: f64,
     left_out_cost: f64,
     own_figures: [f64; 11],
@@ -56,7 +56,7 @@ struct Fold {
 /// The results of the fit.
 struct Outcome {
     /// Fitted and calibrated on all subjects.
-    weights: Weights,
+    parameters: FittedParameters,
     cost: f64,
     cost_of_middle: f64,
     cost_of_shipped: f64,
@@ -101,8 +101,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let outcome = outcome(&cases, &order);
     let page = page::text(&order, &outcome);
     println!(
-        "{page}\nTo paste into crates/ambulo/src/ground/predict/weights.rs (`cargo fmt` after it):\n\n{:?}",
-        outcome.weights
+        "{page}\nTo paste into crates/ambulo/src/ground/predict/fitted_parameters.rs (`cargo fmt` after it):\n\n{:?}",
+        outcome.parameters
     );
     if order.write {
         let path = workspace::root().join(PAGE);
@@ -144,11 +144,11 @@ fn order(words: &[String]) -> Result<Order, String> {
 fn outcome(cases: &[Case], order: &Order) -> Outcome {
     let subjects = cases::subjects(cases);
     let mut own = fitted(cases, &subjects, order, order.seed, "all");
-    let without: Vec<Weights> = (0..subjects.len()).map(|i| without(cases, &subjects, i, order)).collect();
+    let without: Vec<FittedParameters> = (0..subjects.len()).map(|i| without(cases, &subjects, i, order)).collect();
     // Leave-one-out: every subject is predicted with the parameters fitted on the others.
     let judged = Judged::new(cases, &subjects, &without);
     own.calibration = judged.calibration(|_| true);
-    let cost = |weights: &Weights| cases::cost(cases, &subjects, weights);
+    let cost = |parameters: &FittedParameters| cases::cost(cases, &subjects, parameters);
     let least = cost(&own);
     let sensitivity = NUMBERS.iter().map(|number| {
         [0.5, 2.0].map(|factor| {
@@ -157,42 +157,42 @@ fn outcome(cases: &[Case], order: &Order) -> Outcome {
             cost(&changed) / least - 1.0
         })
     });
-    let folds = subjects.iter().zip(&without).map(|(subject, weights)| {
+    let folds = subjects.iter().zip(&without).map(|(subject, parameters)| {
         let calibration = judged.calibration(|other| other != *subject);
         Fold {
             subject,
             importance: cases::importance(cases, subject),
-            weights: Weights { calibration, ..*weights },
+            parameters: FittedParameters { calibration, ..*parameters },
             own_cost: cases::subject_cost(cases, subject, &own),
-            left_out_cost: cases::subject_cost(cases, subject, weights),
+            left_out_cost: cases::subject_cost(cases, subject, parameters),
             own_figures: cases::figures(cases, subject, &own),
-            left_out_figures: cases::figures(cases, subject, weights),
+            left_out_figures: cases::figures(cases, subject, parameters),
             bands: std::array::from_fn(|c| judged.band(c, subject, &calibration)),
         }
     });
     Outcome {
-        weights: own,
+        parameters: own,
         cost: least,
-        cost_of_middle: cost(&weights(&[0.5; NUMBERS.len()])),
-        cost_of_shipped: cost(&Weights::default()),
+        cost_of_middle: cost(&parameters(&[0.5; NUMBERS.len()])),
+        cost_of_shipped: cost(&FittedParameters::default()),
         sensitivity: sensitivity.collect(),
         folds: folds.collect(),
     }
 }
 
 /// Fitted with the `index`th subject left out.
-fn without(cases: &[Case], subjects: &[&'static str], index: usize, order: &Order) -> Weights {
+fn without(cases: &[Case], subjects: &[&'static str], index: usize, order: &Order) -> FittedParameters {
     let subject = subjects[index];
     let others: Vec<&'static str> = subjects.iter().copied().filter(|other| *other != subject).collect();
     fitted(cases, &others, order, order.seed, &format!("without {subject}"))
 }
 
-/// Weights fitted on some subjects from the middle of the ranges, rounded.
-fn fitted(cases: &[Case], subjects: &[&str], order: &Order, seed: u64, name: &str) -> Weights {
+/// Parameters fitted on some subjects from the middle of the ranges, rounded.
+fn fitted(cases: &[Case], subjects: &[&str], order: &Order, seed: u64, name: &str) -> FittedParameters {
     let begun = Instant::now();
     let cost = |place: &[f64]| {
         let pull: f64 = place.iter().map(|x| (x - 0.5).powi(2)).sum();
-        cases::cost(cases, subjects, &weights(place)) + order.pull * pull
+        cases::cost(cases, subjects, &parameters(place)) + order.pull * pull
     };
     let mut better = |done: usize, found: &search::Found| {
         progress(&format!(
@@ -203,7 +203,7 @@ fn fitted(cases: &[Case], subjects: &[&str], order: &Order, seed: u64, name: &st
         ));
     };
     let found = search::least(vec![0.5; NUMBERS.len()], order.evaluations, seed, &cost, &mut better);
-    rounded(weights(&found.place))
+    rounded(parameters(&found.place))
 }
 
 #[cfg(test)]

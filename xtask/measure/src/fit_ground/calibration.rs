@@ -5,7 +5,7 @@
 
 use super::cases::{Case, Sample, StanceSamples, mean};
 use super::numbers::three_digits;
-use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, Weights};
+use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters};
 
 /// Standard deviations on either side that contain 90 % of a normal distribution.
 const BAND_90: f64 = 1.645;
@@ -32,14 +32,14 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// Straight walks of these subjects, each predicted with its own weights and the deviations of the equations unchanged.
-    pub(super) fn new(cases: &[Case], subjects: &[&'static str], weights: &[Weights]) -> Judged {
-        let own = |(subject, weights): (&&'static str, &Weights)| {
-            let raw = Weights { calibration: DeviationCalibration::UNSCALED, ..*weights };
+    /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations unchanged.
+    pub(super) fn new(cases: &[Case], subjects: &[&'static str], parameters: &[FittedParameters]) -> Judged {
+        let own = |(subject, parameters): (&&'static str, &FittedParameters)| {
+            let raw = FittedParameters { calibration: DeviationCalibration::UNSCALED, ..*parameters };
             let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
             (*subject, straight.flat_map(|case| case.samples(&raw)).collect())
         };
-        Judged { subjects: subjects.iter().zip(weights).map(own).collect() }
+        Judged { subjects: subjects.iter().zip(parameters).map(own).collect() }
     }
 
     /// Stances of a component, subject by subject; subjects that are not judged on it are left out.

@@ -4,7 +4,7 @@ use crate::validate::recording::{self, Group};
 use ambulo::analysis::{Analysis, ComparedAnalyses, FootAgreement, GroundAgreement, PlateCoverage, ground_agreement};
 use ambulo::findings::Findings;
 use ambulo::ground::feet;
-use ambulo::ground::predict::{PredictSettings, Prediction, Prescribed, Weights, predict};
+use ambulo::ground::predict::{FittedParameters, PredictSettings, Prediction, Prescribed, predict};
 use ambulo::model::Side;
 use ambulo::motion::Window;
 use ambulo::spatial::Vec3;
@@ -91,15 +91,15 @@ pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
 }
 
 impl Case {
-    fn predict(&self, weights: &Weights) -> Option<Prediction> {
-        let settings = PredictSettings { prescribed: self.prescribed.clone(), weights: *weights };
+    fn predict(&self, parameters: &FittedParameters) -> Option<Prediction> {
+        let settings = PredictSettings { prescribed: self.prescribed.clone(), parameters: *parameters };
         let Outcome { body, person, .. } = &self.outcome;
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
     }
 
     /// Agreement of a prediction with the measured forces; `None` without a prediction.
-    pub(super) fn agreement(&self, weights: &Weights) -> Option<GroundAgreement> {
-        let prediction = self.predict(weights)?;
+    pub(super) fn agreement(&self, parameters: &FittedParameters) -> Option<GroundAgreement> {
+        let prediction = self.predict(parameters)?;
         let found = Analysis { ground: prediction.ground.clone(), ..self.outcome.analysis.clone() };
         let (model, measured) = (&self.outcome.body, &self.measured);
         Some(ground_agreement(
@@ -131,8 +131,8 @@ impl Case {
     }
 
     /// Errors against plates with their deviations, stance by stance, of a straight walk; along the world's axes.
-    pub(super) fn samples(&self, weights: &Weights) -> Vec<StanceSamples> {
-        let (Some(prediction), Some(agreement)) = (self.predict(weights), self.agreement(weights)) else {
+    pub(super) fn samples(&self, parameters: &FittedParameters) -> Vec<StanceSamples> {
+        let (Some(prediction), Some(agreement)) = (self.predict(parameters), self.agreement(parameters)) else {
             return Vec::new();
         };
         let stances = agreement.feet.iter().flat_map(|foot| foot.stances_s.iter().map(move |span| (foot.side, *span)));
@@ -184,26 +184,26 @@ pub(super) fn importance(cases: &[Case], subject: &str) -> f64 {
 }
 
 /// Cost of a subject: the mean over its recordings.
-pub(super) fn subject_cost(cases: &[Case], subject: &str, weights: &Weights) -> f64 {
+pub(super) fn subject_cost(cases: &[Case], subject: &str, parameters: &FittedParameters) -> f64 {
     let own = cases.iter().filter(|case| case.subject == subject);
-    mean(own.map(|case| case.agreement(weights).map_or(f64::INFINITY, |agreement| case.cost(&agreement))))
+    mean(own.map(|case| case.agreement(parameters).map_or(f64::INFINITY, |agreement| case.cost(&agreement))))
 }
 
 /// Cost of several subjects.
-pub(super) fn cost(cases: &[Case], subjects: &[&str], weights: &Weights) -> f64 {
+pub(super) fn cost(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> f64 {
     let all = || subjects.iter().map(|subject| importance(cases, subject));
     let sum: f64 =
-        subjects.iter().zip(all()).map(|(subject, counts)| counts * subject_cost(cases, subject, weights)).sum();
+        subjects.iter().zip(all()).map(|(subject, counts)| counts * subject_cost(cases, subject, parameters)).sum();
     sum / all().sum::<f64>()
 }
 
 /// Figures of a subject's straight walks: RMSE [% body weight], rRMSE [%] and r of upward, forward and sideways force, centre of
 /// pressure along and across [mm].
-pub(super) fn figures(cases: &[Case], subject: &str, weights: &Weights) -> [f64; 11] {
+pub(super) fn figures(cases: &[Case], subject: &str, parameters: &FittedParameters) -> [f64; 11] {
     let own: Vec<GroundAgreement> = cases
         .iter()
         .filter(|case| case.subject == subject && case.is_straight())
-        .filter_map(|case| case.agreement(weights))
+        .filter_map(|case| case.agreement(parameters))
         .collect();
     let of_foot = |foot: &FootAgreement| {
         let [up, forward, sideways] =

@@ -1,6 +1,6 @@
 //! The fitted parameters with their plausible ranges, mapped to the unit cube.
 
-use ambulo::ground::predict::{DeviationCalibration, Weights};
+use ambulo::ground::predict::{DeviationCalibration, FittedParameters};
 
 /// A fitted number.
 #[derive(Debug, Clone, Copy)]
@@ -9,14 +9,14 @@ pub(super) struct Number {
     pub(super) unit: &'static str,
     /// Smallest and largest value; on a logarithmic scale if both are positive.
     pub(super) range: [f64; 2],
-    field: fn(&mut Weights) -> &mut f64,
+    field: fn(&mut FittedParameters) -> &mut f64,
 }
 
 const fn number(
     name: &'static str,
     unit: &'static str,
     range: [f64; 2],
-    field: fn(&mut Weights) -> &mut f64,
+    field: fn(&mut FittedParameters) -> &mut f64,
 ) -> Number {
     Number { name, unit, range, field }
 }
@@ -49,12 +49,12 @@ pub(super) const NUMBERS: [Number; 23] = [
 ];
 
 impl Number {
-    pub(super) fn of(&self, weights: &Weights) -> f64 {
-        *(self.field)(&mut { *weights })
+    pub(super) fn of(&self, parameters: &FittedParameters) -> f64 {
+        *(self.field)(&mut { *parameters })
     }
 
-    pub(super) fn set(&self, weights: &mut Weights, value: f64) {
-        *(self.field)(weights) = value;
+    pub(super) fn set(&self, parameters: &mut FittedParameters, value: f64) {
+        *(self.field)(parameters) = value;
     }
 
     fn at(&self, place: f64) -> f64 {
@@ -63,22 +63,23 @@ impl Number {
     }
 }
 
-/// Weights at a point of the unit cube, with the estimator's own standard deviations.
-pub(super) fn weights(place: &[f64]) -> Weights {
-    let mut weights = Weights { calibration: DeviationCalibration::UNSCALED, ..Weights::default() };
+/// Parameters at a point of the unit cube, with the estimator's own standard deviations.
+pub(super) fn parameters(place: &[f64]) -> FittedParameters {
+    let mut parameters =
+        FittedParameters { calibration: DeviationCalibration::UNSCALED, ..FittedParameters::default() };
     for (number, place) in NUMBERS.iter().zip(place) {
-        number.set(&mut weights, number.at(*place));
+        number.set(&mut parameters, number.at(*place));
     }
-    weights
+    parameters
 }
 
 /// With three significant digits.
-pub(super) fn rounded(mut weights: Weights) -> Weights {
+pub(super) fn rounded(mut parameters: FittedParameters) -> FittedParameters {
     for number in &NUMBERS {
-        let value = three_digits(number.of(&weights));
-        number.set(&mut weights, value);
+        let value = three_digits(number.of(&parameters));
+        number.set(&mut parameters, value);
     }
-    weights
+    parameters
 }
 
 /// A number with three significant digits.
@@ -92,11 +93,11 @@ mod tests {
 
     #[test]
     fn places_reach_the_ends_of_the_ranges_and_the_shipped_numbers_lie_inside() {
-        let (low, high) = (weights(&[0.0; NUMBERS.len()]), weights(&[1.0; NUMBERS.len()]));
+        let (low, high) = (parameters(&[0.0; NUMBERS.len()]), parameters(&[1.0; NUMBERS.len()]));
         for number in &NUMBERS {
             let [least, most] = number.range;
             assert!((number.of(&low) - least).abs() < 1e-12 && (number.of(&high) - most).abs() < 1e-12, "{number:?}");
-            let shipped = number.of(&Weights::default());
+            let shipped = number.of(&FittedParameters::default());
             assert!((least..=most).contains(&shipped), "{}: {shipped}", number.name);
         }
     }
@@ -104,10 +105,10 @@ mod tests {
     #[test]
     fn every_number_is_another_field() {
         for (i, number) in NUMBERS.iter().enumerate() {
-            let mut changed = Weights::default();
+            let mut changed = FittedParameters::default();
             number.set(&mut changed, 0.123_4);
             for (k, other) in NUMBERS.iter().enumerate() {
-                let same = (other.of(&changed) - other.of(&Weights::default())).abs() < 1e-15;
+                let same = (other.of(&changed) - other.of(&FittedParameters::default())).abs() < 1e-15;
                 assert_eq!(same, i != k, "{} against {}", number.name, other.name);
             }
         }

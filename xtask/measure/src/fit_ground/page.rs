@@ -5,7 +5,7 @@ use super::cases::COMPONENTS;
 use super::numbers::{NUMBERS, Number};
 use super::{Fold, Order, Outcome};
 use crate::table::Table;
-use ambulo::ground::predict::Weights;
+use ambulo::ground::predict::FittedParameters;
 
 /// Components of a force in the order of the figures.
 const FORCES: [&str; 3] = ["up", "forward", "sideways"];
@@ -15,7 +15,7 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
     let Order { evaluations, seed, pull, .. } = *order;
     let head = format!(
         "# Fit of the ground-force estimator\n\n\
-         Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of `ambulo::ground::predict::Weights` that no law gives are fitted to recordings with plates. Footfalls are found once a \
+         Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of `ambulo::ground::predict::FittedParameters` that no law gives are fitted to recordings with plates. Footfalls are found once a \
          recording, from motion alone; every prediction is made as `ambulo forces --predict` makes it. A random local search with \
          {evaluations} evaluations a fit starts from the middle of the ranges, also for the fits that leave a subject out.\n\n\
          Cost of a recording, mean over its feet: upward force rRMSE / 4 % + RMSE / 5 % of body weight + 0.3 (1 - r) / 0.01, forward \
@@ -69,9 +69,9 @@ fn numbers(outcome: &Outcome) -> String {
         "left out, least",
         "left out, most",
     ]);
-    let shipped = Weights::default();
+    let shipped = FittedParameters::default();
     for (number, changes) in NUMBERS.iter().zip(&outcome.sensitivity) {
-        let folds = outcome.folds.iter().map(|fold| number.of(&fold.weights));
+        let folds = outcome.folds.iter().map(|fold| number.of(&fold.parameters));
         let (low, high) = folds.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let Number { name, unit, range, .. } = number;
         let change = |x: f64| format!("{:+.1}", 100.0 * x);
@@ -80,7 +80,7 @@ fn numbers(outcome: &Outcome) -> String {
             (*unit).to_owned(),
             digits(range[0]),
             digits(range[1]),
-            digits(number.of(&outcome.weights)),
+            digits(number.of(&outcome.parameters)),
             digits(number.of(&shipped)),
             change(changes[0]),
             change(changes[1]),
@@ -128,8 +128,8 @@ fn figures(outcome: &Outcome) -> String {
 fn spreads(outcome: &Outcome) -> String {
     let mut table = Table::new(&["component", "unit of the floor", "factor", "floor", "left out: factors", "floors"]);
     for (c, component) in COMPONENTS.iter().enumerate() {
-        let own = spread(&outcome.weights.calibration, c);
-        let folds: Vec<_> = outcome.folds.iter().map(|fold| spread(&fold.weights.calibration, c)).collect();
+        let own = spread(&outcome.parameters.calibration, c);
+        let folds: Vec<_> = outcome.folds.iter().map(|fold| spread(&fold.parameters.calibration, c)).collect();
         let ends = |of: fn(&ambulo::ground::predict::DeviationScaling) -> f64| {
             let (low, high) = folds.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
             format!("{} to {}", digits(low), digits(high))

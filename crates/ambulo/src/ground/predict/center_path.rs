@@ -10,9 +10,9 @@
 //! | code   | symbol | unit | meaning                            |
 //! | `lean` | θ      | rad  | of ankle to knee, forward positive |
 
+use super::fitted_parameters::FittedParameters;
 use super::geometry::FootPlace;
 use super::stances::{BodyScale, Stance};
-use super::weights::Weights;
 use crate::model::Side;
 use crate::spatial::Vec3;
 
@@ -25,21 +25,21 @@ pub(super) fn center_path(
     stance: &Stance,
     time: f64,
     body_scale: &BodyScale,
-    weights: &Weights,
+    parameters: &FittedParameters,
 ) -> Vec3 {
     let up = body_scale.up;
     let level = |v: Vec3| v - up * v.dot(&up);
     let [rear, ball, tip] = place.sole;
     let along = level(tip - rear).try_normalize(f64::MIN_POSITIVE).unwrap_or(stance.forward);
     let outwards = along.cross(&up) * if stance.side == Side::Right { 1.0 } else { -1.0 };
-    let [behind, front] = weights.center_ends;
+    let [behind, front] = parameters.center_ends;
     let back = rear - along * (behind * body_scale.height_m);
     let front = ball + (tip - ball) * front;
     let share = match place.shank {
-        Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), weights.center_lean),
+        Some(shank) => share(shank.dot(&along).atan2(shank.dot(&up)), parameters.center_lean),
         None => stance.elapsed_share(time),
     };
-    let path = back + (front - back) * share + outwards * (weights.center_outwards * body_scale.height_m);
+    let path = back + (front - back) * share + outwards * (parameters.center_outwards * body_scale.height_m);
     level(path) + up * stance.height_m
 }
 

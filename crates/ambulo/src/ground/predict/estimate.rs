@@ -32,11 +32,11 @@ use crate::model::BySide;
 /// # Errors
 /// Equations that are too large or have no solution.
 pub(super) fn estimate(inputs: &EstimateInputs<'_>, curves: &StanceCurves) -> Result<BySide<FootLoads>, PredictError> {
-    let EstimateInputs { grid, stances, body_scale, weights, .. } = *inputs;
+    let EstimateInputs { grid, stances, body_scale, parameters, .. } = *inputs;
     let expectations: Vec<Expectation<'_>> =
-        stances.iter().map(|stance| Expectation::new(stance, stances, curves, weights, body_scale)).collect();
-    let unknowns = Unknowns::new(stances, body_scale, weights);
-    let filter = GaussianFilter::new(weights.bandwidth_hz, grid);
+        stances.iter().map(|stance| Expectation::new(stance, stances, curves, parameters, body_scale)).collect();
+    let unknowns = Unknowns::new(stances, body_scale, parameters);
+    let filter = GaussianFilter::new(parameters.bandwidth_hz, grid);
     let samples: Vec<StanceSamples> = expectations
         .iter()
         .zip(&unknowns.curves)

@@ -9,9 +9,9 @@
 //! a foot pushes outwards briefly after its strike, as in all 16 stances of six straight trials (0.008 to 0.058 body weights).
 //! Moments are the free moment and those of a centre of pressure away from its expected path; their mean is zero.
 
+use super::fitted_parameters::FittedParameters;
 use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};
 use super::stances::{BodyScale, GaitType, Stance};
-use super::weights::Weights;
 use crate::model::Side;
 use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -50,7 +50,7 @@ const WHOLE_LOAD: f64 = 0.6;
 pub(super) struct Expectation<'a> {
     pub(super) stance: &'a Stance,
     curves: AtSpeed<'a>,
-    weights: &'a Weights,
+    parameters: &'a FittedParameters,
     body_scale: &'a BodyScale,
     /// Time from this strike to the next one of either foot [s].
     step_s: f64,
@@ -63,7 +63,7 @@ impl<'a> Expectation<'a> {
         stance: &'a Stance,
         all: &[Stance],
         curves: &'a StanceCurves,
-        weights: &'a Weights,
+        parameters: &'a FittedParameters,
         body_scale: &'a BodyScale,
     ) -> Expectation<'a> {
         let next = all.iter().map(|s| s.start_s - stance.start_s).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
@@ -72,7 +72,7 @@ impl<'a> Expectation<'a> {
         let meets = |s: &&Stance| s.side != stance.side && s.start_s < stance.end_s && s.end_s > stance.start_s;
         let others = all.iter().filter(meets).map(|s| [s.start_s, s.end_s]).collect();
         let step_s = if step_s.is_finite() { step_s } else { 1.5 * stance.duration_s() };
-        Expectation { stance, curves: stance.curves(curves), weights, body_scale, step_s, others }
+        Expectation { stance, curves: stance.curves(curves), parameters, body_scale, step_s, others }
     }
 
     /// Vertical force [body weights].
@@ -81,7 +81,7 @@ impl<'a> Expectation<'a> {
         match self.stance.gait {
             GaitType::Walk => {
                 let found = self.curves.vertical(own);
-                MeanAndDeviation { mean: found.mean, deviation: found.deviation * self.weights.spread[1] }
+                MeanAndDeviation { mean: found.mean, deviation: found.deviation * self.parameters.spread[1] }
             }
             GaitType::Run => {
                 let peak = FRAC_PI_2 * (self.step_s / self.stance.duration_s()).clamp(0.5, 4.0);
@@ -100,16 +100,16 @@ impl<'a> Expectation<'a> {
     /// of pressure to the mass centre [m].
     pub(super) fn all(&self, time: f64, lever: Vec3) -> [MeanAndDeviation; 6] {
         let BodyScale { up, weight_n, height_m, .. } = *self.body_scale;
-        let (stance, weights) = (self.stance, self.weights);
+        let (stance, parameters) = (self.stance, self.parameters);
         let vertical = self.vertical(time);
         let own = stance.elapsed_share(time);
         let loaded = (vertical.mean / WHOLE_LOAD).clamp(0.0, 1.0);
         let height = lever.dot(&up).max(0.1 * height_m);
-        let lean = |axis: Vec3| weights.sideways_lever * vertical.mean * lever.dot(&axis) / height;
+        let lean = |axis: Vec3| parameters.sideways_lever * vertical.mean * lever.dot(&axis) / height;
         let forward = match stance.gait {
             GaitType::Walk => {
                 let found = self.curves.fore_aft(stance.phase(time));
-                MeanAndDeviation { deviation: found.deviation * weights.spread[0], ..found }
+                MeanAndDeviation { deviation: found.deviation * parameters.spread[0], ..found }
             }
             GaitType::Run | GaitType::Stand => MeanAndDeviation {
                 mean: lean(stance.forward),
@@ -117,20 +117,20 @@ impl<'a> Expectation<'a> {
             },
         };
         let outwards = if stance.side == Side::Right { 1.0 } else { -1.0 };
-        let push = if stance.gait == GaitType::Walk { weights.strike_push * push_after_strike(own) } else { 0.0 };
+        let push = if stance.gait == GaitType::Walk { parameters.strike_push * push_after_strike(own) } else { 0.0 };
         let right = MeanAndDeviation {
             mean: lean(stance.right) + outwards * push,
-            deviation: weights.sideways_spread * loaded,
+            deviation: parameters.sideways_spread * loaded,
         };
         let about_zero = |deviation: f64| MeanAndDeviation { mean: 0.0, deviation: deviation * self.body_scale.size() };
         // A centre of pressure displaced along the foot makes a moment about the right axis, across the foot about the forward axis.
-        let [along, across] = weights.center_spread.map(|spread| spread * vertical.mean.max(0.0));
+        let [along, across] = parameters.center_spread.map(|spread| spread * vertical.mean.max(0.0));
         let all = [
             forward,
             vertical,
             right,
             about_zero(across),
-            about_zero(weights.free_moment_spread * loaded),
+            about_zero(parameters.free_moment_spread * loaded),
             about_zero(along),
         ];
         // Without a smallest deviation a curve could not adapt to a strike or off that was detected early or late.

@@ -67,7 +67,7 @@ pub(super) fn loads(
             let deviation = &mut out.deviation;
             let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
             let weight = inputs.body_scale.weight_n;
-            let calibration = &inputs.weights.calibration;
+            let calibration = &inputs.parameters.calibration;
             let spread = |axis: usize, of: &Estimate| calibration.force[axis].variance(of.variance, weight);
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;

@@ -10,6 +10,7 @@ mod center_path;
 mod deviation_calibration;
 mod estimate;
 mod expected;
+mod fitted_parameters;
 mod gaussian_filter;
 mod geometry;
 mod loads;
@@ -21,7 +22,6 @@ mod stances;
 mod total;
 mod unilateral;
 mod unknowns;
-mod weights;
 
 use super::footfalls::{Footfall, Footfalls, footfalls};
 use super::{BodyForces, GroundForces, upward};
@@ -33,6 +33,7 @@ use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
 pub use deviation_calibration::{DeviationCalibration, DeviationScaling};
 use estimate::estimate;
+pub use fitted_parameters::FittedParameters;
 use geometry::Geometry;
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
@@ -41,7 +42,6 @@ use stances::{BodyScale, stances};
 use std::ops::Range;
 pub use total::total_wrench;
 use unilateral::enforce_unilateral_contact;
-pub use weights::Weights;
 
 /// Smallest accepted gravity [m/s²].
 const LEAST_GRAVITY: f64 = 0.1;
@@ -120,7 +120,7 @@ pub struct PredictSettings {
     /// Quantities that are given and not estimated.
     pub prescribed: Prescribed,
     /// Standard deviations of prior and evidence.
-    pub weights: Weights,
+    pub parameters: FittedParameters,
 }
 
 /// Why forces cannot be predicted.
@@ -273,7 +273,7 @@ pub fn predict(
         stances: &stances,
         total: &total,
         body_scale: &body_scale,
-        weights: &settings.weights,
+        parameters: &settings.parameters,
         prescribed: &settings.prescribed,
     };
     let mut feet = estimate(&inputs, curves)?;

@@ -8,7 +8,7 @@ use super::unknowns::Unknowns;
 use crate::numerics::BandMatrix;
 use crate::spatial::{Vec3, Wrench};
 
-/// The total wrench is compared about this often [s]: at the bandwidth of [`super::Weights`] neighbouring frames are nearly equal.
+/// The total wrench is compared about this often [s]: at the bandwidth of [`super::FittedParameters`] neighbouring frames are nearly equal.
 const OBSERVED_EVERY_S: f64 = 0.04;
 /// Near the ends of the recording, within the length of the filter, noise is larger by this factor.
 const AT_THE_ENDS: f64 = 2.0;
@@ -128,13 +128,13 @@ impl NormalEquations<'_> {
 
     /// Standard deviations of the six equations at a time [N, N.m].
     fn noise(&self, time: f64) -> [f64; 6] {
-        let EstimateInputs { grid, body_scale, weights, .. } = *self.inputs;
+        let EstimateInputs { grid, body_scale, parameters, .. } = *self.inputs;
         let reach = self.filter.reach_s(grid);
         let at_end = time - grid.start_s < reach || grid.end_s() - time < reach;
         let scale = body_scale.weight_n * if at_end { AT_THE_ENDS } else { 1.0 };
         std::array::from_fn(|row| match row {
-            0..3 => scale * weights.force_noise[row],
-            _ => scale * body_scale.size() * weights.moment_noise[row - 3],
+            0..3 => scale * parameters.force_noise[row],
+            _ => scale * body_scale.size() * parameters.moment_noise[row - 3],
         })
     }
 }

@@ -2,11 +2,11 @@
 
 use super::center_path::center_path;
 use super::expected::{Component, Expectation};
+use super::fitted_parameters::FittedParameters;
 use super::geometry::Geometry;
 use super::prescribed::Prescribed;
 use super::stances::{BodyScale, Stance};
 use super::unknowns::{ActiveSplines, Curve};
-use super::weights::Weights;
 use crate::model::BySide;
 use crate::motion::TimeGrid;
 use crate::spatial::{Vec3, Wrench};
@@ -22,7 +22,7 @@ pub(super) struct EstimateInputs<'a> {
     /// About the world's origin.
     pub(super) total: &'a [Wrench],
     pub(super) body_scale: &'a BodyScale,
-    pub(super) weights: &'a Weights,
+    pub(super) parameters: &'a FittedParameters,
     pub(super) prescribed: &'a Prescribed,
 }
 
@@ -30,7 +30,7 @@ impl EstimateInputs<'_> {
     /// Expected centre of pressure in a frame [m].
     pub(super) fn expected_center(&self, stance: &Stance, frame: usize) -> Vec3 {
         let place = &self.geometry.feet[stance.side][frame];
-        let path = || center_path(place, stance, self.grid.time(frame), self.body_scale, self.weights);
+        let path = || center_path(place, stance, self.grid.time(frame), self.body_scale, self.parameters);
         self.prescribed.center_at(stance.side, frame).unwrap_or_else(path)
     }
 

@@ -59,7 +59,7 @@ pub(super) struct BodyScale {
     pub(super) height_m: f64,
 }
 
-/// Stature that the lengths in [`super::Weights`] refer to [m].
+/// Stature that the lengths in [`super::FittedParameters`] refer to [m].
 const STATURE_M: f64 = 1.75;
 
 impl BodyScale {

@@ -6,8 +6,8 @@
 //! average, so that f has the standard deviation s. The z are numbered in order of time of their knots, so that the equations form a band.
 
 use super::expected::Component;
+use super::fitted_parameters::FittedParameters;
 use super::stances::{BodyScale, Stance};
-use super::weights::Weights;
 
 /// β: root of the mean over one interval of Σ B², 151/315.
 const UNIT: f64 = 0.692_358_7;
@@ -58,11 +58,11 @@ pub(super) struct Unknowns {
 }
 
 impl Unknowns {
-    pub(super) fn new(stances: &[Stance], body_scale: &BodyScale, weights: &Weights) -> Unknowns {
+    pub(super) fn new(stances: &[Stance], body_scale: &BodyScale, parameters: &FittedParameters) -> Unknowns {
         let curve = |stance: &Stance, component: Component| {
             let detail = match component {
-                Component::Force(axis) => weights.detail[axis],
-                Component::Moment(_) => weights.detail[2],
+                Component::Force(axis) => parameters.detail[axis],
+                Component::Moment(_) => parameters.detail[2],
             };
             let duration = stance.duration_s();
             let intervals = (duration / (detail * body_scale.leg_time_s)).round().max(3.0) as usize;

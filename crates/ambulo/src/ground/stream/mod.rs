@@ -20,7 +20,7 @@ mod frame_buffer;
 mod step_timing;
 
 use super::footfalls::footfalls;
-use super::predict::{PredictSettings, Prediction, Prescribed, Weights, predict};
+use super::predict::{FittedParameters, PredictSettings, Prediction, Prescribed, predict};
 use crate::dynamics::Workspace;
 use crate::findings::Findings;
 use crate::kinematics::Trajectory;
@@ -56,7 +56,7 @@ pub struct StreamSettings {
     /// How the motion is smoothed.
     pub smoother: Smoother,
     /// Parameters of the prediction.
-    pub weights: Weights,
+    pub parameters: FittedParameters,
 }
 
 impl StreamSettings {
@@ -68,7 +68,7 @@ impl StreamSettings {
             delay_s: 0.07,
             window_s: 2.5,
             smoother: Smoother::Butterworth(LowPass::MOTION),
-            weights: Weights::default(),
+            parameters: FittedParameters::default(),
         }
     }
 }
@@ -79,7 +79,7 @@ pub struct Stream {
     model: Model,
     soles: BySide<Option<Sole>>,
     smoother: Smoother,
-    weights: Weights,
+    parameters: FittedParameters,
     buffer: FrameBuffer,
     step_timing: StepTiming,
     /// Delay of the results [frames].
@@ -96,7 +96,7 @@ impl Stream {
     /// # Errors
     /// A rate, delay or window out of range. A model without feet is rejected at the first prediction.
     pub fn new(model: Model, soles: BySide<Option<Sole>>, settings: &StreamSettings) -> Result<Stream, StreamError> {
-        let StreamSettings { rate_hz, delay_s, window_s, smoother, weights } = *settings;
+        let StreamSettings { rate_hz, delay_s, window_s, smoother, parameters } = *settings;
         let ([lowest_hz, highest_hz], [shortest_s, longest_s]) = (RATES_HZ, WINDOWS_S);
         if !(lowest_hz..=highest_hz).contains(&rate_hz) {
             return Err(StreamError::Rate { found_hz: rate_hz, lowest_hz, highest_hz });
@@ -114,7 +114,7 @@ impl Stream {
             model,
             soles,
             smoother,
-            weights,
+            parameters,
             step_timing: StepTiming::default(),
             delay: (delay_s * rate_hz + NEAR_A_FRAME) as usize,
             due: 0,
@@ -210,7 +210,7 @@ impl Stream {
         self.step_timing.update(&footfalls);
         self.step_timing.extrapolate(&mut footfalls, trajectory.grid());
         let prescribed = Prescribed { footfalls: Some(footfalls), ..Prescribed::default() };
-        let settings = PredictSettings { prescribed, weights: self.weights };
+        let settings = PredictSettings { prescribed, parameters: self.parameters };
         let prediction = predict(&self.model, &trajectory, &self.soles, &settings, &mut findings)?;
         self.findings = findings;
         Ok(Some((trajectory, prediction)))

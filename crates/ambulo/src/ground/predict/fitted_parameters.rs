@@ -5,7 +5,7 @@ use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
 /// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`; docs/measured/GROUND_FIT.md has
 /// their leave-one-out errors and sensitivities.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights {
+pub struct FittedParameters {
     /// Cut-off frequency of the low-pass filter through which motion and forces are compared [Hz]: above it are skin motion and noise.
     /// Both sides are filtered, so that the cut-off frequency of the motion has little effect.
     pub bandwidth_hz: f64,
@@ -37,9 +37,9 @@ pub struct Weights {
     pub calibration: DeviationCalibration,
 }
 
-impl Default for Weights {
-    fn default() -> Weights {
-        Weights {
+impl Default for FittedParameters {
+    fn default() -> FittedParameters {
+        FittedParameters {
             bandwidth_hz: 6.27,
             force_noise: [0.0198, 0.0171, 0.0163],
             moment_noise: [0.0136, 0.00869, 0.0241],
