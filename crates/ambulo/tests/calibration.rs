@@ -40,8 +40,8 @@ fn build() -> Build {
 fn person() -> PersonMeasurements {
     let measurements = BodyMeasurements {
         marker_radius: Some(RADIUS),
-        knee_width: [Some(KNEE_WIDTH); 2],
-        ankle_width: [Some(ANKLE_WIDTH); 2],
+        knee_width: [Some(KNEE_WIDTH); 2].into(),
+        ankle_width: [Some(ANKLE_WIDTH); 2].into(),
         ..BodyMeasurements::default()
     };
     PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.74), measurements }

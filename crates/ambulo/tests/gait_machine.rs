@@ -136,8 +136,8 @@ fn the_global_cycle_agrees_with_the_legs() {
         let posture = machine.step(0.01 * f64::from(i));
         let running = machine.running();
         let state = running.state_name(running.number("walk").unwrap()).to_owned();
-        let expected = match posture.phases.stance {
-            [true, true] if posture.phases.cycle[0] < 0.5 => "double support, right foot ahead",
+        let expected = match posture.phases.stance.into_array() {
+            [true, true] if posture.phases.cycle.right < 0.5 => "double support, right foot ahead",
             [true, true] => "double support, left foot ahead",
             [true, false] => "single support on the right, left swing",
             [false, true] => "single support on the left, right swing",

@@ -16,6 +16,7 @@ use super::pace::{above_zero, number, resolve};
 use super::speed_plan::{Clock, SpeedChange, SpeedPlan};
 use super::stride::{StrideLaw, walking_speeds};
 use crate::findings::{Code, Findings};
+use crate::model::BySide;
 
 /// A gait for a leg length.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,10 +64,10 @@ pub struct WalkPosture {
 /// Phases of both legs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Phases {
-    /// Phase of right and left foot since foot strike, 0 to 1.
-    pub cycle: [f64; 2],
-    /// Whether the right and the left foot are in stance.
-    pub stance: [bool; 2],
+    /// Phase of each foot since foot strike, 0 to 1.
+    pub cycle: BySide<f64>,
+    /// Whether the foot is in stance.
+    pub stance: BySide<bool>,
     /// Foot off as a share of the cycle, at the current speed.
     pub foot_off: f64,
 }
@@ -269,7 +270,8 @@ impl Walk {
     #[must_use]
     pub fn phases(&self, clock: &Clock) -> Phases {
         let foot_off = self.foot_off(clock);
-        let cycle = [clock.phase.value, clock.phase.value + 0.5].map(|phase| phase - phase.floor());
+        let cycle =
+            BySide { right: clock.phase.value, left: clock.phase.value + 0.5 }.map(|phase| phase - phase.floor());
         Phases { cycle, stance: cycle.map(|phase| phase < foot_off), foot_off }
     }
 

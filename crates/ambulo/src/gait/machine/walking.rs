@@ -21,7 +21,7 @@ use crate::gait::joint::LegJoint;
 use crate::gait::speed_plan::Clock;
 use crate::gait::sub_cycle::SubCycle;
 use crate::gait::walk::{LegAngles, Phases, Walk, WalkPosture};
-use crate::model::Side;
+use crate::model::{BySide, Side};
 use std::sync::Arc;
 
 /// The state machine of a walk.
@@ -65,7 +65,7 @@ fn global(walk: &Arc<Walk>) -> Machine {
         let walk = Arc::clone(walk);
         Transition::new(k, (k + 1) % 4, EVENTS[k], move |inputs: &MachineInputs<'_>| {
             let windows = support_windows(walk.foot_off(inputs.clock));
-            let [phase, _] = walk.phases(inputs.clock).cycle;
+            let phase = walk.phases(inputs.clock).cycle.right;
             !(windows[k]..windows[k + 1]).contains(&phase)
         })
     };
@@ -82,7 +82,7 @@ fn leg(walk: &Arc<Walk>, side: Side) -> Machine {
     let transition = |from: usize, when: &str| {
         let walk = Arc::clone(walk);
         Transition::new(from, 1 - from, when, move |inputs: &MachineInputs<'_>| {
-            let stands = walk.phases(inputs.clock).stance[side as usize];
+            let stands = walk.phases(inputs.clock).stance[side];
             stands != (from == 0)
         })
     };
@@ -242,7 +242,10 @@ impl WalkMachine {
             trunk_lean: output(self.trunk[1]),
             shoulders: self.arms.map(|arm| output(arm[0])),
             elbows: self.arms.map(|arm| output(arm[1])),
-            phases: Phases { stance: self.legs.map(|leg| self.running.state(leg) == 0), ..self.walk.phases(&clock) },
+            phases: Phases {
+                stance: BySide::from(self.legs).map(|leg| self.running.state(leg) == 0),
+                ..self.walk.phases(&clock)
+            },
         }
     }
 

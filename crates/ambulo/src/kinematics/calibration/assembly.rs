@@ -5,14 +5,13 @@ use super::feet::Feet;
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::Legs;
 use super::pelvis::Pelvis;
-use super::person::index;
 use super::report::{CalibrationReport, MarkerPlacement, SegmentScale};
 use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
 use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::full_body::{SegmentShape, SubjectShape, reshaped};
 use crate::model::marker_set::{Landmark, NamedMarker, Segment};
-use crate::model::{Marker, Side};
+use crate::model::{BySide, Marker, Side};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 
@@ -111,9 +110,9 @@ fn chosen<'a>(
 
 /// Pose of the segment of a marker in a selected frame.
 fn pose(parts: &Parts<'_>, segment: Segment, side: Option<Side>, ball: Vec3, measured: usize) -> Option<Pose> {
-    let leg = || parts.legs[index(side?)].as_ref()?.frames[measured];
-    let arm = || parts.trunk.arms[index(side?)].as_ref()?.frames[measured];
-    let foot = || parts.feet[index(side?)].poses[measured];
+    let leg = || parts.legs[side?].as_ref()?.frames[measured];
+    let arm = || parts.trunk.arms[side?].as_ref()?.frames[measured];
+    let foot = || parts.feet[side?].poses[measured];
     match segment {
         Segment::Pelvis => parts.pelvis.poses[measured],
         Segment::Torso => parts.trunk.poses[measured],
@@ -154,7 +153,7 @@ fn placed(
 
 /// Position of the ball of a foot relative to its ankle [m].
 fn ball(d: &Dimensions, feet: &Feet, side: Side) -> Vec3 {
-    let foot = &feet[index(side)];
+    let foot = &feet[side];
     foot.placement.place(d.ankle_to_ball * foot.factor, d.ball_radius * foot.factor)
 }
 
@@ -174,11 +173,11 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
     let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
     set(Segment::Torso, None, plain(parts.trunk.factor, lumbar));
     for side in Side::BOTH {
-        let (i, out) = (index(side), if side == Side::Right { 0.5 } else { -0.5 });
+        let out = if side == Side::Right { 0.5 } else { -0.5 };
         let hip = Vec3::z() * (out * parts.pelvis.hip_width);
         let (thigh, shank, varus) =
-            parts.legs[i].as_ref().map_or((d.thigh, d.shank, 0.0), |l| (l.thigh, l.shank, l.varus));
-        let foot = &parts.feet[i];
+            parts.legs[side].as_ref().map_or((d.thigh, d.shank, 0.0), |l| (l.thigh, l.shank, l.varus));
+        let foot = &parts.feet[side];
         set(Segment::Femur, Some(side), plain(thigh / d.thigh, hip));
         let knee = plain(shank / d.shank, Vec3::y() * -thigh);
         let varus = Pose { rotation: about_x(varus).transpose(), translation: Vec3::zeros() };
@@ -192,8 +191,8 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
         );
         set(Segment::Toes, Some(side), plain(foot.factor, ball(d, parts.feet, side)));
         let (upper, lower) =
-            parts.trunk.arms[i].as_ref().map_or((d.upper_arm, d.forearm), |arm| (arm.upper, arm.lower));
-        set(Segment::Humerus, Some(side), plain(upper / d.upper_arm, parts.trunk.shoulders[i]));
+            parts.trunk.arms[side].as_ref().map_or((d.upper_arm, d.forearm), |arm| (arm.upper, arm.lower));
+        set(Segment::Humerus, Some(side), plain(upper / d.upper_arm, parts.trunk.shoulders[side]));
         set(Segment::Forearm, Some(side), plain(lower / d.forearm, Vec3::y() * -upper));
     }
     let mut locked = Vec::new();
@@ -204,19 +203,19 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
         );
         locked = ["lumbar_extension", "lumbar_bending", "lumbar_rotation"].map(str::to_owned).to_vec();
     }
-    let feet = [parts.feet[0].placement, parts.feet[1].placement];
+    let feet = Side::BOTH.map(|side| parts.feet[side].placement);
     SubjectShape { segments, markers, feet, dimensions: dimensions(d, parts), locked }
 }
 
 /// Lengths of the person, mean of both sides.
 fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
-    let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(0) + of(1));
-    let foot = mean(&|i| parts.feet[i].factor);
-    let thigh = mean(&|i| parts.legs[i].as_ref().map_or(generic.thigh, |leg| leg.thigh));
-    let shank = mean(&|i| parts.legs[i].as_ref().map_or(generic.shank, |leg| leg.shank));
-    let ankle_height = mean(&|i| parts.feet[i].placement.ankle_height);
-    let arm = |i: usize| parts.trunk.arms[i].as_ref();
-    let [right, left] = parts.trunk.shoulders;
+    let mean = |of: &dyn Fn(Side) -> f64| 0.5 * (of(Side::Right) + of(Side::Left));
+    let foot = mean(&|side| parts.feet[side].factor);
+    let thigh = mean(&|side| parts.legs[side].as_ref().map_or(generic.thigh, |leg| leg.thigh));
+    let shank = mean(&|side| parts.legs[side].as_ref().map_or(generic.shank, |leg| leg.shank));
+    let ankle_height = mean(&|side| parts.feet[side].placement.ankle_height);
+    let arm = |side: Side| parts.trunk.arms[side].as_ref();
+    let BySide { right, left } = parts.trunk.shoulders;
     Dimensions {
         leg_length: thigh + shank + ankle_height,
         thigh,
@@ -233,22 +232,22 @@ fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
         hip_width: parts.pelvis.hip_width,
         shoulder_width: right.z - left.z,
         shoulder_height: generic.lumbar_height.unwrap_or(0.0) + 0.5 * (right.y + left.y),
-        upper_arm: mean(&|i| arm(i).map_or(generic.upper_arm, |arm| arm.upper)),
-        forearm: mean(&|i| arm(i).map_or(generic.forearm, |arm| arm.lower)),
+        upper_arm: mean(&|side| arm(side).map_or(generic.upper_arm, |arm| arm.upper)),
+        forearm: mean(&|side| arm(side).map_or(generic.forearm, |arm| arm.lower)),
         ..*generic
     }
 }
 
 fn scales(generic: &Human, parts: &Parts<'_>, shape: &SubjectShape) -> Vec<SegmentScale> {
     let is_measured = |name: &str| {
-        let side = Side::of_name(name).map(index);
-        let leg = || side.is_some_and(|i| parts.legs[i].is_some());
+        let side = Side::of_name(name);
+        let leg = || side.is_some_and(|side| parts.legs[side].is_some());
         match name.split('_').next().unwrap_or_default() {
             "pelvis" => false,
             "torso" => parts.trunk.poses.iter().any(Option::is_some),
             "femur" | "tibia" => leg(),
-            "calcn" | "toes" => side.is_some_and(|i| parts.feet[i].poses.iter().any(Option::is_some)),
-            _ => side.is_some_and(|i| parts.trunk.arms[i].is_some()),
+            "calcn" | "toes" => side.is_some_and(|side| parts.feet[side].poses.iter().any(Option::is_some)),
+            _ => side.is_some_and(|side| parts.trunk.arms[side].is_some()),
         }
     };
     let scale = |(body, segment): (&crate::model::Body, &SegmentShape)| SegmentScale {

@@ -3,12 +3,11 @@
 use super::axes::{about_x, about_y, angles_zxy, from_y_z, in_frame, median_point};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::{Leg, Legs};
-use super::person::index;
 use super::reference::Trial;
-use crate::model::Side;
 use crate::model::anthropometry::Dimensions;
 use crate::model::full_body::SolePlacement;
 use crate::model::marker_set::Landmark;
+use crate::model::{BySide, Side};
 use crate::numerics::median;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -28,7 +27,7 @@ const TORSIONS_DEG: [f64; 2] = [-10.0, 40.0];
 const FACTORS: [f64; 2] = [0.6, 1.6];
 
 /// Both feet, right first.
-pub(super) type Feet = [Foot; 2];
+pub(super) type Feet = BySide<Foot>;
 
 /// Pose, size, sole and ankle joint of one foot.
 #[derive(Debug)]
@@ -63,7 +62,7 @@ pub(super) fn find(
 ) -> Feet {
     let finder = Finder { trajectories, frames, trial, dimensions };
     let floor = finder.floor(assumptions);
-    Side::BOTH.map(|side| match &legs[index(side)] {
+    BySide::from_fn(|side| match &legs[side] {
         Some(leg) => finder.foot(leg, side, floor, assumptions),
         None => table_foot(dimensions, frames.len()),
     })

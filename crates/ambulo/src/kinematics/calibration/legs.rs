@@ -4,10 +4,10 @@ use super::CalibrationError;
 use super::axes::{angles_zxy, direction, from_y_z, perpendicular};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::person::{PersonMeasurements, of};
-use crate::model::Side;
+use super::person::PersonMeasurements;
 use crate::model::anthropometry::{Build, BuildError, SegmentTable};
 use crate::model::marker_set::Landmark;
+use crate::model::{BySide, Side};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
@@ -25,7 +25,7 @@ const NEARLY_STRAIGHT: f64 = 0.5;
 const LEAST_FRAMES: usize = 3;
 
 /// Both legs, right first; `None` without markers.
-pub(super) type Legs = [Option<Leg>; 2];
+pub(super) type Legs = BySide<Option<Leg>>;
 
 /// Thigh and shank of one leg.
 #[derive(Debug)]
@@ -96,8 +96,8 @@ pub(super) fn find(
     person: &PersonMeasurements,
     assumptions: &mut Vec<String>,
 ) -> Result<Legs, CalibrationError> {
-    let mut legs = [None, None];
-    for (slot, side) in legs.iter_mut().zip(Side::BOTH) {
+    let mut legs = BySide { right: None, left: None };
+    for side in Side::BOTH {
         let breadths = breadths(trajectories, frames, pelvis, person, side);
         let finder = Finder { trajectories, frames, side };
         let (Some(knee), Some(ankle)) = (
@@ -109,9 +109,9 @@ pub(super) fn find(
             ));
             continue;
         };
-        *slot = Some(leg(&finder, pelvis, knee, ankle)?);
+        legs[side] = Some(leg(&finder, pelvis, knee, ankle)?);
     }
-    if legs.iter().all(Option::is_none) {
+    if legs.values().all(Option::is_none) {
         return Err(CalibrationError::Markers {
             part: "legs".to_owned(),
             needed: "on one side at least lateral_epicondyle or knee_centre, and lateral_malleolus or ankle_centre,"
@@ -130,7 +130,7 @@ fn breadths(
     person: &PersonMeasurements,
     side: Side,
 ) -> [(f64, bool); 2] {
-    let measured = [of(&person.measurements.knee_width, side), of(&person.measurements.ankle_width, side)];
+    let measured = [person.measurements.knee_width[side], person.measurements.ankle_width[side]];
     let stature = person.height.or_else(|| rough_stature(trajectories, frames, pelvis, side)).unwrap_or(f64::NAN);
     let usual = [KNEE_BREADTH * stature, ANKLE_BREADTH * stature];
     [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
@@ -298,7 +298,7 @@ fn length(part: String, lengths: impl Iterator<Item = f64>) -> Result<f64, Calib
 pub(super) fn stature(legs: &Legs, table: SegmentTable, assumptions: &mut Vec<String>) -> Result<f64, BuildError> {
     let (mass, height) = (70.0, 1.75);
     let d = Build { table, mass, height, toe_joint: true }.human()?.dimensions;
-    let lengths = legs.iter().flatten().map(|leg| leg.thigh + leg.shank);
+    let lengths = legs.values().flatten().map(|leg| leg.thigh + leg.shank);
     let found = height * median(lengths).unwrap_or(f64::NAN) / (d.thigh + d.shank);
     assumptions.push(format!("the stature is not given; it is estimated as {found:.2} m from thighs and shanks"));
     Ok(found)

@@ -1,6 +1,6 @@
 //! Data of a person other than markers.
 
-use crate::model::Side;
+use crate::model::BySide;
 use crate::model::anthropometry::SegmentTable;
 
 /// Data for calibrating a body: segment table, mass, stature and body measurements.
@@ -16,19 +16,19 @@ pub struct PersonMeasurements {
     pub measurements: BodyMeasurements,
 }
 
-/// Measurements of a body [m], right before left; `None` if not measured.
+/// Measurements of a body [m]; `None` if not measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BodyMeasurements {
     /// Radius of the markers.
     pub marker_radius: Option<f64>,
     /// Width of the knee between its epicondyles.
-    pub knee_width: [Option<f64>; 2],
+    pub knee_width: BySide<Option<f64>>,
     /// Width of the ankle between its malleoli.
-    pub ankle_width: [Option<f64>; 2],
+    pub ankle_width: BySide<Option<f64>>,
     /// Width of the elbow between its epicondyles.
-    pub elbow_width: [Option<f64>; 2],
+    pub elbow_width: BySide<Option<f64>>,
     /// Vertical distance from the acromion marker down to the shoulder centre, without the radius of the marker.
-    pub shoulder_offset: [Option<f64>; 2],
+    pub shoulder_offset: BySide<Option<f64>>,
 }
 
 /// Default radius of a marker [m]: the usual diameter is 14 mm.
@@ -40,7 +40,7 @@ impl BodyMeasurements {
     #[must_use]
     pub fn from_processing(parameter_mm: impl Fn(&str) -> Option<f64>) -> BodyMeasurements {
         let metres = |name: &str| parameter_mm(name).filter(|v| *v > 0.0 && v.is_finite()).map(|v| 0.001 * v);
-        let both = |stem: &str| ["R", "L"].map(|side| metres(&format!("{side}{stem}")));
+        let both = |stem: &str| BySide::from(["R", "L"].map(|side| metres(&format!("{side}{stem}"))));
         BodyMeasurements {
             marker_radius: metres("MarkerDiameter").map(|d| 0.5 * d),
             knee_width: both("KneeWidth"),
@@ -54,14 +54,4 @@ impl BodyMeasurements {
     pub(super) fn radius(&self) -> f64 {
         self.marker_radius.unwrap_or(MARKER_RADIUS)
     }
-}
-
-/// The value of one side.
-pub(super) fn of<T: Copy>(pair: &[T; 2], side: Side) -> T {
-    pair[index(side)]
-}
-
-/// Index of a side in a pair: right before left.
-pub(super) fn index(side: Side) -> usize {
-    usize::from(side == Side::Left)
 }

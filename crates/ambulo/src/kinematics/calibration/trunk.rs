@@ -3,10 +3,10 @@
 use super::axes::{about_z, direction, fit_pose, from_y_x, from_y_z, in_frame, median_point};
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
-use super::person::{PersonMeasurements, of};
-use crate::model::Side;
+use super::person::PersonMeasurements;
 use crate::model::anthropometry::Dimensions;
 use crate::model::marker_set::{Landmark, Segment};
+use crate::model::{BySide, Side};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
@@ -38,11 +38,11 @@ pub(super) struct Trunk {
     /// Scale factor relative to the segment table.
     pub(super) factor: f64,
     /// Shoulder centres in the body frame [m], right first.
-    pub(super) shoulders: [Vec3; 2],
+    pub(super) shoulders: BySide<Vec3>,
     /// How much higher they are in the selected frames because of raised arms [m].
     pub(super) lift: f64,
     /// Right first; `None` without markers.
-    pub(super) arms: [Option<Arm>; 2],
+    pub(super) arms: BySide<Option<Arm>>,
 }
 
 /// Upper arm and forearm of one side.
@@ -80,10 +80,10 @@ pub(super) fn find(
             1e3 * trunk.lift
         ));
     }
-    for (slot, side) in trunk.arms.iter_mut().zip(Side::BOTH) {
-        let raised = trunk.shoulders[super::person::index(side)] + Vec3::y() * trunk.lift;
-        *slot = finder.arm(&trunk.poses, raised, side);
-        if slot.is_none() {
+    for side in Side::BOTH {
+        let raised = trunk.shoulders[side] + Vec3::y() * trunk.lift;
+        trunk.arms[side] = finder.arm(&trunk.poses, raised, side);
+        if trunk.arms[side].is_none() {
             assumptions.push(format!(
                 "the {side} arm has too few markers; its size is from the segment table, and it is assumed to hang"
             ));
@@ -114,7 +114,13 @@ impl Finder<'_> {
         let d = self.dimensions;
         let shoulder = |out: f64| Vec3::new(0.0, self.length(), out * 0.5 * d.shoulder_width);
         let poses = vec![None; self.frames.len()];
-        Trunk { poses, factor: 1.0, shoulders: [shoulder(1.0), shoulder(-1.0)], lift: 0.0, arms: [None, None] }
+        Trunk {
+            poses,
+            factor: 1.0,
+            shoulders: BySide { right: shoulder(1.0), left: shoulder(-1.0) },
+            lift: 0.0,
+            arms: BySide::from_fn(|_| None),
+        }
     }
 
     /// Fits the usual positions of the landmarks to the visible ones and to the lumbar joint.
@@ -158,8 +164,8 @@ impl Finder<'_> {
         let turn = about_z((-middle.x).atan2(middle.y));
         let poses = poses.into_iter().map(|pose| pose.map(|p| Pose { rotation: p.rotation * turn, ..p })).collect();
         let factor = (middle.x.hypot(middle.y) / self.length()).clamp(FACTORS[0], FACTORS[1]);
-        let shoulders = [right, left].map(|s| turn.transpose() * s);
-        Trunk { poses, factor, shoulders, lift, arms: [None, None] }
+        let shoulders = BySide { right, left }.map(|s| turn.transpose() * s);
+        Trunk { poses, factor, shoulders, lift, arms: BySide::from_fn(|_| None) }
     }
 
     /// Whether the upper arms are raised from the trunk.
@@ -197,8 +203,7 @@ impl Finder<'_> {
             median_point(&points.collect::<Vec<_>>())
         };
         let usual = (Landmark::Acromion.place() - Landmark::ShoulderCentre.place()).y * self.length();
-        let measured =
-            of(&self.person.measurements.shoulder_offset, side).map(|v| v + self.person.measurements.radius());
+        let measured = self.person.measurements.shoulder_offset[side].map(|v| v + self.person.measurements.radius());
         let below = Vec3::y() * measured.unwrap_or(usual);
         middle(Landmark::ShoulderCentre).or_else(|| Some(middle(Landmark::Acromion)? - below))
     }
@@ -279,7 +284,7 @@ impl Finder<'_> {
 
     /// Distance from the lateral marker to the elbow centre [m].
     fn half_elbow(&self, side: Side) -> f64 {
-        let width = of(&self.person.measurements.elbow_width, side).unwrap_or(ELBOW_BREADTH * self.dimensions.height);
+        let width = self.person.measurements.elbow_width[side].unwrap_or(ELBOW_BREADTH * self.dimensions.height);
         0.5 * width + self.person.measurements.radius()
     }
 }
