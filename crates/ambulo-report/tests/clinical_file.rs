@@ -5,6 +5,7 @@
 mod report_pages;
 #[path = "../../ambulo/tests/shared_data/mod.rs"]
 mod shared_data;
+mod svg_reader;
 
 use ambulo::findings::Findings;
 use ambulo::model::{Model, to_osim};
@@ -12,10 +13,11 @@ use ambulo::motion::coordinates_from_table;
 use ambulo::study::{self, ForceTable, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
-use ambulo_report::clinical_file;
+use ambulo_report::{clinical_file, outcome_figures};
 use ambulo_results::{Convention, GroundSource, Input, Summary, outcome_summary, outcome_tables, summary_json};
 use report_pages::{Files, Shown};
 use std::path::Path;
+use svg_reader::Figure;
 
 /// Columns of `clinical.csv` and the panels that show them.
 const PANELS: [(&str, &str); 6] = [
@@ -71,6 +73,33 @@ fn clinical(files: &Files) -> Table {
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Largest difference between the curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the same cycles [deg].
+#[track_caller]
+fn difference(outcome: &Outcome, convention: Convention, column: &str, panel: &str) -> f64 {
+    let figures = outcome_figures(outcome, convention).unwrap();
+    let kinematics = figures.into_iter().find(|file| file.name == "figures/kinematics.svg").unwrap();
+    let figure = Figure::read(&String::from_utf8(kinematics.bytes).unwrap());
+    let panel = figure.panels.iter().find(|drawn| drawn.id == panel).unwrap();
+    let table = Table::read_csv(&clinical_file(outcome, convention).unwrap().0.bytes).unwrap().0;
+    let times = table.column("time").unwrap();
+    let mut largest = 0.0_f64;
+    let curves: Vec<_> = panel.lines.iter().filter(|line| line.role == "cycle").collect();
+    assert!(!curves.is_empty());
+    for curve in curves {
+        let own = |cycle: &&ambulo::analysis::Cycle| (cycle.side, cycle.number) == (curve.side, curve.number);
+        let cycle = outcome.analysis.cycles.iter().find(own).unwrap();
+        let values = table.column(&format!("{column}_{}", curve.side.letter())).unwrap();
+        for [percent, drawn] in &curve.points {
+            let time = cycle.start_s + percent / 100.0 * (cycle.end_s - cycle.start_s);
+            let after = times.partition_point(|t| *t < time).clamp(1, times.len() - 1);
+            let share = (time - times[after - 1]) / (times[after] - times[after - 1]);
+            let expected = values[after - 1] + share * (values[after] - values[after - 1]);
+            largest = largest.max((drawn - expected).abs());
+        }
+    }
+    largest
 }
 
 /// All traces of these panels are columns of the file.
@@ -130,6 +159,13 @@ fn the_clinical_convention_tilts_the_pelvis_and_flexes_the_hips_by_the_same() {
     println!("tilt {tilt:+.1} deg, hip flexion {hip:+.1} deg");
     // The sacral marker of this model is on the skin, above the posterior spines: its line is less steep than between spines.
     assert!((1.0..20.0).contains(&tilt) && (tilt - hip).abs() < 1.0 && knee.abs() < 1e-9);
+    // Figures for papers show the same angles, and not those of the other convention.
+    for (column, panel) in &PANELS[..2] {
+        for convention in [Convention::Clinical, Convention::Opensim] {
+            let own = difference(&walk.0, convention, column, panel);
+            assert!(own < 0.2, "{panel}, {convention:?}: {own} degrees");
+        }
+    }
     // Curves over the cycle and bands move along.
     let of_panel = |shown: &Shown, what: &str| match what {
         "band" => mean(&shown.series(&shown.panel("hip_flexion_angle")["band"]["mean"])),

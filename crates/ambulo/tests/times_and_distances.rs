@@ -164,6 +164,9 @@ fn a_turn_keeps_the_steps() {
         }
     }
     assert!(turning.turn.unwrap().to_degrees() > 20.0, "{:?}", turning.turn);
+    // To the right of the walking direction x is z.
+    let velocity = turning.pelvis_velocity.unwrap();
+    assert!(velocity.x > 0.5 && velocity.z > 0.1, "{velocity:?}");
     let straight_speed = straight.pelvis_velocity.unwrap().norm();
     let along = turning.path_speed_m_s.unwrap();
     assert!((along / straight_speed - 1.0).abs() < 0.03, "{along} m/s along the arc, {straight_speed} m/s before");
