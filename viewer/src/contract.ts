@@ -59,7 +59,7 @@ source: PageSource,
  */
 time: TimeAxis, 
 /**
- * Foot strikes and toe-offs.
+ * Foot strikes and foot offs.
  */
 events: Array<PageEvent>, 
 /**
@@ -127,7 +127,7 @@ export type PageEvent = {
  */
 side: PageSide, 
 /**
- * Strike, or else toe-off.
+ * Strike, or else foot off.
  */
 strike: boolean, 
 /**
@@ -153,9 +153,9 @@ start_s: number,
  */
 end_s: number, 
 /**
- * Toe-off [% of the cycle].
+ * Foot off [% of the cycle].
  */
-toe_off_percent: number | null, };
+foot_off_percent: number | null, };
 
 export type Group = { 
 /**
@@ -261,9 +261,9 @@ values: Series,
  */
 sd: Series | null, 
 /**
- * Mean toe-off [%].
+ * Mean foot off [%].
  */
-toe_off_percent: number | null, };
+foot_off_percent: number | null, };
 
 export type Band = { 
 /**

@@ -152,8 +152,8 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
       y,
       origin: null,
     });
-    if (mean.toe_off_percent !== null) {
-      marks.push({ kind: "foot-off", side: mean.side, session: index, x: mean.toe_off_percent });
+    if (mean.foot_off_percent !== null) {
+      marks.push({ kind: "foot-off", side: mean.side, session: index, x: mean.foot_off_percent });
     }
   }
   return { lines, areas: index === firstWithBand(all) ? bandOf(panel, numbers) : [], marks, shades: [] };

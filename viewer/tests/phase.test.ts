@@ -8,7 +8,7 @@ const cycle = (side: "r" | "l", number: number, start_s: number): PageCycle => (
   number,
   start_s,
   end_s: start_s + 1.25,
-  toe_off_percent: 60,
+  foot_off_percent: 60,
 });
 const CYCLES = [cycle("r", 1, 1), cycle("r", 2, 2.25), cycle("l", 1, 1.6)];
 

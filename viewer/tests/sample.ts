@@ -234,7 +234,7 @@ function panel(block: Block, quantity: Quantity, variant: Variant, red: readonly
       cycles: 3,
       values: block.add(mean(side)),
       sd: null,
-      toe_off_percent: side === "r" ? 61.6 : 63.2,
+      foot_off_percent: side === "r" ? 61.6 : 63.2,
     })),
     band: quantity.id === "pelvis_tilt" ? null : band(block, quantity.wave),
     traces: sides.map((side) => ({
@@ -336,7 +336,7 @@ function cycles(): PageCycle[] {
   return (["r", "l"] as const).flatMap((side) =>
     Array.from({ length: side === "r" ? 3 : 2 }, (_, i) => {
       const start = START_S + offset(side) + i * STRIDE_S;
-      return { side, number: i + 1, start_s: start, end_s: start + STRIDE_S, toe_off_percent: 100 * TOE_OFF };
+      return { side, number: i + 1, start_s: start, end_s: start + STRIDE_S, foot_off_percent: 100 * TOE_OFF };
     }),
   );
 }

@@ -17,8 +17,8 @@ const PLACE: f64 = 0.005 / 70.0;
 
 fn row(quantity: &str, unit: &'static str, side: Side, cycle: usize, wave: impl Fn(f64) -> f64) -> CycleRow {
     let values = (0..=100).map(|percent| wave(f64::from(percent) / 100.0)).collect();
-    let toe_off_percent = Some(60.0 + cycle as f64);
-    CycleRow { quantity: quantity.to_owned(), side, cycle, unit, values, toe_off_percent }
+    let foot_off_percent = Some(60.0 + cycle as f64);
+    CycleRow { quantity: quantity.to_owned(), side, cycle, unit, values, foot_off_percent }
 }
 
 /// Waves of both sides, `cycles` each, no two the same.
@@ -150,7 +150,7 @@ fn bands_foot_off_and_units_are_drawn_and_the_source_is_named() {
 #[test]
 fn a_run_is_not_compared_with_walks() {
     let mut rows = rows(&Side::BOTH, 1);
-    rows.iter_mut().for_each(|row| row.toe_off_percent = Some(38.0));
+    rows.iter_mut().for_each(|row| row.foot_off_percent = Some(38.0));
     for (name, figure) in draw(&rows, "someone", &[]) {
         assert!(figure.panels.iter().all(|panel| panel.bands == 0), "{name}");
         assert!(

@@ -98,7 +98,7 @@ fn the_header_shows_how_the_motion_was_processed() {
             "converged": true, "changes": {"knee_angle_r": {"rms": 0.5, "max": 1.25, "unit": "deg"},
             "pelvis_tilt": {"rms": 1.0, "max": 3.21, "unit": "deg"}, "pelvis_ty": {"rms": 2.0, "max": 7.0, "unit": "mm"}}});
         summary["subject"] = subject("lab z up, mm -> world y up, m", None);
-        summary["window_asked_s"] = json!([0.1, 0.9]);
+        summary["requested_window_s"] = json!([0.1, 0.9]);
     });
     let shown = Shown::of(&files);
     assert!(shown.header("Motion").contains("changed"));

@@ -20,7 +20,7 @@ pub struct CycleRow {
     /// Values at 0, 1, ... 100 %.
     pub values: Vec<f64>,
     /// Foot off [% of the cycle], if known; not written to the file.
-    pub toe_off_percent: Option<f64>,
+    pub foot_off_percent: Option<f64>,
 }
 
 /// Angle, moment and power of every coordinate, and the ground forces, over every cycle. Coordinates of a leg are cut
@@ -46,7 +46,7 @@ fn row(quantity: String, unit: &'static str, cycle: &Cycle, grid: TimeGrid, seri
         cycle: cycle.number,
         unit,
         values: over_cycle(grid, series, cycle),
-        toe_off_percent: cycle.foot_off_s.map(|t| 100.0 * (t - cycle.start_s) / duration),
+        foot_off_percent: cycle.foot_off_s.map(|t| 100.0 * (t - cycle.start_s) / duration),
     }
 }
 
@@ -166,7 +166,7 @@ fn begun(line: &Line<'_>) -> CycleRow {
         cycle: line.cycle,
         unit: line.unit,
         values: vec![line.value],
-        toe_off_percent: None,
+        foot_off_percent: None,
     }
 }
 

@@ -43,7 +43,7 @@ pub struct Summary {
     /// First and last instant [s].
     pub window_s: [f64; 2],
     /// The requested time range [s]; `null` where it was left open.
-    pub window_asked_s: [Option<f64>; 2],
+    pub requested_window_s: [Option<f64>; 2],
     /// Frame rate [Hz].
     pub rate_hz: f64,
     /// Number of frames.
@@ -316,7 +316,7 @@ pub fn summary(
         height_m: None,
         speed_m_s: analysis.speed_m_s,
         window_s: [grid.start_s, grid.end_s()],
-        window_asked_s: [settings.window.from_s, settings.window.to_s],
+        requested_window_s: [settings.window.from_s, settings.window.to_s],
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(settings),

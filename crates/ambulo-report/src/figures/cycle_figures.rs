@@ -189,7 +189,7 @@ impl CycleFigures<'_> {
 
     /// Whether there are flight phases: the feet leave the ground before the middle of their cycles.
     fn runs(&self) -> bool {
-        let offs: Vec<f64> = self.rows.iter().filter_map(|row| row.toe_off_percent).collect();
+        let offs: Vec<f64> = self.rows.iter().filter_map(|row| row.foot_off_percent).collect();
         !offs.is_empty() && offs.iter().sum::<f64>() < 50.0 * offs.len() as f64
     }
 
@@ -210,7 +210,7 @@ impl CycleFigures<'_> {
             let stroke = Stroke { opacity: style.cycle_opacity, ..Stroke::solid(first, style.lines_pt.cycle) };
             legend.push((Sample::Line(stroke), "single cycles".to_owned()));
         }
-        if self.rows.iter().any(|row| row.toe_off_percent.is_some()) {
+        if self.rows.iter().any(|row| row.foot_off_percent.is_some()) {
             legend.push((Sample::Tick(Stroke::solid(first, style.lines_pt.tick)), "foot off".to_owned()));
         }
         if panels.iter().any(|panel| panel.band.is_some()) {

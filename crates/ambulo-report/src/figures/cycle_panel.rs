@@ -137,7 +137,7 @@ impl<'a> CyclePanel<'a> {
         let height = TICK * (bottom - top);
         // Ticks of the left foot are above those of the right, so that both are visible at the same percentage.
         let from = bottom - if side == Side::Right { 0.0 } else { height };
-        for off in curves.iter().step_by(every).filter_map(|curve| curve.row.toe_off_percent) {
+        for off in curves.iter().step_by(every).filter_map(|curve| curve.row.foot_off_percent) {
             let stroke =
                 Stroke { opacity: style.cycle_opacity.max(0.6), ..Stroke::solid(stroke.color, style.lines_pt.tick) };
             drawing.line([axes.x(off), from], [axes.x(off), from - height], stroke);

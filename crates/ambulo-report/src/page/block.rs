@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 
 /// Largest q that encodes a number.
 const HIGHEST: u16 = 65_534;
-/// The q that stands for a gap.
+/// The value of q that marks a gap.
 const NONE: u16 = 65_535;
 /// Compression level of zlib, 0 to 10: higher levels shrink files by less than 1 %.
 const LEVEL: u8 = 8;

@@ -61,7 +61,7 @@ pub struct Session {
     pub source: PageSource,
     /// The instants of all series over time.
     pub time: TimeAxis,
-    /// Foot strikes and toe-offs.
+    /// Foot strikes and foot offs.
     pub events: Vec<PageEvent>,
     /// The whole cycles that curves were cut into.
     pub cycles: Vec<PageCycle>,
@@ -118,13 +118,13 @@ pub struct TimeAxis {
     pub frames: usize,
 }
 
-/// A foot strike or toe-off.
+/// A foot strike or foot off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PageEvent {
     /// Whose foot.
     pub side: PageSide,
-    /// Strike, or else toe-off.
+    /// Strike, or else foot off.
     pub strike: bool,
     /// When [s].
     pub time_s: f64,
@@ -142,8 +142,8 @@ pub struct PageCycle {
     pub start_s: f64,
     /// Next strike [s].
     pub end_s: f64,
-    /// Toe-off [% of the cycle].
-    pub toe_off_percent: Option<f64>,
+    /// Foot off [% of the cycle].
+    pub foot_off_percent: Option<f64>,
 }
 
 /// A grid of panels under one heading.
@@ -216,8 +216,8 @@ pub struct MeanCurve {
     pub values: Series,
     /// Standard deviation over the cycles, from two on.
     pub sd: Option<Series>,
-    /// Mean toe-off [%].
-    pub toe_off_percent: Option<f64>,
+    /// Mean foot off [%].
+    pub foot_off_percent: Option<f64>,
 }
 
 /// What healthy people do at this speed.

@@ -105,13 +105,13 @@ fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, va
 
 fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
     let (mean, sd) = mean_and_deviation(curves)?;
-    let foot_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.toe_off_percent).collect();
+    let foot_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.foot_off_percent).collect();
     Some(MeanCurve {
         side: sides::page(side),
         cycles: curves.len(),
         values: block.add(&mean),
         sd: sd.map(|sd| block.add(&sd)),
-        toe_off_percent: (!foot_offs.is_empty()).then(|| foot_offs.iter().sum::<f64>() / foot_offs.len() as f64),
+        foot_off_percent: (!foot_offs.is_empty()).then(|| foot_offs.iter().sum::<f64>() / foot_offs.len() as f64),
     })
 }
 

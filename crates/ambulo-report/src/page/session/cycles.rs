@@ -28,8 +28,8 @@ pub(super) fn cycles(events: &[PageEvent], curves: &[CycleRow], kinematics: &Tab
             let [start_s, end_s] = pairs[place];
             pairs.drain(..=place);
             let off = of_side().find(|event| !event.strike && event.time_s > start_s && event.time_s < end_s);
-            let toe_off_percent = off.map(|off| 100.0 * (off.time_s - start_s) / (end_s - start_s));
-            list.push(PageCycle { side: sides::page(side), number, start_s, end_s, toe_off_percent });
+            let foot_off_percent = off.map(|off| 100.0 * (off.time_s - start_s) / (end_s - start_s));
+            list.push(PageCycle { side: sides::page(side), number, start_s, end_s, foot_off_percent });
         }
     }
     list

@@ -166,7 +166,7 @@ fn mean(values: &[f64]) -> Option<f64> {
 }
 
 fn foot_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
-    results.cycles_of(curve.side).find(|cycle| cycle.number == curve.number)?.toe_off_percent
+    results.cycles_of(curve.side).find(|cycle| cycle.number == curve.number)?.foot_off_percent
 }
 
 impl Read {

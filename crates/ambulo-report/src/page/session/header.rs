@@ -143,7 +143,7 @@ fn along(angle_deg: f64) -> String {
 fn window(results: &Results) -> Fact {
     let [from, to] = results.summary.window_s;
     let (frames, rate) = (results.grid.frames, results.grid.rate_hz());
-    let cut = match results.summary.window_asked_s.iter().any(Option::is_some) {
+    let cut = match results.summary.requested_window_s.iter().any(Option::is_some) {
         true => ", part of the recording",
         false => "",
     };

@@ -4,7 +4,7 @@ use crate::page::contract::PageSource;
 use crate::page::session::results::Results;
 use ambulo::analysis::LARGE_RESIDUAL_BW;
 
-/// What a verdict is based on.
+/// Conditions that limit a verdict.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(in crate::page::session) struct Basis {
     /// No ground forces are known.

@@ -18,7 +18,7 @@ type MarkerRow = (MarkerErrorSummary, usize);
 type EventRow = (&'static str, &'static str, EventAgreement);
 /// A foot, a component of its force, and the agreement of prediction and plates.
 type ForceRow = (Side, &'static str, ForceAgreement);
-/// What was changed, by how much (root mean square and maximum), and the unit.
+/// A changed quantity, the size of the change (root mean square and maximum), and the unit.
 type ChangeRow = (String, [f64; 2], &'static str);
 
 const MARKERS: [Column<MarkerRow>; 6] = [
