@@ -111,7 +111,7 @@ impl From<AngleConvention> for ambulo_results::Convention {
     }
 }
 
-/// What residual reduction may change.
+/// The parts of a study that residual reduction may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Adjusted {
     /// The motion only.

@@ -214,7 +214,7 @@ impl BodyInMotion {
         self.on_plates.events(&from_motion, self.recorded_s())
     }
 
-    /// What the plates measured completely: stances within the recording, and the longest instrumented window.
+    /// The stances that the plates measured completely, and the longest instrumented window.
     #[must_use]
     pub fn coverage(&self) -> PlateCoverage {
         let [first, last] = self.recorded_s();

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, TimeGrid, Window};
 
-/// What residual reduction may change.
+/// The parts of a study that residual reduction may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Adjustable {
     /// The motion only.

@@ -10,8 +10,8 @@
 //! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike             |
 //! | step length and width | from the other heel at its strike to this heel at its strike, along and across the walking direction |
 //!
-//! On a treadmill, positions are relative to the belt, whose velocity is that of the loaded feet. The walking direction is that of the
-//! strides around the step, so that turning does not change the step width. The path is that of the pelvis relative to the same floor.
+//! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking direction of a step is the
+//! direction of the strides around it, so turning does not change the step width. The path is the pelvis path relative to the same floor.
 //! Pinned by: its own tests, tests/times_and_distances.rs
 
 use super::events::{Event, EventKind};

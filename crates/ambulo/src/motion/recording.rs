@@ -74,7 +74,7 @@ pub enum MotionError {
     NoColumn {
         /// The column.
         column: String,
-        /// What it is needed for.
+        /// The quantity that needs it.
         purpose: String,
         /// The columns of the file.
         found: String,

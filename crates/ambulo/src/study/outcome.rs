@@ -82,7 +82,7 @@ pub struct PredictedGround {
     pub checks: PredictionChecks,
     /// The same motion with the measured forces; `None` where there are none.
     pub measured: Option<Analysis>,
-    /// What the plates measured completely; `None` without plates.
+    /// The stances that the plates measured completely; `None` without plates.
     pub coverage: Option<PlateCoverage>,
     /// How prediction and measurement agree; `None` where nothing was measured completely.
     pub agreement: Option<GroundAgreement>,

@@ -121,7 +121,7 @@ impl Verdict {
 pub struct Reason {
     /// The check.
     pub check: Check,
-    /// What exceeded the limit: a generalised force, a coordinate, or a quantity of a foot.
+    /// The quantity that exceeded the limit: a generalised force, a coordinate, or a quantity of a foot.
     pub quantity: String,
     /// The side of the body, if it belongs to one.
     pub side: Option<Side>,

@@ -137,7 +137,7 @@ pub fn prediction_checks(evidence: &CheckedPrediction<'_>, findings: &mut Findin
     judgement.checks
 }
 
-/// What the checks of a prediction need besides the analysis.
+/// Inputs of the checks of a prediction, in addition to the analysis.
 #[derive(Debug, Clone, Copy)]
 pub struct CheckSettings<'a> {
     /// The body.

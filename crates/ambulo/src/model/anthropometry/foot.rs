@@ -9,8 +9,8 @@ const TOES_MASS: f64 = 0.148;
 
 /// A sphere under a foot: heel, ball of the foot or toes.
 ///
-/// In upright standing all of them touch the ground. They are in the middle of the foot; that of the heel begins at the heel, that of
-/// the toes ends at the tip. Radii scale with stature from those of published foot models at 1.80 m (OpenSim Moco `2D_gait.osim`: heel
+/// In upright standing all of them touch the ground. They lie on the mid-line of the foot; the heel sphere begins at the heel, the
+/// toe sphere ends at the tip of the toes. Radii scale with stature from those of published foot models at 1.80 m (OpenSim Moco `2D_gait.osim`: heel
 /// 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSphere {
