@@ -75,7 +75,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Largest difference between the curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the same cycles [deg].
+/// Largest difference between the mean curves of a panel of `kinematics.svg` and a column of `clinical.csv` over the same cycles [deg].
 #[track_caller]
 fn difference(outcome: &Outcome, convention: Convention, column: &str, panel: &str) -> f64 {
     let figures = outcome_figures(outcome, convention).unwrap();
@@ -84,22 +84,22 @@ fn difference(outcome: &Outcome, convention: Convention, column: &str, panel: &s
     let panel = figure.panels.iter().find(|drawn| drawn.id == panel).unwrap();
     let table = Table::read_csv(&clinical_file(outcome, convention).unwrap().0.bytes).unwrap().0;
     let times = table.column("time").unwrap();
-    let mut largest = 0.0_f64;
-    let curves: Vec<_> = panel.lines.iter().filter(|line| line.role == "cycle").collect();
-    assert!(!curves.is_empty());
-    for curve in curves {
-        let own = |cycle: &&ambulo::analysis::Cycle| (cycle.side, cycle.number) == (curve.side, curve.number);
-        let cycle = outcome.analysis.cycles.iter().find(own).unwrap();
+    let mut differences = Vec::new();
+    for curve in panel.lines.iter().filter(|line| line.role == "mean") {
         let values = table.column(&format!("{column}_{}", curve.side.letter())).unwrap();
-        for [percent, drawn] in &curve.points {
-            let time = cycle.start_s + percent / 100.0 * (cycle.end_s - cycle.start_s);
+        let at = |time: f64| {
             let after = times.partition_point(|t| *t < time).clamp(1, times.len() - 1);
             let share = (time - times[after - 1]) / (times[after] - times[after - 1]);
-            let expected = values[after - 1] + share * (values[after] - values[after - 1]);
-            largest = largest.max((drawn - expected).abs());
+            values[after - 1] + share * (values[after] - values[after - 1])
+        };
+        let cycles = outcome.analysis.cycles.iter().filter(|cycle| cycle.side == curve.side);
+        let cycles: Vec<[f64; 2]> = cycles.map(|cycle| [cycle.start_s, cycle.end_s]).collect();
+        for [percent, drawn] in &curve.points {
+            let own: Vec<f64> = cycles.iter().map(|[from, to]| at(from + percent / 100.0 * (to - from))).collect();
+            differences.push((drawn - mean(&own)).abs());
         }
     }
-    largest
+    differences.into_iter().reduce(f64::max).unwrap()
 }
 
 /// All traces of these panels are columns of the file.
